@@ -1,0 +1,116 @@
+# petsam: build, test, install. `make help` lists the targets.
+#
+# Needs PETSc (3.18 or later), FFTW with MPI, parallel HDF5, MPI; CMocka for the tests.
+# PETSC_DIR and PETSC_ARCH choose a PETSc other than the system's. OPT sets the optimisation flags.
+
+PKG_CONFIG ?= pkg-config
+OPT        ?= -O3 -g
+WERROR     ?=
+prefix     ?= /usr/local
+PYTHON     ?= python3
+B          := build
+# `make V=1` shows the commands
+Q          := $(if $(V),,@)
+say        := $(if $(V),@true,@echo)
+
+ifneq ($(PETSC_DIR),)
+  export PKG_CONFIG_PATH := $(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PETSC_DIR)/lib/pkgconfig:$(PKG_CONFIG_PATH)
+endif
+HDF5_PC := $(shell for p in hdf5-openmpi hdf5-mpich hdf5; do $(PKG_CONFIG) --exists $$p && echo $$p && break; done)
+PACKAGES := petsc fftw3 $(HDF5_PC)
+
+# `:=` for what asks pkg-config: asked once, not once a file
+PC_CFLAGS := $(shell $(PKG_CONFIG) --cflags $(PACKAGES))
+PC_LIBS   := $(shell $(PKG_CONFIG) --libs-only-L --libs-only-other $(PACKAGES)) -lfftw3_mpi $(shell $(PKG_CONFIG) --libs-only-l $(PACKAGES)) -lhdf5_hl -lm
+ifeq ($(origin CC),default)
+  CC := mpicc
+endif
+
+WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(WERROR),-Werror)
+ALL_CFLAGS = -std=c11 -D_GNU_SOURCE $(OPT) -fPIC -Iinclude $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
+
+LIB_SRC := $(filter-out src/petsam.c,$(sort $(wildcard src/*/*.c)))
+LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
+BENCH   := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
+UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
+
+VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
+HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h))
+
+.PHONY: all help units bench venv test check-sanitize check-valgrind lint install clean
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: $(B)/bin/petsam $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so ## build the program and the libraries
+
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 18
+
+$(B)/obj/%.o: %.c
+	@mkdir -p $(@D)
+	$(say) CC $<
+	$(Q)$(CC) $(ALL_CFLAGS) -c $< -o $@
+
+$(B)/lib/libpetsam.a: $(LIB_OBJ)
+	@mkdir -p $(@D)
+	$(say) AR $@
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+
+$(B)/lib/libpetsam.so: $(LIB_OBJ)
+	@mkdir -p $(@D)
+	$(say) LD $@
+	$(Q)$(CC) -shared $(LDFLAGS) -o $@ $^ $(PC_LIBS)
+
+$(B)/bin/petsam: $(B)/obj/src/petsam.o $(B)/lib/libpetsam.a
+	@mkdir -p $(@D)
+	$(say) LD $@
+	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS)
+
+$(B)/bench/%: $(B)/obj/tests/bench/%.o $(B)/lib/libpetsam.a
+	@mkdir -p $(@D)
+	$(say) LD $@
+	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS)
+
+$(B)/tests/%: $(B)/obj/tests/unit/%.o $(B)/lib/libpetsam.a
+	@mkdir -p $(@D)
+	$(say) LD $@
+	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS) -lcmocka
+
+units: $(UNIT) ## build the unit tests
+
+bench: $(BENCH) ## build the benchmark programs
+
+# the scripts' Python: one environment, from PyPI, made anew when its list changes
+venv: $(B)/venv/done ## make the Python environment of the scripts
+$(B)/venv/done: scripts/requirements.txt
+	@mkdir -p $(B)
+	$(PYTHON) -m venv $(B)/venv
+	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
+	touch $@
+
+test: all units bench venv ## run all tests
+	$(PYTHON) tests/run.py --build $(B)
+
+check-sanitize: ## unit tests under the address and undefined-behaviour sanitizers
+	$(MAKE) B=build/sanitize OPT="-O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer" LDFLAGS="-fsanitize=address,undefined" all units
+	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1 $(PYTHON) tests/run.py --build build/sanitize --units-only
+
+check-valgrind: all units ## unit tests under valgrind, one rank
+	for t in $(UNIT); do valgrind -q --error-exitcode=9 --suppressions=tests/valgrind.supp $$t > $(B)/valgrind.log 2>&1 || { cat $(B)/valgrind.log; exit 1; }; done
+
+lint: ## cppcheck over the sources
+	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro $(LIB_SRC) src/petsam.c
+
+install: all ## install program, library, headers, petsam.pc: prefix=, DESTDIR=
+	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/petsam
+	install -m 755 $(B)/bin/petsam $(DESTDIR)$(prefix)/bin
+	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
+	install -m 755 $(B)/lib/libpetsam.so $(DESTDIR)$(prefix)/lib
+	install -m 644 include/petsam.h $(DESTDIR)$(prefix)/include
+	install -m 644 $(filter include/petsam/%,$(HEADERS)) $(DESTDIR)$(prefix)/include/petsam
+	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
+
+clean: ## remove what was built
+	rm -rf $(B)
+
+-include $(LIB_OBJ:.o=.d) $(wildcard $(B)/obj/src/*.d $(B)/obj/tests/*/*.d)

@@ -1,0 +1,19 @@
+/* petsam: partial-slip contact of elastic bodies by the semi-analytical method. All public headers. */
+#ifndef PETSAM_H
+#define PETSAM_H
+
+#include <petsam/base.h>
+#include <petsam/grid.h>
+#include <petsam/material.h>
+#include <petsam/gap.h>
+#include <petsam/influence.h>
+#include <petsam/convolution.h>
+#include <petsam/compliance.h>
+#include <petsam/balance.h>
+#include <petsam/normal.h>
+#include <petsam/tangential.h>
+#include <petsam/contact.h>
+#include <petsam/output.h>
+#include <petsam/summary.h>
+
+#endif

@@ -1,0 +1,47 @@
+/* The rigid-body components, their loads, and the projections that keep equilibrium. */
+#ifndef PETSAM_BALANCE_H
+#define PETSAM_BALANCE_H
+
+#include <petsam/grid.h>
+
+/*
+  SamBalance - three of the six components, each under force or displacement control:
+    normal:     loads N (N), Mx, My (N m)   with d_z (m), r_x, r_y (rad)
+                sum p dA = N, sum y p dA = -Mx, sum x p dA = My;   rigid displacement d_z - y r_x + x r_y
+    tangential: loads Tx, Ty (N), Mz (N m)  with d_x, d_y (m), r_z (rad)
+                sum q dA = T, sum (x q_y - y q_x) dA = Mz;   rigid displacement (d_x - y r_z, d_y + x r_z)
+  Moments and rotations are about x = y = 0. Where `force` is true the load is given and the displacement a result;
+  otherwise the other way round.
+*/
+typedef enum { SAM_BALANCE_NORMAL, SAM_BALANCE_TANGENTIAL } SamBalanceKind;
+
+typedef struct {
+  SamBalanceKind kind;
+  PetscBool      force[3];
+  PetscReal      load[3];
+  PetscReal      rigid[3];
+} SamBalance;
+
+/* Names of the six components by kind, as options spell them: load_n, disp_z, ... */
+PETSC_EXTERN const char *const SamLoadNames[2][3];
+PETSC_EXTERN const char *const SamRigidNames[2][3];
+
+/* SamBalanceGetLoads - the three loads that a field of traction (1 or 2 components, Pa) carries. Collective. */
+PETSC_EXTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3]);
+
+/*
+  SamBalanceLever - whether a pressure on this grid can balance a normal load under force control: the lever arms
+  (My/N, -Mx/N) must lie among the cell centres. When not, `message` (of that size) says which and the limit. Also
+  false for moments without N. True when N is displacement-controlled.
+*/
+PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size, PetscBool *possible);
+
+/*
+  SamBalanceSlideLimit - the factor by which the force-controlled tangential loads can be multiplied until the whole
+  contact slides, given the bound mu p (Pa) of the shear: the least of sum b |v| dA over rigid velocities v of power 1
+  (the kinematic limit theorem). Infinite without a load. Also the sliding motion, d_x, d_y, r_z, when not NULL.
+  Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, PetscReal motion[3]);
+
+#endif

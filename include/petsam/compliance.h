@@ -1,0 +1,57 @@
+/* The influence of surface tractions on surface displacements, and its approximate inverse. */
+#ifndef PETSAM_COMPLIANCE_H
+#define PETSAM_COMPLIANCE_H
+
+#include <petsam/grid.h>
+#include <petsam/material.h>
+#include <petscmat.h>
+#include <petscpc.h>
+
+/*
+  SamCompliance - the 3 x 3 influence operator of a pair of half-spaces on a grid: relative elastic displacements u (m)
+  from tractions constant on each cell (Pa). Pressure p acts on both bodies, shear q on body 2 (and -q on body 1).
+  u_z is the sum of both bodies' inward displacements, (u_x, u_y) = displacement of body 2 minus that of body 1, so that
+  the operator is symmetric and a force on body 1 drags u along.
+  Kernels are tabulated when they are first needed. The object also holds the coarser operators of the nested grids.
+*/
+typedef struct _n_SamCompliance *SamCompliance;
+
+/* SamComplianceCreate - copies the pair, references the grid. Collective. */
+PETSC_EXTERN PetscErrorCode SamComplianceCreate(SamGrid grid, const SamPair *pair, SamCompliance *compliance);
+PETSC_EXTERN PetscErrorCode SamComplianceReference(SamCompliance compliance);
+PETSC_EXTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);
+PETSC_EXTERN PetscErrorCode SamComplianceGetGrid(SamCompliance compliance, SamGrid *grid); /* borrowed */
+PETSC_EXTERN PetscErrorCode SamComplianceGetPair(SamCompliance compliance, const SamPair **pair); /* borrowed */
+/*
+  SamComplianceGetCoarse - the operator on the next coarser grid, and the transfer to it; both borrowed, NULL when the
+  grid is too small to be halved (fewer than 32 cells in a direction). Made at the first call. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamComplianceGetCoarse(SamCompliance compliance, SamCompliance *coarse, SamTransfer *transfer);
+
+/* Products, all collective. One-component fields p, u_z; two-component fields q, u_t. Input and output may be the same. */
+PETSC_EXTERN PetscErrorCode SamComplianceApplyNormal(SamCompliance compliance, Vec p, Vec u_z);      /* u_z from p */
+PETSC_EXTERN PetscErrorCode SamComplianceApplyTangential(SamCompliance compliance, Vec q, Vec u_t);  /* u_t from q */
+PETSC_EXTERN PetscErrorCode SamComplianceApplyNormalToTangential(SamCompliance compliance, Vec p, Vec u_t); /* u_t from p */
+PETSC_EXTERN PetscErrorCode SamComplianceApplyTangentialToNormal(SamCompliance compliance, Vec q, Vec u_z); /* u_z from q */
+/* SamComplianceIsCoupled - whether pressure moves the surfaces tangentially (Dundurs' beta is not zero). */
+PETSC_EXTERN PetscErrorCode SamComplianceIsCoupled(SamCompliance compliance, PetscBool *coupled);
+
+/*
+  Approximate inverses, symmetric positive, by the symbol of the half-space: |k| for the normal part and
+  |k| (I + nu/(1 - nu) kk'/|k|^2) for the tangential one, on the periodic grid; the mean gets half the gain of the longest
+  wave. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamCompliancePreconditionNormal(SamCompliance compliance, Vec residual, Vec p);
+PETSC_EXTERN PetscErrorCode SamCompliancePreconditionTangential(SamCompliance compliance, Vec residual, Vec q);
+
+/*
+  SamComplianceGetSelfInfluence - displacement of a cell's centre under unit traction on that cell alone, m/Pa: u_z from
+  p, and the larger of u_x from q_x and u_y from q_y.
+*/
+PETSC_EXTERN PetscErrorCode SamComplianceGetSelfInfluence(SamCompliance compliance, PetscReal *normal, PetscReal *tangential);
+
+/* The same products as PETSc objects, for use with KSP and the like. The compliance must outlive them. Collective. */
+PETSC_EXTERN PetscErrorCode SamComplianceCreateMat(SamCompliance compliance, PetscInt components, Mat *mat);
+PETSC_EXTERN PetscErrorCode SamComplianceCreatePC(SamCompliance compliance, PetscInt components, PC *pc);
+
+#endif

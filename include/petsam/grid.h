@@ -1,0 +1,63 @@
+/* The grid of rectangular cells, how its rows are spread over the ranks, and moving fields between grids. */
+#ifndef PETSAM_GRID_H
+#define PETSAM_GRID_H
+
+#include <petsam/base.h>
+
+/*
+  SamGrid - nx * ny cells of dx * dy (m), x the fast index. Rows lie in slabs of ceil(ny/ranks) rows, the layout of
+  FFTW's MPI transforms; the last ranks may own none. A plain struct: read its members, do not change them.
+*/
+typedef struct _n_SamGrid *SamGrid;
+struct _n_SamGrid {
+  MPI_Comm  comm;
+  PetscInt  nx, ny;            /* cells */
+  PetscReal width[2];          /* full width in x, y (m) */
+  PetscReal center[2];         /* m */
+  PetscReal dx, dy;            /* cell size (m) */
+  PetscInt  row_start, rows;   /* this rank's rows */
+  PetscInt  cells;             /* this rank's cells: rows * nx */
+  PetscReal length;            /* half the larger width: the length that makes coordinates dimensionless (m) */
+  PetscInt  references;
+};
+
+/*
+  SamGridCreate - n[0] * n[1] cells of full width `width` about `center` (m). Collective.
+  Errors: SAM_ERR_USER when n < 2, a width is not positive and finite, or the cells cannot be counted in a PetscInt.
+*/
+PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2], SamGrid *grid);
+/* SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. Collective. */
+PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(MPI_Comm comm, SamGrid *grid);
+PETSC_EXTERN PetscErrorCode SamGridReference(SamGrid grid);
+PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
+/* SamGridCoarsen - the same rectangle with half the cells in each direction, rounded up. Collective. */
+PETSC_EXTERN PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse);
+
+/*
+  SamGridCreateVec - a field with `components` values a cell. On each rank the local part holds one component after
+  the other, each as (rows, nx). Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
+
+/* Coordinates of the centre of column i and of row j (both global), m. */
+static inline PetscReal SamGridX(SamGrid grid, PetscInt i)
+{
+  return grid->center[0] + ((PetscReal)i + 0.5 - 0.5 * (PetscReal)grid->nx) * grid->dx;
+}
+static inline PetscReal SamGridY(SamGrid grid, PetscInt j)
+{
+  return grid->center[1] + ((PetscReal)j + 0.5 - 0.5 * (PetscReal)grid->ny) * grid->dy;
+}
+
+/*
+  SamTransfer - moves fields between two grids of the same rectangle: Restrict takes area averages (keeps sums times
+  cell area exactly), Prolong interpolates linearly between cell centres (constant beyond the outermost centres).
+*/
+typedef struct _n_SamTransfer *SamTransfer;
+PETSC_EXTERN PetscErrorCode SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *transfer);
+PETSC_EXTERN PetscErrorCode SamTransferDestroy(SamTransfer *transfer);
+/* Both take fields of any, but the same, number of components. Collective. */
+PETSC_EXTERN PetscErrorCode SamTransferRestrict(SamTransfer transfer, Vec fine, Vec coarse);
+PETSC_EXTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse, Vec fine);
+
+#endif

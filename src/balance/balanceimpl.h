@@ -1,0 +1,71 @@
+/*
+  The frame in which the solvers keep equilibrium.
+
+  Rigid displacements are combinations a[0..2] of three dimensionless fields phi about the grid's centre,
+    normal      1, -eta, xi
+    tangential  (1, 0), (0, 1), (-eta, xi)          xi = (x - xc)/length, eta = (y - yc)/length,
+  well conditioned wherever the grid lies. Of these, the force-controlled components span a subspace; its orthonormal
+  basis is the `count` rows of `basis`. The given displacements are the combination `fixed`.
+*/
+#ifndef PETSAM_BALANCEIMPL_H
+#define PETSAM_BALANCEIMPL_H
+
+#include "../base/baseimpl.h"
+#include <petsam/balance.h>
+
+typedef struct {
+  SamGrid        grid;
+  SamBalanceKind kind;
+  PetscInt       count;        /* force-controlled components */
+  PetscInt       component[3]; /* which they are */
+  double         basis[3][3];  /* (count, 3) */
+  double         lower[3][3];  /* rows of the components in the phi = lower * basis */
+  double         target[3];    /* what sum phi traction must be along the basis: loads/(dx dy) in the basis */
+  double         fixed[3];     /* given rigid displacement */
+  double         xi0, eta0;    /* of the cell (0, 0) of this rank */
+  double         dxi, deta;
+} SamFrame;
+
+PETSC_INTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
+/* Rigid displacements of the force-controlled components from a free combination a of the phi. */
+PETSC_INTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
+/* Loads of all three components from sum phi traction (not times the cell's area). */
+PETSC_INTERN void SamFrameGetLoads(const SamFrame *frame, const double sums[3], PetscReal loads[3]);
+
+/* Normal rigid displacement and the two parts of the tangential one at (xi, eta). */
+static inline double SamFrameNormal(const double a[3], double xi, double eta)
+{
+  return a[0] - a[1] * eta + a[2] * xi;
+}
+static inline double SamFrameX(const double a[3], double eta)
+{
+  return a[0] - a[2] * eta;
+}
+static inline double SamFrameY(const double a[3], double xi)
+{
+  return a[1] + a[2] * xi;
+}
+
+/* Gram matrices sum phi phi' are kept as their six upper entries 00, 01, 02, 11, 12, 22. */
+#define SAM_GRAM 6
+
+/*
+  The combination a of the free phi with gram a = sums within the free subspace, in the sense of least squares when
+  the Gram matrix is singular there.
+*/
+PETSC_INTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3], double a[3]);
+
+/*
+  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is not 0 (mask NULL: all), 0 elsewhere, with the a
+  for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when there is none
+  (p is then left as it was). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const char mask[], double p[], PetscBool *found);
+
+/*
+  SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear on the disc of radius bound, with
+  the a for which the force-controlled loads are exact. `found` as above. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], double q[], PetscBool *found);
+
+#endif

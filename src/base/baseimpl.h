@@ -1,0 +1,57 @@
+/* What all rooms share and the user does not see: differences between PETSc's versions, log events, reductions. */
+#ifndef PETSAM_BASEIMPL_H
+#define PETSAM_BASEIMPL_H
+
+#include <petsam/base.h>
+#include <petscviewer.h>
+#include <petscmat.h>
+#include <petscpc.h>
+
+/* ---- differences between PETSc's versions, 3.18 on ---- */
+#if PETSC_VERSION_LT(3, 19, 0)
+  #define PETSC_SUCCESS 0
+#endif
+#if PETSC_VERSION_LT(3, 22, 0)
+  #define SamGetViewer(comm, prefix, name, viewer, format, set) PetscOptionsGetViewer(comm, NULL, prefix, name, viewer, format, set)
+#else
+  #define SamGetViewer(comm, prefix, name, viewer, format, set) PetscOptionsCreateViewer(comm, NULL, prefix, name, viewer, format, set)
+#endif
+
+/*
+  Loops over contiguous doubles, compiled for several generations of x86 and chosen at start, so that an installed
+  program needs no -march=native. Only the order of no sum is changed.
+*/
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+  #define SAM_VECTORIZED __attribute__((target_clones("default", "avx2", "avx512f")))
+#else
+  #define SAM_VECTORIZED
+#endif
+
+/* ---- log events, shown by -log_view ---- */
+typedef enum {
+  SAM_EVENT_SETUP_INFLUENCE,
+  SAM_EVENT_FFT_ROWS,
+  SAM_EVENT_FFT_COLUMNS,
+  SAM_EVENT_FFT_TRANSPOSE,
+  SAM_EVENT_APPLY_NORMAL,
+  SAM_EVENT_APPLY_TANGENTIAL,
+  SAM_EVENT_APPLY_COUPLING,
+  SAM_EVENT_PRECONDITION_NORMAL,
+  SAM_EVENT_PRECONDITION_TANGENTIAL,
+  SAM_EVENT_NORMAL_SOLVE,
+  SAM_EVENT_TANGENTIAL_SOLVE,
+  SAM_EVENT_CHECK,
+  SAM_EVENT_OUTPUT,
+  SAM_EVENT_COUNT
+} SamEvent;
+PETSC_INTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
+PETSC_INTERN PetscClassId  SAM_CLASSID;
+
+/* ---- reductions over the ranks of small arrays of doubles, in place. Collective. ---- */
+PETSC_INTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
+PETSC_INTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
+
+/* SamPrintHelp - PETSC_TRUE while options are only listed for the user. */
+PETSC_INTERN PetscErrorCode SamPrintHelp(PetscBool *print);
+
+#endif

@@ -1,0 +1,270 @@
+/*
+  Reading options so that a mistake is named.
+
+  PETSc's own getters accept trailing text in some places and answer a wrong value with a stack trace that does not say
+  which option was meant. Here the text is fetched and read as a whole, and the error names the option, the text and
+  what was expected.
+*/
+#include "baseimpl.h"
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TEXT_SIZE PETSC_MAX_PATH_LEN
+
+PetscErrorCode SamPrintHelp(PetscBool *print)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsHasHelp(NULL, print));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsHeading(const char title[])
+{
+  PetscBool help;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  if (help) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n%s\n", title));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], const char help[], const char value[])
+{
+  PetscBool print;
+  char      option[128];
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&print));
+  if (!print) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s%s <%s>", prefix ? prefix : "", name, value));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-40s %s\n", option, help));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Fetches the text of an option; an option given without a value is an error. */
+static PetscErrorCode GetText(const char prefix[], const char name[], const char expected[], char text[], size_t size, PetscBool *set)
+{
+  char option[128];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
+  text[0] = '\0';
+  PetscCall(PetscOptionsGetString(NULL, prefix, option, text, size, set));
+  PetscCheck(!*set || text[0], PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s has no value: expected %s", prefix ? prefix : "", name, expected);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static const char *DescribeRange(SamRange range)
+{
+  switch (range) {
+  case SAM_RANGE_NONNEGATIVE:
+    return "a number >= 0";
+  case SAM_RANGE_POSITIVE:
+    return "a number > 0";
+  case SAM_RANGE_POSITIVE_INF:
+    return "a number > 0 or inf";
+  default:
+    return "a finite number";
+  }
+}
+
+static PetscBool InRange(SamRange range, double value)
+{
+  if (isnan(value)) return PETSC_FALSE;
+  if (isinf(value)) return (range == SAM_RANGE_POSITIVE_INF && value > 0) ? PETSC_TRUE : PETSC_FALSE;
+  if (range == SAM_RANGE_NONNEGATIVE) return value >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (range == SAM_RANGE_ANY) return PETSC_TRUE;
+  return value > 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Reads one number at *text and moves past it; the character after it must be `,` or the end. */
+static PetscBool ReadReal(const char **text, double *value)
+{
+  char *end;
+
+  errno  = 0;
+  *value = strtod(*text, &end);
+  if (end == *text || (errno == ERANGE && isinf(*value)) || (*end && *end != ',')) return PETSC_FALSE;
+  *text = *end == ',' ? end + 1 : end;
+  return (*end == ',' && !*(end + 1)) ? PETSC_FALSE : PETSC_TRUE;
+}
+
+/* Reads one or two numbers separated by a comma; one stands for both. */
+static PetscErrorCode GetReals(const char prefix[], const char name[], const char expected[], PetscInt most, SamRange range, double value[], PetscBool *set)
+{
+  char        text[TEXT_SIZE];
+  const char *rest = text;
+  double      v[2] = {0, 0};
+  PetscInt    n    = 0;
+  PetscBool   good = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(GetText(prefix, name, expected, text, sizeof(text), set));
+  if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
+  while (good && *rest && n < most) {
+    good = ReadReal(&rest, &v[n]);
+    good = (good && InRange(range, v[n])) ? PETSC_TRUE : PETSC_FALSE;
+    n++;
+  }
+  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text, expected);
+  value[0] = v[0];
+  if (most > 1) value[1] = n > 1 ? v[1] : v[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char help[], SamRange range, PetscReal *value, PetscBool *set)
+{
+  char      shown[64];
+  PetscBool found;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%g", (double)*value));
+  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  PetscCall(GetReals(prefix, name, DescribeRange(range), 1, range, value, &found));
+  if (set) *set = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const char help[], SamRange range, PetscReal value[2], PetscBool *set)
+{
+  char      shown[64], expected[96];
+  PetscBool found;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%g,%g", (double)value[0], (double)value[1]));
+  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  PetscCall(PetscSNPrintf(expected, sizeof(expected), "%s, or two separated by a comma", DescribeRange(range)));
+  PetscCall(GetReals(prefix, name, expected, 2, range, value, &found));
+  if (set) *set = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetInts(const char prefix[], const char name[], const char expected[], PetscInt most, PetscInt least, PetscInt value[], PetscBool *set)
+{
+  char        text[TEXT_SIZE];
+  const char *rest = text;
+  PetscInt    n    = 0;
+  PetscInt    v[2] = {0, 0};
+  PetscBool   good = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(GetText(prefix, name, expected, text, sizeof(text), set));
+  if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
+  while (good && *rest && n < most) {
+    char     *end;
+    long long number;
+
+    errno  = 0;
+    number = strtoll(rest, &end, 10);
+    good   = (end != rest && !errno && (!*end || (*end == ',' && *(end + 1))) && number >= least && number <= PETSC_MAX_INT) ? PETSC_TRUE : PETSC_FALSE;
+    if (good) {
+      v[n++] = (PetscInt)number;
+      rest   = *end ? end + 1 : end;
+    }
+  }
+  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text, expected);
+  value[0] = v[0];
+  if (most > 1) value[1] = n > 1 ? v[1] : v[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt *value, PetscBool *set)
+{
+  char      shown[64], expected[96];
+  PetscBool found;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT, *value));
+  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT, least));
+  PetscCall(GetInts(prefix, name, expected, 1, least, value, &found));
+  if (set) *set = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt value[2], PetscBool *set)
+{
+  char      shown[64], expected[96];
+  PetscBool found;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT ",%" PetscInt_FMT, value[0], value[1]));
+  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT ", or two separated by a comma", least));
+  PetscCall(GetInts(prefix, name, expected, 2, least, value, &found));
+  if (set) *set = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char help[], PetscBool *value, PetscBool *set)
+{
+  static const char *const yes[] = {"1", "true", "yes", "on", NULL}, *const no[] = {"0", "false", "no", "off", NULL};
+  char                     option[128], text[TEXT_SIZE] = "";
+  PetscBool                found, good;
+
+  PetscFunctionBegin;
+  PetscCall(PrintHelpLine(prefix, name, help, *value ? "true" : "false"));
+  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
+  PetscCall(PetscOptionsGetString(NULL, prefix, option, text, sizeof(text), &found));
+  if (set) *set = found;
+  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
+  good = text[0] ? PETSC_FALSE : PETSC_TRUE; /* the bare option means yes */
+  if (good) *value = PETSC_TRUE;
+  for (PetscInt w = 0; yes[w] && !good; w++) {
+    if (!strcmp(text, yes[w])) { *value = PETSC_TRUE, good = PETSC_TRUE; }
+    if (!strcmp(text, no[w])) { *value = PETSC_FALSE, good = PETSC_TRUE; }
+  }
+  PetscCheck(good, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected true or false", prefix ? prefix : "", name, text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsString(const char prefix[], const char name[], const char help[], char value[], size_t size, PetscBool *set)
+{
+  char      text[TEXT_SIZE];
+  PetscBool found;
+
+  PetscFunctionBegin;
+  PetscCall(PrintHelpLine(prefix, name, help, value[0] ? value : "none"));
+  PetscCall(GetText(prefix, name, "a text", text, sizeof(text), &found));
+  if (set) *set = found;
+  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(strlen(text) < size, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s: expected at most %d characters", prefix ? prefix : "", name, (int)size - 1);
+  PetscCall(PetscStrncpy(value, text, size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char help[], const char *const words[], PetscInt *value, PetscBool *set)
+{
+  char      text[TEXT_SIZE], list[TEXT_SIZE] = "";
+  PetscInt  chosen = -1;
+  PetscBool found;
+
+  PetscFunctionBegin;
+  PetscCall(PrintHelpLine(prefix, name, help, words[*value]));
+  for (PetscInt w = 0; words[w]; w++) {
+    if (w) PetscCall(PetscStrlcat(list, words[w + 1] ? ", " : " or ", sizeof(list)));
+    PetscCall(PetscStrlcat(list, words[w], sizeof(list)));
+  }
+  PetscCall(GetText(prefix, name, list, text, sizeof(text), &found));
+  if (set) *set = found;
+  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt w = 0; words[w]; w++)
+    if (!strcmp(text, words[w])) chosen = w;
+  PetscCheck(chosen >= 0, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text, list);
+  *value = chosen;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsHasViewer(const char prefix[], const char name[], const char help[], PetscBool *set)
+{
+  char option[128], text[TEXT_SIZE] = "";
+
+  PetscFunctionBegin;
+  PetscCall(PrintHelpLine(prefix, name, help, "viewer"));
+  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
+  PetscCall(PetscOptionsGetString(NULL, prefix, option, text, sizeof(text), set));
+  PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected nothing, ascii or ascii:file", prefix ? prefix : "", name, text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

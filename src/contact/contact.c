@@ -1,0 +1,388 @@
+/*
+  One load step.
+
+  Similar materials: the normal problem does not know the shear, so one pass solves the step. Dissimilar materials:
+  pressure moves the surfaces tangentially and shear moves them normally; the two problems are solved in turn, each with
+  the displacement that the other's traction causes, until neither traction changes (Panagiotopoulos 1975, Ing.-Arch. 44,
+  421).
+*/
+#include "../base/baseimpl.h"
+#include <petsam/contact.h>
+#include <math.h>
+
+/* The check may see what the solvers' recursions do not: rounding. Its limits are the tolerances with this on top. */
+#define CHECK_MARGIN      1.05
+#define CHECK_EQUILIBRIUM 1e-10
+#define CHECK_CONE        1e-12
+
+static const char *const coupling_words[] = {"none", "full", NULL};
+
+struct _n_SamContact {
+  /* what the user set */
+  PetscReal friction, coupling_rtol;
+  PetscInt  coupling, coupling_max_it;
+  PetscBool coupling_monitor, allow_edge, print_check;
+  /* what it owns */
+  SamCompliance compliance;
+  SamGrid       grid;
+  SamNormal     normal;
+  SamTangential tangential;
+  Vec           separation;
+  Vec           slip_before; /* at the end of the step before; NULL: zero */
+  Vec           h;           /* separation and u_z from q; NULL when not coupled */
+  Vec           last[2];     /* p and q of the pass before; NULL when not coupled */
+  SamFields     fields;
+  /* status */
+  PetscBool coupled;
+};
+
+PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscReal friction, SamContact *contact)
+{
+  SamContact c;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&c));
+  PetscCall(SamComplianceReference(compliance));
+  c->compliance      = compliance;
+  c->friction        = friction;
+  c->coupling        = 1;
+  c->coupling_rtol   = 1e-6;
+  c->coupling_max_it = 100;
+  PetscCall(SamComplianceGetGrid(compliance, &c->grid));
+  PetscCheck(friction >= 0 && isfinite(friction), c->grid->comm, SAM_ERR_USER, "-friction %g: expected a number >= 0", (double)friction);
+  PetscCall(SamNormalCreate(compliance, &c->normal));
+  PetscCall(SamTangentialCreate(compliance, &c->tangential));
+  PetscCall(VecDuplicate(separation, &c->separation));
+  PetscCall(VecCopy(separation, c->separation));
+  PetscCall(VecDuplicate(separation, &c->fields.pressure));
+  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.shear));
+  *contact = c;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  The fields that follow from the tractions exist from the end of a step to the beginning of the next: while the solvers
+  work, their memory is the solvers'.
+*/
+static PetscErrorCode CreateDerived(SamContact c)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(c->separation, &c->fields.gap));
+  PetscCall(VecDuplicate(c->separation, &c->fields.displacement_z));
+  PetscCall(VecDuplicate(c->fields.shear, &c->fields.slip));
+  PetscCall(VecDuplicate(c->fields.shear, &c->fields.displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyDerived(SamContact c)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&c->fields.slip));
+  PetscCall(VecDestroy(&c->fields.gap));
+  PetscCall(VecDestroy(&c->fields.displacement_z));
+  PetscCall(VecDestroy(&c->fields.displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactDestroy(SamContact *contact)
+{
+  SamContact c = *contact;
+
+  PetscFunctionBegin;
+  if (!c) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamNormalDestroy(&c->normal));
+  PetscCall(SamTangentialDestroy(&c->tangential));
+  PetscCall(VecDestroy(&c->separation));
+  PetscCall(VecDestroy(&c->slip_before));
+  PetscCall(VecDestroy(&c->h));
+  PetscCall(VecDestroy(&c->last[0]));
+  PetscCall(VecDestroy(&c->last[1]));
+  PetscCall(VecDestroy(&c->fields.pressure));
+  PetscCall(VecDestroy(&c->fields.shear));
+  PetscCall(DestroyDerived(c));
+  PetscCall(SamComplianceDestroy(&c->compliance));
+  PetscCall(PetscFree(*contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSetFromOptions(SamContact c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHeading("Contact"));
+  PetscCall(SamOptionsEnum(NULL, "coupling", "normal-tangential coupling of dissimilar materials: full or none", coupling_words, &c->coupling, NULL));
+  PetscCall(SamOptionsReal(NULL, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE, &c->coupling_rtol, NULL));
+  PetscCall(SamOptionsInt(NULL, "coupling_max_it", "most passes", 1, &c->coupling_max_it, NULL));
+  PetscCall(SamOptionsBool(NULL, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
+  PetscCall(SamOptionsBool(NULL, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
+  PetscCall(SamOptionsBool(NULL, "contact_check", "print the check of each step", &c->print_check, NULL));
+  PetscCall(SamNormalSetFromOptions(c->normal));
+  PetscCall(SamTangentialSetFromOptions(c->tangential));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetNormal(SamContact c, SamNormal *normal)
+{
+  PetscFunctionBegin;
+  *normal = c->normal;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
+{
+  PetscFunctionBegin;
+  *tangential = c->tangential;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetFields(SamContact c, SamFields *fields)
+{
+  PetscFunctionBegin;
+  *fields = c->fields;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds up the counts of the solvers over the passes. */
+static PetscErrorCode Count(SamContact c, PetscBool tangential, SamStep *step)
+{
+  PetscInt its, applies, preconditions;
+
+  PetscFunctionBegin;
+  if (tangential) {
+    PetscCall(SamTangentialGetStatistics(c->tangential, NULL, &its, &applies, &preconditions));
+    step->tangential_iterations += its;
+    step->tangential_applies += applies;
+    step->tangential_preconditions += preconditions;
+  } else {
+    PetscCall(SamNormalGetStatistics(c->normal, NULL, &its, &applies, &preconditions));
+    step->normal_iterations += its;
+    step->normal_applies += applies;
+    step->normal_preconditions += preconditions;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The first failure stays: what comes after it follows from it. */
+static PetscErrorCode Fail(SamStep *step, SamStatus status, const char message[])
+{
+  PetscFunctionBegin;
+  if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  step->status = status;
+  PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
+{
+  SamNormalReason reason;
+  Vec             h = c->separation;
+  char            message[sizeof(step->message)];
+  PetscBool       possible;
+
+  PetscFunctionBegin;
+  if (c->coupled && guess) {
+    PetscCall(SamComplianceApplyTangentialToNormal(c->compliance, c->fields.shear, c->h));
+    PetscCall(VecAXPY(c->h, 1, c->separation));
+    h = c->h;
+  }
+  step->normal = *given;
+  PetscCall(SamNormalSolve(c->normal, h, &step->normal, guess, c->fields.pressure));
+  PetscCall(Count(c, PETSC_FALSE, step));
+  PetscCall(SamNormalGetReason(c->normal, &reason));
+  if (reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) {
+    PetscCall(SamBalanceLever(c->grid, given, message, sizeof(message), &possible));
+    if (possible) PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", sizeof(message)));
+    PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
+  } else if (reason < 0) {
+    PetscCall(PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamNormalReasonName(reason)));
+    PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Says which loads slide, and their limit. */
+static PetscErrorCode DescribeSliding(SamContact c, const SamBalance *given, char message[], size_t size)
+{
+  PetscReal factor;
+  PetscInt  loaded = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamTangentialGetLimit(c->tangential, &factor));
+  PetscCall(PetscStrncpy(message, "gross slip: ", size));
+  for (PetscInt k = 0; k < 3; k++) {
+    char text[96];
+
+    if (!given->force[k] || given->load[k] == 0) continue;
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %g %s (limit %.8g)", loaded++ ? ", " : "", SamLoadNames[SAM_BALANCE_TANGENTIAL][k], (double)given->load[k], k == 2 ? "N m" : "N", (double)(factor * given->load[k])));
+    PetscCall(PetscStrlcat(message, text, size));
+  }
+  PetscCall(PetscStrlcat(message, c->friction == 0 ? " cannot be balanced without friction" : " cannot be balanced by |q| <= mu p", size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* w - S of the tangential problem: u_t from p less the slip so far; NULL for zero. */
+static PetscErrorCode CreateOffset(SamContact c, Vec *offset)
+{
+  PetscFunctionBegin;
+  *offset = NULL;
+  if (!c->coupled && !c->slip_before) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDuplicate(c->fields.shear, offset));
+  if (c->coupled) PetscCall(SamComplianceApplyNormalToTangential(c->compliance, c->fields.pressure, *offset));
+  if (c->slip_before) PetscCall(VecAXPY(*offset, -1, c->slip_before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
+{
+  SamTangentialReason reason;
+  Vec                 bound, offset;
+  char                message[sizeof(step->message)];
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(c->fields.pressure, &bound));
+  PetscCall(VecAXPY(bound, c->friction, c->fields.pressure));
+  PetscCall(CreateOffset(c, &offset));
+  step->tangential = *given;
+  PetscCall(SamTangentialSolve(c->tangential, bound, offset, &step->tangential, guess, c->fields.shear));
+  PetscCall(VecDestroy(&bound));
+  PetscCall(VecDestroy(&offset));
+  PetscCall(Count(c, PETSC_TRUE, step));
+  PetscCall(SamTangentialGetReason(c->tangential, &reason));
+  if (reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) {
+    PetscCall(DescribeSliding(c, given, message, sizeof(message)));
+    PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
+  } else if (reason < 0) {
+    PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s", SamTangentialReasonName(reason)));
+    PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Relative change of a traction since the pass before, which it then replaces. */
+static PetscErrorCode Change(Vec now, Vec last, PetscReal *change)
+{
+  PetscReal norm;
+
+  PetscFunctionBegin;
+  PetscCall(VecAYPX(last, -1, now));
+  PetscCall(VecNorm(last, NORM_2, change));
+  PetscCall(VecNorm(now, NORM_2, &norm));
+  *change = *change > 0 ? *change / norm : 0;
+  PetscCall(VecCopy(now, last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Both problems, in turn when they are coupled. */
+static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential, SamStep *step)
+{
+  PetscReal change[2] = {PETSC_INFINITY, PETSC_INFINITY};
+
+  PetscFunctionBegin;
+  for (PetscInt pass = 1;; pass++) {
+    const PetscBool guess = pass > 1 ? PETSC_TRUE : PETSC_FALSE;
+
+    PetscCall(SolveNormal(c, normal, guess, step));
+    if (step->status == SAM_STATUS_CONVERGED) PetscCall(SolveTangential(c, tangential, guess, step));
+    step->coupling_iterations = pass;
+    if (!c->coupled || c->friction == 0 || step->status != SAM_STATUS_CONVERGED) break;
+    PetscCall(Change(c->fields.pressure, c->last[0], &change[0]));
+    PetscCall(Change(c->fields.shear, c->last[1], &change[1]));
+    if (c->coupling_monitor) PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass, (double)change[0], (double)change[1]));
+    if (pass > 1 && PetscMax(change[0], change[1]) <= c->coupling_rtol) break;
+    if (pass >= c->coupling_max_it) {
+      PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, "the coupling of normal and tangential problem did not converge within -coupling_max_it passes"));
+      break;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Areas of contact and stick, and the work of friction in this step, -sum q.(s - s_before) dA. */
+static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
+{
+  const PetscInt cells   = c->grid->cells;
+  const double   area    = c->grid->dx * c->grid->dy;
+  double         sums[3] = {0, 0, 0};
+  const double  *p, *q, *s, *before = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(c->fields.pressure, &p));
+  PetscCall(VecGetArrayRead(c->fields.shear, &q));
+  PetscCall(VecGetArrayRead(c->fields.slip, &s));
+  if (c->slip_before) PetscCall(VecGetArrayRead(c->slip_before, &before));
+  for (PetscInt k = 0; k < cells; k++) {
+    const PetscInt l     = k + cells;
+    const SamState state = SamStateOf(p[k], q[k], q[l], c->friction);
+
+    if (state == SAM_STATE_OPEN) continue;
+    sums[0] += area;
+    sums[1] += state == SAM_STATE_STICK ? area : 0;
+    sums[2] -= (q[k] * (s[k] - (before ? before[k] : 0)) + q[l] * (s[l] - (before ? before[l] : 0))) * area;
+  }
+  if (c->slip_before) PetscCall(VecRestoreArrayRead(c->slip_before, &before));
+  PetscCall(VecRestoreArrayRead(c->fields.slip, &s));
+  PetscCall(VecRestoreArrayRead(c->fields.shear, &q));
+  PetscCall(VecRestoreArrayRead(c->fields.pressure, &p));
+  PetscCall(SamSum(c->grid->comm, 3, sums));
+  step->contact_area      = sums[0];
+  step->stick_area        = sums[1];
+  step->dissipated_energy = sums[2];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Turns what the check found into the step's status. */
+static PetscErrorCode Judge(SamContact c, SamStep *step)
+{
+  const SamCheck *check = &step->check;
+  PetscReal       normal_rtol, tangential_rtol;
+  char            message[sizeof(step->message)];
+
+  PetscFunctionBegin;
+  PetscCall(SamNormalGetTolerances(c->normal, &normal_rtol, NULL));
+  PetscCall(SamTangentialGetTolerances(c->tangential, &tangential_rtol, NULL));
+  if (c->coupled) normal_rtol += c->coupling_rtol; /* the last shear is one pass younger than the pressure */
+  if (c->print_check)
+    PetscCall(PetscPrintf(c->grid->comm, "      check: normal %.3e tangential %.3e equilibrium %.3e cone %.3e edge pressure %.3e\n", (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone, (double)check->edge));
+  if (!(check->normal <= CHECK_MARGIN * normal_rtol && check->tangential <= CHECK_MARGIN * tangential_rtol && check->equilibrium <= CHECK_EQUILIBRIUM && check->cone <= CHECK_CONE)) {
+    PetscCall(PetscSNPrintf(message, sizeof(message), "the check disagrees: normal residual %g, tangential %g, equilibrium %g, cone %g", (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone));
+    PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
+  }
+  if (check->edge > 0) {
+    PetscCall(PetscSNPrintf(message, sizeof(message), "the contact reached the edge of the grid (pressure there up to %.2g of the largest): the answer depends on -grid_size", (double)check->edge));
+    if (!c->allow_edge) PetscCall(Fail(step, SAM_STATUS_EDGE_CONTACT, message));
+    else if (!step->message[0]) PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
+{
+  const SamBalance normal = step->normal, tangential = step->tangential;
+  const PetscReal  time = step->time;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(step, sizeof(*step)));
+  step->time       = time;
+  step->normal     = normal;
+  step->tangential = tangential;
+  PetscCall(SamComplianceIsCoupled(c->compliance, &c->coupled));
+  if (!c->coupling) c->coupled = PETSC_FALSE;
+  if (c->coupled && !c->h) {
+    PetscCall(VecDuplicate(c->separation, &c->h));
+    PetscCall(VecDuplicate(c->separation, &c->last[0]));
+    PetscCall(VecDuplicate(c->fields.shear, &c->last[1]));
+  }
+  /* the slip at the end of the last step becomes the reference of this one */
+  if (c->fields.slip) {
+    PetscCall(VecDestroy(&c->slip_before));
+    c->slip_before = c->fields.slip;
+    c->fields.slip = NULL;
+  }
+  PetscCall(DestroyDerived(c));
+  PetscCall(SolvePasses(c, &normal, &tangential, step));
+  if (step->status == SAM_STATUS_NO_EQUILIBRIUM) PetscFunctionReturn(PETSC_SUCCESS); /* there is no solution to check */
+  PetscCall(CreateDerived(c));
+  PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
+  PetscCall(ComputeScalars(c, step));
+  PetscCall(Judge(c, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

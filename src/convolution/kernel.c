@@ -1,0 +1,257 @@
+/*
+  Kernels and convolution.
+
+  A kernel that is even or odd in x and in y has a real (or, odd in just one, imaginary) transform with the same
+  symmetries. Its quadrant comes from cosine transforms (REDFT00, even) and sine transforms (RODFT00, odd) of the
+  quadrant of its values: along x for rows of lags, then, rows exchanged for columns, along y. A column of hy + 1 values
+  is kept with its even frequencies first and its odd ones after them, as the filter meets them.
+*/
+#include "fourierimpl.h"
+#include <stdlib.h>
+
+struct _n_SamKernel {
+  PetscBool odd_x, odd_y;
+  ptrdiff_t columns; /* of this rank */
+  double   *values;  /* (columns, hy + 1) */
+};
+
+/* Transform of n + 1 values at 0 ... n, in place. */
+static PetscErrorCode PlanHalf(ptrdiff_t n, PetscBool odd, unsigned effort, double line[], fftw_plan *plan)
+{
+  PetscFunctionBegin;
+  *plan = odd ? fftw_plan_r2r_1d((int)n - 1, line + 1, line + 1, FFTW_RODFT00, effort) : fftw_plan_r2r_1d((int)n + 1, line, line, FFTW_REDFT00, effort);
+  PetscCheck(*plan, PETSC_COMM_SELF, PETSC_ERR_LIB, "FFTW could not make a plan");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void TransformHalf(fftw_plan plan, ptrdiff_t n, PetscBool odd, double line[])
+{
+  if (odd) line[0] = line[n] = 0;
+  fftw_execute(plan);
+}
+
+/* Rows of lags, transformed along x, into rows (local rows of hy + 1, hx + 1). */
+static PetscErrorCode TransformRows(SamFourier F, PetscBool odd, SamKernelRow row, const void *context, ptrdiff_t start, ptrdiff_t count, double rows[])
+{
+  const ptrdiff_t n = F->hx + 1;
+  double         *line;
+  fftw_plan       plan;
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)n, &line));
+  PetscCall(PlanHalf(F->hx, odd, FFTW_ESTIMATE, line, &plan));
+  for (ptrdiff_t j = 0; j < count; j++) {
+    row((PetscInt)(start + j), (PetscInt)n, line, context);
+    TransformHalf(plan, F->hx, odd, line);
+    PetscCall(PetscArraycpy(rows + j * n, line, (size_t)n));
+  }
+  fftw_destroy_plan(plan);
+  free(line);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Columns transformed along y, scaled and sorted into the kernel. */
+static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const double columns[])
+{
+  const ptrdiff_t n     = F->hy + 1, even = F->hy / 2 + 1;
+  const double    sign  = (kernel->odd_x && kernel->odd_y) ? -1 : 1; /* (-i)^2 */
+  const double    scale = sign / (4.0 * (double)F->hx * (double)F->hy);
+  double         *line;
+  fftw_plan       plan;
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)n, &line));
+  PetscCall(PlanHalf(F->hy, kernel->odd_y, FFTW_ESTIMATE, line, &plan));
+  for (ptrdiff_t k = 0; k < kernel->columns; k++) {
+    double *to = kernel->values + k * n;
+
+    for (ptrdiff_t j = 0; j < n; j++) line[j] = columns[j * kernel->columns + k];
+    TransformHalf(plan, F->hy, kernel->odd_y, line);
+    for (ptrdiff_t j = 0; j < n; j++) to[j % 2 ? even + j / 2 : j / 2] = scale * line[j];
+  }
+  fftw_destroy_plan(plan);
+  free(line);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rows of (hy + 1, hx + 1) in slabs exchanged for own columns of all rows. */
+static PetscErrorCode ExchangeRows(SamFourier F, ptrdiff_t doubles, double **rows)
+{
+  double   *columns;
+  fftw_plan plan;
+
+  PetscFunctionBegin;
+  if (F->ranks == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)doubles, &columns));
+  plan = fftw_mpi_plan_many_transpose(F->hy + 1, F->hx + 1, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, *rows, columns, F->grid->comm, FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_MPI_TRANSPOSED_OUT);
+  PetscCheck(plan, PETSC_COMM_SELF, PETSC_ERR_LIB, "FFTW could not make a plan");
+  fftw_execute(plan);
+  fftw_destroy_plan(plan);
+  free(*rows);
+  *rows = columns;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, SamKernelRow row, const void *context, SamKernel *kernel)
+{
+  const ptrdiff_t size[2] = {F->hy + 1, F->hx + 1};
+  ptrdiff_t       doubles, count, start, columns, column_start;
+  double         *work;
+  SamKernel       k;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
+  PetscCall(PetscNew(&k));
+  doubles    = fftw_mpi_local_size_many_transposed(2, size, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm, &count, &start, &columns, &column_start);
+  k->odd_x   = odd_x;
+  k->odd_y   = odd_y;
+  k->columns = columns;
+  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)doubles, &work));
+  PetscCall(TransformRows(F, odd_x, row, context, start, count, work));
+  PetscCall(ExchangeRows(F, doubles, &work));
+  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)(columns * (F->hy + 1)), &k->values));
+  PetscCall(TransformColumns(F, k, work));
+  free(work);
+  *kernel = k;
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamKernelDestroy(SamKernel *kernel)
+{
+  PetscFunctionBegin;
+  if (!*kernel) PetscFunctionReturn(PETSC_SUCCESS);
+  free((*kernel)->values);
+  PetscCall(PetscFree(*kernel));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One column in one phase: the kernel's values there, those of the first `rising` entries in order, the others mirrored. */
+typedef struct {
+  const double *values;
+  ptrdiff_t     rising, mirror; /* entry m >= rising has the value at mirror - m, with the parity's sign */
+} Column;
+
+static Column GetColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const ptrdiff_t hy   = block->hy, even = hy / 2 + 1;
+  const double   *base = kernel->values + (block->local + b) * (hy + 1);
+
+  if (phase == 0) return (Column){base, even, hy};
+  return (Column){base + even, (hy + 1) / 2, hy - 1};
+}
+
+/* to += scale * kernel * from for one column; multiplied by -i when the kernel is odd in one direction only. */
+static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double scale, const double (*from)[2], double (*to)[2])
+{
+  const Column    c      = GetColumn(kernel, block, phase, b);
+  const double    folded = kernel->odd_y ? -scale : scale;
+  const PetscBool turn   = kernel->odd_x != kernel->odd_y ? PETSC_TRUE : PETSC_FALSE;
+
+  for (ptrdiff_t m = 0; m < block->hy; m++) {
+    const double k = m < c.rising ? scale * c.values[m] : folded * c.values[c.mirror - m];
+
+    to[m][0] += turn ? k * from[m][1] : k * from[m][0];
+    to[m][1] += turn ? -k * from[m][0] : k * from[m][1];
+  }
+}
+
+/* One field in, one out, the kernel real: in place. */
+SAM_VECTORIZED static void MultiplyColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double (*column)[2])
+{
+  const Column c = GetColumn(kernel, block, phase, b);
+
+  for (ptrdiff_t m = 0; m < c.rising; m++) {
+    column[m][0] *= c.values[m];
+    column[m][1] *= c.values[m];
+  }
+  for (ptrdiff_t m = c.rising; m < block->hy; m++) {
+    column[m][0] *= c.values[c.mirror - m];
+    column[m][1] *= c.values[c.mirror - m];
+  }
+}
+
+/* Two fields, a symmetric matrix with real entries, the off-diagonal one odd in x and in y: in place. */
+SAM_VECTORIZED static void MultiplyPair(const SamKernelMatrix *M, const SamFourierBlock *block, PetscInt phase, PetscInt b, double (*x)[2], double (*y)[2])
+{
+  const Column xx = GetColumn(M->kernel[0][0], block, phase, b), xy = GetColumn(M->kernel[0][1], block, phase, b), yy = GetColumn(M->kernel[1][1], block, phase, b);
+
+  for (ptrdiff_t m = 0; m < block->hy; m++) {
+    const ptrdiff_t k     = m < xx.rising ? m : xx.mirror - m;
+    const double    cross = m < xx.rising ? xy.values[k] : -xy.values[k];
+
+    for (PetscInt r = 0; r < 2; r++) {
+      const double vx = x[m][r], vy = y[m][r];
+
+      x[m][r] = xx.values[k] * vx + cross * vy;
+      y[m][r] = cross * vx + yy.values[k] * vy;
+    }
+  }
+}
+
+static PetscBool IsScalar(const SamKernelMatrix *M)
+{
+  return (M->n_in == 1 && M->n_out == 1 && M->scale[0][0] == 1 && M->kernel[0][0]->odd_x == M->kernel[0][0]->odd_y && !M->kernel[0][0]->odd_y) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
+{
+  if (M->n_in != 2 || M->n_out != 2 || M->kernel[0][1] != M->kernel[1][0]) return PETSC_FALSE;
+  for (PetscInt o = 0; o < 2; o++)
+    for (PetscInt i = 0; i < 2; i++) {
+      const PetscBool odd = o == i ? PETSC_FALSE : PETSC_TRUE;
+
+      if (!M->kernel[o][i] || M->scale[o][i] != 1 || M->kernel[o][i]->odd_x != odd || M->kernel[o][i]->odd_y != odd) return PETSC_FALSE;
+    }
+  return PETSC_TRUE;
+}
+
+typedef struct {
+  const SamKernelMatrix *matrix;
+  PetscBool              scalar, pair;
+  double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
+} Filter;
+
+/* Any matrix: the output columns are gathered aside and then take the inputs' place. */
+static void MultiplyGeneral(const Filter *filter, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const SamKernelMatrix *M      = filter->matrix;
+  const ptrdiff_t        offset = (phase * block->width + b) * (ptrdiff_t)block->stride;
+
+  for (PetscInt o = 0; o < M->n_out; o++) {
+    double (*to)[2] = filter->column[o];
+
+    for (ptrdiff_t m = 0; m < block->hy; m++) to[m][0] = to[m][1] = 0;
+    for (PetscInt i = 0; i < M->n_in; i++)
+      if (M->kernel[o][i]) AddProduct(M->kernel[o][i], block, phase, b, M->scale[o][i], (const double(*)[2])block->data[i] + offset, to);
+  }
+  for (PetscInt o = 0; o < M->n_out; o++)
+    for (ptrdiff_t m = 0; m < block->hy; m++)
+      for (PetscInt r = 0; r < 2; r++) block->data[o][offset + m][r] = filter->column[o][m][r];
+}
+
+static void Multiply(const SamFourierBlock *block, const void *context)
+{
+  const Filter *filter = (const Filter *)context;
+
+  for (PetscInt f = 0; f < block->phases; f++)
+    for (PetscInt b = 0; b < block->columns; b++) {
+      const ptrdiff_t offset = (f * block->width + b) * (ptrdiff_t)block->stride;
+
+      if (filter->scalar) MultiplyColumn(filter->matrix->kernel[0][0], block, f, b, block->data[0] + offset);
+      else if (filter->pair) MultiplyPair(filter->matrix, block, f, b, block->data[0] + offset, block->data[1] + offset);
+      else MultiplyGeneral(filter, block, f, b);
+    }
+}
+
+PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const double *const in[], double *const out[])
+{
+  Filter filter = {.matrix = matrix, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+
+  PetscFunctionBegin;
+  if (!filter.scalar && !filter.pair)
+    for (PetscInt o = 0; o < matrix->n_out; o++) PetscCall(SamFourierAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
+  PetscCall(SamFourierApply(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
+  for (PetscInt o = 0; o < matrix->n_out; o++) free(filter.column[o]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

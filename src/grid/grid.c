@@ -1,0 +1,101 @@
+/* The grid and its slab distribution. */
+#include "../base/baseimpl.h"
+#include <petsam/grid.h>
+#include <math.h>
+
+PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2], SamGrid *grid)
+{
+  PetscMPIInt rank, size;
+  PetscInt    block;
+  SamGrid     g;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCheck(n[k] >= 2, comm, SAM_ERR_USER, "-grid_n: %" PetscInt_FMT " cells in %s, expected at least 2", n[k], k ? "y" : "x");
+    PetscCheck(width[k] > 0 && isfinite(width[k]), comm, SAM_ERR_USER, "-grid_size: a width of %g m in %s, expected a number > 0", (double)width[k], k ? "y" : "x");
+    PetscCheck(isfinite(center[k]), comm, SAM_ERR_USER, "-grid_center: expected finite numbers");
+    /* the centres must be told apart in double precision, and areas must not underflow or overflow */
+    PetscCheck(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100, comm, SAM_ERR_USER, "-grid_size: a width of %g m in %s about %g m cannot be resolved in double precision",
+               (double)width[k], k ? "y" : "x", (double)center[k]);
+  }
+  PetscCheck((double)n[0] * (double)n[1] * 2 < (double)PETSC_MAX_INT, comm, SAM_ERR_USER, "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT ": more cells than this PETSc can count; configure it with 64-bit indices", n[0], n[1]);
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscNew(&g));
+  g->references = 1;
+  g->comm       = comm;
+  g->nx         = n[0];
+  g->ny         = n[1];
+  for (PetscInt k = 0; k < 2; k++) {
+    g->width[k]  = width[k];
+    g->center[k] = center[k];
+  }
+  g->dx        = width[0] / (PetscReal)n[0];
+  g->dy        = width[1] / (PetscReal)n[1];
+  g->length    = 0.5 * PetscMax(width[0], width[1]);
+  block        = (n[1] + size - 1) / size;
+  g->row_start = PetscMin((PetscInt)rank * block, n[1]);
+  g->rows      = PetscMin(block, n[1] - g->row_start);
+  g->cells     = g->rows * n[0];
+  *grid        = g;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCreateFromOptions(MPI_Comm comm, SamGrid *grid)
+{
+  PetscInt  n[2]      = {0, 0};
+  PetscReal width[2]  = {0, 0};
+  PetscReal center[2] = {0, 0};
+  PetscBool has_n, has_width, help;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHeading("Grid"));
+  PetscCall(SamOptionsIntPair(NULL, "grid_n", "cells in x[,y]: required", 2, n, &has_n));
+  PetscCall(SamOptionsRealPair(NULL, "grid_size", "full width in x[,y] (m): required", SAM_RANGE_POSITIVE, width, &has_width));
+  PetscCall(SamOptionsRealPair(NULL, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
+  PetscCall(SamPrintHelp(&help));
+  if (help) { /* the defaults are listed; any grid does */
+    n[0] = n[1] = 2;
+    width[0] = width[1] = 1;
+    has_n = has_width = PETSC_TRUE;
+  }
+  PetscCheck(has_n, comm, SAM_ERR_USER, "-grid_n is missing: the number of cells in x[,y]");
+  PetscCheck(has_width, comm, SAM_ERR_USER, "-grid_size is missing: the full width of the grid in x[,y], m");
+  PetscCall(SamGridCreate(comm, n, width, center, grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridReference(SamGrid grid)
+{
+  PetscFunctionBegin;
+  grid->references++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridDestroy(SamGrid *grid)
+{
+  PetscFunctionBegin;
+  if (!*grid) PetscFunctionReturn(PETSC_SUCCESS);
+  if (--(*grid)->references == 0) PetscCall(PetscFree(*grid));
+  *grid = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
+{
+  const PetscInt n[2] = {(fine->nx + 1) / 2, (fine->ny + 1) / 2};
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreate(fine->comm, n, fine->width, fine->center, coarse));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCreate(grid->comm, field));
+  PetscCall(VecSetSizes(*field, components * grid->cells, components * grid->nx * grid->ny));
+  PetscCall(VecSetType(*field, VECSTANDARD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,261 @@
+/*
+  Moving fields between a fine and a coarse grid of the same rectangle, whatever the numbers of cells.
+
+  Restriction takes the average over each coarse cell, fine cells cut by its edge counting by their share, so that the
+  integral of the field is kept. Prolongation is linear interpolation between cell centres. Both are separable: x is
+  done where the data lie, y after the rows that a rank needs have been fetched (a VecScatter of contiguous rows).
+*/
+#include "../base/baseimpl.h"
+#include <petsam/grid.h>
+#include <math.h>
+
+struct _n_SamTransfer {
+  SamGrid    fine, coarse;
+  PetscInt   averaged_start, averaged_count; /* fine rows that this rank's coarse rows need */
+  PetscInt   coarse_start, coarse_count;     /* coarse rows that its fine rows need */
+  PetscInt  *first, *count;    /* coarse column J covers the fine columns first[J] ... first[J] + count[J] - 1 */
+  double    *share;            /* with these shares, COVER_MAX a column */
+  PetscInt  *left;             /* fine column i lies between the coarse columns left[i] and left[i] + 1 */
+  double    *position;         /* there */
+};
+
+/* A coarse cell is at most two fine cells wide, so it touches at most three. */
+#define COVER_MAX 3
+
+/* Cell J of N covers the fine cells first..last of n; the share of cell k in it is Share(). */
+static void Covered(PetscInt J, PetscInt N, PetscInt n, PetscInt *first, PetscInt *last)
+{
+  const PetscInt64 begin = (PetscInt64)J * n, end = (PetscInt64)(J + 1) * n;
+
+  *first = (PetscInt)(begin / N);
+  *last  = (PetscInt)((end + N - 1) / N) - 1;
+}
+
+static double Share(PetscInt J, PetscInt N, PetscInt n, PetscInt k)
+{
+  const double ratio = (double)n / (double)N;
+  const double begin = PetscMax((double)k, (double)J * ratio), end = PetscMin((double)k + 1, (double)(J + 1) * ratio);
+
+  return PetscMax(end - begin, 0) / ratio;
+}
+
+/* Centre of fine cell k of n lies between the centres of the coarse cells *left and *left + 1; t is where. */
+static void Between(PetscInt k, PetscInt n, PetscInt N, PetscInt *left, double *t)
+{
+  const double s = ((double)k + 0.5) * (double)N / (double)n - 0.5;
+
+  *left = (PetscInt)floor(s);
+  *t    = s - floor(s);
+  if (*left < 0) {
+    *left = 0;
+    *t    = 0;
+  }
+  if (*left > N - 2) {
+    *left = N - 2;
+    *t    = 1;
+  }
+}
+
+/*
+  Brings rows start ... start + count - 1 of a vector with `columns` entries a row into a sequential vector. The scatter is
+  made for the occasion: kept, its indices would take as much memory as the fields.
+*/
+static PetscErrorCode FetchRows(Vec from, PetscInt columns, PetscInt start, PetscInt count, Vec *rows)
+{
+  VecScatter scatter;
+  IS         is;
+
+  PetscFunctionBegin;
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, count * columns, rows));
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, count * columns, start * columns, 1, &is));
+  PetscCall(VecScatterCreate(from, is, *rows, NULL, &scatter));
+  PetscCall(VecScatterBegin(scatter, from, *rows, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, from, *rows, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TabulateColumns(SamTransfer t)
+{
+  const PetscInt N = t->coarse->nx, n = t->fine->nx;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc5(N, &t->first, N, &t->count, COVER_MAX * N, &t->share, n, &t->left, n, &t->position));
+  for (PetscInt J = 0; J < N; J++) {
+    PetscInt last;
+
+    Covered(J, N, n, &t->first[J], &last);
+    t->count[J] = last + 1 - t->first[J];
+    PetscCheck(t->count[J] <= COVER_MAX, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "The coarse grid is more than twice as coarse");
+    for (PetscInt k = 0; k < t->count[J]; k++) t->share[COVER_MAX * J + k] = Share(J, N, n, t->first[J] + k);
+  }
+  for (PetscInt i = 0; i < n; i++) Between(i, n, N, &t->left[i], &t->position[i]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *transfer)
+{
+  SamTransfer t;
+  PetscInt    last;
+  double      weight;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&t));
+  PetscCall(SamGridReference(fine));
+  PetscCall(SamGridReference(coarse));
+  t->fine   = fine;
+  t->coarse = coarse;
+  PetscCall(TabulateColumns(t));
+
+  if (coarse->rows) {
+    PetscInt ignored;
+
+    Covered(coarse->row_start, coarse->ny, fine->ny, &t->averaged_start, &ignored);
+    Covered(coarse->row_start + coarse->rows - 1, coarse->ny, fine->ny, &ignored, &last);
+    t->averaged_count = last + 1 - t->averaged_start;
+  }
+  if (fine->rows) {
+    Between(fine->row_start, fine->ny, coarse->ny, &t->coarse_start, &weight);
+    Between(fine->row_start + fine->rows - 1, fine->ny, coarse->ny, &last, &weight);
+    t->coarse_count = last + 2 - t->coarse_start;
+  }
+  *transfer = t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTransferDestroy(SamTransfer *transfer)
+{
+  SamTransfer t = *transfer;
+
+  PetscFunctionBegin;
+  if (!t) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree5(t->first, t->count, t->share, t->left, t->position));
+  PetscCall(SamGridDestroy(&t->fine));
+  PetscCall(SamGridDestroy(&t->coarse));
+  PetscCall(PetscFree(*transfer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void AverageColumns(SamTransfer t, const double fine[], double averaged[])
+{
+  const PetscInt N = t->coarse->nx;
+
+  for (PetscInt j = 0; j < t->fine->rows; j++) {
+    const double *row = fine + j * t->fine->nx;
+
+    for (PetscInt J = 0; J < N; J++) {
+      double sum = 0;
+
+      for (PetscInt k = 0; k < t->count[J]; k++) sum += t->share[COVER_MAX * J + k] * row[t->first[J] + k];
+      averaged[j * N + J] = sum;
+    }
+  }
+}
+
+static void AverageRows(SamTransfer t, const double averaged[], double coarse[])
+{
+  const PetscInt n = t->coarse->nx;
+
+  for (PetscInt j = 0; j < t->coarse->rows; j++) {
+    const PetscInt J = t->coarse->row_start + j;
+    PetscInt       first, last;
+
+    Covered(J, t->coarse->ny, t->fine->ny, &first, &last);
+    for (PetscInt i = 0; i < n; i++) coarse[j * n + i] = 0;
+    for (PetscInt k = first; k <= last; k++) {
+      const double  w   = Share(J, t->coarse->ny, t->fine->ny, k);
+      const double *row = averaged + (k - t->averaged_start) * n;
+
+      for (PetscInt i = 0; i < n; i++) coarse[j * n + i] += w * row[i];
+    }
+  }
+}
+
+static PetscErrorCode GetComponents(SamTransfer t, Vec fine, Vec coarse, PetscInt *components)
+{
+  PetscInt m, M;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(fine, &m));
+  PetscCall(VecGetSize(coarse, &M));
+  *components = m / (t->fine->nx * t->fine->ny);
+  PetscCheck(M == *components * t->coarse->nx * t->coarse->ny, t->fine->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to the two grids of this transfer");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
+{
+  PetscInt      components;
+  Vec           averaged, needed;
+  const double *f, *rows;
+  double       *a, *c;
+
+  PetscFunctionBegin;
+  PetscCall(GetComponents(t, fine, coarse, &components));
+  PetscCall(VecCreateMPI(t->fine->comm, t->fine->rows * t->coarse->nx, t->fine->ny * t->coarse->nx, &averaged));
+  PetscCall(VecGetArrayRead(fine, &f));
+  PetscCall(VecGetArrayWrite(coarse, &c));
+  for (PetscInt k = 0; k < components; k++) {
+    PetscCall(VecGetArrayWrite(averaged, &a));
+    AverageColumns(t, f + k * t->fine->cells, a);
+    PetscCall(VecRestoreArrayWrite(averaged, &a));
+    PetscCall(FetchRows(averaged, t->coarse->nx, t->averaged_start, t->averaged_count, &needed));
+    PetscCall(VecGetArrayRead(needed, &rows));
+    AverageRows(t, rows, c + k * t->coarse->cells);
+    PetscCall(VecRestoreArrayRead(needed, &rows));
+    PetscCall(VecDestroy(&needed));
+  }
+  PetscCall(VecDestroy(&averaged));
+  PetscCall(VecRestoreArrayWrite(coarse, &c));
+  PetscCall(VecRestoreArrayRead(fine, &f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void InterpolateComponent(SamTransfer t, const double rows[], double fine[])
+{
+  const PetscInt N = t->coarse->nx, n = t->fine->nx;
+
+  for (PetscInt j = 0; j < t->fine->rows; j++) {
+    PetscInt      J;
+    double        ty;
+    const double *below, *above;
+
+    Between(t->fine->row_start + j, t->fine->ny, t->coarse->ny, &J, &ty);
+    below = rows + (J - t->coarse_start) * N;
+    above = below + N;
+    for (PetscInt i = 0; i < n; i++) {
+      const PetscInt l  = t->left[i];
+      const double   tx = t->position[i];
+
+      fine[j * n + i] = (1 - ty) * ((1 - tx) * below[l] + tx * below[l + 1]) + ty * ((1 - tx) * above[l] + tx * above[l + 1]);
+    }
+  }
+}
+
+PetscErrorCode SamTransferProlong(SamTransfer t, Vec coarse, Vec fine)
+{
+  PetscInt      components;
+  Vec           component, needed;
+  const double *c, *rows;
+  double       *f;
+
+  PetscFunctionBegin;
+  PetscCall(GetComponents(t, fine, coarse, &components));
+  PetscCall(VecCreateMPIWithArray(t->fine->comm, 1, t->coarse->cells, t->coarse->nx * t->coarse->ny, NULL, &component));
+  PetscCall(VecGetArrayRead(coarse, &c));
+  PetscCall(VecGetArrayWrite(fine, &f));
+  for (PetscInt k = 0; k < components; k++) {
+    PetscCall(VecPlaceArray(component, c + k * t->coarse->cells));
+    PetscCall(FetchRows(component, t->coarse->nx, t->coarse_start, t->coarse_count, &needed));
+    PetscCall(VecResetArray(component));
+    PetscCall(VecGetArrayRead(needed, &rows));
+    InterpolateComponent(t, rows, f + k * t->fine->cells);
+    PetscCall(VecRestoreArrayRead(needed, &rows));
+    PetscCall(VecDestroy(&needed));
+  }
+  PetscCall(VecDestroy(&component));
+  PetscCall(VecRestoreArrayWrite(fine, &f));
+  PetscCall(VecRestoreArrayRead(coarse, &c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,36 @@
+/* The inside of SamNormal. */
+#ifndef PETSAM_NORMALIMPL_H
+#define PETSAM_NORMALIMPL_H
+
+#include "../balance/balanceimpl.h"
+#include "../base/solver.h"
+#include <petsam/normal.h>
+
+/* One grid's problem, as a method meets it. */
+typedef struct {
+  SamCompliance compliance;
+  SamGrid       grid;
+  SamFrame      frame;
+  Vec           h, p;
+  PetscReal     rtol;
+  PetscBool     finest;
+  double        rigid[3]; /* result: combination of the phi, fixed part included */
+} SamNormalLevel;
+
+struct _n_SamNormal {
+  SamSolver       solver;
+  PetscErrorCode (*solve)(SamNormal, SamNormalLevel *); /* the method: solves one level, sets the reason and the error */
+  SamCompliance   compliance;
+  SamNormalReason reason;
+};
+
+/* Counted products: only those on the finest grid count. */
+PETSC_INTERN PetscErrorCode SamNormalApply(SamNormal normal, SamNormalLevel *level, Vec p, Vec u);
+PETSC_INTERN PetscErrorCode SamNormalPrecondition(SamNormal normal, SamNormalLevel *level, Vec r, Vec z);
+/* Counts an iteration, calls the monitors. */
+PETSC_INTERN PetscErrorCode SamNormalIterated(SamNormal normal, SamNormalLevel *level, PetscReal error);
+
+PETSC_INTERN PetscErrorCode SamNormalCreate_ActiveSet(SamNormal normal);
+PETSC_INTERN PetscErrorCode SamNormalCreate_PolonskyKeer(SamNormal normal);
+
+#endif

@@ -1,0 +1,209 @@
+/*
+  The classical projected conjugate gradients of Polonsky and Keer, for comparison.
+
+  In each iteration: 1. g = S p + h less the rigid displacement that fits it on the contact cells {p > 0}; 2. a conjugate
+  direction on these cells from g; 3. the exact step along it; 4. p < 0 set to 0; cells without pressure that penetrate get
+  some, and the direction starts anew; 5. p is put in equilibrium again. Two products with the compliance an iteration, one
+  grid, no preconditioner: the number of iterations grows with the grid.
+  The original scales p to keep N; here the nearest admissible pressure keeps N and the moments alike.
+  Reference: Polonsky and Keer 1999, Wear 231, 206-219.
+*/
+#include "normalimpl.h"
+#include <math.h>
+
+typedef struct {
+  SamNormal       normal;
+  SamNormalLevel *level;
+  Vec             g, d, s;
+  double          motion[3], displacement, error;
+  double          norm; /* |g|^2 on the contact */
+} Work;
+
+/* g and the motion that fits it on {p > 0}, or the given one; the errors; all from scratch. */
+static PetscErrorCode ComputeGap(Work *w)
+{
+  const SamFrame *f    = &w->level->frame;
+  const PetscInt  nx   = w->level->grid->nx;
+  double          a[3] = {0, 0, 0}, gram[SAM_GRAM] = {0}, sums[3] = {0, 0, 0}, max[2] = {0, 0};
+  const double   *p, *h;
+  double         *g;
+
+  PetscFunctionBegin;
+  PetscCall(SamNormalApply(w->normal, w->level, w->level->p, w->g));
+  PetscCall(VecGetArrayRead(w->level->p, &p));
+  PetscCall(VecGetArrayRead(w->level->h, &h));
+  PetscCall(VecGetArray(w->g, &g));
+  for (PetscInt j = 0; j < w->level->grid->rows; j++) {
+    const double eta = f->eta0 + (double)j * f->deta;
+
+    for (PetscInt i = 0; i < nx; i++) {
+      const PetscInt k  = j * nx + i;
+      const double   xi = f->xi0 + (double)i * f->dxi;
+
+      max[0] = PetscMax(max[0], fabs(g[k]));
+      g[k] += h[k] - SamFrameNormal(f->fixed, xi, eta);
+      if (p[k] <= 0) continue;
+      sums[0] += g[k];
+      sums[1] -= eta * g[k];
+      sums[2] += xi * g[k];
+      gram[0] += 1;
+      gram[1] -= eta;
+      gram[2] += xi;
+      gram[3] += eta * eta;
+      gram[4] -= eta * xi;
+      gram[5] += xi * xi;
+    }
+  }
+  PetscCall(SamSum(w->level->grid->comm, 3, sums));
+  PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, gram));
+  SamFrameSolve(f, gram, sums, a);
+  w->norm = 0;
+  for (PetscInt j = 0; j < w->level->grid->rows; j++) {
+    const double eta = f->eta0 + (double)j * f->deta;
+
+    for (PetscInt i = 0; i < nx; i++) {
+      const PetscInt k = j * nx + i;
+
+      g[k] -= SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta);
+      max[1] = PetscMax(max[1], p[k] > 0 ? fabs(g[k]) : -g[k]);
+      if (p[k] > 0) w->norm += g[k] * g[k];
+    }
+  }
+  PetscCall(VecRestoreArray(w->g, &g));
+  PetscCall(VecRestoreArrayRead(w->level->h, &h));
+  PetscCall(VecRestoreArrayRead(w->level->p, &p));
+  PetscCall(SamMax(w->level->grid->comm, 2, max));
+  PetscCall(SamSum(w->level->grid->comm, 1, &w->norm));
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] = f->fixed[c] + a[c];
+  w->displacement = max[0];
+  w->error        = max[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Steps 2 to 5. `conjugate` says on entry whether d may be used, on exit whether no cell has entered. */
+static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, PetscBool *found)
+{
+  const SamFrame *f     = &w->level->frame;
+  const PetscInt  cells = w->level->grid->cells;
+  const double    beta  = *conjugate && norm_old > 0 ? w->norm / norm_old : 0;
+  double          sums[2] = {0, 0}, tau, entered = 0;
+  double         *p, *g, *d, *s;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(w->level->p, &p));
+  PetscCall(VecGetArray(w->g, &g));
+  PetscCall(VecGetArray(w->d, &d));
+  for (PetscInt k = 0; k < cells; k++) d[k] = p[k] > 0 ? g[k] + beta * d[k] : 0;
+  PetscCall(VecRestoreArray(w->d, &d));
+  PetscCall(SamNormalApply(w->normal, w->level, w->d, w->s));
+  PetscCall(VecGetArray(w->d, &d));
+  PetscCall(VecGetArray(w->s, &s));
+  {
+    double    gram[SAM_GRAM] = {0}, mean[3] = {0, 0, 0}, a[3];
+    const PetscInt nx = w->level->grid->nx;
+
+    /* S d less its rigid part, so that the step is the exact one among pressures in equilibrium */
+    for (PetscInt k = 0; k < cells; k++) {
+      const double eta = f->eta0 + (double)(k / nx) * f->deta, xi = f->xi0 + (double)(k % nx) * f->dxi;
+
+      if (p[k] <= 0) continue;
+      mean[0] += s[k];
+      mean[1] -= eta * s[k];
+      mean[2] += xi * s[k];
+      gram[0] += 1;
+      gram[1] -= eta;
+      gram[2] += xi;
+      gram[3] += eta * eta;
+      gram[4] -= eta * xi;
+      gram[5] += xi * xi;
+    }
+    PetscCall(SamSum(w->level->grid->comm, 3, mean));
+    PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, gram));
+    SamFrameSolve(f, gram, mean, a);
+    for (PetscInt k = 0; k < cells; k++) {
+      const double r = s[k] - SamFrameNormal(a, f->xi0 + (double)(k % nx) * f->dxi, f->eta0 + (double)(k / nx) * f->deta);
+
+      sums[0] += p[k] > 0 ? g[k] * d[k] : 0;
+      sums[1] += p[k] > 0 ? r * d[k] : 0;
+    }
+  }
+  PetscCall(SamSum(w->level->grid->comm, 2, sums));
+  tau = sums[1] > 0 ? sums[0] / sums[1] : 0;
+  for (PetscInt k = 0; k < cells; k++) {
+    if (p[k] > 0) p[k] = PetscMax(0, p[k] - tau * d[k]);
+    else if (g[k] < 0) {
+      p[k] = -tau * g[k];
+      entered += 1;
+    }
+  }
+  PetscCall(SamSum(w->level->grid->comm, 1, &entered));
+  *conjugate = entered > 0 ? PETSC_FALSE : PETSC_TRUE;
+  PetscCall(SamFrameProjectNormal(f, NULL, p, found));
+  PetscCall(VecRestoreArray(w->s, &s));
+  PetscCall(VecRestoreArray(w->d, &d));
+  PetscCall(VecRestoreArray(w->g, &g));
+  PetscCall(VecRestoreArray(w->level->p, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A start with pressure in it: under displacement control, what the overlap makes of one cell's stiffness. */
+static PetscErrorCode Start(SamNormalLevel *level)
+{
+  const SamFrame *f  = &level->frame;
+  const PetscInt  nx = level->grid->nx;
+  PetscReal       norm, self;
+  const double   *h;
+  double         *p;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(level->p, NORM_INFINITY, &norm));
+  if (norm > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamComplianceGetSelfInfluence(level->compliance, &self, NULL));
+  PetscCall(VecGetArrayRead(level->h, &h));
+  PetscCall(VecGetArray(level->p, &p));
+  for (PetscInt k = 0; k < level->grid->cells; k++) p[k] = PetscMax(0, SamFrameNormal(f->fixed, f->xi0 + (double)(k % nx) * f->dxi, f->eta0 + (double)(k / nx) * f->deta) - h[k]) / self / (double)nx;
+  PetscCall(VecRestoreArray(level->p, &p));
+  PetscCall(VecRestoreArrayRead(level->h, &h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SamNormalSolve_PolonskyKeer(SamNormal normal, SamNormalLevel *level)
+{
+  Work            w         = {.normal = normal, .level = level};
+  SamNormalReason reason    = SAM_NORMAL_CONVERGED_ITERATING;
+  PetscBool       conjugate = PETSC_FALSE, found = PETSC_TRUE;
+  double          norm_old  = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(level->p, &w.g));
+  PetscCall(VecDuplicate(level->p, &w.d));
+  PetscCall(VecDuplicate(level->p, &w.s));
+  PetscCall(Start(level));
+  for (PetscInt it = 0; !reason; it++) {
+    PetscCall(ComputeGap(&w));
+    if (it) PetscCall(SamNormalIterated(normal, level, w.error / w.displacement));
+    if (!isfinite(w.error)) reason = SAM_NORMAL_DIVERGED_NAN;
+    else if (w.error <= level->rtol * w.displacement) reason = SAM_NORMAL_CONVERGED_RTOL;
+    else if (it >= SamSolverMaxIterations(&normal->solver)) reason = SAM_NORMAL_DIVERGED_ITS;
+    if (reason) break;
+    PetscCall(Step(&w, norm_old, &conjugate, &found));
+    norm_old = w.norm;
+    if (!found) reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
+  }
+  normal->reason = reason;
+  normal->solver.error = w.error / w.displacement;
+  for (PetscInt c = 0; c < 3; c++) level->rigid[c] = w.motion[c];
+  PetscCall(VecDestroy(&w.g));
+  PetscCall(VecDestroy(&w.d));
+  PetscCall(VecDestroy(&w.s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamNormalCreate_PolonskyKeer(SamNormal normal)
+{
+  PetscFunctionBegin;
+  normal->solve                 = SamNormalSolve_PolonskyKeer;
+  normal->solver.default_levels = 1;
+  normal->solver.default_max_it = 10000;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

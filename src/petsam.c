@@ -1,0 +1,393 @@
+/*
+  The program: options in, objects made, the load step run, results out.
+
+  Exit codes: 0 converged and checked; 2 bad usage; 3 a file; 10 not converged; 11 no equilibrium; 12 contact at the
+  grid's edge; others are PETSc's. Nothing is written before all of the input has been read and found right.
+*/
+#include <petsam.h>
+#include "base/baseimpl.h"
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { EXIT_USAGE = 2, EXIT_FILE = 3 };
+
+static const char usage[] = "petsam " PETSAM_VERSION ": partial-slip contact of elastic bodies by the semi-analytical method.\n"
+                            "usage: petsam [-option value ...]   or   mpirun -n 4 petsam -options_file study.opts [-option value ...]\n"
+                            "All quantities in SI units. Required: -grid_n, -grid_size, -body1_young, -body1_poisson, -body2_young, -body2_poisson,\n"
+                            "-gap_type, and one of -load_n, -disp_z. Every PETSc option works too (-log_view, -options_left, ...).\n";
+
+/* ---- errors ---- */
+
+/* The user's mistakes are told in their own words by the first rank; all others as PETSc does. */
+static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type, const char *message, void *context)
+{
+  PetscMPIInt rank;
+
+  (void)context;
+  if (code != SAM_ERR_USER && code != SAM_ERR_FILE) return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, NULL);
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (type == PETSC_ERROR_INITIAL && rank == 0) {
+    fprintf(stderr, "petsam: %s\n", message);
+    if (code == SAM_ERR_USER) fprintf(stderr, "petsam: see petsam -help for the options\n");
+  }
+  return code;
+}
+
+static int ExitCode(PetscErrorCode code)
+{
+  if (code == SAM_ERR_USER) return EXIT_USAGE;
+  if (code == SAM_ERR_FILE) return EXIT_FILE;
+  return code;
+}
+
+/* ---- command line ---- */
+
+/* What PETSc takes for an option's name: a dash and a letter (a number is a value). */
+static PetscBool IsOption(const char text[])
+{
+  return (text[0] == '-' && (text[1] == '-' || (text[1] >= 'a' && text[1] <= 'z') || (text[1] >= 'A' && text[1] <= 'Z'))) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Takes -help, --help, -h, --version, -version out of the arguments; PETSc would answer with its own, and go on. */
+static void TakeWords(int *argc, char **argv, PetscBool *help, PetscBool *version)
+{
+  int kept = 1;
+
+  for (int i = 1; i < *argc; i++) {
+    const PetscBool is_help    = (!strcmp(argv[i], "-help") || !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool is_version = (!strcmp(argv[i], "--version") || !strcmp(argv[i], "-version")) ? PETSC_TRUE : PETSC_FALSE;
+
+    if (is_help) *help = PETSC_TRUE;
+    if (is_version) *version = PETSC_TRUE;
+    if (!is_help && !is_version) argv[kept++] = argv[i];
+  }
+  *argc      = kept;
+  argv[kept] = NULL;
+}
+
+/* PETSc passes over what is not an option or the value of one. */
+static PetscErrorCode RefuseStrayWords(int argc, char **argv)
+{
+  PetscFunctionBegin;
+  for (int i = 1; i < argc; i++) {
+    PetscCheck(IsOption(argv[i]), PETSC_COMM_WORLD, SAM_ERR_USER, "%s: expected an option, that is a word that begins with a dash", argv[i]);
+    PetscCheck(argv[i][1] != '-', PETSC_COMM_WORLD, SAM_ERR_USER, "%s: options begin with one dash", argv[i]);
+    if (i + 1 < argc && !IsOption(argv[i + 1])) i++;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* After all is set up, an option that nobody has asked for is a misspelled one. */
+static PetscErrorCode RefuseUnknownOptions(void)
+{
+  /* those that PETSc itself reads only when it ends */
+  static const char *const late[] = {"-malloc_dump", "-malloc_view", "-malloc_test", "-malloc_debug", "-log_view", "-log_view_memory", "-options_left", "-options_view", "-objects_dump", "-memory_view", "-get_total_flops", "-petsc_finalize_time", NULL};
+  PetscInt                 count;
+  char                   **names, **values;
+  char                     first[128] = "";
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; late[k]; k++) {
+    PetscBool ignored;
+
+    PetscCall(PetscOptionsHasName(NULL, NULL, late[k], &ignored));
+  }
+  PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
+  if (count) PetscCall(PetscSNPrintf(first, sizeof(first), "-%s%s%s", names[0], values[0] ? " " : "", values[0] ? values[0] : ""));
+  PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
+  PetscCheck(!first[0], PETSC_COMM_WORLD, SAM_ERR_USER, "%s: unknown option, or one that has no meaning with the others given", first);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- loads ---- */
+
+/* One component: its load or its displacement. */
+static PetscErrorCode ReadComponent(SamBalance *balance, PetscInt k)
+{
+  static const char *const units[2][3] = {{"N", "N m", "N m"}, {"N", "N", "N m"}};
+  const char              *load = SamLoadNames[balance->kind][k], *rigid = SamRigidNames[balance->kind][k];
+  const PetscBool          is_n = (balance->kind == SAM_BALANCE_NORMAL && k == 0) ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool                has_load, has_rigid, help;
+  char                     text[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "load (%s); or its displacement:", units[balance->kind][k]));
+  PetscCall(SamOptionsReal(NULL, load, text, is_n ? SAM_RANGE_NONNEGATIVE : SAM_RANGE_ANY, &balance->load[k], &has_load));
+  PetscCall(SamOptionsReal(NULL, rigid, !strncmp(rigid, "rot", 3) ? "rotation (rad)" : "displacement (m)", SAM_RANGE_ANY, &balance->rigid[k], &has_rigid));
+  PetscCheck(!has_load || !has_rigid, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s and -%s are conjugate: give one of them", load, rigid);
+  PetscCall(SamPrintHelp(&help));
+  PetscCheck(!is_n || has_load || has_rigid || help, PETSC_COMM_WORLD, SAM_ERR_USER, "-load_n or -disp_z is missing: the normal force (N) or the approach (m)");
+  balance->force[k] = has_rigid ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadLoads(SamStep *step)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(step, sizeof(*step)));
+  step->normal.kind     = SAM_BALANCE_NORMAL;
+  step->tangential.kind = SAM_BALANCE_TANGENTIAL;
+  step->time            = 1;
+  PetscCall(SamOptionsHeading("Loads and displacements"));
+  for (PetscInt k = 0; k < 3; k++) PetscCall(ReadComponent(&step->normal, k));
+  for (PetscInt k = 0; k < 3; k++) PetscCall(ReadComponent(&step->tangential, k));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- memory ---- */
+
+/* Bytes a cell at the peak, counted from the vectors, kernels and slabs that are alive together, coarse grids included. */
+#define BYTES_PER_CELL           400
+#define BYTES_PER_CELL_NO_FRICTION 260
+
+/* Memory of this node that can be had, bytes; 0 when it cannot be told. */
+static double AvailableMemory(void)
+{
+  FILE  *file = fopen("/proc/meminfo", "r");
+  char   line[128];
+  double kilobytes = 0;
+
+  if (!file) return 0;
+  while (fgets(line, sizeof(line), file))
+    if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) break;
+  fclose(file);
+  return 1024 * kilobytes;
+}
+
+/* Refuses what this node cannot hold before the system kills the run for it. */
+static PetscErrorCode RefuseTooLarge(SamGrid grid, PetscReal friction)
+{
+  const double per_cell = friction > 0 ? BYTES_PER_CELL : BYTES_PER_CELL_NO_FRICTION;
+  double       need, worst;
+  MPI_Comm     node;
+  PetscBool    check = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsBool(NULL, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
+  PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
+  need = per_cell * (double)grid->cells;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
+  PetscCallMPI(MPI_Comm_free(&node));
+  worst = AvailableMemory();
+  worst = worst > 0 ? need / worst : 0;
+  PetscCall(SamMax(grid->comm, 1, &worst));
+  PetscCheck(!check || worst <= 1, grid->comm, SAM_ERR_USER, "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT ": needs about %.3g GB on a node, %.1f times what is available; use more nodes, or -memory_check false", grid->nx, grid->ny, 1e-9 * need, worst);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- results ---- */
+
+/* Every physical parameter as an attribute with its option's name. */
+static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamPair *pair, SamGap gap, PetscReal friction, const SamStep *step)
+{
+  const SamBalance  *balances[2] = {&step->normal, &step->tangential};
+  SamGapType         type;
+  PetscInt           count;
+  const char *const *names;
+  const PetscReal   *values;
+  char              *all;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetAll(NULL, &all));
+  PetscCall(SamOutputSetText(output, "options", all));
+  PetscCall(PetscFree(all));
+  PetscCall(SamOutputSetReal(output, "body1_young", pair->young[0]));
+  PetscCall(SamOutputSetReal(output, "body1_poisson", pair->poisson[0]));
+  PetscCall(SamOutputSetReal(output, "body2_young", pair->young[1]));
+  PetscCall(SamOutputSetReal(output, "body2_poisson", pair->poisson[1]));
+  PetscCall(SamOutputSetReal(output, "friction", friction));
+  PetscCall(SamOutputSetReal(output, "grid_n_x", (PetscReal)grid->nx));
+  PetscCall(SamOutputSetReal(output, "grid_n_y", (PetscReal)grid->ny));
+  PetscCall(SamOutputSetReal(output, "grid_size_x", grid->width[0]));
+  PetscCall(SamOutputSetReal(output, "grid_size_y", grid->width[1]));
+  PetscCall(SamOutputSetReal(output, "grid_center_x", grid->center[0]));
+  PetscCall(SamOutputSetReal(output, "grid_center_y", grid->center[1]));
+  PetscCall(SamGapGetParameters(gap, &type, &count, &names, &values));
+  PetscCall(SamOutputSetText(output, "gap_type", type));
+  for (PetscInt k = 0; k < count; k++) PetscCall(SamOutputSetReal(output, names[k], values[k]));
+  for (PetscInt b = 0; b < 2; b++)
+    for (PetscInt k = 0; k < 3; k++) {
+      if (balances[b]->force[k]) PetscCall(SamOutputSetReal(output, SamLoadNames[b][k], balances[b]->load[k]));
+      else PetscCall(SamOutputSetReal(output, SamRigidNames[b][k], balances[b]->rigid[k]));
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Time and memory of the run so far, the largest rank's. */
+static PetscErrorCode PrintResources(SamGrid grid, double start)
+{
+  struct rusage used;
+  double        numbers[3];
+
+  PetscFunctionBegin;
+  getrusage(RUSAGE_SELF, &used);
+  numbers[0] = MPI_Wtime() - start;
+  numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec + 1e-6 * (double)used.ru_stime.tv_usec;
+  numbers[2] = 1024e-6 * (double)used.ru_maxrss;
+  PetscCall(SamMax(grid->comm, 3, numbers));
+  PetscCall(PetscPrintf(grid->comm, "  %-10s  %.2f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used", numbers[0], numbers[1], numbers[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the run ---- */
+
+typedef struct {
+  SamGrid       grid;
+  SamPair       pair;
+  SamGap        gap;
+  SamCompliance compliance;
+  SamContact    contact;
+  SamOutput     output;
+  PetscReal     friction;
+  SamStep       step;
+  PetscBool     has_output, writing;
+  char          filename[PETSC_MAX_PATH_LEN];
+} Run;
+
+/* The results would replace a file that the run reads. */
+static PetscErrorCode RefuseOverwritingInput(const Run *run)
+{
+  static const char *const inputs[] = {"-gap_file", "-gap_rough_file", NULL};
+
+  PetscFunctionBegin;
+  if (!run->has_output) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; inputs[k]; k++) {
+    struct stat in, out;
+    char        name[PETSC_MAX_PATH_LEN];
+    PetscBool   set;
+
+    PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
+    PetscCheck(!set || stat(name, &in) || stat(run->filename, &out) || in.st_dev != out.st_dev || in.st_ino != out.st_ino, PETSC_COMM_WORLD, SAM_ERR_USER, "-output %s: is the file of %s, which it would replace", run->filename, inputs[k]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads every option and makes every object, but writes nothing. */
+static PetscErrorCode SetUp(Run *run)
+{
+  PetscBool help;
+  Vec       separation;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamGridCreateFromOptions(PETSC_COMM_WORLD, &run->grid));
+  PetscCall(SamPairSetFromOptions(&run->pair));
+  PetscCall(SamOptionsReal(NULL, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &run->friction, NULL));
+  PetscCall(SamGapCreate(PETSC_COMM_WORLD, &run->gap));
+  PetscCall(SamGapSetFromOptions(run->gap));
+  PetscCall(ReadLoads(&run->step));
+  PetscCall(SamOptionsHeading("Results and resources"));
+  PetscCall(SamOptionsString(NULL, "output", "HDF5 file of the results", run->filename, sizeof(run->filename), &run->has_output));
+  PetscCall(SamOutputCheckOptions(PETSC_COMM_WORLD));
+  PetscCall(RefuseOverwritingInput(run));
+  PetscCall(RefuseTooLarge(run->grid, run->friction));
+  PetscCall(SamComplianceCreate(run->grid, &run->pair, &run->compliance));
+  PetscCall(SamGridCreateVec(run->grid, 1, &separation));
+  if (!help) PetscCall(SamGapFill(run->gap, run->grid, separation));
+  PetscCall(SamContactCreate(run->compliance, separation, run->friction, &run->contact));
+  PetscCall(VecDestroy(&separation));
+  PetscCall(SamContactSetFromOptions(run->contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TearDown(Run *run)
+{
+  PetscFunctionBegin;
+  PetscCall(SamOutputDestroy(&run->output));
+  PetscCall(SamContactDestroy(&run->contact));
+  PetscCall(SamComplianceDestroy(&run->compliance));
+  PetscCall(SamGapDestroy(&run->gap));
+  PetscCall(SamGridDestroy(&run->grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintBanner(const Run *run)
+{
+  PetscMPIInt ranks;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(run->grid->comm, &ranks));
+  PetscCall(PetscPrintf(run->grid->comm, "petsam %s: %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m, %d rank%s\n", PETSAM_VERSION, run->grid->nx, run->grid->ny, (double)run->grid->dx, (double)run->grid->dy, ranks, ranks > 1 ? "s" : ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The load step, its results, and what is to be said of it. */
+static PetscErrorCode SolveStep(Run *run)
+{
+  SamFields fields;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactSolve(run->contact, &run->step));
+  PetscCall(SamContactGetFields(run->contact, &fields));
+  PetscCall(SamStepView(&run->step, PETSC_VIEWER_STDOUT_(run->grid->comm)));
+  /* where there is no equilibrium there are no fields */
+  run->writing = PETSC_TRUE;
+  if (run->output) PetscCall(SamOutputWriteStep(run->output, &run->step, run->step.status == SAM_STATUS_NO_EQUILIBRIUM ? NULL : &fields, run->friction));
+  run->writing = PETSC_FALSE;
+  if (run->step.message[0]) {
+    PetscMPIInt rank;
+
+    PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
+    fflush(PETSC_STDOUT);
+    if (rank == 0) fprintf(stderr, "petsam: %s%s\n", run->step.status ? "" : "warning: ", run->step.message);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help)
+{
+  const double start = MPI_Wtime();
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  if (help) {
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", usage));
+    PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
+    PetscCall(SetUp(run));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(RefuseStrayWords(argc, argv));
+  PetscCall(SetUp(run));
+  PetscCall(RefuseUnknownOptions());
+  PetscCall(PrintBanner(run));
+  if (run->has_output) {
+    PetscCall(SamOutputCreate(run->grid, run->filename, &run->output));
+    PetscCall(WriteParameters(run->output, run->grid, &run->pair, run->gap, run->friction, &run->step));
+  }
+  PetscCall(SolveStep(run));
+  PetscCall(PrintResources(run->grid, start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int main(int argc, char **argv)
+{
+  PetscBool      help = PETSC_FALSE, version = PETSC_FALSE;
+  PetscErrorCode code;
+  Run            run;
+  int            status;
+
+  TakeWords(&argc, argv, &help, &version);
+  memset(&run, 0, sizeof(run));
+  code = PetscInitialize(&argc, &argv, NULL, NULL);
+  if (code) return code;
+  PetscCall(PetscPushErrorHandler(HandleError, NULL));
+  if (version) {
+    char petsc[256];
+
+    PetscCall(PetscGetVersion(petsc, sizeof(petsc)));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "petsam %s\n%s\n", PETSAM_VERSION, petsc));
+    PetscCall(PetscFinalize());
+    return 0;
+  }
+  code   = RunProgram(&run, argc, argv, help);
+  status = code ? ExitCode(code) : (int)run.step.status;
+  /* other errors may be one rank's alone, and a file that could not be written cannot be closed: nobody must wait */
+  if (code && (status == (int)code || run.writing)) MPI_Abort(PETSC_COMM_WORLD, status);
+  PetscCall(TearDown(&run));
+  PetscCall(SamFinalize());
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscFinalize());
+  return status;
+}

@@ -1,0 +1,193 @@
+/* What the tangential methods share: slip increment, energy, residual, fit of the rigid motion. */
+#include "tangentialimpl.h"
+#include <math.h>
+
+/* The columns between which each row has contact: loops run over these only. */
+static PetscErrorCode FindRows(SamStickSlip *w)
+{
+  PetscInt *first, *last;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(w->rows, &first, w->rows, &last));
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const double *b = w->bound + j * w->nx;
+
+    first[j] = 0;
+    last[j]  = w->nx;
+    while (first[j] < w->nx && b[first[j]] <= 0) first[j]++;
+    while (last[j] > first[j] && b[last[j] - 1] <= 0) last[j]--;
+  }
+  w->first = first;
+  w->last  = last;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(w, sizeof(*w)));
+  w->solver = solver;
+  w->level  = level;
+  w->frame  = &level->frame;
+  w->nx     = level->grid->nx;
+  w->rows   = level->grid->rows;
+  w->cells  = level->grid->cells;
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] = level->has_motion ? level->rigid[c] : level->frame.fixed[c];
+  PetscCall(SamComplianceGetSelfInfluence(level->compliance, NULL, &w->self));
+  PetscCall(VecDuplicate(level->q, &w->vs));
+  PetscCall(VecGetArrayRead(level->bound, &w->bound));
+  if (level->offset) PetscCall(VecGetArrayRead(level->offset, &w->offset));
+  PetscCall(VecGetArray(level->q, &w->q));
+  PetscCall(VecGetArray(w->vs, &w->s));
+  PetscCall(FindRows(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipDestroy(SamStickSlip *w)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArrayRead(w->level->bound, &w->bound));
+  if (w->level->offset) PetscCall(VecRestoreArrayRead(w->level->offset, &w->offset));
+  PetscCall(VecRestoreArray(w->level->q, &w->q));
+  PetscCall(VecRestoreArray(w->vs, &w->s));
+  PetscCall(VecDestroy(&w->vs));
+  PetscCall(PetscFree2(w->first, w->last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
+{
+  const SamFrame *f = w->frame;
+
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArray(w->level->q, &w->q));
+  PetscCall(VecRestoreArray(w->vs, &w->s));
+  PetscCall(SamTangentialApply(w->solver, w->level, w->level->q, w->vs));
+  PetscCall(VecGetArray(w->level->q, &w->q));
+  PetscCall(VecGetArray(w->vs, &w->s));
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const double eta = f->eta0 + (double)j * f->deta;
+
+    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
+      const PetscInt k = j * w->nx + i, l = k + w->cells;
+
+      w->s[k] += (w->offset ? w->offset[k] : 0) - SamFrameX(w->motion, eta);
+      w->s[l] += (w->offset ? w->offset[l] : 0) - SamFrameY(w->motion, f->xi0 + (double)i * f->dxi);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy)
+{
+  const SamFrame *f = w->frame;
+  double          a[3];
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; c++) a[c] = w->motion[c] - 2 * f->fixed[c];
+  *energy = 0;
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const double eta = f->eta0 + (double)j * f->deta;
+
+    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
+      const PetscInt k = j * w->nx + i, l = k + w->cells;
+
+      *energy += 0.5 * w->q[k] * (w->s[k] + (w->offset ? w->offset[k] : 0) + SamFrameX(a, eta));
+      *energy += 0.5 * w->q[l] * (w->s[l] + (w->offset ? w->offset[l] : 0) + SamFrameY(a, f->xi0 + (double)i * f->dxi));
+    }
+  }
+  PetscCall(SamSum(w->level->grid->comm, 1, energy));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Fits the motion: least squares of s over the tangent space, the sets taken from s as it is, or all of it stick. */
+static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
+{
+  const SamFrame *f = w->frame;
+  double          sums[3 + SAM_GRAM] = {0}, a[3];
+  double         *gram = sums + 3;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const double eta = f->eta0 + (double)j * f->deta;
+
+    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
+      const PetscInt k = j * w->nx + i, l = k + w->cells;
+      const double   b = w->bound[k], xi = f->xi0 + (double)i * f->dxi;
+      double         yx, yy, n, tx, ty, hxx = 1, hxy = 0, hyy = 1;
+
+      if (b <= 0) continue;
+      tx = w->s[k];
+      ty = w->s[l];
+      yx = w->q[k] - tx / w->self;
+      yy = w->q[l] - ty / w->self;
+      n  = sqrt(yx * yx + yy * yy);
+      if (n > b && !stick) { /* the derivative of the projection on the disc */
+        hxx = b * yy * yy / (n * n * n);
+        hxy = -b * yx * yy / (n * n * n);
+        hyy = b * yx * yx / (n * n * n);
+        n   = tx;
+        tx  = hxx * n + hxy * ty;
+        ty  = hxy * n + hyy * ty;
+      }
+      sums[0] += tx;
+      sums[1] += ty;
+      sums[2] += xi * ty - eta * tx;
+      gram[0] += hxx;
+      gram[1] += hxy;
+      gram[2] += -eta * hxx + xi * hxy;
+      gram[3] += hyy;
+      gram[4] += -eta * hxy + xi * hyy;
+      gram[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
+    }
+  }
+  PetscCall(SamSum(w->level->grid->comm, 3 + SAM_GRAM, sums));
+  SamFrameSolve(f, gram, sums, a);
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const double eta = f->eta0 + (double)j * f->deta;
+
+    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
+      const PetscInt k = j * w->nx + i;
+
+      w->s[k] -= SamFrameX(a, eta);
+      w->s[k + w->cells] -= SamFrameY(a, f->xi0 + (double)i * f->dxi);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipStart(SamStickSlip *w)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStickSlipComputeSlip(w));
+  if (!w->level->has_motion && w->frame->count) PetscCall(FitMotion(w, PETSC_TRUE));
+  /* the fit and the sets depend on each other */
+  for (PetscInt sweep = 0; sweep < 4; sweep++) PetscCall(SamStickSlipMeasure(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
+{
+  double sums[2] = {0, 0};
+
+  PetscFunctionBegin;
+  if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
+  for (PetscInt j = 0; j < w->rows; j++) {
+    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
+      const PetscInt k = j * w->nx + i, l = k + w->cells;
+      const double   b = w->bound[k], yx = w->q[k] - w->s[k] / w->self, yy = w->q[l] - w->s[l] / w->self;
+      const double   n = sqrt(yx * yx + yy * yy), scale = n > b ? b / n : 1;
+      double         rx, ry;
+
+      if (b <= 0) continue;
+      rx = w->q[k] - scale * yx;
+      ry = w->q[l] - scale * yy;
+      sums[0] += rx * rx + ry * ry;
+      sums[1] += w->q[k] * w->q[k] + w->q[l] * w->q[l];
+    }
+  }
+  PetscCall(SamSum(w->level->grid->comm, 2, sums));
+  w->error = sums[0] > 0 ? sqrt(sums[0] / sums[1]) : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,70 @@
+/* The inside of SamTangential. */
+#ifndef PETSAM_TANGENTIALIMPL_H
+#define PETSAM_TANGENTIALIMPL_H
+
+#include "../balance/balanceimpl.h"
+#include "../base/solver.h"
+#include <petsam/tangential.h>
+
+/* One grid's problem, as a method meets it. */
+typedef struct {
+  SamCompliance compliance;
+  SamGrid       grid;
+  SamFrame      frame;
+  Vec           bound, offset, q;
+  PetscReal     rtol;
+  PetscBool     finest;
+  PetscBool     has_motion; /* whether rigid holds a start */
+  double        rigid[3];   /* start and result: combination of the phi, fixed part included */
+} SamTangentialLevel;
+
+struct _n_SamTangential {
+  SamSolver           solver;
+  PetscErrorCode (*solve)(SamTangential, SamTangentialLevel *); /* the method: solves one level, sets reason and error */
+  SamCompliance       compliance;
+  SamTangentialReason reason;
+  PetscReal           limit; /* of the loads, in their multiples, after gross slip */
+};
+
+/* Counted products: only those on the finest grid count. */
+PETSC_INTERN PetscErrorCode SamTangentialApply(SamTangential tangential, SamTangentialLevel *level, Vec q, Vec u);
+PETSC_INTERN PetscErrorCode SamTangentialPrecondition(SamTangential tangential, SamTangentialLevel *level, Vec r, Vec z);
+/* Counts an iteration, calls the monitors. */
+PETSC_INTERN PetscErrorCode SamTangentialIterated(SamTangential tangential, SamTangentialLevel *level, PetscReal error);
+
+/*
+  SamStickSlip - the state of an iteration that both methods share: the arrays of a level, the slip increment that belongs
+  to q, the energy, and which cells are in contact. Arrays of two components hold x at k and y at cells + k.
+*/
+typedef struct {
+  SamTangential       solver;
+  SamTangentialLevel *level;
+  const SamFrame     *frame;
+  PetscInt            nx, rows, cells;
+  const PetscInt     *first, *last; /* contact cells of row j lie in first[j] ... last[j] - 1 */
+  const double       *bound, *offset; /* offset: NULL for zero */
+  double             *q, *s;        /* shear; slip increment, with `motion` in it */
+  Vec                 vs;
+  double              motion[3];    /* rigid displacement in s, fixed part included */
+  double              self;         /* influence of a cell on itself, m/Pa */
+  double              error;        /* relative residual of the projection equation */
+} SamStickSlip;
+
+PETSC_INTERN PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w);
+PETSC_INTERN PetscErrorCode SamStickSlipDestroy(SamStickSlip *w);
+/* s = C q + offset - motion. */
+PETSC_INTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w);
+/* The same for the start, with a motion fitted to it and the error measured. */
+PETSC_INTERN PetscErrorCode SamStickSlipStart(SamStickSlip *w);
+/* Energy q.C q/2 + (offset - fixed).q from q and s. */
+PETSC_INTERN PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy);
+/*
+  The residual of the projection equation with the motion that makes it smallest: s and motion are changed by a fit on the
+  tangent space of the constraints (both directions where q - s/c lies within the disc, along the circle elsewhere).
+*/
+PETSC_INTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *w);
+
+PETSC_INTERN PetscErrorCode SamTangentialCreate_Newton(SamTangential tangential);
+PETSC_INTERN PetscErrorCode SamTangentialCreate_Gradient(SamTangential tangential);
+
+#endif
