@@ -13,6 +13,7 @@
 #include <petsam/normal.h>
 #include <petsam/tangential.h>
 #include <petsam/contact.h>
+#include <petsam/history.h>
 #include <petsam/output.h>
 #include <petsam/summary.h>
 

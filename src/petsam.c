@@ -1,5 +1,5 @@
 /*
-  The program: options in, objects made, the load step run, results out.
+  The program: options in, objects made, the load steps run, results out.
 
   Exit codes: 0 converged and checked; 2 bad usage; 3 a file; 10 not converged; 11 no equilibrium; 12 contact at the
   grid's edge; others are PETSc's. Nothing is written before all of the input has been read and found right.
@@ -101,41 +101,6 @@ static PetscErrorCode RefuseUnknownOptions(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- loads ---- */
-
-/* One component: its load or its displacement. */
-static PetscErrorCode ReadComponent(SamBalance *balance, PetscInt k)
-{
-  static const char *const units[2][3] = {{"N", "N m", "N m"}, {"N", "N", "N m"}};
-  const char              *load = SamLoadNames[balance->kind][k], *rigid = SamRigidNames[balance->kind][k];
-  const PetscBool          is_n = (balance->kind == SAM_BALANCE_NORMAL && k == 0) ? PETSC_TRUE : PETSC_FALSE;
-  PetscBool                has_load, has_rigid, help;
-  char                     text[64];
-
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(text, sizeof(text), "load (%s); or its displacement:", units[balance->kind][k]));
-  PetscCall(SamOptionsReal(NULL, load, text, is_n ? SAM_RANGE_NONNEGATIVE : SAM_RANGE_ANY, &balance->load[k], &has_load));
-  PetscCall(SamOptionsReal(NULL, rigid, !strncmp(rigid, "rot", 3) ? "rotation (rad)" : "displacement (m)", SAM_RANGE_ANY, &balance->rigid[k], &has_rigid));
-  PetscCheck(!has_load || !has_rigid, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s and -%s are conjugate: give one of them", load, rigid);
-  PetscCall(SamPrintHelp(&help));
-  PetscCheck(!is_n || has_load || has_rigid || help, PETSC_COMM_WORLD, SAM_ERR_USER, "-load_n or -disp_z is missing: the normal force (N) or the approach (m)");
-  balance->force[k] = has_rigid ? PETSC_FALSE : PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ReadLoads(SamStep *step)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscMemzero(step, sizeof(*step)));
-  step->normal.kind     = SAM_BALANCE_NORMAL;
-  step->tangential.kind = SAM_BALANCE_TANGENTIAL;
-  step->time            = 1;
-  PetscCall(SamOptionsHeading("Loads and displacements"));
-  for (PetscInt k = 0; k < 3; k++) PetscCall(ReadComponent(&step->normal, k));
-  for (PetscInt k = 0; k < 3; k++) PetscCall(ReadComponent(&step->tangential, k));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- memory ---- */
 
 /* Bytes a cell at the peak, counted from the vectors, kernels and slabs that are alive together, coarse grids included. */
@@ -180,9 +145,10 @@ static PetscErrorCode RefuseTooLarge(SamGrid grid, PetscReal friction)
 /* ---- results ---- */
 
 /* Every physical parameter as an attribute with its option's name. */
-static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamPair *pair, SamGap gap, PetscReal friction, const SamStep *step)
+static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamPair *pair, SamGap gap, PetscReal friction, SamHistory history)
 {
-  const SamBalance  *balances[2] = {&step->normal, &step->tangential};
+  const SamBalance  *balances[2];
+  SamStep            step;
   SamGapType         type;
   PetscInt           count;
   const char *const *names;
@@ -207,6 +173,11 @@ static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamP
   PetscCall(SamGapGetParameters(gap, &type, &count, &names, &values));
   PetscCall(SamOutputSetText(output, "gap_type", type));
   for (PetscInt k = 0; k < count; k++) PetscCall(SamOutputSetReal(output, names[k], values[k]));
+  /* of a history, the last step's: how it went there stands in /history */
+  PetscCall(SamHistoryGetCount(history, &count));
+  PetscCall(SamHistoryGetStep(history, count - 1, &step));
+  balances[0] = &step.normal;
+  balances[1] = &step.tangential;
   for (PetscInt b = 0; b < 2; b++)
     for (PetscInt k = 0; k < 3; k++) {
       if (balances[b]->force[k]) PetscCall(SamOutputSetReal(output, SamLoadNames[b][k], balances[b]->load[k]));
@@ -241,7 +212,9 @@ typedef struct {
   SamContact    contact;
   SamOutput     output;
   PetscReal     friction;
-  SamStep       step;
+  SamHistory    history;
+  SamStatus     status; /* the worst so far */
+  PetscInt      output_every;
   PetscBool     has_output, writing;
   char          filename[PETSC_MAX_PATH_LEN];
 } Run;
@@ -277,9 +250,11 @@ static PetscErrorCode SetUp(Run *run)
   PetscCall(SamOptionsReal(NULL, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &run->friction, NULL));
   PetscCall(SamGapCreate(PETSC_COMM_WORLD, &run->gap));
   PetscCall(SamGapSetFromOptions(run->gap));
-  PetscCall(ReadLoads(&run->step));
+  PetscCall(SamHistoryCreateFromOptions(PETSC_COMM_WORLD, &run->history));
   PetscCall(SamOptionsHeading("Results and resources"));
   PetscCall(SamOptionsString(NULL, "output", "HDF5 file of the results", run->filename, sizeof(run->filename), &run->has_output));
+  run->output_every = 1;
+  PetscCall(SamOptionsInt(NULL, "output_every", "write the fields of every m-th step, and of the last", 1, &run->output_every, NULL));
   PetscCall(SamOutputCheckOptions(PETSC_COMM_WORLD));
   PetscCall(RefuseOverwritingInput(run));
   PetscCall(RefuseTooLarge(run->grid, run->friction));
@@ -298,6 +273,7 @@ static PetscErrorCode TearDown(Run *run)
   PetscCall(SamOutputDestroy(&run->output));
   PetscCall(SamContactDestroy(&run->contact));
   PetscCall(SamComplianceDestroy(&run->compliance));
+  PetscCall(SamHistoryDestroy(&run->history));
   PetscCall(SamGapDestroy(&run->gap));
   PetscCall(SamGridDestroy(&run->grid));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -313,25 +289,53 @@ static PetscErrorCode PrintBanner(const Run *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The load step, its results, and what is to be said of it. */
-static PetscErrorCode SolveStep(Run *run)
+/* Results of a step. Where there is no equilibrium there are no fields. */
+static PetscErrorCode WriteStep(Run *run, const SamStep *step, PetscInt k, PetscInt count)
 {
-  SamFields fields;
+  const PetscBool due = ((k + 1) % run->output_every == 0 || k + 1 == count || step->status == SAM_STATUS_NOT_CONVERGED) ? PETSC_TRUE : PETSC_FALSE;
+  SamFields       fields;
 
   PetscFunctionBegin;
-  PetscCall(SamContactSolve(run->contact, &run->step));
+  if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetFields(run->contact, &fields));
-  PetscCall(SamStepView(&run->step, PETSC_VIEWER_STDOUT_(run->grid->comm)));
-  /* where there is no equilibrium there are no fields */
   run->writing = PETSC_TRUE;
-  if (run->output) PetscCall(SamOutputWriteStep(run->output, &run->step, run->step.status == SAM_STATUS_NO_EQUILIBRIUM ? NULL : &fields, run->friction));
+  PetscCall(SamOutputWriteStep(run->output, step, due && step->status != SAM_STATUS_NO_EQUILIBRIUM ? &fields : NULL, run->friction));
   run->writing = PETSC_FALSE;
-  if (run->step.message[0]) {
-    PetscMPIInt rank;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
-    fflush(PETSC_STDOUT);
-    if (rank == 0) fprintf(stderr, "petsam: %s%s\n", run->step.status ? "" : "warning: ", run->step.message);
+/* A step's message goes to stderr, from the first rank. */
+static void PrintMessage(const Run *run, const SamStep *step, PetscInt k, PetscInt count)
+{
+  PetscMPIInt rank;
+  char        where[32] = "";
+
+  MPI_Comm_rank(run->grid->comm, &rank);
+  if (rank || !step->message[0]) return;
+  if (count > 1) snprintf(where, sizeof(where), "step %d: ", (int)k + 1);
+  fflush(PETSC_STDOUT);
+  fprintf(stderr, "petsam: %s%s%s\n", step->status ? "" : "warning: ", where, step->message);
+}
+
+/* All load steps, their results, and what is to be said of them. Ends early where a step has no solution. */
+static PetscErrorCode SolveSteps(Run *run)
+{
+  PetscInt count;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetCount(run->history, &count));
+  if (count > 1) PetscCall(SamStepViewHeading(PETSC_VIEWER_STDOUT_(run->grid->comm)));
+  for (PetscInt k = 0; k < count; k++) {
+    SamStep step;
+
+    PetscCall(SamHistoryGetStep(run->history, k, &step));
+    PetscCall(SamContactSolve(run->contact, &step));
+    if (count > 1) PetscCall(SamStepViewLine(&step, k + 1, PETSC_VIEWER_STDOUT_(run->grid->comm)));
+    else PetscCall(SamStepView(&step, PETSC_VIEWER_STDOUT_(run->grid->comm)));
+    PetscCall(WriteStep(run, &step, k, count));
+    PrintMessage(run, &step, k, count);
+    if (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM || !run->status) run->status = step.status;
+    if (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) break;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -346,6 +350,7 @@ static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", usage));
     PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
     PetscCall(SetUp(run));
+    PetscCall(PetscOptionsClearValue(NULL, "-help")); /* or PETSc adds its own at the end */
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(RefuseStrayWords(argc, argv));
@@ -354,9 +359,9 @@ static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help
   PetscCall(PrintBanner(run));
   if (run->has_output) {
     PetscCall(SamOutputCreate(run->grid, run->filename, &run->output));
-    PetscCall(WriteParameters(run->output, run->grid, &run->pair, run->gap, run->friction, &run->step));
+    PetscCall(WriteParameters(run->output, run->grid, &run->pair, run->gap, run->friction, run->history));
   }
-  PetscCall(SolveStep(run));
+  PetscCall(SolveSteps(run));
   PetscCall(PrintResources(run->grid, start));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -370,7 +375,8 @@ int main(int argc, char **argv)
 
   TakeWords(&argc, argv, &help, &version);
   memset(&run, 0, sizeof(run));
-  code = PetscInitialize(&argc, &argv, NULL, NULL);
+  code = SamHistoryClaimOption();
+  if (!code) code = PetscInitialize(&argc, &argv, NULL, NULL);
   if (code) return code;
   PetscCall(PetscPushErrorHandler(HandleError, NULL));
   if (version) {
@@ -382,7 +388,7 @@ int main(int argc, char **argv)
     return 0;
   }
   code   = RunProgram(&run, argc, argv, help);
-  status = code ? ExitCode(code) : (int)run.step.status;
+  status = code ? ExitCode(code) : (int)run.status;
   /* other errors may be one rank's alone, and a file that could not be written cannot be closed: nobody must wait */
   if (code && (status == (int)code || run.writing)) MPI_Abort(PETSC_COMM_WORLD, status);
   PetscCall(TearDown(&run));

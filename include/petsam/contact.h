@@ -29,8 +29,9 @@ static inline SamState SamStateOf(PetscReal p, PetscReal qx, PetscReal qy, Petsc
   What the check of a solution finds, from tractions and rigid displacements alone: elastic displacements are computed
   anew and no solver is trusted. All relative; zero for the exact solution of the discrete problem.
     normal       largest of |g| where p > 0, -g where p = 0, and -p u/p_max anywhere, over the largest displacement u
-    tangential   |q - D(q - ds/c)| / |q| in the 2-norm, D the projection of each cell's shear on its disc |q| <= mu p, ds the
-                 slip of the step, c a cell's self-influence: it holds stick, slip direction and cone in one
+    tangential   |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm: D projects each cell's shear
+                 on its disc |q| <= mu p, ds is the slip of the step, c a cell's self-influence. It holds stick, slip
+                 direction and cone in one
     equilibrium  largest error of a force-controlled load over the sum of |traction| dA, moments also over the grid's
                  half width
     cone         largest |q| - mu p over the largest mu p

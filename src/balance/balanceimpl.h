@@ -63,6 +63,12 @@ PETSC_INTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRA
 PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const char mask[], double p[], PetscBool *found);
 
 /*
+  SamFrameProjectNormalOnContact - the same on the cells that have pressure, if those can carry the loads, else on all.
+  (The nearest pressure on all cells would spread a little over the whole grid.)
+*/
+PETSC_INTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame, double p[], PetscBool *found);
+
+/*
   SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear on the disc of radius bound, with
   the a for which the force-controlled loads are exact. `found` as above. Collective.
 */

@@ -19,16 +19,18 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
   PetscCall(SamFrameSet(&f, grid, &none));
   PetscCall(VecGetArrayRead(traction, &t));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const double eta = f.eta0 + (double)j * f.deta;
+    const double eta    = f.eta0 + (double)j * f.deta;
+    double       row[3] = {0, 0, 0}; /* row by row, for less rounding */
 
     for (PetscInt i = 0; i < grid->nx; i++) {
       const double xi = f.xi0 + (double)i * f.dxi;
       const double x = t[j * grid->nx + i], y = kind == SAM_BALANCE_NORMAL ? 0 : t[grid->cells + j * grid->nx + i];
 
-      sums[0] += x;
-      sums[1] += kind == SAM_BALANCE_NORMAL ? -eta * x : y;
-      sums[2] += kind == SAM_BALANCE_NORMAL ? xi * x : xi * y - eta * x;
+      row[0] += x;
+      row[1] += kind == SAM_BALANCE_NORMAL ? -eta * x : y;
+      row[2] += kind == SAM_BALANCE_NORMAL ? xi * x : xi * y - eta * x;
     }
+    for (PetscInt c = 0; c < 3; c++) sums[c] += row[c];
   }
   PetscCall(VecRestoreArrayRead(traction, &t));
   PetscCall(SamSum(grid->comm, 3, sums));
@@ -195,6 +197,7 @@ PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec
   if (motion) {
     SamBalance sliding = *balance;
 
+    for (PetscInt i = 0; i < 3; i++) a[i] /= grid->dx * grid->dy; /* the frame's loads are per cell's area */
     SamFrameGetRigid(&f, a, &sliding);
     for (PetscInt k = 0; k < 3; k++) motion[k] = balance->force[k] ? sliding.rigid[k] : 0;
   }

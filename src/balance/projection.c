@@ -52,6 +52,18 @@ static double Imbalance(const SamFrame *f, const Dual *dual, double error[3])
   return load > 0 ? size / load : 0;
 }
 
+/*
+  The passes sum row by row: one running sum over all cells of nearly equal terms would be wrong by up to the number of
+  cells in units of rounding, which on large grids exceeds what equilibrium is asked for.
+*/
+static void AddDual(Dual *total, const Dual *row)
+{
+  double       *t = (double *)total;
+  const double *r = (const double *)row;
+
+  for (size_t k = 0; k < sizeof(Dual) / sizeof(double); k++) t[k] += r[k];
+}
+
 /* Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer improve it. */
 static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void *context, double a[3], PetscBool *found)
 {
@@ -79,7 +91,7 @@ static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void 
       PetscCall(Evaluate(f, pass, context, trial, &next));
       trial_size = Imbalance(f, &next, error);
       /* near the minimum rounding hides the fall of the value, but not that of the gradient */
-      if (next.value <= now.value - 1e-4 * t * slope || trial_size < 0.5 * size || h == HALVINGS_MAX) {
+      if (next.value <= now.value - 1e-4 * t * slope || trial_size < 0.5 * size || t * slope <= 1e-13 * fabs(now.value) || h == HALVINGS_MAX) {
         size = trial_size;
         break;
       }
@@ -125,6 +137,7 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
+    Dual         row = {0};
 
     for (PetscInt i = 0; i < nx; i++) {
       const double xi = f->xi0 + (double)i * f->dxi;
@@ -132,8 +145,9 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
 
       if (c->mask && !c->mask[j * nx + i]) continue;
       x = c->field[j * nx + i] + SamFrameNormal(a, xi, eta);
-      if (x > 0) AddNormal(dual, x, xi, eta);
+      if (x > 0) AddNormal(&row, x, xi, eta);
     }
+    AddDual(dual, &row);
   }
 }
 
@@ -159,6 +173,20 @@ PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const char mask[], doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], PetscBool *found)
+{
+  const PetscInt cells = f->grid->cells;
+  char          *mask;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(cells, &mask));
+  for (PetscInt k = 0; k < cells; k++) mask[k] = p[k] > 0;
+  PetscCall(SamFrameProjectNormal(f, mask, p, found));
+  PetscCall(PetscFree(mask));
+  if (!*found) PetscCall(SamFrameProjectNormal(f, NULL, p, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Adds a symmetric 2 x 2 matrix hxx, hxy, hyy of one cell to the Gram matrix of the tangential phi. */
 static void AddTangentialGram(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi, double eta)
 {
@@ -177,6 +205,7 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
+    Dual         row = {0};
 
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k  = j * nx + i;
@@ -188,7 +217,7 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
       vy = c->field[f->grid->cells + k] + SamFrameY(a, xi);
       n  = sqrt(vx * vx + vy * vy);
       s  = n > b ? b / n : 1;
-      dual->value += n > b ? b * n - 0.5 * b * b : 0.5 * n * n;
+      row.value += n > b ? b * n - 0.5 * b * b : 0.5 * n * n;
       if (n > b) {
         hxx = s * vy * vy / (n * n);
         hxy = -s * vx * vy / (n * n);
@@ -196,12 +225,13 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
       }
       vx *= s;
       vy *= s;
-      dual->scale += s * n;
-      dual->sums[0] += vx;
-      dual->sums[1] += vy;
-      dual->sums[2] += xi * vy - eta * vx;
-      AddTangentialGram(dual->gram, hxx, hxy, hyy, xi, eta);
+      row.scale += s * n;
+      row.sums[0] += vx;
+      row.sums[1] += vy;
+      row.sums[2] += xi * vy - eta * vx;
+      AddTangentialGram(row.gram, hxx, hxy, hyy, xi, eta);
     }
+    AddDual(dual, &row);
   }
 }
 

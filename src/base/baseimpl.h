@@ -6,6 +6,7 @@
 #include <petscviewer.h>
 #include <petscmat.h>
 #include <petscpc.h>
+#include <math.h>
 
 /* ---- differences between PETSc's versions, 3.18 on ---- */
 #if PETSC_VERSION_LT(3, 19, 0)
@@ -50,6 +51,13 @@ PETSC_INTERN PetscClassId  SAM_CLASSID;
 /* ---- reductions over the ranks of small arrays of doubles, in place. Collective. ---- */
 PETSC_INTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_INTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
+
+/* The larger of the two; infinite when the second is not a number, which a plain comparison would pass over. */
+static inline double SamLarger(double most, double value)
+{
+  if (value <= most) return most;
+  return isnan(value) ? INFINITY : value;
+}
 
 /* SamPrintHelp - PETSC_TRUE while options are only listed for the user. */
 PETSC_INTERN PetscErrorCode SamPrintHelp(PetscBool *print);

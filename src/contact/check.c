@@ -77,10 +77,7 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt k = j * grid->nx + i;
 
-      /* comparisons that a NaN fails, so that it does not pass unseen */
-      const double error = p[k] > 0 ? fabs(g[k]) : -g[k];
-
-      if (!(error <= max[GAP])) max[GAP] = isnan(error) ? INFINITY : error;
+      max[GAP]          = SamLarger(max[GAP], p[k] > 0 ? fabs(g[k]) : -g[k]);
       max[TENSION]      = PetscMax(max[TENSION], -p[k]);
       max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], fabs(u[k]));
       max[PRESSURE]     = PetscMax(max[PRESSURE], p[k]);
@@ -100,7 +97,7 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
 
 static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscReal self, const SamFields *f, Vec slip_before, SamCheck *check)
 {
-  double        sums[2] = {0, 0}, max[2] = {0, 0};
+  double        sums[3] = {0, 0, 0}, max[2] = {0, 0};
   const double *p, *q, *s, *before = NULL;
 
   PetscFunctionBegin;
@@ -117,16 +114,17 @@ static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscRea
 
     sums[0] += rx * rx + ry * ry;
     sums[1] += q[k] * q[k] + q[l] * q[l];
-    max[0] = PetscMax(max[0], sqrt(q[k] * q[k] + q[l] * q[l]) - b);
+    sums[2] += scale * scale * y * y;
+    max[0] = SamLarger(max[0], sqrt(q[k] * q[k] + q[l] * q[l]) - b);
     max[1] = PetscMax(max[1], b);
   }
   if (slip_before) PetscCall(VecRestoreArrayRead(slip_before, &before));
   PetscCall(VecRestoreArrayRead(f->slip, &s));
   PetscCall(VecRestoreArrayRead(f->shear, &q));
   PetscCall(VecRestoreArrayRead(f->pressure, &p));
-  PetscCall(SamSum(grid->comm, 2, sums));
+  PetscCall(SamSum(grid->comm, 3, sums));
   PetscCall(SamMax(grid->comm, 2, max));
-  check->tangential = sums[0] == 0 ? 0 : (sums[1] > 0 ? sqrt(sums[0] / sums[1]) : INFINITY);
+  check->tangential = sums[0] == 0 ? 0 : sqrt(sums[0] / PetscMax(sums[1], sums[2]));
   check->cone       = max[0] == 0 ? 0 : (max[1] > 0 ? max[0] / max[1] : INFINITY);
   if (isnan(check->tangential)) check->tangential = INFINITY;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -149,7 +147,7 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
 
     if (!given->force[c]) continue;
     error              = PetscAbsReal(loads[c] - given->load[c]);
-    check->equilibrium = PetscMax(check->equilibrium, error == 0 ? 0 : error / scale);
+    check->equilibrium = SamLarger(check->equilibrium, error == 0 ? 0 : error / scale);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

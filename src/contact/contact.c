@@ -15,12 +15,17 @@
 #define CHECK_EQUILIBRIUM 1e-10
 #define CHECK_CONE        1e-12
 
+/* A step is predicted when its change is across the last one's by at most this part, and at most so many times as far. */
+#define PREDICT_ACROSS   0.3
+#define PREDICT_FARTHEST 3.0
+
 static const char *const coupling_words[] = {"none", "full", NULL};
 
 struct _n_SamContact {
   /* what the user set */
   PetscReal friction, coupling_rtol;
   PetscInt  coupling, coupling_max_it;
+  PetscBool warm;
   PetscBool coupling_monitor, allow_edge, print_check;
   /* what it owns */
   SamCompliance compliance;
@@ -33,7 +38,11 @@ struct _n_SamContact {
   Vec           last[2];     /* p and q of the pass before; NULL when not coupled */
   SamFields     fields;
   /* status */
-  PetscBool coupled;
+  PetscBool  coupled;
+  PetscInt   steps;                      /* solved so far */
+  SamBalance normal_given, normal_found; /* of the last normal solve */
+  double     values[2][6];               /* what was controlled in the last step and in the one before */
+  Vec        previous[2];                /* p and q of the step before the last; NULL until there are two */
 };
 
 PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscReal friction, SamContact *contact)
@@ -46,6 +55,7 @@ PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscR
   c->compliance      = compliance;
   c->friction        = friction;
   c->coupling        = 1;
+  c->warm            = PETSC_TRUE;
   c->coupling_rtol   = 1e-6;
   c->coupling_max_it = 100;
   PetscCall(SamComplianceGetGrid(compliance, &c->grid));
@@ -97,6 +107,8 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(VecDestroy(&c->h));
   PetscCall(VecDestroy(&c->last[0]));
   PetscCall(VecDestroy(&c->last[1]));
+  PetscCall(VecDestroy(&c->previous[0]));
+  PetscCall(VecDestroy(&c->previous[1]));
   PetscCall(VecDestroy(&c->fields.pressure));
   PetscCall(VecDestroy(&c->fields.shear));
   PetscCall(DestroyDerived(c));
@@ -113,6 +125,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsReal(NULL, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE, &c->coupling_rtol, NULL));
   PetscCall(SamOptionsInt(NULL, "coupling_max_it", "most passes", 1, &c->coupling_max_it, NULL));
   PetscCall(SamOptionsBool(NULL, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
+  PetscCall(SamOptionsBool(NULL, "warm_start", "start each step from the one before, on the finest grid only", &c->warm, NULL));
   PetscCall(SamOptionsBool(NULL, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
   PetscCall(SamOptionsBool(NULL, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamNormalSetFromOptions(c->normal));
@@ -171,6 +184,74 @@ static PetscErrorCode Fail(SamStep *step, SamStatus status, const char message[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether two balances prescribe the same. */
+static PetscBool SameControl(const SamBalance *a, const SamBalance *b)
+{
+  for (PetscInt k = 0; k < 3; k++) {
+    if (a->force[k] != b->force[k]) return PETSC_FALSE;
+    if ((a->force[k] ? a->load[k] : a->rigid[k]) != (b->force[k] ? b->load[k] : b->rigid[k])) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/*
+  How far the change to the next step goes on along the one before: the factor alpha, when what is controlled changes
+  in nearly the same proportions (component by component, in units of the largest value so far), else 0.
+*/
+static double Continuation(SamContact c, const double next[6])
+{
+  double along = 0, old = 0, change = 0, alpha;
+
+  for (PetscInt k = 0; k < 6; k++) {
+    const double scale = PetscMax(fabs(next[k]), PetscMax(fabs(c->values[0][k]), fabs(c->values[1][k])));
+    const double a = scale > 0 ? (c->values[0][k] - c->values[1][k]) / scale : 0, b = scale > 0 ? (next[k] - c->values[0][k]) / scale : 0;
+
+    along += a * b;
+    old += a * a;
+    change += b * b;
+  }
+  if (old == 0 || along <= 0) return 0;
+  alpha = along / old;
+  /* what is left of the change across the old one, relative */
+  return (change - alpha * along <= PREDICT_ACROSS * PREDICT_ACROSS * change && alpha <= PREDICT_FARTHEST) ? alpha : 0;
+}
+
+/*
+  A start for the step: where the loads go on as before, the tractions are extrapolated, and the finest grid alone
+  finishes the work in a few iterations. Where they turn, nested grids find the new slip zones faster.
+*/
+static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamBalance *tangential, PetscBool *predicted)
+{
+  Vec   *tractions[2] = {&c->fields.pressure, &c->fields.shear};
+  double next[6], alpha = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3; k++) {
+    next[k]     = normal->force[k] ? normal->load[k] : normal->rigid[k];
+    next[k + 3] = tangential->force[k] ? tangential->load[k] : tangential->rigid[k];
+  }
+  if (c->steps > 1 && c->warm) alpha = Continuation(c, next);
+  *predicted = alpha > 0 ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt t = 0; t < 2 && c->steps; t++) {
+    Vec v;
+
+    if (!c->previous[t]) PetscCall(VecDuplicate(*tractions[t], &c->previous[t]));
+    if (!*predicted) {
+      PetscCall(VecCopy(*tractions[t], c->previous[t]));
+      continue;
+    }
+    v = c->previous[t];
+    PetscCall(VecAXPBY(v, 1 + alpha, -alpha, *tractions[t]));
+    c->previous[t] = *tractions[t];
+    *tractions[t]  = v;
+  }
+  for (PetscInt k = 0; k < 6; k++) {
+    c->values[1][k] = c->values[0][k];
+    c->values[0][k] = next[k];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
 {
   SamNormalReason reason;
@@ -185,7 +266,14 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
     h = c->h;
   }
   step->normal = *given;
+  if (!c->coupled && c->steps && SameControl(given, &c->normal_given)) { /* nothing has changed for the pressure */
+    step->normal = c->normal_found;
+    if (guess) PetscCall(VecCopy(c->previous[0], c->fields.pressure));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(SamNormalSolve(c->normal, h, &step->normal, guess, c->fields.pressure));
+  c->normal_given = *given;
+  c->normal_found = step->normal;
   PetscCall(Count(c, PETSC_FALSE, step));
   PetscCall(SamNormalGetReason(c->normal, &reason));
   if (reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) {
@@ -212,7 +300,7 @@ static PetscErrorCode DescribeSliding(SamContact c, const SamBalance *given, cha
     char text[96];
 
     if (!given->force[k] || given->load[k] == 0) continue;
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %g %s (limit %.8g)", loaded++ ? ", " : "", SamLoadNames[SAM_BALANCE_TANGENTIAL][k], (double)given->load[k], k == 2 ? "N m" : "N", (double)(factor * given->load[k])));
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "", SamLoadNames[SAM_BALANCE_TANGENTIAL][k], (double)given->load[k], k == 2 ? "N m" : "N", (double)(factor * given->load[k])));
     PetscCall(PetscStrlcat(message, text, size));
   }
   PetscCall(PetscStrlcat(message, c->friction == 0 ? " cannot be balanced without friction" : " cannot be balanced by |q| <= mu p", size));
@@ -272,13 +360,13 @@ static PetscErrorCode Change(Vec now, Vec last, PetscReal *change)
 }
 
 /* Both problems, in turn when they are coupled. */
-static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential, SamStep *step)
+static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential, PetscBool predicted, SamStep *step)
 {
   PetscReal change[2] = {PETSC_INFINITY, PETSC_INFINITY};
 
   PetscFunctionBegin;
   for (PetscInt pass = 1;; pass++) {
-    const PetscBool guess = pass > 1 ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool guess = (pass > 1 || predicted) ? PETSC_TRUE : PETSC_FALSE;
 
     PetscCall(SolveNormal(c, normal, guess, step));
     if (step->status == SAM_STATUS_CONVERGED) PetscCall(SolveTangential(c, tangential, guess, step));
@@ -358,6 +446,7 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
 {
   const SamBalance normal = step->normal, tangential = step->tangential;
   const PetscReal  time = step->time;
+  PetscBool        predicted;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(step, sizeof(*step)));
@@ -378,11 +467,13 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
     c->fields.slip = NULL;
   }
   PetscCall(DestroyDerived(c));
-  PetscCall(SolvePasses(c, &normal, &tangential, step));
+  PetscCall(Predict(c, &normal, &tangential, &predicted));
+  PetscCall(SolvePasses(c, &normal, &tangential, predicted, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) PetscFunctionReturn(PETSC_SUCCESS); /* there is no solution to check */
   PetscCall(CreateDerived(c));
   PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
   PetscCall(ComputeScalars(c, step));
   PetscCall(Judge(c, step));
+  c->steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

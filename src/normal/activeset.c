@@ -193,7 +193,7 @@ static PetscErrorCode MeasureError(Work *w)
 {
   PetscFunctionBegin;
   w->error = 0;
-  for (PetscInt k = 0; k < w->cells; k++) w->error = PetscMax(w->error, w->active[k] ? fabs(w->g[k]) : -w->g[k]);
+  for (PetscInt k = 0; k < w->cells; k++) w->error = SamLarger(w->error, w->active[k] ? fabs(w->g[k]) : -w->g[k]);
   PetscCall(SamMax(w->level->grid->comm, 1, &w->error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -201,23 +201,15 @@ PetscErrorCode SamNormalGetStatistics(SamNormal n, PetscReal *error, PetscInt *i
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Makes the start of a level admissible: p >= 0 and in equilibrium, on the cells that have pressure if those can carry the
-  loads. (The nearest pressure on all cells would spread a little over the whole grid.)
-*/
+/* Makes the start of a level admissible: p >= 0 and in equilibrium. */
 static PetscErrorCode MakeAdmissible(SamNormalLevel *level, PetscBool *found)
 {
-  char   *mask;
   double *p;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(level->grid->cells, &mask));
   PetscCall(VecGetArray(level->p, &p));
-  for (PetscInt k = 0; k < level->grid->cells; k++) mask[k] = p[k] > 0;
-  PetscCall(SamFrameProjectNormal(&level->frame, mask, p, found));
-  if (!*found) PetscCall(SamFrameProjectNormal(&level->frame, NULL, p, found));
+  PetscCall(SamFrameProjectNormalOnContact(&level->frame, p, found));
   PetscCall(VecRestoreArray(level->p, &p));
-  PetscCall(PetscFree(mask));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

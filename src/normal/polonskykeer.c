@@ -65,7 +65,7 @@ static PetscErrorCode ComputeGap(Work *w)
       const PetscInt k = j * nx + i;
 
       g[k] -= SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta);
-      max[1] = PetscMax(max[1], p[k] > 0 ? fabs(g[k]) : -g[k]);
+      max[1] = SamLarger(max[1], p[k] > 0 ? fabs(g[k]) : -g[k]);
       if (p[k] > 0) w->norm += g[k] * g[k];
     }
   }
@@ -138,7 +138,7 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   }
   PetscCall(SamSum(w->level->grid->comm, 1, &entered));
   *conjugate = entered > 0 ? PETSC_FALSE : PETSC_TRUE;
-  PetscCall(SamFrameProjectNormal(f, NULL, p, found));
+  PetscCall(SamFrameProjectNormalOnContact(f, p, found));
   PetscCall(VecRestoreArray(w->s, &s));
   PetscCall(VecRestoreArray(w->d, &d));
   PetscCall(VecRestoreArray(w->g, &g));

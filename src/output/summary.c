@@ -28,3 +28,18 @@ PetscErrorCode SamStepView(const SamStep *s, PetscViewer viewer)
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamStepViewHeading(PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %11s %11s %11s %11s %11s %11s %10s %10s %5s %5s %8s %8s\n", "step", "time", "load_n", "load_tx", "load_ty", "load_mz", "disp_x", "contact/m2", "stick/m2", "its n", "its t", "check n", "check t"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStepViewLine(const SamStep *s, PetscInt number, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %11.4g %11.4g %11.4g %11.4g %11.4g %11.4g %10.4g %10.4g %5" PetscInt_FMT " %5" PetscInt_FMT " %8.1e %8.1e\n", number, (double)s->time, (double)s->normal.load[0], (double)s->tangential.load[0], (double)s->tangential.load[1],
+                                   (double)s->tangential.load[2], (double)s->tangential.rigid[0], (double)s->contact_area, (double)s->stick_area, s->normal_iterations, s->tangential_iterations, (double)s->check.normal, (double)s->check.tangential));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

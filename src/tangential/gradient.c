@@ -33,7 +33,7 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], dou
       }
     }
     PetscCall(SamSum(w->level->grid->comm, 2, sums));
-    if (sums[0] <= L[0] * sums[1] * (1 + 1e-12)) break;
+    if (sums[0] <= L[0] * sums[1] * (1 + 1e-12) || !isfinite(sums[0] + sums[1])) break;
     L[0] = PetscMax(2 * L[0], sums[0] / sums[1]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -59,7 +59,7 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamTangential solver, SamTange
 
     PetscCall(GradientStep(&w, L, y, sy, &found));
     if (!found) {
-      reason = SAM_TANGENTIAL_DIVERGED_GROSS_SLIP;
+      reason = SAM_TANGENTIAL_DIVERGED_STAGNATED; /* the loads can be carried, that was found out before */
       break;
     }
     PetscCall(SamStickSlipEnergy(&w, &energy));

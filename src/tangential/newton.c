@@ -422,7 +422,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamTangential solver, SamTangent
     PushOutward(&w);
     PetscCall(SamFrameProjectTangential(u->frame, u->bound, u->q, &found));
     if (!found) {
-      reason = SAM_TANGENTIAL_DIVERGED_GROSS_SLIP;
+      reason = SAM_TANGENTIAL_DIVERGED_STAGNATED; /* the loads can be carried, that was found out before */
       break;
     }
     PetscCall(SamStickSlipComputeSlip(u));

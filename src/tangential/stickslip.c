@@ -169,7 +169,7 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
 
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
-  double sums[2] = {0, 0};
+  double sums[3] = {0, 0, 0};
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
@@ -185,9 +185,10 @@ PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
       ry = w->q[l] - scale * yy;
       sums[0] += rx * rx + ry * ry;
       sums[1] += w->q[k] * w->q[k] + w->q[l] * w->q[l];
+      sums[2] += scale * scale * (yx * yx + yy * yy);
     }
   }
-  PetscCall(SamSum(w->level->grid->comm, 2, sums));
-  w->error = sums[0] > 0 ? sqrt(sums[0] / sums[1]) : 0;
+  PetscCall(SamSum(w->level->grid->comm, 3, sums));
+  w->error = sums[0] != 0 ? sqrt(sums[0] / PetscMax(sums[1], sums[2])) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -314,7 +314,7 @@ static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, Pet
   PetscCall(SamFrameProjectTangential(&level->frame, bound, q, &found));
   PetscCall(VecRestoreArray(level->q, &q));
   PetscCall(VecRestoreArrayRead(level->bound, &bound));
-  t->reason = SAM_TANGENTIAL_DIVERGED_GROSS_SLIP;
+  t->reason = SAM_TANGENTIAL_DIVERGED_STAGNATED;
   if (found) PetscCall(t->solve(t, level));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -393,12 +393,11 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
     PetscCall(CheckLimit(t, level, balance));
   } else {
     PetscCall(VecSet(level->q, 0));
-    t->reason = SAM_TANGENTIAL_DIVERGED_GROSS_SLIP;
-  }
-  if (t->reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) {
     PetscCall(SamBalanceSlideLimit(level->grid, balance, level->bound, &t->limit, NULL));
-    PetscFunctionReturn(PETSC_SUCCESS);
+    /* the limit says so independently, or the projection failed for another reason */
+    t->reason = t->limit <= 1 + 1e-7 ? SAM_TANGENTIAL_DIVERGED_GROSS_SLIP : SAM_TANGENTIAL_DIVERGED_STAGNATED;
   }
+  if (!possible || t->reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < 3; k++) level->rigid[k] -= level->frame.fixed[k];
   SamFrameGetRigid(&level->frame, level->rigid, balance);
   PetscCall(SamBalanceGetLoads(level->grid, SAM_BALANCE_TANGENTIAL, level->q, balance->load));

@@ -1,0 +1,68 @@
+"""Fixtures that run the built program: build/bin/petsam, or that of the directory in PETSAM_BUILD."""
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import support
+
+TIMEOUT = 120  # seconds for one run
+PROGRAM = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve() / "bin" / "petsam"
+
+
+def environment():
+    """Open MPI refuses to run as root, as a container does, unless told twice; PETSC_OPTIONS would add options."""
+    env = {name: value for name, value in os.environ.items() if name != "PETSC_OPTIONS"}
+    env["OMP_NUM_THREADS"] = "1"
+    env["OMPI_MCA_ess_singleton_isolated"] = "1"  # one rank without a launcher starts none in the background: 0.3 s less a run
+    if os.geteuid() == 0:
+        env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return env
+
+
+@pytest.fixture(scope="session")
+def launcher():
+    """The launcher's words but the number of ranks."""
+    words = os.environ.get("MPIRUN", "mpirun").split()
+    version = subprocess.run(words + ["--version"], capture_output=True, text=True, env=environment(), timeout=60).stdout
+    return words + (["--oversubscribe", "--timeout", str(TIMEOUT)] if "Open MPI" in version else [])
+
+
+def execute(launcher, directory, options, ranks, check, extra=None):
+    """One run; with more than one rank by the launcher."""
+    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM)] + support.flatten(options)
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=directory, timeout=TIMEOUT + 30,
+                          env=dict(environment(), **(extra or {})), stdin=subprocess.DEVNULL)
+    assert check is None or done.returncode == check, (
+        f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}")
+    return support.Run(done.returncode, done.stdout, done.stderr)
+
+
+@pytest.fixture
+def petsam(launcher, tmp_path):
+    """petsam(*options, ranks=1, check=0): runs in tmp_path; options are words and dicts; check=None takes any code."""
+    def run(*options, ranks=1, check=0, environment=None):
+        return execute(launcher, tmp_path, options, ranks, check, environment)
+    return run
+
+
+@pytest.fixture(scope="session")
+def solve(launcher, tmp_path_factory):
+    """solve(*options, ranks=1, check=0): the results of such a run, solved once a session."""
+    known = {}
+
+    def run(*options, ranks=1, check=0):
+        key = (*support.flatten(options), ranks, check)
+        if key not in known:
+            directory = tmp_path_factory.mktemp("run")
+            done = execute(launcher, directory, [*options, "-output", "results.h5"], ranks, check)
+            known[key] = support.Results(directory / "results.h5", done)
+        return known[key]
+    return run
+
+
+@pytest.fixture
+def sphere():
+    """Table 1 at 64 x 64 cells; a copy to change."""
+    return dict(support.SPHERE)

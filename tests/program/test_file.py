@@ -1,0 +1,250 @@
+"""The results file, and what the program prints."""
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+from support import FIELDS, LOADS, RIGID, SPHERE, assert_same, ball, slide_limit
+
+CASE = dict(ball(), grid_n=(34, 41), grid_size=(1.9e-3, 2.1e-3), grid_center=(1e-4, -5e-5), load_tx=20.0, load_my=0.01, rot_z=1e-5)
+UNITS = dict(pressure="Pa", shear_x="Pa", shear_y="Pa", slip_x="m", slip_y="m", gap="m", displacement_x="m", displacement_y="m",
+             displacement_z="m", state="1", x="m", y="m", time="s")
+HISTORY = dict(time="s", load_n="N", load_tx="N", load_ty="N", load_mx="N m", load_my="N m", load_mz="N m", disp_z="m", disp_x="m",
+               disp_y="m", rot_x="rad", rot_y="rad", rot_z="rad", contact_area="m2", stick_area="m2", normal_residual="1",
+               tangential_residual="1", dissipated_energy="J")
+COUNTS = ("normal_iterations", "tangential_iterations", "normal_applies", "tangential_applies", "normal_preconditions",
+          "tangential_preconditions", "coupling_iterations", "status")
+
+
+@pytest.fixture
+def file(solve):
+    with h5py.File(solve(CASE).path, "r") as f:
+        yield f
+
+
+@pytest.mark.parametrize("name", FIELDS)
+def test_field_is_time_y_x(file, name):
+    data = file[name]
+    assert data.shape == (1, 41, 34)
+    assert data.dtype == (np.int8 if name == "state" else np.float64)
+    assert [data.dims[k][0].name for k in range(3)] == ["/time", "/y", "/x"]
+    assert data.maxshape[0] is None
+
+
+@pytest.mark.parametrize("name", UNITS)
+def test_units(file, name):
+    assert file[name].attrs["units"] == UNITS[name]
+
+
+@pytest.mark.parametrize("name", list(HISTORY) + list(COUNTS))
+def test_history_has_a_value_a_step(file, name):
+    data = file["history"][name]
+    assert data.shape == (1,) and np.all(np.isfinite(data[:]))
+    assert data.dtype.kind == ("i" if name in COUNTS else "f")
+    assert data.attrs["units"] == HISTORY.get(name, "1")
+
+
+def test_every_dataset_has_units_and_a_name(file):
+    lacking = []
+    file.visititems(lambda name, item: lacking.append(name) if isinstance(item, h5py.Dataset) and not (
+        item.attrs.get("units") and item.attrs.get("long_name")) else None)
+    assert not lacking
+
+
+def test_coordinates_are_cell_centres(file):
+    d = 1.9e-3 / 34, 2.1e-3 / 41
+    assert np.allclose(file["x"], 1e-4 - 1.9e-3 / 2 + (np.arange(34) + 0.5) * d[0], rtol=0, atol=1e-18)
+    assert np.allclose(file["y"], -5e-5 - 2.1e-3 / 2 + (np.arange(41) + 0.5) * d[1], rtol=0, atol=1e-18)
+
+
+def test_time_of_a_single_step_is_1(file):
+    assert file["time"][:].tolist() == file["history/time"][:].tolist() == [1.0]
+
+
+def test_root_names_version_and_options(file, petsam):
+    assert file.attrs["petsam_version"] in petsam("--version").stdout
+    for name in CASE:
+        assert f"-{name} " in file.attrs["options"]
+
+
+def test_physical_parameters_are_attributes(file):
+    for name, value in CASE.items():
+        if not isinstance(value, tuple):
+            assert file.attrs[name] == value, name
+
+
+def test_grid_parameters_have_their_options_names(file):
+    """The contract: every physical parameter by its option's name; of a pair the attribute holds both."""
+    for name, value in CASE.items():
+        if isinstance(value, tuple):
+            assert np.array_equal(file.attrs[name], value), name
+
+
+def test_gap_and_roughness_files_are_known(petsam, tmp_path):
+    with h5py.File(tmp_path / "g.h5", "w") as f:
+        f["h"] = np.add.outer((np.arange(9) - 4.0)**2, (np.arange(8) - 3.5)**2) * 1e-7
+    petsam(dict(SPHERE, grid_n=(8, 9), gap_type="file", gap_radius1=None, gap_radius2=None, gap_file="g.h5", gap_dataset="/h", load_n=1.0,
+                gap_rough_file="g.h5", gap_rough_dataset="/h", output="out.h5"))
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert f.attrs["gap_type"] == "file"
+        assert "-gap_file g.h5" in f.attrs["options"] and "-gap_rough_dataset /h" in f.attrs["options"]
+
+
+def test_infinite_parameters_are_stored(solve):
+    s = solve(dict(CASE, body2_young=float("inf"), body2_poisson=None, body1_poisson=0.5))
+    assert s.attributes["body2_young"] == np.inf and s.attributes["gap_radius2"] == np.inf
+
+
+def test_results_replace_an_older_file(petsam, tmp_path):
+    (tmp_path / "out.h5").write_text("old")
+    petsam(CASE, dict(output="out.h5"))
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert f["pressure"].shape == (1, 41, 34)
+
+
+def test_without_output_no_file_is_written(petsam, tmp_path):
+    petsam(CASE)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_compressed_fields_are_the_same(solve, ranks):
+    one, two = solve(CASE), solve(CASE, dict(output_compress=6), ranks=ranks)
+    assert_same(two, one, 1e-9)
+    with h5py.File(two.path) as f:
+        assert f["pressure"].compression == "gzip"
+
+
+# ---- what is printed
+
+@pytest.mark.parametrize("word, ranks", [("-help", 1), ("--help", 2), ("-h", 1)])
+def test_help_names_every_option_once(petsam, tmp_path, word, ranks):
+    done = petsam(word, ranks=ranks)
+    for name in list(SPHERE) + ["grid_center", *LOADS, *RIGID, "gap_file", "gap_dataset", "gap_rough_file", "gap_rough_dataset", "gap_radius_x",
+                                "gap_radius_y", "gap_flat_radius", "gap_edge_radius", "coupling", "coupling_rtol", "coupling_max_it", "output",
+                                "allow_edge_contact"] + [
+                                f"{solver}_{option}" for solver in ("normal", "tangential") for option in
+                                ("type", "rtol", "max_it", "monitor", "converged_reason", "view")]:
+        assert len(re.findall(rf"^ *-{name} ", done.stdout, re.M)) == 1, name
+    assert done.stderr == "" and not list(tmp_path.iterdir())
+
+
+def test_help_beside_a_study_does_not_run_it(petsam, tmp_path):
+    petsam(CASE, "-help", "-output", "out.h5")
+    assert not list(tmp_path.iterdir())
+
+
+def test_version_is_one_number(petsam):
+    assert re.match(r"petsam \d+\.\d+\.\d+\n", petsam("--version").stdout)
+
+
+def test_summary_tells_loads_and_counts(petsam, solve):
+    s, done = solve(CASE), petsam(CASE)
+    for name in LOADS + RIGID:
+        shown = float(re.search(rf"\b{name} +(\S+)", done.stdout).group(1))
+        assert shown == pytest.approx(s[name], rel=1e-6, abs=1e-12), name
+    assert f"normal {s['normal_iterations']} ({s['normal_applies']} products)" in done.stdout
+
+
+@pytest.mark.parametrize("solver", ["normal", "tangential"])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_monitor_prints_falling_errors(petsam, solve, solver, ranks):
+    done = petsam(CASE, f"-{solver}_monitor", ranks=ranks)
+    lines = re.findall(rf"^ *(\d+) {solver} \w+ error (\S+)", done.stdout, re.M)
+    # as KSP's monitor does, the last line tells the error at which the solver stopped
+    assert len(lines) >= 2 and float(lines[-1][1]) <= 1.05 * (1e-8 if solver == "normal" else 1e-6)
+    assert int(lines[-1][0]) == solve(CASE)[f"{solver}_iterations"]
+    other = "tangential" if solver == "normal" else "normal"
+    assert not re.findall(rf"^ *\d+ {other} \w+ error", done.stdout, re.M)
+
+
+@pytest.mark.parametrize("solver", ["normal", "tangential"])
+def test_converged_reason_is_printed_once(petsam, solver):
+    done = petsam(CASE, f"-{solver}_converged_reason", ranks=2)
+    assert len(re.findall(rf"^The {solver} solve converged due to \w+ iterations \d+$", done.stdout, re.M)) == 1
+
+
+@pytest.mark.parametrize("solver", ["normal", "tangential"])
+def test_reason_of_failure_is_printed(petsam, solver):
+    done = petsam(CASE, f"-{solver}_converged_reason", f"-{solver}_max_it", "1", check=10)
+    assert re.search(rf"^The {solver} solve did not converge due to \w+", done.stdout, re.M)
+
+
+@pytest.mark.parametrize("solver, kind", [("normal", "polonskykeer"), ("tangential", "gradient"), ("normal", "activeset"), ("tangential", "newton")])
+def test_view_prints_the_settings(petsam, solver, kind):
+    done = petsam(ball(40), f"-{solver}_view", f"-{solver}_type", kind, f"-{solver}_rtol", "3e-7")
+    assert re.search(rf"{solver} problem: type {kind}\n.*rtol 3e-07", done.stdout)
+
+
+def test_view_may_go_to_a_file(petsam, tmp_path):
+    petsam(CASE, "-normal_view", ":view.txt")
+    assert "activeset" in (tmp_path / "view.txt").read_text()
+
+
+def test_contact_check_prints_the_check(petsam):
+    assert re.search(r"check: normal \S+ tangential \S+ equilibrium \S+ cone \S+", petsam(CASE, "-contact_check").stdout)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_log_view_shows_own_events(petsam, ranks):
+    done = petsam(CASE, "-log_view", ranks=ranks)
+    assert "Performance Summary" in done.stdout
+    assert re.search(r"^Sam\w+ ", done.stdout, re.M), "no event of petsam"
+
+
+def test_log_view_goes_to_xml(petsam, tmp_path):
+    petsam(CASE, "-log_view", ":log.xml:ascii_xml")
+    assert "<petscroot>" in (tmp_path / "log.xml").read_text()
+
+
+@pytest.mark.parametrize("change, code", [({}, 0), (dict(body2_young=9e9, load_n=20.0, load_my=0.0, load_tx=2.0), 0),
+                                          (dict(ball(40), normal_type="polonskykeer", tangential_type="gradient", load_my=None, grid_center=None), 0),
+                                          (dict(load_tx=900.0), 11), (dict(load_my=9.0), 11), (dict(grid_size=5e-4), 12),
+                                          (dict(tangential_max_it=1), 10), (dict(load_n=-1.0), 2), (dict(gap_rough_file="nowhere.h5"), 3)],
+                         ids=lambda value: "-".join(value) if isinstance(value, dict) else str(value))
+def test_nothing_leaks(petsam, change, code):
+    done = petsam({**CASE, "output": "out.h5", **change}, "-malloc_debug", "-malloc_dump", check=code)
+    text = done.stdout + done.stderr
+    assert not re.search(r"^\[ *\d+\] ?\d+ bytes|Memory was not freed|\[\d+\]Total space allocated (?!0)", text, re.M), text[-3000:]
+
+
+def test_objects_dump_lists_nothing(petsam):
+    assert "not been freed" not in petsam(CASE, "-objects_dump").stdout
+
+
+def test_known_petsc_options_are_taken(petsam):
+    petsam(CASE, "-options_left", "-log_view_memory", "-memory_view", "-options_view", "-malloc_view")
+
+
+# ---- the other solvers
+
+FORCE, TORQUE = slide_limit(ball())
+
+
+@pytest.mark.parametrize("load", [{}, dict(load_tx=0.5 * FORCE), dict(load_mz=0.5 * TORQUE), dict(rot_x=1e-4, rot_y=2e-4), dict(load_my=0.02),
+                                  dict(grid_center=(1e-4, -5e-5)), dict(rot_x=0.0, rot_y=0.0, grid_center=(1e-4, -5e-5))], ids=str)
+def test_polonsky_and_keer_agree_with_the_active_set(solve, load):
+    case = dict(ball(80), **load)
+    # 1e-8 in u; p is its derivative over a cell
+    assert_same(solve(dict(case, normal_type="polonskykeer")), solve(case), 1e-5, ("pressure", "gap", "displacement_z"))
+
+
+@pytest.mark.parametrize("load", [dict(load_tx=0.5 * FORCE), dict(load_tx=0.9 * FORCE), dict(load_mz=0.8 * TORQUE),
+                                  dict(load_tx=0.4 * FORCE, load_mz=0.4 * TORQUE), dict(disp_x=1e-6)], ids=str)
+def test_gradient_agrees_with_newton(solve, load):
+    case = dict(ball(80), **load)
+    # 1e-6 in the residual of the shear, which bounds its error up to the condition of the contact's stiffness
+    assert_same(solve(dict(case, tangential_type="gradient")), solve(case), 1e-4, ("shear_x", "shear_y", "slip_x", "slip_y"))
+
+
+def test_levels_do_not_change_the_answer(solve):
+    case = ball(90, load_tx=30.0)
+    assert_same(solve(dict(case, normal_levels=1, tangential_levels=1)), solve(case), 1e-4)
+
+
+@pytest.mark.parametrize("effort", ["estimate", "measure"])
+def test_effort_of_planning_does_not_change_the_answer(solve, effort):
+    # other plans round otherwise: that shows up to the solvers' tolerances, here below what is asked
+    case = ball(45, load_tx=30.0, normal_rtol=1e-11, tangential_rtol=1e-9)
+    assert_same(solve(dict(case, fft_effort=effort)), solve(case), 1e-8)

@@ -1,0 +1,105 @@
+"""Gaps and roughness from files."""
+import h5py
+import numpy as np
+import pytest
+
+from support import assert_close, assert_same, ball, hertz
+
+D = 2.1e-5
+BASE = dict(ball(0), grid_n=(84, 71), grid_size=(84 * D, 71 * D), load_tx=25.0)
+FILE = dict(BASE, gap_type="file", gap_radius1=None, gap_radius2=None, gap_file="gap.h5")
+
+
+def cells(center=(0.0, 0.0)):
+    return np.meshgrid(center[0] + (np.arange(84) - 41.5) * D, center[1] + (np.arange(71) - 35) * D)
+
+
+def write(path, height, name="height", **more):
+    with h5py.File(path, "w") as f:
+        f.create_dataset(name, data=height, **more)
+    return path
+
+
+def test_file_of_a_paraboloid_is_the_sphere(solve, tmp_path):
+    x, y = cells()
+    gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"])
+    assert_same(solve(dict(FILE, gap_file=gap)), solve(BASE), 1e-9)  # rounding of h, in the solver's path
+
+
+@pytest.mark.parametrize("ranks", [3, 5])
+def test_file_is_read_in_parallel(solve, tmp_path, ranks):
+    x, y = cells()
+    gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"])
+    assert_same(solve(dict(FILE, gap_file=gap), ranks=ranks), solve(BASE), 1e-9)
+
+
+@pytest.mark.parametrize("more", [dict(dtype="f4"), dict(dtype=">f8"), dict(chunks=(16, 16), compression="gzip"), dict(name="surface/h")],
+                         ids=["float32", "big-endian", "compressed", "group"])
+def test_file_may_store_in_other_ways(solve, tmp_path, more):
+    x, y = cells()
+    gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"], **more)
+    case = dict(FILE, gap_file=gap, gap_dataset="/surface/h" if "name" in more else None)
+    assert_same(solve(case), solve(BASE), 1e-4 if more.get("dtype") == "f4" else 1e-9)  # float32 has 6e-8 of h
+
+
+def test_constant_in_file_is_approach(solve, tmp_path):
+    x, y = cells()
+    gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"] + 1e-6)
+    assert solve(dict(FILE, gap_file=gap))["disp_z"] == pytest.approx(solve(BASE)["disp_z"] + 1e-6, rel=1e-9)
+
+
+def test_rows_of_the_file_are_y(solve, tmp_path):
+    """An asymmetrical gap on a grid that is not square: contact where the file has it."""
+    x, y = cells()
+    x0, y0 = 9 * D, -6 * D
+    gap = write(tmp_path / "gap.h5", (x - x0)**2 / 2 / 0.09 + (y - y0)**2 / 2 / 0.04)
+    s = solve(dict(FILE, gap_file=gap, rot_x=0.0, rot_y=0.0, load_n=40.0, load_tx=5.0))
+    p = s.pressure / s.pressure.sum()
+    # the centre lies on a cell boundary in x, so half a cell of error could not be overlooked
+    assert np.sum(p * s.xx) == pytest.approx(x0, abs=0.05 * D)
+    assert np.sum(p * s.yy) == pytest.approx(y0, abs=0.05 * D)
+    assert np.sum(p * (s.xx - x0)**2) > 1.3 * np.sum(p * (s.yy - y0)**2)  # longer along the larger radius
+    assert_close(s.separation(), (x - x0)**2 / 2 / 0.09 + (y - y0)**2 / 2 / 0.04, 1e-13)
+
+
+@pytest.mark.parametrize("kind", ["sphere", "file", "flat"])
+def test_roughness_is_added(solve, tmp_path, kind):
+    """Curvatures add: a second paraboloid as roughness is a sphere of smaller radius."""
+    x, y = cells()
+    h = (x**2 + y**2) / 2
+    base = {"sphere": dict(BASE, gap_radius1=0.1), "file": dict(FILE, gap_file=write(tmp_path / "gap.h5", h / 0.1)),
+            "flat": dict(BASE, gap_type="flat", gap_radius1=None, gap_radius2=None)}[kind]
+    rough = write(tmp_path / "rough.h5", h / BASE["gap_radius1"] - (0 if kind == "flat" else h / 0.1), "z")
+    assert_same(solve(dict(base, gap_rough_file=rough, gap_rough_dataset="z")), solve(BASE), 1e-9)
+
+
+def test_rough_surfaces_touch_in_places(solve, tmp_path):
+    x, y = cells()
+    waves = 2e-7 * (np.cos(x * 2.9e4 + 0.3) * np.cos(y * 3.3e4) + 0.5 * np.sin(5.1e4 * x - 4.3e4 * y))
+    s = solve(dict(BASE, gap_rough_file=write(tmp_path / "rough.h5", waves)))
+    assert s["contact_area"] < np.pi * hertz(BASE).radius**2
+    assert s["normal_residual"] <= 1.05e-8 and s["tangential_residual"] <= 1.05e-6
+    assert s.loads()["load_n"] == pytest.approx(180.0, rel=1e-10)
+
+
+def test_sphere_may_be_two_radii_or_one(solve):
+    one = solve(BASE)
+    assert_same(solve(dict(BASE, gap_radius1=float("inf"), gap_radius2=0.06)), one, 1e-9)
+    assert_same(solve(dict(BASE, gap_radius1=0.09, gap_radius2=0.18)), one, 1e-9)
+
+
+def test_ellipsoid_of_equal_radii_is_a_sphere(solve):
+    case = dict(BASE, gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=0.06, gap_radius_y=0.06)
+    assert_same(solve(case), solve(BASE), 1e-9)
+
+
+def test_punch_without_flat_is_a_sphere(solve):
+    case = dict(BASE, gap_type="punch", gap_radius1=None, gap_radius2=None, gap_flat_radius=0.0, gap_edge_radius=0.06)
+    assert_same(solve(case), solve(BASE), 1e-9)
+
+
+def test_flat_bodies_share_the_load_over_all_of_the_grid(solve):
+    case = dict(BASE, gap_type="flat", gap_radius1=None, gap_radius2=None, allow_edge_contact=True, load_tx=None)
+    s = solve(case)
+    assert s["contact_area"] == pytest.approx(84 * 71 * D * D, rel=1e-12)
+    assert_close(s.displacement_z, s["disp_z"], 1.1e-8)

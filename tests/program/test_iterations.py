@@ -1,0 +1,54 @@
+"""Products with the influence operator: few, whatever the grid (the counts of method.md)."""
+import pytest
+
+from support import PUNCH, ball, slide_limit, sliding_pair
+
+
+@pytest.mark.parametrize("n", [256, 512, 1024, (509, 330)])
+def test_normal_products_at_most_20(solve, n):
+    case = ball(n, friction=0)
+    if not isinstance(n, int):
+        case["grid_size"] = (case["grid_size"], 0.8 * case["grid_size"])
+    assert solve(case)["normal_applies"] <= 20
+
+
+@pytest.mark.parametrize("n", [256, 512])
+def test_normal_products_of_a_punch_with_moment_at_most_20(solve, n):
+    assert solve(PUNCH, dict(grid_n=n, load_my=1.0))["normal_applies"] <= 20
+
+
+@pytest.mark.parametrize("tx, mz", [(0.01, 0), (0.3, 0), (0.6, 0), (0.9, 0), (0.99, 0), (0, 0.1), (0, 0.7), (0, 0.95), (0, 0.99)])
+def test_tangential_products_at_512_at_most_60(solve, tx, mz):
+    case = ball(512, poisson=0.3)
+    force, torque = slide_limit(case)
+    assert solve(case, dict(load_tx=tx * force, load_mz=mz * torque))["tangential_applies"] <= 60
+
+
+@pytest.mark.parametrize("part", [0.5, 0.95, 0.99])
+@pytest.mark.parametrize("arm", [0.3, 1.0])
+def test_tangential_products_of_force_with_torque_at_512_at_most_60(solve, arm, part):
+    case = ball(512, poisson=0.3)
+    force, torque = sliding_pair(case, arm)
+    assert solve(case, dict(load_tx=part * force, load_mz=part * torque))["tangential_applies"] <= 60
+
+
+@pytest.mark.parametrize("load", [dict(load_tx=800.0), dict(load_tx=800.0, load_my=1.0), dict(load_mz=1.2), dict(load_ty=-900.0, load_mz=0.6)],
+                         ids=["tx", "tx-my", "mz", "ty-mz"])
+def test_tangential_products_of_a_punch_at_most_60(solve, load):
+    assert solve(PUNCH, dict(grid_n=256), load)["tangential_applies"] <= 60
+
+
+def test_tangential_products_at_1024_at_most_75(solve):
+    case = ball(1024, poisson=0.3)
+    assert solve(case, dict(load_tx=0.8 * slide_limit(case)[0]))["tangential_applies"] <= 75
+
+
+def test_products_without_tangential_load_are_none(solve):
+    assert solve(ball(64))["tangential_applies"] == 0
+
+
+def test_iterations_do_not_count_coarse_grids_only(solve):
+    """A converged solve has worked on the finest grid."""
+    s = solve(ball(128, load_tx=20.0))
+    assert s["normal_iterations"] >= 1 and s["tangential_iterations"] >= 1
+    assert s["normal_applies"] >= s["normal_iterations"] and s["tangential_applies"] >= s["tangential_iterations"]

@@ -1,0 +1,35 @@
+"""The number of ranks does not change the results."""
+import pytest
+
+from support import FIELDS, LOADS, RIGID, assert_same, ball
+
+BALL = dict(ball(), grid_n=(75, 62), load_my=0.02, load_tx=30.0, load_ty=9.0, load_mz=1e-3)
+# 4 rows for 5 ranks; flat bodies touch everywhere, so the contact is at the edge
+STRIP = dict(body1_young=70e9, body1_poisson=0.3, body2_young=70e9, body2_poisson=0.3, friction=0.2, gap_type="flat",
+             grid_n=(40, 4), grid_size=(4e-3, 4e-4), load_n=50.0, load_tx=6.0, load_ty=1.0, load_mz=1e-3, allow_edge_contact=True,
+             # flat bodies are ill-conditioned: rounding shows up to the tolerance, which must be below what is asked here
+             normal_rtol=1e-11, tangential_rtol=1e-10)
+DISSIMILAR = dict(BALL, body2_young=9e9, body2_poisson=0.4, load_n=60.0, load_my=0.004, load_tx=3.0, load_ty=1.0, load_mz=1e-4)
+
+
+@pytest.mark.parametrize("ranks", [2, 3, 5])
+@pytest.mark.parametrize("case", [BALL, STRIP, DISSIMILAR], ids=["ball", "strip", "dissimilar"])
+def test_fields_do_not_depend_on_ranks(solve, case, ranks):
+    one, many = solve(case), solve(case, ranks=ranks)
+    assert_same(many, one, 1e-9, FIELDS[:-1])  # rounding of the sums, in the solver's path
+    for name in LOADS + RIGID:
+        pair = [k for k in LOADS + RIGID if k[:4] == name[:4]]
+        assert many[name] == pytest.approx(one[name], rel=1e-9, abs=1e-9 * max(abs(one[k]) for k in pair)), name
+
+
+@pytest.mark.parametrize("n", [(2, 2), (3, 2), (2, 7), (5, 1000), (1000, 3)])
+def test_tiny_and_thin_grids_on_three_ranks(solve, n):
+    case = dict(STRIP, grid_n=n, grid_size=(1e-4 * n[0], 1e-4 * n[1]), load_tx=3.0, load_ty=1.0, load_mz=0.0)
+    assert_same(solve(case, ranks=3), solve(case), 1e-9)
+
+
+@pytest.mark.parametrize("ranks", [2, 5])
+def test_same_run_gives_the_same_bits(solve, petsam, tmp_path, ranks):
+    from support import Results
+    petsam(BALL, dict(output="again.h5"), ranks=ranks)
+    assert_same(Results(tmp_path / "again.h5"), solve(BALL, ranks=ranks), 1e-12)  # the order of sums in MPI is not promised

@@ -1,0 +1,294 @@
+/*
+ * The grid, its rows, and moving fields between grids.
+ */
+#include "fields.h"
+
+/* Even, odd, prime, and fewer rows than ranks. */
+static const PetscInt sizes[][2] = {{16, 12}, {13, 7}, {9, 2}, {3, 3}, {31, 17}, {8, 4}, {5, 16}};
+enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]) };
+
+/* Sums of a few hundred numbers, and shares that do not divide. */
+static const double rounding = 1e-14;
+
+/* ---- layout ---- */
+
+static void test_rows_fill_the_grid_in_blocks_of_ceil_ny_over_ranks(void **state)
+{
+  PetscMPIInt rank, ranks;
+
+  (void)state;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  for (PetscInt ny = 2; ny < 20; ny++) {
+    SamGrid        grid  = NewGrid(5, ny, 1, 1);
+    const PetscInt block = (ny + ranks - 1) / ranks;
+    PetscInt       all   = grid->rows;
+    Vec            v;
+    PetscInt       local, global, start;
+
+    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+    sam_assert(all == ny);
+    sam_assert(grid->rows >= 0 && grid->rows <= block && grid->cells == 5 * grid->rows);
+    sam_assert(grid->rows == 0 || grid->row_start == rank * block);
+    sam_assert(grid->rows == block || grid->row_start + grid->rows == ny);
+    for (PetscInt components = 1; components <= 2; components++) {
+      sam_call(SamGridCreateVec(grid, components, &v));
+      sam_call(VecGetSize(v, &global));
+      sam_call(VecGetLocalSize(v, &local));
+      sam_call(VecGetOwnershipRange(v, &start, NULL));
+      sam_assert(global == components * 5 * ny && local == components * grid->cells && (!local || start == components * 5 * grid->row_start));
+      sam_call(VecDestroy(&v));
+    }
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
+static void test_coordinates_are_cell_centres(void **state)
+{
+  SamGrid grid = NewGridOn(PETSC_COMM_WORLD, 6, 3, 3, 1.5, 10, -2);
+
+  (void)state;
+  sam_assert(grid->dx == 0.5 && grid->dy == 0.5 && grid->length == 1.5);
+  for (PetscInt i = 0; i < 6; i++) sam_assert_close(SamGridX(grid, i), 8.75 + 0.5 * i, 10 * rounding);
+  for (PetscInt j = 0; j < 3; j++) sam_assert_close(SamGridY(grid, j), -2.5 + 0.5 * j, 10 * rounding);
+  sam_call(SamGridDestroy(&grid));
+}
+
+static void test_coarse_grid_has_half_the_cells_of_the_same_rectangle(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    SamGrid fine = NewGridOn(PETSC_COMM_WORLD, sizes[k][0], sizes[k][1], 3, 1.5, 10, -2), coarse;
+
+    if (sizes[k][1] > 2) {
+      sam_call(SamGridCoarsen(fine, &coarse));
+      sam_assert(coarse->nx == (fine->nx + 1) / 2 && coarse->ny == (fine->ny + 1) / 2);
+      sam_assert(coarse->width[0] == 3 && coarse->width[1] == 1.5 && coarse->center[0] == 10 && coarse->center[1] == -2);
+      sam_call(SamGridDestroy(&coarse));
+    }
+    sam_call(SamGridDestroy(&fine));
+  }
+}
+
+static void test_impossible_grids_are_refused(void **state)
+{
+  const PetscInt  n[][2]      = {{1, 5}, {5, 1}, {0, 5}, {-3, 5}, {5, 5}};
+  const PetscReal width[][2]  = {{0, 1}, {1, -1}, {NAN, 1}, {1, INFINITY}, {1, 1e-200}};
+  const PetscReal center[][2] = {{NAN, 0}, {0, INFINITY}, {1e15, 0}}, size[2] = {1, 1}, origin[2] = {0, 0};
+  SamGrid         grid;
+
+  (void)state;
+  for (int k = 0; k < 4; k++) sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[k], size, origin, &grid), SAM_ERR_USER);
+  for (int k = 0; k < 5; k++) sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[4], width[k], origin, &grid), SAM_ERR_USER);
+  for (int k = 0; k < 3; k++) sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[4], size, center[k], &grid), SAM_ERR_USER);
+}
+
+static void test_more_cells_than_can_be_counted_are_refused(void **state)
+{
+  const PetscInt  n[2] = {65536, 65536};
+  const PetscReal size[2] = {1, 1}, origin[2] = {0, 0};
+  SamGrid         grid;
+
+  (void)state;
+  if (sizeof(PetscInt) > 4) skip();
+  sam_fails(SamGridCreate(PETSC_COMM_WORLD, n, size, origin, &grid), SAM_ERR_USER);
+}
+
+static void test_grid_from_options(void **state)
+{
+  const char *const wrong[] = {"", "-grid_n 8", "-grid_size 1", "-grid_n 1 -grid_size 1", "-grid_n 8 -grid_size 0", "-grid_n 8,8,8 -grid_size 1", "-grid_n 8.5 -grid_size 1", "-grid_n 8 -grid_size 1 -grid_center nan"};
+  SamGrid           grid;
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++) {
+    sam_call(PetscOptionsClear(NULL));
+    sam_call(PetscOptionsInsertString(NULL, wrong[k]));
+    sam_fails(SamGridCreateFromOptions(PETSC_COMM_WORLD, &grid), SAM_ERR_USER);
+  }
+  sam_call(PetscOptionsClear(NULL));
+  sam_call(PetscOptionsInsertString(NULL, "-grid_n 8,5 -grid_size 2 -grid_center 1,-1"));
+  sam_call(SamGridCreateFromOptions(PETSC_COMM_WORLD, &grid));
+  sam_assert(grid->nx == 8 && grid->ny == 5 && grid->width[0] == 2 && grid->width[1] == 2 && grid->center[0] == 1 && grid->center[1] == -1);
+  sam_call(SamGridDestroy(&grid));
+  sam_call(PetscOptionsClear(NULL));
+}
+
+/* ---- transfer ---- */
+
+typedef struct {
+  SamGrid     fine, coarse;
+  SamTransfer transfer;
+} Pair;
+
+static Pair NewPairOn(MPI_Comm comm, int k)
+{
+  Pair p = {.fine = NewGridOn(comm, sizes[k][0], sizes[k][1], 3, 1.5, 0.2, -0.1)};
+
+  if (sizes[k][1] > 2) sam_call(SamGridCoarsen(p.fine, &p.coarse));
+  else p.coarse = NewGridOn(comm, (sizes[k][0] + 1) / 2, 2, 3, 1.5, 0.2, -0.1);
+  sam_call(SamTransferCreate(p.fine, p.coarse, &p.transfer));
+  return p;
+}
+
+static void DestroyPair(Pair *p)
+{
+  sam_call(SamTransferDestroy(&p->transfer));
+  sam_call(SamGridDestroy(&p->fine));
+  sam_call(SamGridDestroy(&p->coarse));
+}
+
+/* Of a field: that of one component of it. */
+static double SumOf(SamGrid grid, Vec v, PetscInt component)
+{
+  const double *a;
+  double        sum = 0;
+
+  sam_call(VecGetArrayRead(v, &a));
+  for (PetscInt k = 0; k < grid->cells; k++) sum += a[component * grid->cells + k];
+  sam_call(VecRestoreArrayRead(v, &a));
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return sum * grid->dx * grid->dy;
+}
+
+static void test_restriction_keeps_the_integral(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++)
+    for (PetscInt components = 1; components <= 2; components++) {
+      Pair p    = NewPairOn(PETSC_COMM_WORLD, k);
+      Vec  fine = NewRandom(p.fine, components, k), coarse = NewField(p.coarse, components);
+
+      sam_call(VecSet(coarse, NAN)); /* all of it is overwritten */
+      sam_call(SamTransferRestrict(p.transfer, fine, coarse));
+      for (PetscInt c = 0; c < components; c++) sam_assert_close(SumOf(p.coarse, coarse, c), SumOf(p.fine, fine, c), rounding * Norm(fine, NORM_1) * p.fine->dx * p.fine->dy);
+      sam_call(VecDestroy(&fine));
+      sam_call(VecDestroy(&coarse));
+      DestroyPair(&p);
+    }
+}
+
+static void test_constant_stays_constant_both_ways(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    Pair      p    = NewPairOn(PETSC_COMM_WORLD, k);
+    Vec       fine = NewField(p.fine, 2), coarse = NewField(p.coarse, 2);
+    PetscReal least, most;
+
+    sam_call(VecSet(fine, 1));
+    sam_call(SamTransferRestrict(p.transfer, fine, coarse));
+    sam_call(VecMin(coarse, NULL, &least));
+    sam_call(VecMax(coarse, NULL, &most));
+    sam_assert_close(least, 1, rounding);
+    sam_assert_close(most, 1, rounding);
+    sam_call(VecSet(coarse, 1));
+    sam_call(VecSet(fine, NAN));
+    sam_call(SamTransferProlong(p.transfer, coarse, fine));
+    sam_call(VecMin(fine, NULL, &least));
+    sam_call(VecMax(fine, NULL, &most));
+    sam_assert_close(least, 1, rounding);
+    sam_assert_close(most, 1, rounding);
+    sam_call(VecDestroy(&fine));
+    sam_call(VecDestroy(&coarse));
+    DestroyPair(&p);
+  }
+}
+
+/* A linear function in each of two components. */
+static double Linear(double x, double y, PetscInt component)
+{
+  return component ? 1 - 2 * x + 0.7 * y : 0.3 + x - 3 * y;
+}
+
+static Vec NewLinear(SamGrid grid)
+{
+  Vec     v = NewField(grid, 2);
+  double *a;
+
+  sam_call(VecGetArray(v, &a));
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt j = 0; j < grid->rows; j++)
+      for (PetscInt i = 0; i < grid->nx; i++) a[c * grid->cells + j * grid->nx + i] = Linear(SamGridX(grid, i), SamGridY(grid, grid->row_start + j), c);
+  sam_call(VecRestoreArray(v, &a));
+  return v;
+}
+
+/* Between the outermost coarse centres linear functions are reproduced; beyond, the value on the way to them is kept. */
+static void test_prolongation_is_linear_inside_and_constant_beyond(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    Pair          p      = NewPairOn(PETSC_COMM_WORLD, k);
+    Vec           coarse = NewLinear(p.coarse), fine = NewField(p.fine, 2);
+    const double *a;
+    double        error = 0;
+
+    sam_call(SamTransferProlong(p.transfer, coarse, fine));
+    sam_call(VecGetArrayRead(fine, &a));
+    for (PetscInt c = 0; c < 2; c++)
+      for (PetscInt j = 0; j < p.fine->rows; j++)
+        for (PetscInt i = 0; i < p.fine->nx; i++) {
+          const double x = fmin(fmax(SamGridX(p.fine, i), SamGridX(p.coarse, 0)), SamGridX(p.coarse, p.coarse->nx - 1));
+          const double y = fmin(fmax(SamGridY(p.fine, p.fine->row_start + j), SamGridY(p.coarse, 0)), SamGridY(p.coarse, p.coarse->ny - 1));
+
+          error = fmax(error, fabs(a[c * p.fine->cells + j * p.fine->nx + i] - Linear(x, y, c)));
+        }
+    sam_call(VecRestoreArrayRead(fine, &a));
+    sam_assert_close(error, 0, 10 * rounding); /* values up to 7 */
+    sam_call(VecDestroy(&fine));
+    sam_call(VecDestroy(&coarse));
+    DestroyPair(&p);
+  }
+}
+
+/* Each rank does the whole on its own, which must be what all do together, to the last bit. */
+static void test_transfer_does_not_depend_on_the_ranks(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    Pair    all = NewPairOn(PETSC_COMM_WORLD, k), own = NewPairOn(PETSC_COMM_SELF, k);
+    Vec     fine[2] = {NewRandom(all.fine, 2, k), NewRandom(own.fine, 2, k)}, coarse[2] = {NewField(all.coarse, 2), NewField(own.coarse, 2)};
+    double *a, *b;
+
+    sam_call(SamTransferRestrict(all.transfer, fine[0], coarse[0]));
+    sam_call(SamTransferRestrict(own.transfer, fine[1], coarse[1]));
+    a = Whole(all.coarse, 2, coarse[0]);
+    b = Whole(own.coarse, 2, coarse[1]);
+    for (PetscInt c = 0; c < 2 * all.coarse->nx * all.coarse->ny; c++) a[0] += a[c] == b[c] ? 0 : INFINITY;
+    sam_assert(isfinite(a[0]));
+    free(a);
+    free(b);
+    sam_call(SamTransferProlong(all.transfer, coarse[0], fine[0]));
+    sam_call(SamTransferProlong(own.transfer, coarse[1], fine[1]));
+    a = Whole(all.fine, 2, fine[0]);
+    b = Whole(own.fine, 2, fine[1]);
+    for (PetscInt c = 0; c < 2 * all.fine->nx * all.fine->ny; c++) a[0] += a[c] == b[c] ? 0 : INFINITY;
+    sam_assert(isfinite(a[0]));
+    free(a);
+    free(b);
+    for (int g = 0; g < 2; g++) {
+      sam_call(VecDestroy(&fine[g]));
+      sam_call(VecDestroy(&coarse[g]));
+    }
+    DestroyPair(&all);
+    DestroyPair(&own);
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_rows_fill_the_grid_in_blocks_of_ceil_ny_over_ranks),
+    cmocka_unit_test(test_coordinates_are_cell_centres),
+    cmocka_unit_test(test_coarse_grid_has_half_the_cells_of_the_same_rectangle),
+    cmocka_unit_test(test_impossible_grids_are_refused),
+    cmocka_unit_test(test_more_cells_than_can_be_counted_are_refused),
+    cmocka_unit_test(test_grid_from_options),
+    cmocka_unit_test(test_restriction_keeps_the_integral),
+    cmocka_unit_test(test_constant_stays_constant_both_ways),
+    cmocka_unit_test(test_prolongation_is_linear_inside_and_constant_beyond),
+    cmocka_unit_test(test_transfer_does_not_depend_on_the_ranks),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}

@@ -1,0 +1,292 @@
+/*
+ * Reading options: good values are read, all else is refused by name.
+ */
+#include "fields.h"
+
+static const char *const words[] = {"none", "some", "all", NULL};
+
+typedef enum { REAL, REAL_PAIR, INT, INT_PAIR, BOOL, STRING, ENUM, VIEWER } Getter;
+
+typedef struct {
+  PetscReal real[2];
+  PetscInt  whole[2];
+  PetscBool truth;
+  char      text[8];
+} Value;
+
+/* Calls the getter for -pre_opt; range or least as it applies. */
+static PetscErrorCode Get(Getter getter, int range, Value *v, PetscBool *set)
+{
+  switch (getter) {
+  case REAL:
+    return SamOptionsReal("pre_", "opt", "", (SamRange)range, v->real, set);
+  case REAL_PAIR:
+    return SamOptionsRealPair("pre_", "opt", "", (SamRange)range, v->real, set);
+  case INT:
+    return SamOptionsInt("pre_", "opt", "", range, v->whole, set);
+  case INT_PAIR:
+    return SamOptionsIntPair("pre_", "opt", "", range, v->whole, set);
+  case BOOL:
+    return SamOptionsBool("pre_", "opt", "", &v->truth, set);
+  case STRING:
+    return SamOptionsString("pre_", "opt", "", v->text, sizeof(v->text), set);
+  case ENUM:
+    return SamOptionsEnum("pre_", "opt", "", words, v->whole, set);
+  default:
+    return SamOptionsHasViewer("pre_", "opt", "", set);
+  }
+}
+
+static void SetText(const char *text)
+{
+  sam_call(PetscOptionsClear(NULL));
+  if (text) sam_call(PetscOptionsSetValue(NULL, "-pre_opt", text));
+}
+
+/* Keeps the first message of an error instead of printing it. */
+static char message[4096];
+
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type, const char *text, void *context)
+{
+  (void)comm;
+  (void)line;
+  (void)function;
+  (void)file;
+  (void)context;
+  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
+  return code;
+}
+
+static void AssertRefused(Getter getter, int range, const char *text)
+{
+  Value          v = {.text = ""};
+  PetscErrorCode ierr;
+  PetscBool      set;
+  int            good;
+
+  SetText(text);
+  message[0] = '\0';
+  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  ierr = Get(getter, range, &v, &set);
+  sam_call(PetscPopErrorHandler());
+  SetText(NULL);
+  good = ierr == SAM_ERR_USER && strstr(message, "-pre_opt") && strstr(message, "expected");
+  if (!good) print_error("getter %d, range %d, '%s': error %d, '%s'\n", (int)getter, range, text, (int)ierr, message);
+  sam_assert(good);
+}
+
+static Value Read(Getter getter, int range, const char *text)
+{
+  Value     v = {.real = {7, 8}, .whole = {1, 2}, .text = "old"};
+  PetscBool set;
+
+  SetText(text);
+  sam_call(Get(getter, range, &v, &set));
+  SetText(NULL);
+  sam_assert(set == (text ? PETSC_TRUE : PETSC_FALSE));
+  return v;
+}
+
+/* ---- numbers ---- */
+
+static const char *const not_reals[] = {"", " ", "x", "1x", "1 2", "1,,2", ",1", "1,", "nan", "-nan", "1e", "1e999", "-1e999", "--1", "1;2", "1,x", "0x", "1.2.3", "1mm", "inf ity"};
+enum { NOT_REALS = sizeof(not_reals) / sizeof(not_reals[0]) };
+
+static void test_malformed_reals_are_refused(void **state)
+{
+  (void)state;
+  for (int range = SAM_RANGE_ANY; range <= SAM_RANGE_POSITIVE_INF; range++)
+    for (int k = 0; k < NOT_REALS; k++) {
+      AssertRefused(REAL, range, not_reals[k]);
+      AssertRefused(REAL_PAIR, range, not_reals[k]);
+    }
+}
+
+static void test_reals_outside_their_range_are_refused(void **state)
+{
+  const struct {
+    SamRange    range;
+    const char *text;
+  } cases[] = {
+    {SAM_RANGE_ANY,          "inf"  },
+    {SAM_RANGE_ANY,          "-inf" },
+    {SAM_RANGE_NONNEGATIVE,  "inf"  },
+    {SAM_RANGE_NONNEGATIVE,  "-1e-9"},
+    {SAM_RANGE_POSITIVE,     "inf"  },
+    {SAM_RANGE_POSITIVE,     "0"    },
+    {SAM_RANGE_POSITIVE,     "-0"   },
+    {SAM_RANGE_POSITIVE,     "-1"   },
+    {SAM_RANGE_POSITIVE_INF, "-inf" },
+    {SAM_RANGE_POSITIVE_INF, "0"    },
+    {SAM_RANGE_POSITIVE_INF, "-1"   }
+  };
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
+    char pair[32];
+
+    AssertRefused(REAL, cases[k].range, cases[k].text);
+    AssertRefused(REAL_PAIR, cases[k].range, cases[k].text);
+    (void)snprintf(pair, sizeof(pair), "1,%s", cases[k].text);
+    AssertRefused(REAL_PAIR, cases[k].range, pair);
+  }
+}
+
+static void test_too_many_numbers_are_refused(void **state)
+{
+  (void)state;
+  AssertRefused(REAL, SAM_RANGE_ANY, "1,2");
+  AssertRefused(REAL_PAIR, SAM_RANGE_ANY, "1,2,3");
+  AssertRefused(REAL_PAIR, SAM_RANGE_ANY, "1,2,");
+  AssertRefused(INT, 0, "1,2");
+  AssertRefused(INT_PAIR, 0, "1,2,3");
+  AssertRefused(INT_PAIR, 0, "1,2,");
+}
+
+static void test_malformed_and_huge_ints_are_refused(void **state)
+{
+  const char *const cases[] = {"", " ", "x", "1x", "1.5", "1e3", "1,", ",1", "1,,2", "nan", "inf", "99999999999999999999", "-99999999999999999999", "9223372036854775808", "1 2", "-1", "1"};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
+    AssertRefused(INT, 2, cases[k]);
+    AssertRefused(INT_PAIR, 2, cases[k]);
+  }
+  AssertRefused(INT_PAIR, 2, "2,1");
+  if (sizeof(PetscInt) == 4) {
+    AssertRefused(INT, 0, "2147483648");
+    AssertRefused(INT, -5, "-4294967295"); /* 1 in 32 bits */
+    AssertRefused(INT_PAIR, 0, "1,4294967296");
+  }
+}
+
+static void test_good_reals_are_read(void **state)
+{
+  Value v;
+
+  (void)state;
+  sam_assert(Read(REAL, SAM_RANGE_ANY, "-1.5e-3").real[0] == -1.5e-3);
+  sam_assert(Read(REAL, SAM_RANGE_ANY, "0").real[0] == 0);
+  sam_assert(Read(REAL, SAM_RANGE_NONNEGATIVE, "0").real[0] == 0);
+  sam_assert(Read(REAL, SAM_RANGE_POSITIVE, ".5").real[0] == 0.5);
+  sam_assert(Read(REAL, SAM_RANGE_POSITIVE, "+2").real[0] == 2);
+  sam_assert(Read(REAL, SAM_RANGE_POSITIVE_INF, "inf").real[0] == INFINITY);
+  sam_assert(Read(REAL, SAM_RANGE_POSITIVE, "4.9e-324").real[0] > 0); /* a small number is a number */
+  sam_assert(Read(REAL, SAM_RANGE_ANY, NULL).real[0] == 7);
+  v = Read(REAL_PAIR, SAM_RANGE_ANY, "1,-2.5");
+  sam_assert(v.real[0] == 1 && v.real[1] == -2.5);
+  v = Read(REAL_PAIR, SAM_RANGE_POSITIVE, "3"); /* one stands for both */
+  sam_assert(v.real[0] == 3 && v.real[1] == 3);
+  v = Read(REAL_PAIR, SAM_RANGE_POSITIVE_INF, "1,inf");
+  sam_assert(v.real[0] == 1 && v.real[1] == INFINITY);
+  v = Read(REAL_PAIR, SAM_RANGE_ANY, NULL);
+  sam_assert(v.real[0] == 7 && v.real[1] == 8);
+}
+
+static void test_good_ints_are_read(void **state)
+{
+  Value v;
+
+  (void)state;
+  sam_assert(Read(INT, 0, "0").whole[0] == 0);
+  sam_assert(Read(INT, -3, "-3").whole[0] == -3);
+  sam_assert(Read(INT, 0, "2147483647").whole[0] == 2147483647);
+  sam_assert(Read(INT, 5, NULL).whole[0] == 1); /* the default is not looked at */
+  v = Read(INT_PAIR, 2, "128,64");
+  sam_assert(v.whole[0] == 128 && v.whole[1] == 64);
+  v = Read(INT_PAIR, 2, "128");
+  sam_assert(v.whole[0] == 128 && v.whole[1] == 128);
+  v = Read(INT_PAIR, 2, NULL);
+  sam_assert(v.whole[0] == 1 && v.whole[1] == 2);
+}
+
+/* ---- words ---- */
+
+static void test_booleans(void **state)
+{
+  const char *const yes[] = {"1", "true", "yes", "on", ""}, *const no[] = {"0", "false", "no", "off"}, *const wrong[] = {"2", "maybe", "truee", "-1", "1.0", "y es"};
+
+  (void)state;
+  for (int k = 0; k < 5; k++) sam_assert(Read(BOOL, 0, yes[k]).truth == PETSC_TRUE);
+  for (int k = 0; k < 4; k++) {
+    Value     v = {.truth = PETSC_TRUE};
+    PetscBool set;
+
+    SetText(no[k]);
+    sam_call(Get(BOOL, 0, &v, &set));
+    sam_assert(set && !v.truth);
+  }
+  for (int k = 0; k < 6; k++) AssertRefused(BOOL, 0, wrong[k]);
+  sam_assert(Read(BOOL, 0, NULL).truth == PETSC_FALSE);
+}
+
+static void test_enums(void **state)
+{
+  const char *const wrong[] = {"", "nothing", "All", "al", "0", "none,some", "allall"};
+
+  (void)state;
+  for (int k = 0; k < 3; k++) sam_assert(Read(ENUM, 0, words[k]).whole[0] == k);
+  sam_assert(Read(ENUM, 0, NULL).whole[0] == 1);
+  for (int k = 0; k < 7; k++) {
+    AssertRefused(ENUM, 0, wrong[k]);
+    sam_assert(strstr(message, "none, some or all")); /* what would be right is told */
+  }
+}
+
+static void test_strings(void **state)
+{
+  (void)state;
+  sam_assert(!strcmp(Read(STRING, 0, "seven77").text, "seven77"));
+  sam_assert(!strcmp(Read(STRING, 0, NULL).text, "old"));
+  AssertRefused(STRING, 0, "");
+  AssertRefused(STRING, 0, "eight888"); /* longer than there is room for */
+}
+
+static void test_viewers_other_than_ascii_are_refused(void **state)
+{
+  const char *const good[] = {"", "ascii", "ascii:file", ":file"}, *const wrong[] = {"draw", "hdf5:x", "binary:x"};
+
+  (void)state;
+  for (int k = 0; k < 4; k++) (void)Read(VIEWER, 0, good[k]);
+  for (int k = 0; k < 3; k++) AssertRefused(VIEWER, 0, wrong[k]);
+}
+
+/* A mistyped option is found by what is left over; a read one is not left over, whatever its value. */
+static void test_read_options_are_used(void **state)
+{
+  PetscInt left;
+
+  (void)state;
+  for (int getter = REAL; getter <= VIEWER; getter++) {
+    const char *const text[] = {"1", "1", "1", "1", "1", "a", "all", "ascii"};
+    Value             v      = {.text = ""};
+    PetscBool         set;
+
+    SetText(text[getter]);
+    sam_call(PetscOptionsLeftGet(NULL, &left, NULL, NULL));
+    sam_assert(left == 1);
+    sam_call(Get((Getter)getter, 0, &v, &set));
+    sam_call(PetscOptionsLeftGet(NULL, &left, NULL, NULL));
+    sam_assert(left == 0);
+  }
+  SetText(NULL);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_malformed_reals_are_refused),
+    cmocka_unit_test(test_reals_outside_their_range_are_refused),
+    cmocka_unit_test(test_too_many_numbers_are_refused),
+    cmocka_unit_test(test_malformed_and_huge_ints_are_refused),
+    cmocka_unit_test(test_good_reals_are_read),
+    cmocka_unit_test(test_good_ints_are_read),
+    cmocka_unit_test(test_booleans),
+    cmocka_unit_test(test_enums),
+    cmocka_unit_test(test_strings),
+    cmocka_unit_test(test_viewers_other_than_ascii_are_refused),
+    cmocka_unit_test(test_read_options_are_used),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
