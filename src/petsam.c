@@ -6,6 +6,7 @@
 */
 #include <petsam.h>
 #include "base/baseimpl.h"
+#include <errno.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -65,6 +66,60 @@ static void TakeWords(int *argc, char **argv, PetscBool *help, PetscBool *versio
   }
   *argc      = kept;
   argv[kept] = NULL;
+}
+
+/* What is wrong with an options file, before PETSc stumbles over it: a code of the two errors, or 0. */
+static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size_t size)
+{
+  FILE          *file = fopen(name, "r");
+  const size_t   length = strlen(name);
+  const int      yaml   = (length > 5 && !strcmp(name + length - 5, ".yaml")) || (length > 4 && !strcmp(name + length - 4, ".yml"));
+  char           line[4096];
+  int            number = 0, begins = 1; /* a line longer than the buffer comes in parts */
+  PetscErrorCode code = 0;
+  struct stat    status;
+
+  if (!file || fstat(fileno(file), &status) || S_ISDIR(status.st_mode)) {
+    snprintf(message, size, "-options_file %s: cannot be read: %s", name, file ? "it is no file" : strerror(errno));
+    if (file) fclose(file);
+    return SAM_ERR_FILE;
+  }
+  while (!code && !yaml && fgets(line, sizeof(line), file)) {
+    const char *text = line + strspn(line, " \t\r\n");
+
+    number += begins;
+    if (begins && *text && !strchr("#!%", *text) && !IsOption(text) && strncmp(text, "alias ", 6)) {
+      snprintf(message, size, "-options_file %s, line %d: expected an option, that is a word that begins with a dash", name, number);
+      code = SAM_ERR_USER;
+    }
+    begins = strchr(line, '\n') != NULL;
+  }
+  fclose(file);
+  return code;
+}
+
+/* Takes options files that PETSc could not read out of the arguments; says what is wrong with the first. */
+static PetscErrorCode TakeBadOptionsFiles(int *argc, char **argv, char message[], size_t size)
+{
+  int            kept = 1;
+  PetscErrorCode first = 0;
+
+  for (int i = 1; i < *argc; i++) {
+    const int      named = i + 1 < *argc && !IsOption(argv[i + 1]);
+    char           text[512] = "-options_file has no value: expected a file's name";
+    PetscErrorCode code  = 0;
+
+    if (!strcmp(argv[i], "-options_file")) code = named ? ExamineOptionsFile(argv[i + 1], text, sizeof(text)) : SAM_ERR_USER;
+    if (!code) argv[kept++] = argv[i];
+    else {
+      i += named;
+      if (!first) snprintf(message, size, "%s", text);
+      if (!first) first = code;
+    }
+  }
+  *argc      = kept;
+  argv[kept] = NULL;
+  return first;
 }
 
 /* PETSc passes over what is not an option or the value of one. */
@@ -147,6 +202,7 @@ static PetscErrorCode RefuseTooLarge(SamGrid grid, PetscReal friction)
 /* Every physical parameter as an attribute with its option's name. */
 static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamPair *pair, SamGap gap, PetscReal friction, SamHistory history)
 {
+  const PetscReal    n[2] = {(PetscReal)grid->nx, (PetscReal)grid->ny};
   const SamBalance  *balances[2];
   SamStep            step;
   SamGapType         type;
@@ -159,20 +215,21 @@ static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamP
   PetscCall(PetscOptionsGetAll(NULL, &all));
   PetscCall(SamOutputSetText(output, "options", all));
   PetscCall(PetscFree(all));
-  PetscCall(SamOutputSetReal(output, "body1_young", pair->young[0]));
-  PetscCall(SamOutputSetReal(output, "body1_poisson", pair->poisson[0]));
-  PetscCall(SamOutputSetReal(output, "body2_young", pair->young[1]));
-  PetscCall(SamOutputSetReal(output, "body2_poisson", pair->poisson[1]));
-  PetscCall(SamOutputSetReal(output, "friction", friction));
-  PetscCall(SamOutputSetReal(output, "grid_n_x", (PetscReal)grid->nx));
-  PetscCall(SamOutputSetReal(output, "grid_n_y", (PetscReal)grid->ny));
-  PetscCall(SamOutputSetReal(output, "grid_size_x", grid->width[0]));
-  PetscCall(SamOutputSetReal(output, "grid_size_y", grid->width[1]));
-  PetscCall(SamOutputSetReal(output, "grid_center_x", grid->center[0]));
-  PetscCall(SamOutputSetReal(output, "grid_center_y", grid->center[1]));
+  for (PetscInt body = 0; body < 2; body++) {
+    char name[32];
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), "body%d_young", (int)body + 1));
+    PetscCall(SamOutputSetReals(output, name, 1, &pair->young[body]));
+    PetscCall(PetscSNPrintf(name, sizeof(name), "body%d_poisson", (int)body + 1));
+    PetscCall(SamOutputSetReals(output, name, 1, &pair->poisson[body]));
+  }
+  PetscCall(SamOutputSetReals(output, "friction", 1, &friction));
+  PetscCall(SamOutputSetReals(output, "grid_n", 2, n));
+  PetscCall(SamOutputSetReals(output, "grid_size", 2, grid->width));
+  PetscCall(SamOutputSetReals(output, "grid_center", 2, grid->center));
   PetscCall(SamGapGetParameters(gap, &type, &count, &names, &values));
   PetscCall(SamOutputSetText(output, "gap_type", type));
-  for (PetscInt k = 0; k < count; k++) PetscCall(SamOutputSetReal(output, names[k], values[k]));
+  for (PetscInt k = 0; k < count; k++) PetscCall(SamOutputSetReals(output, names[k], 1, &values[k]));
   /* of a history, the last step's: how it went there stands in /history */
   PetscCall(SamHistoryGetCount(history, &count));
   PetscCall(SamHistoryGetStep(history, count - 1, &step));
@@ -180,8 +237,8 @@ static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamP
   balances[1] = &step.tangential;
   for (PetscInt b = 0; b < 2; b++)
     for (PetscInt k = 0; k < 3; k++) {
-      if (balances[b]->force[k]) PetscCall(SamOutputSetReal(output, SamLoadNames[b][k], balances[b]->load[k]));
-      else PetscCall(SamOutputSetReal(output, SamRigidNames[b][k], balances[b]->rigid[k]));
+      if (balances[b]->force[k]) PetscCall(SamOutputSetReals(output, SamLoadNames[b][k], 1, &balances[b]->load[k]));
+      else PetscCall(SamOutputSetReals(output, SamRigidNames[b][k], 1, &balances[b]->rigid[k]));
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -209,6 +266,7 @@ typedef struct {
   SamPair       pair;
   SamGap        gap;
   SamCompliance compliance;
+  Vec           separation;
   SamContact    contact;
   SamOutput     output;
   PetscReal     friction;
@@ -241,7 +299,6 @@ static PetscErrorCode RefuseOverwritingInput(const Run *run)
 static PetscErrorCode SetUp(Run *run)
 {
   PetscBool help;
-  Vec       separation;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
@@ -259,10 +316,10 @@ static PetscErrorCode SetUp(Run *run)
   PetscCall(RefuseOverwritingInput(run));
   PetscCall(RefuseTooLarge(run->grid, run->friction));
   PetscCall(SamComplianceCreate(run->grid, &run->pair, &run->compliance));
-  PetscCall(SamGridCreateVec(run->grid, 1, &separation));
-  if (!help) PetscCall(SamGapFill(run->gap, run->grid, separation));
-  PetscCall(SamContactCreate(run->compliance, separation, run->friction, &run->contact));
-  PetscCall(VecDestroy(&separation));
+  PetscCall(SamGridCreateVec(run->grid, 1, &run->separation));
+  if (!help) PetscCall(SamGapFill(run->gap, run->grid, run->separation));
+  PetscCall(SamContactCreate(run->compliance, run->separation, run->friction, &run->contact));
+  PetscCall(VecDestroy(&run->separation)); /* the contact has its own */
   PetscCall(SamContactSetFromOptions(run->contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -272,6 +329,7 @@ static PetscErrorCode TearDown(Run *run)
   PetscFunctionBegin;
   PetscCall(SamOutputDestroy(&run->output));
   PetscCall(SamContactDestroy(&run->contact));
+  PetscCall(VecDestroy(&run->separation));
   PetscCall(SamComplianceDestroy(&run->compliance));
   PetscCall(SamHistoryDestroy(&run->history));
   PetscCall(SamGapDestroy(&run->gap));
@@ -340,12 +398,13 @@ static PetscErrorCode SolveSteps(Run *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help)
+static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help, PetscErrorCode bad_file, const char message[])
 {
   const double start = MPI_Wtime();
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
+  PetscCheck(!bad_file, PETSC_COMM_WORLD, bad_file, "%s", message);
   if (help) {
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", usage));
     PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
@@ -369,11 +428,13 @@ static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help
 int main(int argc, char **argv)
 {
   PetscBool      help = PETSC_FALSE, version = PETSC_FALSE;
-  PetscErrorCode code;
+  PetscErrorCode code, bad_file;
+  char           message[512] = "";
   Run            run;
   int            status;
 
   TakeWords(&argc, argv, &help, &version);
+  bad_file = TakeBadOptionsFiles(&argc, argv, message, sizeof(message));
   memset(&run, 0, sizeof(run));
   code = SamHistoryClaimOption();
   if (!code) code = PetscInitialize(&argc, &argv, NULL, NULL);
@@ -387,7 +448,7 @@ int main(int argc, char **argv)
     PetscCall(PetscFinalize());
     return 0;
   }
-  code   = RunProgram(&run, argc, argv, help);
+  code   = RunProgram(&run, argc, argv, help, bad_file, message);
   status = code ? ExitCode(code) : (int)run.status;
   /* other errors may be one rank's alone, and a file that could not be written cannot be closed: nobody must wait */
   if (code && (status == (int)code || run.writing)) MPI_Abort(PETSC_COMM_WORLD, status);

@@ -60,4 +60,23 @@ PETSC_EXTERN PetscErrorCode SamTransferDestroy(SamTransfer *transfer);
 PETSC_EXTERN PetscErrorCode SamTransferRestrict(SamTransfer transfer, Vec fine, Vec coarse);
 PETSC_EXTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse, Vec fine);
 
+/*
+  SamWindow - a rectangle of cells of a grid as a grid of its own, with its own slabs on all ranks.
+*/
+typedef struct _n_SamWindow *SamWindow;
+/* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2. Collective. */
+PETSC_EXTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2], SamWindow *window);
+PETSC_EXTERN PetscErrorCode SamWindowDestroy(SamWindow *window);
+PETSC_EXTERN PetscErrorCode SamWindowGetGrid(SamWindow window, SamGrid *grid); /* borrowed */
+/* SamWindowCovers - whether all those cells lie in the window. Not collective. */
+PETSC_EXTERN PetscBool SamWindowCovers(SamWindow window, const PetscInt first[2], const PetscInt n[2]);
+/* SamWindowTake, SamWindowPut - copy the window's part of a field out, or back in (zero elsewhere). Collective. */
+PETSC_EXTERN PetscErrorCode SamWindowTake(SamWindow window, Vec whole, Vec part);
+PETSC_EXTERN PetscErrorCode SamWindowPut(SamWindow window, Vec part, Vec whole);
+/*
+  SamGridGetSupport - the smallest rectangle that holds all cells where the first component of a field is positive; n is
+  0 when there is none. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2]);
+
 #endif

@@ -22,8 +22,8 @@ PETSC_EXTERN PetscErrorCode SamOutputCheckOptions(MPI_Comm comm);
   a name that cannot be written stays as it is), SAM_ERR_USER for a wrong -output_compress.
 */
 PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], SamOutput *output);
-/* SamOutputSetReal, SamOutputSetText - attributes of the root; a name set before is replaced. Collective. Errors: SAM_ERR_FILE. */
-PETSC_EXTERN PetscErrorCode SamOutputSetReal(SamOutput output, const char name[], PetscReal value);
+/* SamOutputSetReals, SamOutputSetText - attributes of the root; one number is stored as a scalar. Collective. */
+PETSC_EXTERN PetscErrorCode SamOutputSetReals(SamOutput output, const char name[], PetscInt count, const PetscReal values[]);
 PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[], const char text[]);
 /*
   SamOutputWriteStep - appends the scalars of a step to /history and, when fields is not NULL, its fields and time; then

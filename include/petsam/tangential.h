@@ -42,6 +42,7 @@ PETSC_EXTERN PetscErrorCode SamTangentialGetTolerances(SamTangential tangential,
 PETSC_EXTERN PetscErrorCode SamTangentialSetLevels(SamTangential tangential, PetscInt levels);
 /* SamTangentialSetFromOptions - as SamNormalSetFromOptions(), with -tangential_. */
 PETSC_EXTERN PetscErrorCode SamTangentialSetFromOptions(SamTangential tangential);
+/* A monitor gets the SamTangential and is called on the finest grid whenever the residual is known anew. */
 typedef PetscErrorCode (*SamTangentialMonitor)(void *tangential, PetscInt it, PetscReal error, void *context);
 PETSC_EXTERN PetscErrorCode SamTangentialMonitorSet(SamTangential tangential, SamTangentialMonitor monitor, void *context);
 PETSC_EXTERN PetscErrorCode SamTangentialView(SamTangential tangential, PetscViewer viewer);

@@ -92,10 +92,9 @@ void SamSolverStart(SamSolver *s)
   s->error                                      = 0;
 }
 
-PetscErrorCode SamSolverIterated(SamSolver *s, PetscReal error)
+PetscErrorCode SamSolverCallMonitors(SamSolver *s, PetscReal error)
 {
   PetscFunctionBegin;
-  s->iterations++;
   for (PetscInt m = 0; m < s->monitors; m++) PetscCall(s->monitor[m](s->owner, s->iterations, error, s->monitor_context[m]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

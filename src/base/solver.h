@@ -42,7 +42,7 @@ PETSC_INTERN PetscErrorCode SamSolverViewFromOptions(const SamSolver *solver, Pe
 PETSC_INTERN void SamSolverStart(SamSolver *solver);
 PETSC_INTERN PetscInt SamSolverMaxIterations(const SamSolver *solver);
 PETSC_INTERN PetscInt SamSolverLevels(const SamSolver *solver);
-/* Counts an iteration on the finest grid, calls the monitors. */
-PETSC_INTERN PetscErrorCode SamSolverIterated(SamSolver *solver, PetscReal error);
+/* Calls the monitors with the number of iterations so far. */
+PETSC_INTERN PetscErrorCode SamSolverCallMonitors(SamSolver *solver, PetscReal error);
 
 #endif

@@ -180,7 +180,9 @@ PetscErrorCode SamNormalPrecondition(SamNormal n, SamNormalLevel *level, Vec r, 
 PetscErrorCode SamNormalIterated(SamNormal n, SamNormalLevel *level, PetscReal error)
 {
   PetscFunctionBegin;
-  if (level->finest) PetscCall(SamSolverIterated(&n->solver, error));
+  if (!level->finest) PetscFunctionReturn(PETSC_SUCCESS);
+  n->solver.iterations++;
+  PetscCall(SamSolverCallMonitors(&n->solver, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -282,13 +282,11 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
 
 /* ---- attributes ---- */
 
-PetscErrorCode SamOutputSetReal(SamOutput o, const char name[], PetscReal value)
+PetscErrorCode SamOutputSetReals(SamOutput o, const char name[], PetscInt count, const PetscReal values[])
 {
-  const double number = (double)value;
-
   PetscFunctionBegin;
   PetscCall(SamOutputBegin(o));
-  SamOutputWriteAttribute(o, o->file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &number);
+  SamOutputWriteAttribute(o, o->file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, values);
   PetscCall(SamOutputEnd(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -65,7 +65,8 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamTangential solver, SamTange
     PetscCall(SamStickSlipEnergy(&w, &energy));
     /* s changes by a rigid motion only, which the projection takes out of the gradient */
     for (PetscInt c = 0; c < 2; c++) PetscCall(SamStickSlipMeasure(&w));
-    PetscCall(SamTangentialIterated(solver, level, w.error));
+    SamTangentialIterated(solver, level);
+    PetscCall(SamTangentialMeasured(solver, level, w.error));
     if (!isfinite(w.error)) reason = SAM_TANGENTIAL_DIVERGED_NAN;
     else if (w.error <= level->rtol) reason = SAM_TANGENTIAL_CONVERGED_RTOL;
     else if (it >= SamSolverMaxIterations(&solver->solver)) reason = SAM_TANGENTIAL_DIVERGED_ITS;

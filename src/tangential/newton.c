@@ -301,7 +301,7 @@ static PetscErrorCode NewtonStep(Work *w)
     PetscCall(Step(w, &good));
     if (!good) break;
     PetscCall(NewResidual(w, &cut));
-    PetscCall(SamTangentialIterated(u->solver, u->level, u->error));
+    SamTangentialIterated(u->solver, u->level);
     done = (w->residual <= goal || cut > PROPORTION * w->residual || !isfinite(w->residual)) ? PETSC_TRUE : PETSC_FALSE;
     if (u->level->finest && u->solver->solver.iterations >= SamSolverMaxIterations(&u->solver->solver)) done = PETSC_TRUE;
   }
@@ -429,6 +429,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamTangential solver, SamTangent
     if (stagnant > PATIENCE) PetscCall(EnsureDescent(&w, &energy));
     else PetscCall(SamStickSlipEnergy(u, &energy));
     PetscCall(SamStickSlipMeasure(u));
+    PetscCall(SamTangentialMeasured(solver, level, u->error));
     stagnant = u->error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, u->error);
     reason   = Reason(u, stagnant);

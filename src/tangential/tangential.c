@@ -1,9 +1,13 @@
-/* The tangential solver's class: types, tolerances, monitors, nested grids, the test for gross slip. */
+/* The tangential solver's class: types, tolerances, monitors, the window, nested grids, the test for gross slip. */
 #include "tangentialimpl.h"
 #include <math.h>
 
 /* Coarse grids need to be solved only as well as they approximate the fine one. */
 #define COARSE_RTOL 1e-3
+
+/* A window is made where it has at most this part of the grid's cells, and replaced when it is this much too large. */
+#define WINDOW_WORTH 0.8
+#define WINDOW_SLACK 1.5
 
 static PetscFunctionList SamTangentialList  = NULL;
 static PetscBool         registered = PETSC_FALSE;
@@ -76,10 +80,19 @@ PetscErrorCode SamTangentialCreate(SamCompliance compliance, SamTangential *tang
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode DestroyWindow(SamTangential t)
+{
+  PetscFunctionBegin;
+  PetscCall(SamWindowDestroy(&t->window));
+  PetscCall(SamComplianceDestroy(&t->window_compliance));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamTangentialDestroy(SamTangential *tangential)
 {
   PetscFunctionBegin;
   if (!*tangential) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DestroyWindow(*tangential));
   PetscCall(SamComplianceDestroy(&(*tangential)->compliance));
   PetscCall(PetscFree(*tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -175,10 +188,15 @@ PetscErrorCode SamTangentialPrecondition(SamTangential t, SamTangentialLevel *le
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialIterated(SamTangential t, SamTangentialLevel *level, PetscReal error)
+void SamTangentialIterated(SamTangential t, SamTangentialLevel *level)
+{
+  t->solver.iterations += level->finest ? 1 : 0;
+}
+
+PetscErrorCode SamTangentialMeasured(SamTangential t, SamTangentialLevel *level, PetscReal error)
 {
   PetscFunctionBegin;
-  if (level->finest) PetscCall(SamSolverIterated(&t->solver, error));
+  if (level->finest) PetscCall(SamSolverCallMonitors(&t->solver, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -404,6 +422,61 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Shear acts only where there is contact, and only there its displacement counts: the problem is solved on a window around
+  the contact, on transforms of its size. The window is kept as long as the contact stays in it and fills most of it.
+*/
+static PetscErrorCode ChooseWindow(SamTangential t, SamGrid grid, Vec bound)
+{
+  const PetscInt all[2] = {grid->nx, grid->ny};
+  PetscInt       first[2], n[2];
+  SamGrid        part;
+  const SamPair *pair;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridGetSupport(grid, bound, first, n));
+  if (t->window) {
+    PetscCall(SamWindowGetGrid(t->window, &part));
+    if (SamWindowCovers(t->window, first, n) && WINDOW_SLACK * (double)n[0] * (double)n[1] >= (double)part->nx * (double)part->ny) PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(DestroyWindow(t));
+  for (PetscInt k = 0; k < 2; k++) { /* a few cells more, for contacts that grow */
+    const PetscInt margin = 2 + n[k] / 50, last = PetscMin(first[k] + n[k] + margin, all[k]);
+
+    first[k] = PetscMax(first[k] - margin, 0);
+    n[k]     = PetscMax(last - first[k], 2);
+  }
+  if ((double)n[0] * (double)n[1] > WINDOW_WORTH * (double)all[0] * (double)all[1]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamWindowCreate(grid, first, n, &t->window));
+  PetscCall(SamWindowGetGrid(t->window, &part));
+  PetscCall(SamComplianceGetPair(t->compliance, &pair));
+  PetscCall(SamComplianceCreate(part, pair, &t->window_compliance));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The problem on the window: fields taken out, the solution put back. */
+static PetscErrorCode SolveInWindow(SamTangential t, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+{
+  SamTangentialLevel level = {.compliance = t->window_compliance, .finest = PETSC_TRUE, .rtol = t->solver.rtol};
+
+  PetscFunctionBegin;
+  PetscCall(SamWindowGetGrid(t->window, &level.grid));
+  PetscCall(SamGridCreateVec(level.grid, 1, &level.bound));
+  PetscCall(SamGridCreateVec(level.grid, 2, &level.q));
+  PetscCall(SamWindowTake(t->window, bound, level.bound));
+  if (offset) {
+    PetscCall(SamGridCreateVec(level.grid, 2, &level.offset));
+    PetscCall(SamWindowTake(t->window, offset, level.offset));
+  }
+  if (guess) PetscCall(SamWindowTake(t->window, q, level.q));
+  PetscCall(SolveLoaded(t, &level, balance, guess));
+  PetscCall(SamWindowPut(t->window, level.q, q));
+  PetscCall(VecDestroy(&level.bound));
+  PetscCall(VecDestroy(&level.offset));
+  PetscCall(VecDestroy(&level.q));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamTangentialSolve(SamTangential t, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
 {
   SamTangentialLevel level = {.compliance = t->compliance, .finest = PETSC_TRUE, .bound = bound, .offset = offset, .q = q, .rtol = t->solver.rtol};
@@ -418,7 +491,11 @@ PetscErrorCode SamTangentialSolve(SamTangential t, Vec bound, Vec offset, SamBal
   t->reason = SAM_TANGENTIAL_CONVERGED_ITERATING;
   PetscCall(VecMax(bound, NULL, &most));
   if (most <= 0 || IsUnloaded(balance, offset)) PetscCall(SolveFree(t, balance, q));
-  else PetscCall(SolveLoaded(t, &level, balance, guess));
+  else {
+    PetscCall(ChooseWindow(t, level.grid, bound));
+    if (t->window) PetscCall(SolveInWindow(t, bound, offset, balance, guess, q));
+    else PetscCall(SolveLoaded(t, &level, balance, guess));
+  }
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_TANGENTIAL_SOLVE], 0, 0, 0, 0));
   PetscCheck(t->reason, level.grid->comm, PETSC_ERR_PLIB, "Method %s set no reason", t->solver.type);
   PetscCall(SamSolverViewFromOptions(&t->solver, t->reason > 0 ? PETSC_TRUE : PETSC_FALSE, SamTangentialReasonName(t->reason)));

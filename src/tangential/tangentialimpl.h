@@ -22,6 +22,8 @@ struct _n_SamTangential {
   SamSolver           solver;
   PetscErrorCode (*solve)(SamTangential, SamTangentialLevel *); /* the method: solves one level, sets reason and error */
   SamCompliance       compliance;
+  SamWindow           window;          /* around the contact; NULL: the whole grid */
+  SamCompliance       window_compliance;
   SamTangentialReason reason;
   PetscReal           limit; /* of the loads, in their multiples, after gross slip */
 };
@@ -29,8 +31,9 @@ struct _n_SamTangential {
 /* Counted products: only those on the finest grid count. */
 PETSC_INTERN PetscErrorCode SamTangentialApply(SamTangential tangential, SamTangentialLevel *level, Vec q, Vec u);
 PETSC_INTERN PetscErrorCode SamTangentialPrecondition(SamTangential tangential, SamTangentialLevel *level, Vec r, Vec z);
-/* Counts an iteration, calls the monitors. */
-PETSC_INTERN PetscErrorCode SamTangentialIterated(SamTangential tangential, SamTangentialLevel *level, PetscReal error);
+/* Counts an iteration; and, when the error has been measured, calls the monitors: only those on the finest grid count. */
+PETSC_INTERN void           SamTangentialIterated(SamTangential tangential, SamTangentialLevel *level);
+PETSC_INTERN PetscErrorCode SamTangentialMeasured(SamTangential tangential, SamTangentialLevel *level, PetscReal error);
 
 /*
   SamStickSlip - the state of an iteration that both methods share: the arrays of a level, the slip increment that belongs

@@ -30,8 +30,9 @@ def test_rigid_displacements_give_back_the_loads(solve, names):
 
 
 def test_displacement_control_gives_the_same_fields(solve):
-    # a tolerance of 1e-6 on the shear, twice
-    assert_same(solve(controlled(solve(BALL), LOADS)), solve(BALL), 1e-5, ("pressure", "shear_x", "shear_y", "displacement_z"))
+    # near the edge of the stick zone the shear is off by some ten times the residual; 1e-7 leaves a margin of ten
+    tight = dict(BALL, normal_rtol=1e-9, tangential_rtol=1e-9)
+    assert_same(solve(dict(controlled(solve(tight), LOADS), normal_rtol=1e-9, tangential_rtol=1e-9)), solve(tight), 1e-7, ("pressure", "shear_x", "shear_y", "displacement_z"))
 
 
 def test_given_displacements_stay_as_given(solve):

@@ -29,7 +29,7 @@ def test_tiny_and_thin_grids_on_three_ranks(solve, n):
 
 
 @pytest.mark.parametrize("ranks", [2, 5])
-def test_same_run_gives_the_same_bits(solve, petsam, tmp_path, ranks):
+def test_run_repeats(solve, petsam, tmp_path, ranks):
     from support import Results
     petsam(BALL, dict(output="again.h5"), ranks=ranks)
     assert_same(Results(tmp_path / "again.h5"), solve(BALL, ranks=ranks), 1e-12)  # the order of sums in MPI is not promised

@@ -158,8 +158,8 @@ static void WriteFile(SamGrid grid, const char *name)
   SamOutput output;
 
   sam_call(SamOutputCreate(grid, name, &output));
-  sam_call(SamOutputSetReal(output, "friction", 0.25));
-  sam_call(SamOutputSetReal(output, "friction", friction));
+  sam_call(SamOutputSetReals(output, "friction", 1, &(PetscReal){0.25}));
+  sam_call(SamOutputSetReals(output, "friction", 1, &(PetscReal){friction}));
   sam_call(SamOutputSetText(output, "options", "-a 1\n-b \xc2\xb5m"));
   sam_call(SamOutputSetText(output, "empty", ""));
   WriteSteps(grid, output);
