@@ -115,7 +115,7 @@ typedef struct {
   const double *bound;
 } Cells;
 
-static void AddNormal(Dual *d, double x, double xi, double eta)
+static inline void AddNormal(Dual *d, double x, double xi, double eta)
 {
   d->value += 0.5 * x * x;
   d->scale += x;
@@ -188,7 +188,7 @@ PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], Pet
 }
 
 /* Adds a symmetric 2 x 2 matrix hxx, hxy, hyy of one cell to the Gram matrix of the tangential phi. */
-static void AddTangentialGram(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi, double eta)
+static inline void AddTangentialGram(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi, double eta)
 {
   gram[0] += hxx;
   gram[1] += hxy;
@@ -196,6 +196,15 @@ static void AddTangentialGram(double gram[SAM_GRAM], double hxx, double hxy, dou
   gram[3] += hyy;
   gram[4] += -eta * hxy + xi * hyy;
   gram[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
+}
+
+static inline void AddShear(Dual *d, double x, double y, double value, double xi, double eta)
+{
+  d->value += value;
+  d->scale += fabs(x) + fabs(y);
+  d->sums[0] += x;
+  d->sums[1] += y;
+  d->sums[2] += xi * y - eta * x;
 }
 
 static void PassTangential(const SamFrame *f, const void *context, const double a[3], Dual *dual)
@@ -210,26 +219,21 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k  = j * nx + i;
       const double   b  = c->bound[k], xi = f->xi0 + (double)i * f->dxi;
-      double         vx, vy, n, s, hxx = 1, hxy = 0, hyy = 1;
+      double         vx, vy, n, s;
 
       if (b <= 0) continue;
       vx = c->field[k] + SamFrameX(a, eta);
       vy = c->field[f->grid->cells + k] + SamFrameY(a, xi);
-      n  = sqrt(vx * vx + vy * vy);
-      s  = n > b ? b / n : 1;
-      row.value += n > b ? b * n - 0.5 * b * b : 0.5 * n * n;
-      if (n > b) {
-        hxx = s * vy * vy / (n * n);
-        hxy = -s * vx * vy / (n * n);
-        hyy = s * vx * vx / (n * n);
+      n  = vx * vx + vy * vy;
+      if (n <= b * b) {
+        AddShear(&row, vx, vy, 0.5 * n, xi, eta);
+        AddTangentialGram(row.gram, 1, 0, 1, xi, eta);
+        continue;
       }
-      vx *= s;
-      vy *= s;
-      row.scale += s * n;
-      row.sums[0] += vx;
-      row.sums[1] += vy;
-      row.sums[2] += xi * vy - eta * vx;
-      AddTangentialGram(row.gram, hxx, hxy, hyy, xi, eta);
+      n = sqrt(n);
+      s = b / n;
+      AddShear(&row, s * vx, s * vy, b * n - 0.5 * b * b, xi, eta);
+      AddTangentialGram(row.gram, s * vy * vy / (n * n), -s * vx * vy / (n * n), s * vx * vx / (n * n), xi, eta);
     }
     AddDual(dual, &row);
   }
@@ -252,8 +256,8 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
       const PetscInt k  = j * nx + i;
       const double   b  = bound[k];
       const double   vx = q[k] + SamFrameX(a, eta), vy = q[ncells + k] + SamFrameY(a, f->xi0 + (double)i * f->dxi);
-      const double   n  = sqrt(vx * vx + vy * vy);
-      const double   s  = b <= 0 ? 0 : (n > b ? b / n : 1);
+      const double   n2 = vx * vx + vy * vy;
+      const double   s  = b <= 0 ? 0 : (n2 > b * b ? b / sqrt(n2) : 1);
 
       q[k]          = s * vx;
       q[ncells + k] = s * vy;

@@ -175,18 +175,20 @@ static PetscErrorCode NewResidual(Work *w, double *cut)
 
     for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
       const PetscInt k = j * u->nx + i, l = k + u->cells;
-      double         rx, ry, h, excess;
+      double         rx, ry, h = 1, q2, excess;
 
       if (u->bound[k] <= 0) continue;
       u->s[k] -= SamFrameX(a, eta);
       u->s[l] -= SamFrameY(a, f->xi0 + (double)i * f->dxi);
       Residual(w, k, &rx, &ry);
-      h       = sqrt(u->self / (w->lambda[k] + u->self));
+      if (w->slip[k]) h = sqrt(u->self / (w->lambda[k] + u->self));
       w->t[k] = h * rx;
       w->t[l] = h * ry;
       norms[0] += h * h * (rx * rx + ry * ry);
       if (w->slip[k]) continue;
-      excess = PetscMax(0, sqrt(u->q[k] * u->q[k] + u->q[l] * u->q[l]) - u->bound[k]) * u->self;
+      q2 = u->q[k] * u->q[k] + u->q[l] * u->q[l];
+      if (q2 <= u->bound[k] * u->bound[k]) continue;
+      excess = (sqrt(q2) - u->bound[k]) * u->self;
       norms[1] += excess * excess;
     }
   }
@@ -212,14 +214,21 @@ static PetscErrorCode NewDirection(Work *w, PetscBool first)
 
     for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
       const PetscInt k = j * u->nx + i, l = k + u->cells;
-      const double   sum = w->lambda[k] + u->self, h = u->self / sum, root = sqrt(h), rest = w->slip[k] ? 0.5 * (1 - h) / sum : 0;
-      double         rx, ry, zx = root * w->t[k], zy = root * w->t[l];
+      double         rx, ry, zx = w->t[k], zy = w->t[l];
 
       if (u->bound[k] <= 0) continue;
       Residual(w, k, &rx, &ry);
-      ToTangent(w, k, &zx, &zy);
-      w->t[k] = zx += rest * rx;
-      w->t[l] = zy += rest * ry;
+      if (w->slip[k]) {
+        const double sum = w->lambda[k] + u->self, h = u->self / sum, root = sqrt(h), rest = 0.5 * (1 - h) / sum;
+
+        zx *= root;
+        zy *= root;
+        ToTangent(w, k, &zx, &zy);
+        zx += rest * rx;
+        zy += rest * ry;
+      }
+      w->t[k] = zx;
+      w->t[l] = zy;
       sums[0] += zx;
       sums[1] += zy;
       sums[2] += (f->xi0 + (double)i * f->dxi) * zy - eta * zx;

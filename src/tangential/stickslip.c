@@ -106,6 +106,7 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
   const SamFrame *f = w->frame;
   double          sums[3 + SAM_GRAM] = {0}, a[3];
   double         *gram = sums + 3;
+  const double    inverse = 1 / w->self;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -119,13 +120,15 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
       if (b <= 0) continue;
       tx = w->s[k];
       ty = w->s[l];
-      yx = w->q[k] - tx / w->self;
-      yy = w->q[l] - ty / w->self;
-      n  = sqrt(yx * yx + yy * yy);
-      if (n > b && !stick) { /* the derivative of the projection on the disc */
-        hxx = b * yy * yy / (n * n * n);
-        hxy = -b * yx * yy / (n * n * n);
-        hyy = b * yx * yx / (n * n * n);
+      yx = w->q[k] - inverse * tx;
+      yy = w->q[l] - inverse * ty;
+      n  = yx * yx + yy * yy;
+      if (n > b * b && !stick) { /* the derivative of the projection on the disc */
+        const double scale = b / (n * sqrt(n));
+
+        hxx = scale * yy * yy;
+        hxy = -scale * yx * yy;
+        hyy = scale * yx * yx;
         n   = tx;
         tx  = hxx * n + hxy * ty;
         ty  = hxy * n + hyy * ty;
@@ -169,15 +172,16 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
 
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
-  double sums[3] = {0, 0, 0};
+  const double inverse = 1 / w->self;
+  double       sums[3] = {0, 0, 0};
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
   for (PetscInt j = 0; j < w->rows; j++) {
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
-      const double   b = w->bound[k], yx = w->q[k] - w->s[k] / w->self, yy = w->q[l] - w->s[l] / w->self;
-      const double   n = sqrt(yx * yx + yy * yy), scale = n > b ? b / n : 1;
+      const double   b = w->bound[k], yx = w->q[k] - inverse * w->s[k], yy = w->q[l] - inverse * w->s[l];
+      const double   n2 = yx * yx + yy * yy, scale = n2 > b * b ? b / sqrt(n2) : 1;
       double         rx, ry;
 
       if (b <= 0) continue;
