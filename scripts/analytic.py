@@ -1,4 +1,5 @@
-"""Closed solutions for two elastic spheres in contact: normal load, tangential force, torque.
+"""Closed solutions for elastic bodies in contact: spheres under normal load, tangential force and torque, and
+the flat punch with a rounded edge under normal load.
 
 Conventions
 -----------
@@ -21,6 +22,10 @@ References
 - J. L. Lubkin, The torsion of elastic spheres in contact, J. Appl. Mech. 18 (1951) 183-187.
 - M. Hetenyi and P. H. McDonald, Contact stresses under combined pressure and twist, J. Appl. Mech. 25
   (1958) 396-401.
+- I. N. Sneddon, The relation between load and penetration in the axisymmetric Boussinesq problem for a
+  punch of arbitrary profile, Int. J. Eng. Sci. 3 (1965) 47-57.
+- M. Ciavarella, D. A. Hills, G. Monno, The influence of rounded edges on indentation by a flat punch,
+  Proc. Inst. Mech. Eng. C 212 (1998) 319-327.
 """
 import sys
 from typing import NamedTuple
@@ -169,6 +174,72 @@ def lubkin_twist(a, c, mu_p0, compliance):
     return 0.5 * mu_p0 * compliance * (ellipkm1(m) - ellipe(1.0 - m))
 
 
+# ---------------------------------------------------------------- flat punch with a rounded edge
+#
+# Separation h = 0 for r <= c, (r - c)^2/(2 R) beyond. The pressure is a sum of rigid flat punches of all radii s
+# from c to the contact radius a, each of which presses a disc down by d(delta): E* d(delta)/(pi sqrt(s^2 - r^2)).
+# They give the surface the shape h when delta is Abel's transform of it, delta(s) = s int_0^s h'(r)/sqrt(s^2 - r^2) dr:
+#   delta(s)  = (s/R) [sqrt(s^2 - c^2) - c arccos(c/s)]
+#   delta'(s) = (1/R) [2 sqrt(s^2 - c^2) - c arccos(c/s)] = (1/R) F(v),  F(v) = 2 v - c arctan(v/c), v^2 = s^2 - c^2.
+# c = 0 gives Hertz.
+
+def _rounded_punch_slope(v, c):
+    """R delta'(s) = 2 v - c arctan(v/c), m, at v = sqrt(s^2 - c^2) (m)."""
+    return 2.0 * v - c * np.arctan2(v, c)
+
+
+def rounded_punch_gap(r, c, edge_radius):
+    """Separation h, m, of the undeformed surfaces at r (m): flat up to c, of radius edge_radius beyond."""
+    return np.clip(np.asarray(r, dtype=float) - c, 0.0, None)**2 / (2.0 * edge_radius)
+
+
+def rounded_punch_approach(a, c, edge_radius):
+    """Approach of the bodies, m, at contact radius a >= c (m)."""
+    return a / edge_radius * (np.sqrt(a**2 - c**2) - c * np.arccos(c / a))
+
+
+def rounded_punch_load(a, c, edge_radius, e_star):
+    """Normal load, N, at contact radius a >= c (m): 2 E* times the integral of s delta'(s) over [c, a]."""
+    b = np.sqrt(a**2 - c**2)
+    return 2.0 * e_star / edge_radius * (2.0 / 3.0 * b**3 - 0.5 * c * a**2 * np.arccos(c / a) + 0.5 * c**2 * b)
+
+
+def rounded_punch_radius(load_n, c, edge_radius, e_star):
+    """Contact radius a, m, under load_n (N)."""
+    low, high = c, c + np.cbrt(3.0 * load_n * edge_radius / (4.0 * e_star))
+    while rounded_punch_load(high, c, edge_radius, e_star) < load_n:
+        low, high = high, 2.0 * high
+    return brentq(lambda a: rounded_punch_load(a, c, edge_radius, e_star) - load_n, low, high, xtol=1e-15, rtol=1e-14)
+
+
+def rounded_punch_pressure(r, a, c, edge_radius, e_star):
+    """Pressure, Pa, at r (m), 0 for r > a: E*/pi times the integral of delta'(s)/sqrt(s^2 - r^2) over [max(r, c), a].
+
+    With v = e sinh(t) for r < c and v = e cosh(t) for r > c, e^2 = |c^2 - r^2|, the integral is that of the
+    smooth function F(v) v/s over t, for which Gauss's rule is exact to rounding.
+    """
+    r = np.asarray(r, dtype=float)[..., None]
+    b, flat = np.sqrt(a**2 - c**2), r < c
+    e = np.sqrt(np.maximum(np.abs(c**2 - r**2), (1e-9 * a)**2))
+    ratio = np.where(r < a, b / e, 1.0)
+    end = np.where(flat, np.arcsinh(ratio), np.arccosh(np.maximum(ratio, 1.0)))
+    t = 0.5 * end * (1.0 + GAUSS_NODES)
+    v = e * np.where(flat, np.sinh(t), np.cosh(t))
+    integral = np.sum(0.5 * end * GAUSS_WEIGHTS * _rounded_punch_slope(v, c) * v / np.sqrt(v**2 + c**2), axis=-1)
+    return e_star / (np.pi * edge_radius) * np.where(r[..., 0] < a, integral, 0.0)
+
+
+def rounded_punch_torsion_limit(a, c, edge_radius, e_star, friction):
+    """Greatest torque, N m, at which all slips: mu E* pi/2 times the integral of s^2 delta'(s) over [c, a].
+
+    (The flat punch of radius s under N carries mu N pi s/4.)
+    """
+    b = np.sqrt(a**2 - c**2)
+    v = 0.5 * b * (1.0 + GAUSS_NODES)
+    integral = 0.5 * b * np.sum(GAUSS_WEIGHTS * np.sqrt(v**2 + c**2) * v * _rounded_punch_slope(v, c))
+    return 0.5 * np.pi * friction * e_star / edge_radius * integral
+
+
 # ---------------------------------------------------------------- self-check by quadrature
 
 def _segments(breaks):
@@ -276,12 +347,52 @@ def _check_lubkin_limits():
     yield "Lubkin, c -> 0: q = mu p", np.max(np.abs(ratio - 1.0)), 1e-9
 
 
+def _ring_displacement(x0, breaks, pressure):
+    """E* times the surface displacement u_z, m Pa, at radius x0 (one of breaks) under pressure(r) (Pa), ring by ring.
+
+    The potential of a ring of radius s is 4 s K(m)/(r + s), 1 - m = ((r - s)/(r + s))^2.
+    """
+    s, w = _segments(np.unique(breaks))
+    return 4.0 / np.pi * np.sum(w * pressure(s) * s / (x0 + s) * ellipkm1(((x0 - s) / (x0 + s))**2))
+
+
+def _check_rounded_punch():
+    """Errors of load, surface shape and limit torque for Table 3 (one N and one a hundred times that), and of c = 0."""
+    c, edge_radius, e_star = 0.02, 0.2, effective_modulus(210e9, 0.3, 210e9, 0.3)
+    for load in (1e6, 1e8):
+        a = rounded_punch_radius(load, c, edge_radius, e_star)
+        approach, label = rounded_punch_approach(a, c, edge_radius), "rounded punch, {:g} N: ".format(load)
+
+        def pressure(r, a=a):
+            return rounded_punch_pressure(r, a, c, edge_radius, e_star)
+
+        r, w = _segments(np.array([0.0, c, a]))
+        yield label + "integral of p is N", 2.0 * np.pi * np.sum(w * r * pressure(r)) / load - 1.0, 1e-8
+        limit = rounded_punch_torsion_limit(a, c, edge_radius, e_star, 0.1)
+        yield label + "limit torque", 0.2 * np.pi * np.sum(w * r**2 * pressure(r)) / limit - 1.0, 1e-8
+        for radius in (0.0, 0.5 * c, c, 0.5 * (a + c), 0.99 * a, a):
+            u = _ring_displacement(radius, [0.0, radius, c, a], pressure) / e_star
+            gap = u + rounded_punch_gap(radius, c, edge_radius) - approach
+            yield label + "u + h = approach at r = {:.3f} a".format(radius / a), gap / approach, 1e-6
+        for ratio in (1.01, 1.5):
+            u = _ring_displacement(ratio * a, [0.0, c, a], pressure) / e_star
+            gap = u + rounded_punch_gap(ratio * a, c, edge_radius) - approach
+            yield label + "open at r = {:g} a".format(ratio), min(0.0, gap / approach), 0.0
+    h = hertz(1000.0, 0.1, e_star)
+    r = np.linspace(0.0, 1.1, 12) * h.radius
+    yield "rounded punch, c = 0: Hertz's radius", rounded_punch_radius(1000.0, 0.0, 0.1, e_star) / h.radius - 1.0, 1e-10
+    p = rounded_punch_pressure(r, h.radius, 0.0, 0.1, e_star) - hertz_pressure(r, h.radius, h.pressure)
+    yield "rounded punch, c = 0: Hertz's pressure", np.max(np.abs(p)) / h.pressure, 1e-10
+    limit = rounded_punch_torsion_limit(h.radius, 0.0, 0.1, e_star, 0.1) / torsion_limit(1000.0, 0.1, h.radius)
+    yield "rounded punch, c = 0: limit torque of the sphere", limit - 1.0, 1e-10
+
+
 def self_check():
     """Compare every formula with quadrature or its limits, print errors and bounds, return the number of failures."""
     checks = list(_check_hertz())
     for ratio in (0.1, 0.6, 0.95):
         checks += [*_check_cattaneo(ratio, 0.0), *_check_cattaneo(ratio, 0.3), *_check_lubkin(ratio)]
-    checks += list(_check_lubkin_limits())
+    checks += [*_check_lubkin_limits(), *_check_rounded_punch()]
     failed = 0
     for name, error, bound in checks:
         bad = not abs(error) <= bound

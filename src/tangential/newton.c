@@ -150,21 +150,26 @@ static PetscErrorCode NewResidual(Work *w, double *cut)
 {
   SamStickSlip   *u       = &w->base;
   const SamFrame *f       = u->frame;
+  const double    self    = u->self;
   double          sums[3] = {0, 0, 0}, norms[2] = {0, 0}, a[3];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
+    double       x = 0, y = 0, turn = 0; /* sums of the row stay in registers */
 
     for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
       double rx, ry;
 
       if (u->bound[j * u->nx + i] <= 0) continue;
       Residual(w, j * u->nx + i, &rx, &ry);
-      sums[0] -= rx;
-      sums[1] -= ry;
-      sums[2] -= (f->xi0 + (double)i * f->dxi) * ry - eta * rx;
+      x -= rx;
+      y -= ry;
+      turn -= (f->xi0 + (double)i * f->dxi) * ry - eta * rx;
     }
+    sums[0] += x;
+    sums[1] += y;
+    sums[2] += turn;
   }
   PetscCall(SamSum(u->level->grid->comm, 3, sums));
   SamFrameSolve(f, w->gram, sums, a);
@@ -173,24 +178,32 @@ static PetscErrorCode NewResidual(Work *w, double *cut)
   for (PetscInt j = 0; j < u->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
 
+    const double sx = SamFrameX(a, eta);
+    double       norm = 0, beyond = 0;
+
     for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
       const PetscInt k = j * u->nx + i, l = k + u->cells;
+      const double   b = u->bound[k];
       double         rx, ry, h = 1, q2, excess;
 
-      if (u->bound[k] <= 0) continue;
-      u->s[k] -= SamFrameX(a, eta);
+      if (b <= 0) continue;
+      u->s[k] -= sx;
       u->s[l] -= SamFrameY(a, f->xi0 + (double)i * f->dxi);
       Residual(w, k, &rx, &ry);
-      if (w->slip[k]) h = sqrt(u->self / (w->lambda[k] + u->self));
-      w->t[k] = h * rx;
-      w->t[l] = h * ry;
-      norms[0] += h * h * (rx * rx + ry * ry);
+      if (w->slip[k]) h = sqrt(self / (w->lambda[k] + self));
+      rx *= h;
+      ry *= h;
+      w->t[k] = rx;
+      w->t[l] = ry;
+      norm += rx * rx + ry * ry;
       if (w->slip[k]) continue;
       q2 = u->q[k] * u->q[k] + u->q[l] * u->q[l];
-      if (q2 <= u->bound[k] * u->bound[k]) continue;
-      excess = (sqrt(q2) - u->bound[k]) * u->self;
-      norms[1] += excess * excess;
+      if (q2 <= b * b) continue;
+      excess = (sqrt(q2) - b) * self;
+      beyond += excess * excess;
     }
+    norms[0] += norm;
+    norms[1] += beyond;
   }
   PetscCall(SamSum(u->level->grid->comm, 2, norms));
   w->residual = norms[0];
@@ -203,6 +216,7 @@ static PetscErrorCode NewDirection(Work *w, PetscBool first)
 {
   SamStickSlip   *u       = &w->base;
   const SamFrame *f       = u->frame;
+  const double    self    = u->self;
   double          sums[4] = {0, 0, 0, 0}, a[3], beta;
 
   PetscFunctionBegin;
@@ -211,6 +225,7 @@ static PetscErrorCode NewDirection(Work *w, PetscBool first)
   PetscCall(VecGetArray(w->vt, &w->t));
   for (PetscInt j = 0; j < u->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
+    double       x = 0, y = 0, turn = 0, product = 0;
 
     for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
       const PetscInt k = j * u->nx + i, l = k + u->cells;
@@ -219,21 +234,25 @@ static PetscErrorCode NewDirection(Work *w, PetscBool first)
       if (u->bound[k] <= 0) continue;
       Residual(w, k, &rx, &ry);
       if (w->slip[k]) {
-        const double sum = w->lambda[k] + u->self, h = u->self / sum, root = sqrt(h), rest = 0.5 * (1 - h) / sum;
+        const double sum = w->lambda[k] + self, h = self / sum, root = sqrt(h), rest = 0.5 * (1 - h) / sum;
 
         zx *= root;
         zy *= root;
         ToTangent(w, k, &zx, &zy);
         zx += rest * rx;
         zy += rest * ry;
+        w->t[k] = zx;
+        w->t[l] = zy;
       }
-      w->t[k] = zx;
-      w->t[l] = zy;
-      sums[0] += zx;
-      sums[1] += zy;
-      sums[2] += (f->xi0 + (double)i * f->dxi) * zy - eta * zx;
-      sums[3] += zx * rx + zy * ry;
+      x += zx;
+      y += zy;
+      turn += (f->xi0 + (double)i * f->dxi) * zy - eta * zx;
+      product += zx * rx + zy * ry;
     }
+    sums[0] += x;
+    sums[1] += y;
+    sums[2] += turn;
+    sums[3] += product;
   }
   PetscCall(SamSum(u->level->grid->comm, 4, sums));
   SamFrameSolve(f, w->gram, sums, a);
@@ -267,13 +286,16 @@ static PetscErrorCode Step(Work *w, PetscBool *good)
   PetscCall(SamTangentialApply(u->solver, u->level, w->vd, w->vt));
   PetscCall(VecGetArray(w->vd, &w->d));
   PetscCall(VecGetArray(w->vt, &w->t));
-  for (PetscInt j = 0; j < u->rows; j++)
-    for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) {
+  for (PetscInt j = 0; j < u->rows; j++) {
+    double sum = 0;
+
+    for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) { /* d is 0 outside the contact */
       const PetscInt l = k + u->cells;
 
-      if (u->bound[k] <= 0) continue;
-      curvature += w->d[k] * (w->t[k] + w->lambda[k] * w->d[k]) + w->d[l] * (w->t[l] + w->lambda[k] * w->d[l]);
+      sum += w->d[k] * (w->t[k] + w->lambda[k] * w->d[k]) + w->d[l] * (w->t[l] + w->lambda[k] * w->d[l]);
     }
+    curvature += sum;
+  }
   PetscCall(SamSum(u->level->grid->comm, 1, &curvature));
   *good = (curvature > 0 && w->rz > 0) ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
@@ -282,7 +304,6 @@ static PetscErrorCode Step(Work *w, PetscBool *good)
     for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) {
       const PetscInt l = k + u->cells;
 
-      if (u->bound[k] <= 0) continue;
       u->q[k] += alpha * w->d[k];
       u->q[l] += alpha * w->d[l];
       u->s[k] += alpha * w->t[k];

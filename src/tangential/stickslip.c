@@ -105,12 +105,12 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
 {
   const SamFrame *f = w->frame;
   double          sums[3 + SAM_GRAM] = {0}, a[3];
-  double         *gram = sums + 3;
   const double    inverse = 1 / w->self;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
+    double       row[3 + SAM_GRAM] = {0};
 
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
@@ -133,19 +133,20 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
         tx  = hxx * n + hxy * ty;
         ty  = hxy * n + hyy * ty;
       }
-      sums[0] += tx;
-      sums[1] += ty;
-      sums[2] += xi * ty - eta * tx;
-      gram[0] += hxx;
-      gram[1] += hxy;
-      gram[2] += -eta * hxx + xi * hxy;
-      gram[3] += hyy;
-      gram[4] += -eta * hxy + xi * hyy;
-      gram[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
+      row[0] += tx;
+      row[1] += ty;
+      row[2] += xi * ty - eta * tx;
+      row[3] += hxx;
+      row[4] += hxy;
+      row[5] += -eta * hxx + xi * hxy;
+      row[6] += hyy;
+      row[7] += -eta * hxy + xi * hyy;
+      row[8] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
     }
+    for (PetscInt c = 0; c < 3 + SAM_GRAM; c++) sums[c] += row[c];
   }
   PetscCall(SamSum(w->level->grid->comm, 3 + SAM_GRAM, sums));
-  SamFrameSolve(f, gram, sums, a);
+  SamFrameSolve(f, sums + 3, sums, a);
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
   for (PetscInt j = 0; j < w->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
@@ -178,6 +179,8 @@ PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
   for (PetscInt j = 0; j < w->rows; j++) {
+    double row[3] = {0, 0, 0};
+
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
       const double   b = w->bound[k], yx = w->q[k] - inverse * w->s[k], yy = w->q[l] - inverse * w->s[l];
@@ -187,10 +190,11 @@ PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
       if (b <= 0) continue;
       rx = w->q[k] - scale * yx;
       ry = w->q[l] - scale * yy;
-      sums[0] += rx * rx + ry * ry;
-      sums[1] += w->q[k] * w->q[k] + w->q[l] * w->q[l];
-      sums[2] += scale * scale * (yx * yx + yy * yy);
+      row[0] += rx * rx + ry * ry;
+      row[1] += w->q[k] * w->q[k] + w->q[l] * w->q[l];
+      row[2] += scale * scale * (yx * yx + yy * yy);
     }
+    for (PetscInt c = 0; c < 3; c++) sums[c] += row[c];
   }
   PetscCall(SamSum(w->level->grid->comm, 3, sums));
   w->error = sums[0] != 0 ? sqrt(sums[0] / PetscMax(sums[1], sums[2])) : 0;

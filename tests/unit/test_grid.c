@@ -275,6 +275,98 @@ static void test_transfer_does_not_depend_on_the_ranks(void **state)
   }
 }
 
+/* ---- windows ---- */
+
+/* First cell and size of windows of a 13 x 11 grid: inside, at corners, all of it, one with fewer rows than ranks. */
+static const PetscInt windows[][4] = {{3, 2, 7, 6}, {0, 0, 5, 11}, {8, 7, 5, 4}, {0, 0, 13, 11}, {4, 5, 2, 2}};
+enum { NUM_WINDOWS = sizeof(windows) / sizeof(windows[0]) };
+
+static void test_window_takes_its_cells_and_puts_them_back(void **state)
+{
+  SamGrid grid = NewGridOn(PETSC_COMM_WORLD, 13, 11, 2.6, 1.1, 0.3, -0.2);
+
+  (void)state;
+  for (int w = 0; w < NUM_WINDOWS; w++) {
+    const PetscInt *first = windows[w], *n = windows[w] + 2;
+    Vec             whole = NewRandom(grid, 2, w), part, back = NewRandom(grid, 2, 99);
+    SamWindow       window;
+    SamGrid         inner;
+    const double   *a;
+    PetscInt        wrong = 0;
+
+    sam_call(SamWindowCreate(grid, first, n, &window));
+    sam_call(SamWindowGetGrid(window, &inner));
+    sam_assert(inner->nx == n[0] && inner->ny == n[1]);
+    sam_assert_close(SamGridX(inner, 0), SamGridX(grid, first[0]), rounding);
+    sam_assert_close(SamGridY(inner, n[1] - 1), SamGridY(grid, first[1] + n[1] - 1), rounding);
+    part = NewField(inner, 2);
+    sam_call(SamWindowTake(window, whole, part));
+    sam_call(VecGetArrayRead(part, &a));
+    for (PetscInt c = 0; c < 2; c++)
+      for (PetscInt j = 0; j < inner->rows; j++)
+        for (PetscInt i = 0; i < inner->nx; i++) wrong += a[c * inner->cells + j * inner->nx + i] != Random(w, c, first[0] + i, first[1] + inner->row_start + j);
+    sam_call(VecRestoreArrayRead(part, &a));
+    sam_assert(wrong == 0);
+    sam_call(SamWindowPut(window, part, back));
+    sam_call(VecGetArrayRead(back, &a));
+    for (PetscInt c = 0; c < 2; c++)
+      for (PetscInt j = 0; j < grid->rows; j++)
+        for (PetscInt i = 0; i < grid->nx; i++) {
+          const PetscInt row    = grid->row_start + j;
+          const int      inside = i >= first[0] && i < first[0] + n[0] && row >= first[1] && row < first[1] + n[1];
+
+          wrong += a[c * grid->cells + j * grid->nx + i] != (inside ? Random(w, c, i, row) : 0);
+        }
+    sam_call(VecRestoreArrayRead(back, &a));
+    sam_assert(wrong == 0);
+    sam_call(VecDestroy(&whole));
+    sam_call(VecDestroy(&part));
+    sam_call(VecDestroy(&back));
+    sam_call(SamWindowDestroy(&window));
+  }
+  sam_call(SamGridDestroy(&grid));
+}
+
+static void test_window_knows_what_it_covers(void **state)
+{
+  const PetscInt first[2] = {3, 2}, n[2] = {7, 6}, inside[2] = {4, 2}, small[2] = {6, 6}, left[2] = {2, 2};
+  SamGrid        grid = NewGrid(13, 11, 1, 1);
+  SamWindow      window;
+
+  (void)state;
+  sam_call(SamWindowCreate(grid, first, n, &window));
+  sam_assert(SamWindowCovers(window, first, n));
+  sam_assert(SamWindowCovers(window, inside, small));
+  sam_assert(!SamWindowCovers(window, left, small));
+  sam_assert(!SamWindowCovers(window, inside, n));
+  sam_call(SamWindowDestroy(&window));
+  sam_call(SamGridDestroy(&grid));
+}
+
+static void test_support_is_the_smallest_rectangle_of_positive_cells(void **state)
+{
+  SamGrid  grid  = NewGrid(13, 11, 1, 1);
+  Vec      field = NewField(grid, 1);
+  PetscInt first[2], n[2];
+  double  *a;
+
+  (void)state;
+  sam_call(SamGridGetSupport(grid, field, first, n));
+  sam_assert(n[0] == 0 && n[1] == 0);
+  sam_call(VecGetArray(field, &a));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < 13; i++) {
+      const PetscInt row = grid->row_start + j;
+
+      a[j * 13 + i] = (i == 4 && row == 9) || (i == 11 && row == 3) ? 1 : -1;
+    }
+  sam_call(VecRestoreArray(field, &a));
+  sam_call(SamGridGetSupport(grid, field, first, n));
+  sam_assert(first[0] == 4 && n[0] == 8 && first[1] == 3 && n[1] == 7);
+  sam_call(VecDestroy(&field));
+  sam_call(SamGridDestroy(&grid));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -288,6 +380,9 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_constant_stays_constant_both_ways),
     cmocka_unit_test(test_prolongation_is_linear_inside_and_constant_beyond),
     cmocka_unit_test(test_transfer_does_not_depend_on_the_ranks),
+    cmocka_unit_test(test_window_takes_its_cells_and_puts_them_back),
+    cmocka_unit_test(test_window_knows_what_it_covers),
+    cmocka_unit_test(test_support_is_the_smallest_rectangle_of_positive_cells),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
