@@ -209,10 +209,11 @@ static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamP
   PetscInt           count;
   const char *const *names;
   const PetscReal   *values;
-  char              *all;
+  char              *all, *alias;
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsGetAll(NULL, &all));
+  while ((alias = strstr(all, "-petsam_history"))) memmove(alias + 1, alias + 8, strlen(alias + 8) + 1); /* its given name */
   PetscCall(SamOutputSetText(output, "options", all));
   PetscCall(PetscFree(all));
   for (PetscInt body = 0; body < 2; body++) {
@@ -280,7 +281,8 @@ typedef struct {
 /* The results would replace a file that the run reads. */
 static PetscErrorCode RefuseOverwritingInput(const Run *run)
 {
-  static const char *const inputs[] = {"-gap_file", "-gap_rough_file", NULL};
+  static const char *const inputs[] = {"-gap_file", "-gap_rough_file", "-petsam_history", "-options_file", NULL};
+  static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-history", "-options_file"};
 
   PetscFunctionBegin;
   if (!run->has_output) PetscFunctionReturn(PETSC_SUCCESS);
@@ -290,7 +292,7 @@ static PetscErrorCode RefuseOverwritingInput(const Run *run)
     PetscBool   set;
 
     PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
-    PetscCheck(!set || stat(name, &in) || stat(run->filename, &out) || in.st_dev != out.st_dev || in.st_ino != out.st_ino, PETSC_COMM_WORLD, SAM_ERR_USER, "-output %s: is the file of %s, which it would replace", run->filename, inputs[k]);
+    PetscCheck(!set || stat(name, &in) || stat(run->filename, &out) || in.st_dev != out.st_dev || in.st_ino != out.st_ino, PETSC_COMM_WORLD, SAM_ERR_USER, "-output %s: is the file of %s, which it would replace", run->filename, names[k]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

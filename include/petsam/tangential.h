@@ -48,6 +48,12 @@ PETSC_EXTERN PetscErrorCode SamTangentialMonitorSet(SamTangential tangential, Sa
 PETSC_EXTERN PetscErrorCode SamTangentialView(SamTangential tangential, PetscViewer viewer);
 
 /*
+  Shears below this part of mu p count as this much in the relative residual: with displacements of a history behind
+  them, less is rounding.
+*/
+#define SAM_SHEAR_FLOOR 1e-8
+
+/*
   SamTangentialSolve - finds q (Pa, two components) for the bound mu p (Pa, one component) and the offset w - S (m, two
   components; NULL: zero). With `guess` q holds a start, and only the finest grid is used. On return the balance holds all loads and
   rigid displacements. The residual is that of the projection equation q = D(q - ds/c), D onto the discs |q| <= mu p and c

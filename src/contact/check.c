@@ -63,7 +63,7 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
 
 static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *check)
 {
-  enum { GAP, TENSION, DISPLACEMENT, PRESSURE, EDGE, COUNT };
+  enum { GAP, TENSION, DISPLACEMENT, PRESSURE, EDGE, OPENING, COUNT };
   double        max[COUNT] = {0};
   const double *p, *g, *u;
 
@@ -78,6 +78,7 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
       const PetscInt k = j * grid->nx + i;
 
       max[GAP]          = SamLarger(max[GAP], p[k] > 0 ? fabs(g[k]) : -g[k]);
+      max[OPENING]      = PetscMax(max[OPENING], g[k]);
       max[TENSION]      = PetscMax(max[TENSION], -p[k]);
       max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], fabs(u[k]));
       max[PRESSURE]     = PetscMax(max[PRESSURE], p[k]);
@@ -90,14 +91,18 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
   PetscCall(SamMax(grid->comm, COUNT, max));
   check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
   check->normal = max[TENSION] > 0 ? max[TENSION] / PetscMax(max[PRESSURE], max[TENSION]) : 0;
-  /* without contact there is no displacement, and the gap must be right to rounding */
-  if (max[GAP] > 0) check->normal = PetscMax(check->normal, max[DISPLACEMENT] > 0 ? max[GAP] / max[DISPLACEMENT] : INFINITY);
+  /* without contact there is no displacement: then the openings are the measure */
+  if (max[GAP] > 0) {
+    const double scale = max[DISPLACEMENT] > 0 ? max[DISPLACEMENT] : max[OPENING];
+
+    check->normal = PetscMax(check->normal, scale > 0 ? max[GAP] / scale : INFINITY);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscReal self, const SamFields *f, Vec slip_before, SamCheck *check)
 {
-  double        sums[3] = {0, 0, 0}, max[2] = {0, 0};
+  double        sums[4] = {0, 0, 0, 0}, max[2] = {0, 0};
   const double *p, *q, *s, *before = NULL;
 
   PetscFunctionBegin;
@@ -115,6 +120,7 @@ static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscRea
     sums[0] += rx * rx + ry * ry;
     sums[1] += q[k] * q[k] + q[l] * q[l];
     sums[2] += scale * scale * y * y;
+    sums[3] += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
     max[0] = SamLarger(max[0], sqrt(q[k] * q[k] + q[l] * q[l]) - b);
     max[1] = PetscMax(max[1], b);
   }
@@ -122,9 +128,9 @@ static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscRea
   PetscCall(VecRestoreArrayRead(f->slip, &s));
   PetscCall(VecRestoreArrayRead(f->shear, &q));
   PetscCall(VecRestoreArrayRead(f->pressure, &p));
-  PetscCall(SamSum(grid->comm, 3, sums));
+  PetscCall(SamSum(grid->comm, 4, sums));
   PetscCall(SamMax(grid->comm, 2, max));
-  check->tangential = sums[0] == 0 ? 0 : sqrt(sums[0] / PetscMax(sums[1], sums[2]));
+  check->tangential = sums[0] == 0 ? 0 : sqrt(sums[0] / PetscMax(sums[3], PetscMax(sums[1], sums[2])));
   check->cone       = max[0] == 0 ? 0 : (max[1] > 0 ? max[0] / max[1] : INFINITY);
   if (isnan(check->tangential)) check->tangential = INFINITY;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -116,6 +116,7 @@ PetscErrorCode SamHistoryCreateFromOptions(MPI_Comm comm, SamHistory *history)
     PetscCall(SamTableRead(comm, file, &h->table));
     h->rows = h->table.rows;
   }
+  PetscCheck(h->increments <= PETSC_MAX_INT / h->rows, comm, SAM_ERR_USER, "-steps %" PetscInt_FMT ": times %" PetscInt_FMT " rows is more steps than can be counted", h->increments, h->rows);
   for (PetscInt component = 0; component < COMPONENTS; component++) PetscCall(ReadComponent(h, file, component));
   if (has_file) PetscCall(CheckRows(h, file));
   PetscFunctionReturn(PETSC_SUCCESS);

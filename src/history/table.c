@@ -101,6 +101,7 @@ static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
   FILE    *stream = fopen(file, "r");
   char    *buffer = NULL;
   size_t   size   = 0;
+  ssize_t  length;
   PetscInt line = 0, room = 0;
 
   PetscFunctionBegin;
@@ -109,10 +110,15 @@ static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   errno = 0;
-  while (!verdict->code && getline(&buffer, &size, stream) >= 0) {
-    char *text = Trim(buffer);
+  while (!verdict->code && (length = getline(&buffer, &size, stream)) >= 0) {
+    char *text;
 
     line++;
+    if (strlen(buffer) != (size_t)length) {
+      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: has a zero byte in it: expected text", file, (int)line));
+      break;
+    }
+    text = Trim(buffer);
     if (!*text) continue;
     if (!t->columns) {
       PetscCall(ReadHeader(file, line, text, t, verdict));

@@ -203,6 +203,37 @@ PetscErrorCode SamNormalGetStatistics(SamNormal n, PetscReal *error, PetscInt *i
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  A start from nothing: the bodies on a bed of springs, as stiff as the half-space is under a pressure over half the grid,
+  which has about the right cells in contact. The admissible pressure nearest to -stiffness (h - fixed) is just that.
+*/
+static PetscErrorCode StartAsFoundation(SamNormalLevel *level)
+{
+  const SamGrid   grid = level->grid;
+  const SamFrame *f    = &level->frame;
+  PetscReal       self, least;
+  double          stiffness, *p;
+  const double   *h;
+
+  PetscFunctionBegin;
+  PetscCall(SamComplianceGetSelfInfluence(level->compliance, &self, NULL));
+  PetscCall(VecMin(level->h, NULL, &least));
+  if (f->count == 0 || f->component[0] != 0) least = 0; /* the approach is given: heights are what they are */
+  stiffness = 2 / (self * sqrt((double)grid->nx * (double)grid->ny));
+  PetscCall(VecGetArrayRead(level->h, &h));
+  PetscCall(VecGetArrayWrite(level->p, &p));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscInt k = j * grid->nx + i;
+
+      p[k] = stiffness * (SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, f->eta0 + (double)j * f->deta) - (h[k] - least));
+    }
+  PetscCall(SamFrameProjectNormal(f, NULL, p, &(PetscBool){PETSC_FALSE}));
+  PetscCall(VecRestoreArrayWrite(level->p, &p));
+  PetscCall(VecRestoreArrayRead(level->h, &h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Makes the start of a level admissible: p >= 0 and in equilibrium. */
 static PetscErrorCode MakeAdmissible(SamNormalLevel *level, PetscBool *found)
 {
@@ -275,7 +306,7 @@ static PetscErrorCode SolveLevel(SamNormal n, SamCompliance compliance, PetscInt
     PetscCall(Prolong(transfer, pc, p));
     PetscCall(VecDestroy(&hc));
     PetscCall(VecDestroy(&pc));
-  } else if (!guess) PetscCall(VecSet(p, 0));
+  } else if (!guess) PetscCall(StartAsFoundation(&level));
   PetscCall(MakeAdmissible(&level, &found));
   if (found) PetscCall(n->solve(n, &level));
   else n->reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
@@ -284,13 +315,28 @@ static PetscErrorCode SolveLevel(SamNormal n, SamCompliance compliance, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The least of h less a given rigid displacement. */
+static PetscErrorCode Clearance(SamGrid grid, Vec h, const SamFrame *f, double *clearance)
+{
+  const double *array;
+  double        overlap = -PETSC_MAX_REAL;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(h, &array));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++) overlap = PetscMax(overlap, SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, f->eta0 + (double)j * f->deta) - array[j * grid->nx + i]);
+  PetscCall(VecRestoreArrayRead(h, &array));
+  PetscCall(SamMax(grid->comm, 1, &overlap));
+  *clearance = -overlap;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* No contact is a solution of its own: no load, or no overlap under displacement control. */
 static PetscErrorCode IsSeparated(SamNormal n, Vec h, const SamBalance *balance, PetscBool *separated)
 {
-  SamGrid       grid;
-  SamFrame      frame;
-  const double *array;
-  double        overlap = -PETSC_MAX_REAL;
+  SamGrid  grid;
+  SamFrame frame;
+  double   clearance;
 
   PetscFunctionBegin;
   PetscCall(SamComplianceGetGrid(n->compliance, &grid));
@@ -301,22 +347,32 @@ static PetscErrorCode IsSeparated(SamNormal n, Vec h, const SamBalance *balance,
   *separated = PETSC_FALSE;
   if ((balance->force[1] && balance->load[1] != 0) || (balance->force[2] && balance->load[2] != 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamFrameSet(&frame, grid, balance));
-  PetscCall(VecGetArrayRead(h, &array));
-  for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) overlap = PetscMax(overlap, SamFrameNormal(frame.fixed, frame.xi0 + (double)i * frame.dxi, frame.eta0 + (double)j * frame.deta) - array[j * grid->nx + i]);
-  PetscCall(VecRestoreArrayRead(h, &array));
-  PetscCall(SamMax(grid->comm, 1, &overlap));
-  *separated = overlap <= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(Clearance(grid, h, &frame, &clearance));
+  *separated = clearance >= 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SetSeparated(SamNormal n, SamBalance *balance, Vec p)
+/* p = 0. A free approach is not determined: none, or as far back as the bodies need to clear each other. */
+static PetscErrorCode SetSeparated(SamNormal n, Vec h, SamBalance *balance, Vec p)
 {
+  SamGrid    grid;
+  SamBalance still = *balance;
+  SamFrame   frame;
+  double     clearance;
+
   PetscFunctionBegin;
   PetscCall(VecSet(p, 0));
+  PetscCall(SamComplianceGetGrid(n->compliance, &grid));
   for (PetscInt k = 0; k < 3; k++) {
-    if (balance->force[k]) balance->rigid[k] = 0; /* any does that leaves a gap; nothing has moved */
-    else balance->load[k] = 0;
+    if (balance->force[k]) still.rigid[k] = 0;
+    still.force[k] = PETSC_FALSE;
+  }
+  PetscCall(SamFrameSet(&frame, grid, &still));
+  PetscCall(Clearance(grid, h, &frame, &clearance));
+  if (balance->force[0]) still.rigid[0] = PetscMin(0, clearance);
+  for (PetscInt k = 0; k < 3; k++) {
+    balance->rigid[k] = still.rigid[k];
+    balance->load[k]  = 0;
   }
   n->reason = SAM_NORMAL_CONVERGED_SEPARATED;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -341,7 +397,7 @@ PetscErrorCode SamNormalSolve(SamNormal n, Vec h, SamBalance *balance, PetscBool
     PetscCall(VecSet(p, 0));
     n->reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
   } else if (separated) {
-    PetscCall(SetSeparated(n, balance, p));
+    PetscCall(SetSeparated(n, h, balance, p));
   } else {
     double   rigid[3];
     SamFrame frame;

@@ -146,27 +146,6 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A start with pressure in it: under displacement control, what the overlap makes of one cell's stiffness. */
-static PetscErrorCode Start(SamNormalLevel *level)
-{
-  const SamFrame *f  = &level->frame;
-  const PetscInt  nx = level->grid->nx;
-  PetscReal       norm, self;
-  const double   *h;
-  double         *p;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(level->p, NORM_INFINITY, &norm));
-  if (norm > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamComplianceGetSelfInfluence(level->compliance, &self, NULL));
-  PetscCall(VecGetArrayRead(level->h, &h));
-  PetscCall(VecGetArray(level->p, &p));
-  for (PetscInt k = 0; k < level->grid->cells; k++) p[k] = PetscMax(0, SamFrameNormal(f->fixed, f->xi0 + (double)(k % nx) * f->dxi, f->eta0 + (double)(k / nx) * f->deta) - h[k]) / self / (double)nx;
-  PetscCall(VecRestoreArray(level->p, &p));
-  PetscCall(VecRestoreArrayRead(level->h, &h));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode SamNormalSolve_PolonskyKeer(SamNormal normal, SamNormalLevel *level)
 {
   Work            w         = {.normal = normal, .level = level};
@@ -178,7 +157,6 @@ static PetscErrorCode SamNormalSolve_PolonskyKeer(SamNormal normal, SamNormalLev
   PetscCall(VecDuplicate(level->p, &w.g));
   PetscCall(VecDuplicate(level->p, &w.d));
   PetscCall(VecDuplicate(level->p, &w.s));
-  PetscCall(Start(level));
   for (PetscInt it = 0; !reason; it++) {
     PetscCall(ComputeGap(&w));
     if (it) PetscCall(SamNormalIterated(normal, level, w.error / w.displacement));

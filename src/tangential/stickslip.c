@@ -174,12 +174,12 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
   const double inverse = 1 / w->self;
-  double       sums[3] = {0, 0, 0};
+  double       sums[4] = {0, 0, 0, 0};
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
   for (PetscInt j = 0; j < w->rows; j++) {
-    double row[3] = {0, 0, 0};
+    double row[4] = {0, 0, 0, 0};
 
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
@@ -193,10 +193,11 @@ PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
       row[0] += rx * rx + ry * ry;
       row[1] += w->q[k] * w->q[k] + w->q[l] * w->q[l];
       row[2] += scale * scale * (yx * yx + yy * yy);
+      row[3] += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
     }
-    for (PetscInt c = 0; c < 3; c++) sums[c] += row[c];
+    for (PetscInt c = 0; c < 4; c++) sums[c] += row[c];
   }
-  PetscCall(SamSum(w->level->grid->comm, 3, sums));
-  w->error = sums[0] != 0 ? sqrt(sums[0] / PetscMax(sums[1], sums[2])) : 0;
+  PetscCall(SamSum(w->level->grid->comm, 4, sums));
+  w->error = sums[0] != 0 ? sqrt(sums[0] / PetscMax(sums[3], PetscMax(sums[1], sums[2]))) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,76 @@
+#!/bin/sh
+# Press an elastic sphere on a rigid flat with friction, in steps, and compare stick radius and pressure with Spence.
+#
+#   examples/dissimilar/run.sh
+#
+# Works from any directory. Environment:
+#   PETSAM   the program              (build/bin/petsam of the repository)
+#   NP       MPI ranks                (2)
+#   GRID_N   cells in each direction  (192)
+#   OUT      results and figures, relative to the repository's root  (build/dissimilar)
+#   PYTHON   a Python with scripts/requirements.txt  (build/venv/bin/python of the repository)
+#   MPIRUN   the MPI launcher         (mpirun)
+set -eu
+
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+root=$(CDPATH='' cd -- "$here/../.." && pwd)
+petsam=${PETSAM:-$root/build/bin/petsam}
+python=${PYTHON:-$root/build/venv/bin/python}
+mpirun=${MPIRUN:-mpirun}
+ranks=${NP:-2}
+grid_n=${GRID_N:-192}
+out=${OUT:-build/dissimilar}
+case $out in
+    /*) ;;
+    *) out=$root/$out ;;
+esac
+
+fail() {
+    printf 'dissimilar example: %s\n' "$*" >&2
+    exit 1
+}
+
+# solve CASE OPTION...: dissimilar.opts with further options, results to CASE.h5
+solve() {
+    name=$1
+    shift
+    printf '%s\n' "== $name"
+    status=0
+    "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam" -options_file "$here/dissimilar.opts" \
+        -grid_n "$grid_n" -output "$out/$name.h5" "$@" </dev/null >"$out/$name.log" || status=$?
+    [ "$status" -eq 0 ] || fail "case $name failed with exit code $status, see $out/$name.log"
+    tail -n 1 "$out/$name.log"
+}
+
+command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
+command -v "$python" >/dev/null || \
+    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
+command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
+
+# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
+oversubscribe=
+case $("$mpirun" --version 2>/dev/null) in
+    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
+esac
+if [ "$(id -u)" -eq 0 ]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+
+mkdir -p "$out"
+# Poisson's ratio 0, 0.2, 0.3 is beta = 0.5, 0.375, 0.286. dissimilar_figures.py expects these names.
+for friction in 0.2 0.2986 0.4 0.5 0.65 1; do
+    solve "nu0_mu$friction" -friction "$friction"
+done
+for friction in 0.15 0.2 0.3 0.4; do
+    solve "nu0.2_mu$friction" -body1_poisson 0.2 -friction "$friction"
+done
+for friction in 0.1 0.15 0.2 0.3; do
+    solve "nu0.3_mu$friction" -body1_poisson 0.3 -friction "$friction"
+done
+# Without the coupling: Hertz's pressure, no shear
+solve uncoupled -coupling none
+# The number of load steps
+for steps in 1 2 5 10 20 40; do
+    solve "steps$steps" -steps "$steps" -output_every 1000
+done
+"$python" "$root/scripts/dissimilar_figures.py" "$out" --json "$out/errors.json"

@@ -1,0 +1,93 @@
+#!/bin/sh
+# Run the fretting loops (partial slip by force, gross slip by displacement) and compare them with Mindlin-Deresiewicz.
+#
+#   examples/fretting-loop/run.sh
+#
+# Works from any directory. Environment:
+#   PETSAM   the program              (build/bin/petsam of the repository)
+#   NP       MPI ranks                (2)
+#   GRID_N   cells in each direction  (256)
+#   OUT      histories, results and figures, relative to the repository's root  (build/fretting-loop)
+#   PYTHON   a Python with scripts/requirements.txt  (build/venv/bin/python of the repository)
+#   MPIRUN   the MPI launcher         (mpirun)
+set -eu
+
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+root=$(CDPATH='' cd -- "$here/../.." && pwd)
+petsam=${PETSAM:-$root/build/bin/petsam}
+python=${PYTHON:-$root/build/venv/bin/python}
+mpirun=${MPIRUN:-mpirun}
+ranks=${NP:-2}
+grid_n=${GRID_N:-256}
+out=${OUT:-build/fretting-loop}
+case $out in
+    /*) ;;
+    *) out=$root/$out ;;
+esac
+
+# Amplitudes: 0.8 mu N in N, and twice the displacement of incipient sliding 3 mu N (2 - nu)/(8 G a) in m.
+force=80
+displacement_nu0=1.5007406e-6
+displacement_nu03=1.8223278e-6
+steel="-body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 -body2_poisson 0.3"
+
+fail() {
+    printf 'fretting-loop example: %s\n' "$*" >&2
+    exit 1
+}
+
+# wave COLUMN AMPLITUDE STEPS QUARTERS: a triangular wave from 0 that rises first, STEPS a cycle, time in cycles
+wave() {
+    LC_ALL=C awk -v column="$1" -v amplitude="$2" -v n="$3" -v quarters="$4" 'BEGIN {
+        print "# triangular wave, " n " steps a cycle"
+        print "time," column
+        for (k = 0; 4 * k <= n * quarters; k++) {
+            m = 4 * (k % n)  # of 4 n a cycle
+            value = m <= n ? m / n : m <= 3 * n ? 2 - m / n : m / n - 4
+            printf "%.10g,%.12g\n", k / n, amplitude * value
+        }
+    }'
+}
+
+# solve CASE COLUMN AMPLITUDE STEPS QUARTERS OPTION...: one loop, results to CASE.h5
+solve() {
+    name=$1
+    wave "$2" "$3" "$4" "$5" >"$out/$name.csv"
+    shift 5
+    printf '%s\n' "== $name"
+    status=0
+    "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam" -options_file "$here/sphere.opts" \
+        -grid_n "$grid_n" -history "$out/$name.csv" -output "$out/$name.h5" "$@" \
+        </dev/null >"$out/$name.log" || status=$?
+    [ "$status" -eq 0 ] || fail "case $name failed with exit code $status, see $out/$name.log"
+    tail -n 1 "$out/$name.log"
+}
+
+command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
+command -v "$python" >/dev/null || \
+    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
+command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
+
+# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
+oversubscribe=
+case $("$mpirun" --version 2>/dev/null) in
+    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
+esac
+if [ "$(id -u)" -eq 0 ]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+
+mkdir -p "$out"
+# Two cycles at 80 steps each; fields at their quarters.
+solve partial_nu0 load_tx "$force" 80 8 -output_every 20
+# shellcheck disable=SC2086  # the material is four options and their values
+solve partial_nu0.3 load_tx "$force" 80 8 -output_every 20 $steel
+solve gross_nu0 disp_x "$displacement_nu0" 80 8 -output_every 20
+# shellcheck disable=SC2086
+solve gross_nu0.3 disp_x "$displacement_nu03" 80 8 -output_every 20 $steel
+# The number of steps a cycle: to the first peak, and one cycle from there. The first with all fields.
+solve steps20 load_tx "$force" 20 5 -output_every 1
+solve steps40 load_tx "$force" 40 5 -output_every 1000
+solve steps80 load_tx "$force" 80 5 -output_every 1000
+solve steps160 load_tx "$force" 160 5 -output_every 1000
+"$python" "$root/scripts/loop_figures.py" "$out" --json "$out/errors.json"

@@ -1,0 +1,317 @@
+"""Plane solutions for a punch with a flat base and rounded edges, infinitely long in y, on an elastic half-space:
+upright or inclined, under normal load and in partial slip.
+
+Conventions are those of analytic.py: SI units, relative displacements, shear positive with the load; loads are per
+length: load P' (N/m), moment M' = integral of x p (N), shear Q' (N/m). E* is the plane modulus, the same for p and for
+q where the bodies are similar. The separation is h = 0 for |x| <= c, (|x| - c)^2/(2 R) beyond.
+
+In the contact [m - a, m + a] the displacement u satisfies u + h = d + x r, d the approach and r the tilt, so
+(2/(pi E*)) pv int p(s)/(x - s) ds = h'(x) - r. With s = m + a cos(phi), x = m + a cos(theta), the solution that is
+bounded at both ends is, after integration by parts,
+
+    p = (E* a/(2 pi)) int_0^pi h''(s) sin(phi) L(phi, theta) dphi,    L = ln |sin((phi + theta)/2)/sin((phi - theta)/2)|
+
+and r = (1/pi) int h'(s) dphi makes it bounded. h'' = 1/R for phi < phi1 = arccos((c - m)/a) and for
+phi > phi2 = arccos((-c - m)/a) and 0 between, and L = sum (2/n) sin(n phi) sin(n theta), so everything below is closed;
+upright it is Ciavarella, Hills and Monno's solution, inclined Goryacheva, Murthy and Farris'. An end of the contact
+may lie on the flat base: then phi2 = pi (or phi1 = 0).
+
+Partial slip (Jaeger, Ciavarella): q = mu (p - p*), p* the pressure of the same punch at the same tilt under the load
+P' - Q'/mu; it sticks where p* > 0. Normal load and moment come first and stay constant.
+
+`PlaneCells` is the same problem cut into strips of constant traction, as a numerical section has them: what is left
+between it and the mid-section of a long contact on the same cells comes from the ends alone.
+
+Run as a program, this file compares the formulas with quadrature, and the strips with the formulas.
+
+References
+----------
+- M. Ciavarella, D. A. Hills, G. Monno, The influence of rounded edges on indentation by a flat punch,
+  Proc. Inst. Mech. Eng. C 212 (1998) 319-327.
+- I. G. Goryacheva, H. Murthy, T. N. Farris, Contact problem with partial slip for the inclined punch with rounded
+  edges, Int. J. Fatigue 24 (2002).
+- M. Ciavarella, The generalized Cattaneo partial slip plane contact problem, Int. J. Solids Structures 35 (1998)
+  2349-2378.
+"""
+import sys
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+
+class Punch(NamedTuple):
+    """Half width of the flat base (m), radius of the edges (m), E* (Pa)."""
+
+    c: float
+    edge_radius: float
+    e_star: float
+
+
+class Contact(NamedTuple):
+    """Middle m and half width a of the contact, m."""
+
+    middle: float
+    half_width: float
+
+    @property
+    def ends(self):
+        """Left and right end, m."""
+        return self.middle - self.half_width, self.middle + self.half_width
+
+
+# ---------------------------------------------------------------- closed forms
+
+def _edges(punch, contact):
+    """phi1 and phi2, rad: where the right and the left edge of the flat base lie."""
+    m, a = contact
+    return tuple(np.arccos(np.clip((edge - m) / a, -1.0, 1.0)) for edge in (punch.c, -punch.c))
+
+
+def plane_load(punch, contact):
+    """Load per length P', N/m."""
+    total = 0.0
+    for phi in (_edges(punch, contact)[0], np.pi - _edges(punch, contact)[1]):
+        total += phi - 0.5 * np.sin(2.0 * phi)
+    return punch.e_star * contact.half_width**2 / (4.0 * punch.edge_radius) * total
+
+
+def plane_moment(punch, contact):
+    """Moment per length about x = 0, M' = integral of x p, N."""
+    phi1, phi2 = _edges(punch, contact)
+    about_middle = punch.e_star * contact.half_width**3 / (12.0 * punch.edge_radius) * (
+        np.sin(phi1)**3 - np.sin(phi2)**3)
+    return about_middle + contact.middle * plane_load(punch, contact)
+
+
+def plane_tilt(punch, contact):
+    """Tilt r, rad: positive where the side of positive x is pressed deeper."""
+    (m, a), (phi1, phi2) = contact, _edges(punch, contact)
+    right = (m - punch.c) * phi1 + a * np.sin(phi1)
+    left = (m + punch.c) * (np.pi - phi2) - a * np.sin(phi2)
+    return (right + left) / (np.pi * punch.edge_radius)
+
+
+def plane_pressure(x, punch, contact):
+    """Pressure, Pa, at x (m); 0 outside the contact."""
+    (m, a), (phi1, phi2) = contact, _edges(punch, contact)
+    xi = np.clip((np.asarray(x, dtype=float) - m) / a, -1.0, 1.0)
+    theta = np.arccos(xi)
+
+    def log_term(phi):
+        """(cos(phi) - cos(theta)) L(phi, theta), 0 at phi = theta."""
+        near, far = np.abs(np.sin(0.5 * (phi - theta))), np.abs(np.sin(0.5 * (phi + theta)))
+        tiny = np.finfo(float).tiny
+        return (np.cos(phi) - xi) * np.log(np.maximum(far, tiny) / np.maximum(near, tiny))
+
+    shape = (np.pi - phi2 + phi1) * np.sin(theta) - log_term(phi1) + log_term(phi2)
+    inside = np.abs(np.asarray(x, dtype=float) - m) < a
+    return np.where(inside, punch.e_star * a / (2.0 * np.pi * punch.edge_radius) * shape, 0.0)
+
+
+# ---------------------------------------------------------------- contact for given loads
+
+def _half_width(punch, load, middle):
+    """Half width a, m, of the contact with this middle (m) under load (N/m)."""
+    low = max(punch.c - abs(middle), 0.0)
+    high = low + np.sqrt(load * punch.edge_radius / punch.e_star)
+    while plane_load(punch, Contact(middle, high)) < load:
+        high *= 2.0
+    return brentq(lambda a: plane_load(punch, Contact(middle, a)) - load, low or 1e-9 * high, high,
+                  xtol=1e-16, rtol=1e-14)
+
+
+def _contact(punch, load, quantity, value):
+    """The contact under load (N/m) in which quantity(punch, contact), odd and increasing in the middle, has value."""
+    sign, value = np.sign(value), abs(value)
+    if value == 0.0:
+        return Contact(0.0, _half_width(punch, load, 0.0))
+
+    def error(middle):
+        return quantity(punch, Contact(middle, _half_width(punch, load, middle))) - value
+
+    high = 0.1 * punch.c + 1e-3 * punch.edge_radius
+    while error(high) < 0.0:
+        high *= 1.5
+    middle = brentq(error, 0.0, high, xtol=1e-16, rtol=1e-14)
+    return Contact(float(sign * middle), _half_width(punch, load, middle))
+
+
+def contact_under_moment(punch, load, moment=0.0):
+    """The contact under P' (N/m) and M' (N)."""
+    return _contact(punch, load, plane_moment, moment)
+
+
+def contact_at_tilt(punch, load, tilt=0.0):
+    """The contact under P' (N/m) at a tilt (rad)."""
+    return _contact(punch, load, plane_tilt, tilt)
+
+
+def stick_zone(punch, contact, shear_load, friction):
+    """The zone, as a Contact, that sticks under Q' (N/m) with 0 <= Q' < mu P'."""
+    load = plane_load(punch, contact) - shear_load / friction
+    return contact_at_tilt(punch, load, plane_tilt(punch, contact))
+
+
+def plane_shear(x, punch, contact, stick, friction):
+    """Shear q, Pa, at x (m): mu (p - p*)."""
+    return friction * (plane_pressure(x, punch, contact) - plane_pressure(x, punch, stick))
+
+
+# ---------------------------------------------------------------- strips
+
+class PlaneCells:
+    """The plane problem on strips with centres x (m), of equal width; dense, for up to some thousand strips."""
+
+    def __init__(self, punch, x):
+        self.punch, self.x, self.width = punch, x, x[1] - x[0]
+        reach = (np.arange(x.size + 1) - 0.5) * self.width
+        primitive = reach * np.log(np.abs(reach))
+        column = -2.0 / (np.pi * punch.e_star) * np.diff(primitive)
+        index = np.arange(x.size)
+        self.influence = column[np.abs(index[:, None] - index)]
+        self.gap = np.clip(np.abs(x) - punch.c, 0.0, None)**2 / (2.0 * punch.edge_radius)
+
+    def solve(self, load, moment=None, tilt=None):
+        """Pressure (Pa) and tilt (rad) under P' (N/m) and either M' (N) or a tilt (rad)."""
+        rigid = np.stack([np.ones_like(self.x), self.x], axis=1)
+        active = self.gap <= self.gap.max() * 0.5
+        for _ in range(100):
+            n, free = np.count_nonzero(active), 2 if tilt is None else 1
+            matrix = np.zeros((n + free, n + free))
+            matrix[:n, :n] = self.influence[np.ix_(active, active)]
+            matrix[:n, n:] = -rigid[active, :free]
+            matrix[n:, :n] = self.width * rigid[active, :free].T
+            given = (tilt or 0.0) * self.x - self.gap
+            right = np.concatenate([given[active], [load, moment][:free]])
+            # moduli as high as 1e11 Pa: solve for p/E*
+            matrix[:n, :n] *= self.punch.e_star
+            matrix[n:, :n] *= self.punch.e_star
+            solution = np.linalg.solve(matrix, right)
+            pressure = np.zeros_like(self.x)
+            pressure[active] = solution[:n] * self.punch.e_star
+            rise = self.influence @ pressure - given - rigid[:, :free] @ solution[n:]
+            update = (active & (pressure > 0.0)) | (~active & (rise < 0.0))
+            if np.array_equal(update, active):
+                return pressure, solution[n + 1] if tilt is None else tilt
+            active = update
+        raise RuntimeError("PlaneCells: the contact does not settle")
+
+    def partial_slip(self, load, moment, shear_load, friction):
+        """Pressure, shear (Pa), tilt (rad) and the strips that stick, under P' (N/m), M' (N) and Q' (N/m)."""
+        pressure, tilt = self.solve(load, moment=moment)
+        less = self.solve(load - shear_load / friction, tilt=tilt)[0]
+        return pressure, friction * (pressure - less), tilt, less > 0.0
+
+
+# ---------------------------------------------------------------- self-check by quadrature
+
+def _quadrature(breaks):
+    """Gauss points and weights on the intervals of sorted breaks, clustered towards both ends of each."""
+    nodes, weights = np.polynomial.legendre.leggauss(120)
+    t = 0.5 * (1.0 + nodes)
+    points, scale = t**4 * (35.0 - 84.0 * t + 70.0 * t**2 - 20.0 * t**3), 140.0 * (t * (1.0 - t))**3
+    low, width = breaks[:-1, None], np.diff(breaks)[:, None]
+    return (low + width * points).ravel(), (0.5 * width * weights * scale).ravel()
+
+
+def _displacement(x, traction, breaks, e_star):
+    """Surface displacement at x, m, up to a constant: -(2/(pi E*)) times the integral of traction(s) ln|x - s|."""
+    s, w = _quadrature(np.unique(np.append(breaks, x)))
+    return -2.0 / (np.pi * e_star) * np.sum(w * traction(s) * np.log(np.maximum(np.abs(x - s), 1e-300)))
+
+
+def _check(punch, load, eccentricity, ratio, friction=0.1):
+    """Errors of load, moment, shape and partial slip at M' = eccentricity P' and Q' = ratio mu P'."""
+    contact = contact_under_moment(punch, load, eccentricity * load)
+    label = "e = {:g} c, c = {:g} a: ".format(eccentricity / (punch.c or 1.0), punch.c / contact.half_width)
+    ends, tilt = contact.ends, plane_tilt(punch, contact)
+    stick = stick_zone(punch, contact, ratio * friction * load, friction)
+    inner = [edge for edge in (-punch.c, punch.c) if ends[0] < edge < ends[1]]
+    breaks = np.array(sorted([*ends, *stick.ends, *inner]))
+
+    def pressure(x):
+        return plane_pressure(x, punch, contact)
+
+    def shear(x):
+        return plane_shear(x, punch, contact, stick, friction)
+
+    def gap(x):
+        h = max(abs(x) - punch.c, 0.0)**2 / (2.0 * punch.edge_radius)
+        return _displacement(x, pressure, breaks, punch.e_star) + h - tilt * x
+
+    s, w = _quadrature(breaks)
+    yield label + "integral of p is P'", np.sum(w * pressure(s)) / load - 1.0, 1e-9
+    yield label + "integral of x p is M'", (np.sum(w * s * pressure(s)) / load - eccentricity) / ends[1], 1e-9
+    yield label + "integral of q is Q'", np.sum(w * shear(s)) / (ratio * friction * load) - 1.0, 1e-9
+    m, a = contact
+    scale = a**2 / punch.edge_radius
+    inside = np.array([gap(m + a * z) for z in (-1.0, -0.95, -0.7, -0.3, 0.1, 0.5, 0.8, 0.97, 1.0)]) / scale
+    yield label + "u + h - x r constant in the contact", np.ptp(inside), 1e-8
+    outside = min(gap(m + a * z) / scale - inside[0] for z in (-1.3, -1.03, 1.03, 1.3))
+    yield label + "open outside", min(0.0, outside), 0.0
+    m, b = stick
+    compliant = np.array([_displacement(m + b * z, shear, breaks, punch.e_star)
+                          for z in (-1.0, -0.9, -0.4, 0.2, 0.7, 0.95, 1.0)]) / (friction * scale)
+    yield label + "u_x constant in the stick zone", np.ptp(compliant), 1e-8
+    slip = [_displacement(x, shear, breaks, punch.e_star) / (friction * scale) - compliant[0]
+            for x in (0.5 * (ends[0] + stick.ends[0]), 0.5 * (ends[1] + stick.ends[1]))]
+    yield label + "slip opposes q", max(0.0, *slip), 0.0
+
+
+def _check_printed(punch, load):
+    """Error against the pressure of the upright punch as Ciavarella, Hills and Monno print it."""
+    contact = contact_under_moment(punch, load)
+    a = contact.half_width
+    phi0, phi = np.arcsin(punch.c / a), np.linspace(-1.5, 1.5, 40)
+    brackets = (np.pi - 2.0 * phi0) * np.cos(phi) + np.sin(phi) * np.log(np.abs(
+        np.sin(phi + phi0) / np.sin(phi - phi0))) + np.sin(phi0) * np.log(np.abs(
+            np.tan(0.5 * (phi + phi0)) * np.tan(0.5 * (phi - phi0))))
+    printed = 2.0 * load / (np.pi * a * (np.pi - 2.0 * phi0 - np.sin(2.0 * phi0))) * brackets
+    error = plane_pressure(a * np.sin(phi), punch, contact) / printed - 1.0
+    yield "upright: p as printed", np.max(np.abs(error)), 1e-9
+
+
+def _check_hertz(load, edge_radius, e_star):
+    """Errors of half width and pressure of a cylinder, c = 0, against Hertz's."""
+    contact = contact_under_moment(Punch(0.0, edge_radius, e_star), load)
+    a = np.sqrt(4.0 * load * edge_radius / (np.pi * e_star))
+    yield "c = 0: Hertz's half width", contact.half_width / a - 1.0, 1e-10
+    x = np.linspace(-0.99, 0.99, 12) * a
+    error = plane_pressure(x, Punch(0.0, edge_radius, e_star), contact) * np.pi * a / (2.0 * load)
+    yield "c = 0: Hertz's pressure", np.max(np.abs(error - np.sqrt(1.0 - (x / a)**2))), 1e-10
+
+
+def _check_strips(punch, load, eccentricity, ratio, friction=0.1):
+    """Errors of the strips' solution, for 300 and 600 of them."""
+    contact = contact_under_moment(punch, load, eccentricity * load)
+    stick = stick_zone(punch, contact, ratio * friction * load, friction)
+    for count, bound in ((300, 2e-2), (600, 1e-2)):
+        x = ((np.arange(count) + 0.5) / count - 0.5) * 3.2 * punch.c
+        p, q, tilt, _ = PlaneCells(punch, x).partial_slip(load, eccentricity * load, ratio * friction * load, friction)
+        label = "{} strips, e = {:g} c: ".format(count, eccentricity / punch.c)
+        exact = plane_pressure(x, punch, contact)
+        yield label + "p, L2", np.linalg.norm(p - exact) / np.linalg.norm(exact), bound
+        exact = plane_shear(x, punch, contact, stick, friction)
+        yield label + "q, L2", np.linalg.norm(q - exact) / np.linalg.norm(exact), bound
+        yield label + "tilt", tilt / plane_tilt(punch, contact) - 1.0 if eccentricity else tilt, 1e-2
+
+
+def self_check():
+    """Compare the formulas with quadrature and limits, print errors and bounds, return the number of failures."""
+    punch = Punch(1e-3, 20e-3, 115.4e9)
+    checks = [*_check_hertz(7.4e5, 20e-3, 115.4e9), *_check_printed(punch, 7.4e5)]
+    for load, eccentricity, ratio in ((7.4e5, 0.0, 0.6), (7.4e5, 0.3e-3, 0.6), (7.4e5, 0.3e-3, 0.95),
+                                      (7.4e5, -0.9e-3, 0.3), (2e4, 0.6e-3, 0.5)):
+        checks += _check(punch, load, eccentricity, ratio)
+    checks += [*_check_strips(punch, 7.4e5, 0.0, 0.6), *_check_strips(punch, 7.4e5, 0.3e-3, 0.6)]
+    failed = 0
+    for name, error, bound in checks:
+        bad = not abs(error) <= bound
+        failed += bad
+        print("{:66s} {:10.2e}  (<= {:.0e}){}".format(name, abs(error), bound, "  FAILED" if bad else ""))
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(1 if self_check() else 0)

@@ -1,0 +1,301 @@
+"""Dissimilar bodies: pressure moves the surfaces along, shear moves them apart."""
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+from support import assert_close, assert_same, ball, displacement
+from support import analytic
+
+INF = float("inf")
+
+
+# ---------------------------------------------------------------- cases
+
+def dundurs(case):
+    """Dundurs' second constant of a case's materials: the strength of the coupling, positive when body 1 is softer."""
+    def terms(body):
+        young, nu = case[f"body{body}_young"], case.get(f"body{body}_poisson") or 0.0
+        g = analytic.shear_modulus(young, nu)
+        return (1 - 2 * nu) / g, (1 - nu) / g
+    (o1, z1), (o2, z2) = terms(1), terms(2)
+    return (o1 - o2) / (2 * (z1 + z2))
+
+
+# body 1 and body 2: Young's modulus, Poisson's ratio
+MATERIALS = {
+    "steel-aluminium": (210e9, 0.3, 72e9, 0.34),
+    "steel-plastic": (210e9, 0.3, 3e9, 0.2),
+    "plastic-steel": (3e9, 0.2, 210e9, 0.3),
+    "rubber-rigid": (5e6, 0.499, INF, None),
+    "cork-rigid": (30e6, 0.0, INF, None),
+    "rigid-cork": (INF, None, 30e6, 0.0),
+    "auxetic-rigid": (1e9, -0.4, INF, None),
+}
+
+
+def pair(materials, n=64, **more):
+    """The sphere of those materials on a grid of the same width in contact radii, whatever the materials."""
+    young1, nu1, young2, nu2 = MATERIALS[materials] if isinstance(materials, str) else materials
+    case = ball(n)
+    case.update(body1_young=young1, body1_poisson=nu1, body2_young=young2, body2_poisson=nu2)
+    e_star = analytic.effective_modulus(young1, nu1 or 0, young2, nu2 or 0)
+    case["grid_size"] = 3 * analytic.hertz(case["load_n"], case["gap_radius1"], e_star).radius
+    return dict(case, **more)
+
+
+def similar(case):
+    """The same materials in both bodies with the same compliance but no coupling."""
+    a = b = 0.0
+    for body in (1, 2):
+        nu = case[f"body{body}_poisson"] or 0.0
+        g = analytic.shear_modulus(case[f"body{body}_young"], nu)
+        a, b = a + (1 - nu) / g, b + nu / g
+    g, nu = 2 / (a + b), b / (a + b)
+    return dict(case, body1_young=2 * g * (1 + nu), body1_poisson=nu, body2_young=2 * g * (1 + nu), body2_poisson=nu)
+
+
+def swapped(case):
+    return dict(case, body1_young=case["body2_young"], body1_poisson=case["body2_poisson"], body2_young=case["body1_young"], body2_poisson=case["body1_poisson"])
+
+
+# ---------------------------------------------------------------- convergence
+
+STEEL = pair("steel-aluminium", friction=0.3)
+
+
+def test_materials_reach_the_largest_coupling():
+    assert dundurs(pair("cork-rigid")) == pytest.approx(0.5) and dundurs(pair("rigid-cork")) == pytest.approx(-0.5)
+    assert dundurs(pair("auxetic-rigid")) > 0.6  # beyond what nu >= 0 allows
+
+
+@pytest.mark.parametrize("steps", [1, 4])
+@pytest.mark.parametrize("load", [{}, dict(load_tx=0.6)], ids=["N", "N-Tx"])
+@pytest.mark.parametrize("friction", [0.1, 0.3, 1.0])
+@pytest.mark.parametrize("materials", MATERIALS)
+def test_dissimilar_bodies_converge(solve, materials, friction, load, steps):
+    n = 100 if friction == 1.0 else 64
+    case = pair(materials, n, friction=friction, steps=steps)
+    s = solve(dict(case, **{name: factor * friction * case["load_n"] for name, factor in load.items()}))
+    assert s["status"] == 0 and s["coupling_iterations"] > 1
+    assert s.loads()["load_n"] == pytest.approx(180.0, rel=1e-9)
+    assert s.loads()["load_tx"] == pytest.approx(load.get("load_tx", 0) * friction * 180.0, abs=1e-9 * 180.0)
+
+
+@pytest.mark.parametrize("n", [65, 80, (70, 96)], ids=str)
+def test_strong_coupling_and_friction_converge_on_other_grids(solve, n):
+    solve(pair("cork-rigid", n, friction=1.0, load_tx=90.0, load_mz=1e-3))
+
+
+def test_passes_do_not_grow_with_the_grid(solve):
+    passes = [solve(pair("cork-rigid", n, friction=0.5))["coupling_iterations"] for n in (32, 64, 128)]
+    assert passes[2] <= 1.5 * passes[0] + 2, passes
+
+
+@pytest.mark.parametrize("ranks", [3])
+def test_fields_do_not_depend_on_the_ranks(solve, ranks):
+    case = pair("steel-plastic", friction=0.4, load_tx=20.0, steps=2)
+    assert_same(solve(case, ranks=ranks), solve(case), 1e-5)  # ten times the tolerance of the coupling
+
+
+@pytest.mark.parametrize("materials", MATERIALS)
+def test_without_friction_there_is_one_pass(solve, materials):
+    s = solve(pair(materials, friction=0.0))
+    assert s["coupling_iterations"] == 1
+    assert s.shear.max() == 0
+
+
+def test_similar_bodies_have_one_pass(solve):
+    assert solve(similar(dict(STEEL, load_tx=20.0)))["coupling_iterations"] == 1
+
+
+def test_incompressible_and_rigid_do_not_couple(solve):
+    """nu = 1/2 against a rigid body: both of 1 - 2 nu and 1/G vanish."""
+    s = solve(pair((5e6, 0.5, INF, None), friction=0.5, load_tx=20.0))
+    assert s["coupling_iterations"] == 1
+
+
+# ---------------------------------------------------------------- the solution
+
+def test_displacements_are_those_of_both_tractions(solve):
+    """By direct summation of Johnson's point forces, coupling included."""
+    case = dict(STEEL, load_tx=20.0)
+    s = solve(case)
+    for i, j in ((31, 31), (12, 40), (45, 20), (3, 60)):
+        ux, uy, uz = displacement(s, case, i, j)
+        assert ux == pytest.approx(s.displacement_x[j, i], rel=1e-9)
+        assert uy == pytest.approx(s.displacement_y[j, i], rel=1e-9)
+        assert uz == pytest.approx(s.displacement_z[j, i], rel=1e-9)
+
+
+def test_tolerance_of_the_coupling_is_that_of_the_solution(solve):
+    case = dict(STEEL, load_tx=20.0)
+    tight = solve(dict(case, coupling_rtol=1e-10, normal_rtol=1e-11, tangential_rtol=1e-9))
+    for rtol in (1e-3, 1e-6):
+        s = solve(dict(case, coupling_rtol=rtol))
+        for name in ("pressure", "shear_x", "shear_y"):
+            scale = np.abs(tight.pressure if name == "pressure" else tight.shear).max()
+            assert_close(getattr(s, name), getattr(tight, name), max(3 * rtol, 1e-5), name, scale)  # 1e-5: the tangential solver's
+
+
+def test_shear_under_normal_load_is_radial(solve):
+    """Four mirror lines; inwards or outwards according to the sign of the coupling."""
+    s = solve(STEEL)
+    assert_close(s.shear_x, -s.shear_x[:, ::-1], 2e-5, "q_x odd in x", s.shear.max())  # tolerance of q, twenty times
+    assert_close(s.shear_x, s.shear_x[::-1], 2e-5, "q_x even in y", s.shear.max())
+    assert_close(s.shear_y, s.shear_x.T, 2e-5, "q_y", s.shear.max())
+    assert_close(s.xx * s.shear_y - s.yy * s.shear_x, 0, 2e-2, "q_theta", (s.r * s.shear).max())  # cells are square
+
+
+def test_shear_under_normal_load_points_as_the_stiffer_body_holds(solve):
+    """Pressure draws each surface inwards, the softer body's the more; the stiffer one holds it back.
+
+    With body 1 the softer (positive coupling), body 1 moves inwards over body 2 and drags it along: q on body 2 is inwards.
+    """
+    for materials in ("plastic-steel", "steel-plastic"):
+        s = solve(pair(materials, friction=0.3))
+        radial = np.sum(s.xx * s.shear_x + s.yy * s.shear_y)
+        assert radial * dundurs(pair(materials)) < 0, materials
+
+
+def test_friction_holds_the_pressure_together(solve):
+    """Shear that holds the softer surface back stiffens the contact: a smaller approach than without friction."""
+    for materials in ("cork-rigid", "rigid-cork"):
+        rough, smooth = solve(pair(materials, friction=1.0)), solve(pair(materials, friction=0.0))
+        assert rough["disp_z"] < 0.999 * smooth["disp_z"]
+
+
+def test_stick_grows_with_friction_only(solve):
+    """Spence: under N alone the stick radius depends on beta and mu, not on the load."""
+    case = pair("steel-plastic", friction=0.3)
+    part = solve(case)
+    share = part["stick_area"] / part["contact_area"]
+    assert 0.1 < share < 0.9
+    more = solve(dict(case, friction=0.4))
+    assert more["stick_area"] / more["contact_area"] > share + 0.05
+    scale = 0.5**(1 / 3)
+    half = solve(dict(case, load_n=90.0, grid_size=case["grid_size"] * scale))
+    # similar in all: the same picture, smaller
+    assert half["stick_area"] / half["contact_area"] == pytest.approx(share)
+    assert_close(half.pressure, part.pressure * scale, 1e-5, "p")
+    assert_close(half.shear, part.shear * scale, 2e-5, "q")
+
+
+# ---------------------------------------------------------------- symmetries
+
+@pytest.mark.parametrize("materials", ["steel-aluminium", "cork-rigid"])
+def test_swapped_bodies_have_the_same_pressure_and_opposite_shear(solve, materials):
+    """The coupling changes its sign with the order of the bodies, and nothing else does."""
+    case = pair(materials, friction=0.4)
+    one, two = solve(case), solve(swapped(case))
+    assert_close(two.pressure, one.pressure, 1e-6, "p")  # not one step of the arithmetic differs but in sign
+    for name in ("shear_x", "shear_y"):
+        assert_close(getattr(two, name), -getattr(one, name), 1e-6, name, one.shear.max())
+    for name in ("slip_x", "slip_y", "displacement_x", "displacement_y"):
+        assert_close(getattr(two, name), -getattr(one, name), 1e-6, name, np.abs(one.displacement_x).max())
+    assert two["disp_z"] == pytest.approx(one["disp_z"], rel=1e-9)
+    assert two["stick_area"] == one["stick_area"]
+
+
+def test_swapped_bodies_under_opposite_force_have_opposite_shear(solve):
+    case = pair("steel-plastic", friction=0.4)
+    one, two = solve(dict(case, load_tx=20.0, load_mz=2e-3)), solve(dict(swapped(case), load_tx=-20.0, load_mz=-2e-3))
+    assert_close(two.pressure, one.pressure, 1e-6, "p")
+    assert_close(two.shear_x, -one.shear_x, 1e-6, "q_x", one.shear.max())
+    assert_close(two.shear_y, -one.shear_y, 1e-6, "q_y", one.shear.max())
+
+
+def test_opposite_force_is_the_mirrored_solution(solve):
+    """T_x to -T_x mirrors in x; without coupling it would also leave the pressure as it is."""
+    case = pair("steel-plastic", friction=0.4)
+    one, two = solve(dict(case, load_tx=20.0)), solve(dict(case, load_tx=-20.0))
+    assert_close(two.pressure, one.pressure[:, ::-1], 1e-5, "p")
+    assert_close(two.shear_x, -one.shear_x[:, ::-1], 2e-5, "q_x", one.shear.max())
+    assert np.abs(two.pressure - one.pressure).max() > 1e-3 * one.pressure.max()
+
+
+# ---------------------------------------------------------------- options
+
+def test_coupling_none_is_the_similar_pair(solve):
+    """The other coefficients add up over the bodies, so a similar pair has the same ones."""
+    case = dict(STEEL, load_tx=20.0, load_mz=1e-3)
+    none, same = solve(dict(case, coupling="none")), solve(similar(case))
+    assert none["coupling_iterations"] == 1
+    assert_same(none, same, 1e-5)  # rounding of the coefficients, within the tangential tolerance
+
+
+def test_coupling_none_under_normal_load_has_no_shear_and_no_slip(solve):
+    s = solve(dict(STEEL, coupling="none"))
+    for name in ("shear_x", "shear_y", "slip_x", "slip_y", "displacement_x", "displacement_y"):
+        assert np.abs(getattr(s, name)).max() <= 1e-12 * (s.pressure.max() if name[:2] == "sh" else s["disp_z"]), name
+
+
+def test_coupling_full_is_the_default(solve):
+    assert np.array_equal(solve(dict(STEEL, coupling="full")).shear_x, solve(STEEL).shear_x)
+
+
+@pytest.mark.parametrize("load", [{}, dict(load_tx=20.0)], ids=["N", "N-Tx"])
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_too_few_passes_are_told(petsam, tmp_path, load, ranks):
+    done = petsam(STEEL, load, dict(coupling_max_it=1, output="out.h5"), check=10, ranks=ranks)
+    assert len(done.complaint) == 1 and "-coupling_max_it" in done.complaint[0]
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert f["history/status"][:].tolist() == [10] and f["history/coupling_iterations"][:].tolist() == [1]
+        assert f["pressure"].shape[0] == 1
+
+
+def test_one_pass_is_enough_where_nothing_couples(petsam):
+    petsam(similar(STEEL), dict(load_tx=20.0, coupling_max_it=1))
+    petsam(STEEL, dict(friction=0, coupling_max_it=1))
+    petsam(STEEL, dict(load_tx=20.0, coupling="none", coupling_max_it=1))
+
+
+def changes(done):
+    """The monitor's lines: pass, change of p, change of q."""
+    return [(int(k), float(p), float(q)) for k, p, q in re.findall(r"^ *(\d+) coupling \D*? p (\S+) q (\S+)$", done.stdout, re.M)]
+
+
+def test_monitor_prints_a_line_a_pass(petsam, tmp_path):
+    lines = changes(petsam(STEEL, dict(load_tx=20.0, coupling_monitor=True, output="out.h5")))
+    with h5py.File(tmp_path / "out.h5") as f:
+        passes = f["history/coupling_iterations"][0]
+    assert [k for k, *_ in lines] == list(range(1, passes + 1))
+    assert max(lines[-1][1:]) <= 1e-6 < max(lines[-2][1:])
+
+
+def test_monitor_of_uncoupled_bodies_prints_nothing(petsam):
+    assert changes(petsam(similar(STEEL), dict(load_tx=20.0, coupling_monitor=True))) == []
+
+
+def test_tolerance_of_the_coupling_is_that_of_the_last_pass(petsam):
+    passes = []
+    for rtol in (1e-2, 1e-4, 1e-6):
+        lines = changes(petsam(STEEL, dict(coupling_rtol=rtol, coupling_monitor=True)))
+        assert max(lines[-1][1:]) <= rtol
+        passes.append(len(lines))
+    assert passes[0] < passes[1] < passes[2]
+
+
+# ---------------------------------------------------------------- histories
+
+def test_cycle_of_dissimilar_bodies(petsam, tmp_path):
+    """Loading, fretting and unloading at strong coupling: every step converges and dissipates."""
+    rows = [(60, 0), (120, 0), (180, 0), (180, 40), (180, 0), (180, -40), (180, 0), (90, 0), (20, 0), (0, 0), (180, 0)]
+    (tmp_path / "h.csv").write_text("time,load_n,load_tx\n" + "".join(f"{k + 1},{n},{t}\n" for k, (n, t) in enumerate(rows)))
+    petsam(dict(pair("cork-rigid", friction=0.5), load_n=None, history="h.csv", output="out.h5"))
+    with h5py.File(tmp_path / "out.h5") as f:
+        h = {name: data[:] for name, data in f["history"].items()}
+    assert h["status"].tolist() == [0] * len(rows)
+    assert h["contact_area"][9] == 0 and h["contact_area"][10] > 0
+    assert h["dissipated_energy"].min() >= -1e-5 * h["dissipated_energy"].max()
+
+
+def test_same_row_again_changes_nothing(petsam, tmp_path):
+    (tmp_path / "h.csv").write_text("time,load_tx\n1,20\n2,20\n")
+    petsam(STEEL, dict(history="h.csv", output="out.h5"))
+    with h5py.File(tmp_path / "out.h5") as f:
+        p, q, d = f["pressure"][:], f["shear_x"][:], f["history/dissipated_energy"][:]
+    assert_close(p[1], p[0], 1e-5, "p")  # ten times the tolerance of the coupling
+    assert_close(q[1], q[0], 1e-5, "q")
+    assert abs(d[1]) <= 1e-4 * d[0]
