@@ -12,7 +12,7 @@
 typedef struct _n_SamFourier *SamFourier;
 
 typedef enum {
-  SAM_FOURIER_PERIODIC, /* period hx * hy, the smallest sizes >= nx, ny with prime factors up to 7 */
+  SAM_FOURIER_PERIODIC, /* period hx * hy, sizes >= nx, ny that FFTW transforms fast */
   SAM_FOURIER_PADDED    /* period 2hx * 2hy, the field being zero outside the grid: convolution is not cyclic */
 } SamFourierMode;
 
