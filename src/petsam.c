@@ -14,9 +14,6 @@
 
 enum { EXIT_USAGE = 2, EXIT_FILE = 3 };
 
-/* Load steps from which -fft_effort auto means measure. */
-#define MEASURE_FROM_STEPS 20
-
 static const char usage[] = "petsam " PETSAM_VERSION ": partial-slip contact of elastic bodies by the semi-analytical method.\n"
                             "usage: petsam [-option value ...]   or   mpirun -n 4 petsam -options_file study.opts [-option value ...]\n"
                             "All quantities in SI units. Required: -grid_n, -grid_size, -body1_young, -body1_poisson, -body2_young, -body2_poisson,\n"
@@ -300,19 +297,6 @@ static PetscErrorCode RefuseOverwritingInput(const Run *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Over many steps FFTW's measured plans are worth the time they take; one step is done before they were made. */
-static PetscErrorCode PlanForHistory(const Run *run)
-{
-  PetscBool given;
-  PetscInt  steps;
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-fft_effort", &given));
-  PetscCall(SamHistoryGetCount(run->history, &steps));
-  if (!given && steps >= MEASURE_FROM_STEPS) PetscCall(PetscOptionsSetValue(NULL, "-fft_effort", "measure"));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Reads every option and makes every object, but writes nothing. */
 static PetscErrorCode SetUp(Run *run)
 {
@@ -333,7 +317,6 @@ static PetscErrorCode SetUp(Run *run)
   PetscCall(SamOutputCheckOptions(PETSC_COMM_WORLD));
   PetscCall(RefuseOverwritingInput(run));
   PetscCall(RefuseTooLarge(run->grid, run->friction));
-  PetscCall(PlanForHistory(run));
   PetscCall(SamComplianceCreate(run->grid, &run->pair, &run->compliance));
   PetscCall(SamGridCreateVec(run->grid, 1, &run->separation));
   if (!help) PetscCall(SamGapFill(run->gap, run->grid, run->separation));

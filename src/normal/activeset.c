@@ -402,7 +402,7 @@ static PetscErrorCode Start(Work *w, double *energy)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Fits the motion on A, lets penetrating cells in, and measures the error with the set as it was. */
+/* Fits the motion on A and measures the error. */
 static PetscErrorCode LookAtSet(Work *w)
 {
   PetscFunctionBegin;
@@ -412,6 +412,7 @@ static PetscErrorCode LookAtSet(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Cells that penetrate enter A, and the motion is fitted anew. */
 static PetscErrorCode AddPenetrating(Work *w)
 {
   double added = 0;
