@@ -380,12 +380,13 @@ static void PrintMessage(const Run *run, const SamStep *step, PetscInt k, PetscI
 /* All load steps, their results, and what is to be said of them. Ends early where a step has no solution. */
 static PetscErrorCode SolveSteps(Run *run)
 {
-  PetscInt count;
+  PetscInt  count;
+  PetscBool ended = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetCount(run->history, &count));
   if (count > 1) PetscCall(SamStepViewHeading(PETSC_VIEWER_STDOUT_(run->grid->comm)));
-  for (PetscInt k = 0; k < count; k++) {
+  for (PetscInt k = 0; k < count && !ended; k++) {
     SamStep step;
 
     PetscCall(SamHistoryGetStep(run->history, k, &step));
@@ -394,8 +395,8 @@ static PetscErrorCode SolveSteps(Run *run)
     else PetscCall(SamStepView(&step, PETSC_VIEWER_STDOUT_(run->grid->comm)));
     PetscCall(WriteStep(run, &step, k, count));
     PrintMessage(run, &step, k, count);
-    if (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM || !run->status) run->status = step.status;
-    if (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) break;
+    ended = (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
+    if (ended || !run->status) run->status = step.status;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

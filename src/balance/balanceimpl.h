@@ -49,6 +49,28 @@ static inline double SamFrameY(const double a[3], double xi)
 /* Gram matrices sum phi phi' are kept as their six upper entries 00, 01, 02, 11, 12, 22. */
 #define SAM_GRAM 6
 
+/* Adds a cell to the Gram matrix of the normal phi. */
+static inline void SamGramAddNormal(double gram[SAM_GRAM], double xi, double eta)
+{
+  gram[0] += 1;
+  gram[1] -= eta;
+  gram[2] += xi;
+  gram[3] += eta * eta;
+  gram[4] -= eta * xi;
+  gram[5] += xi * xi;
+}
+
+/* Adds a cell to the Gram matrix of the tangential phi, weighted by the symmetric 2 x 2 matrix hxx, hxy, hyy. */
+static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi, double eta)
+{
+  gram[0] += hxx;
+  gram[1] += hxy;
+  gram[2] += -eta * hxx + xi * hxy;
+  gram[3] += hyy;
+  gram[4] += -eta * hxy + xi * hyy;
+  gram[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
+}
+
 /*
   The combination a of the free phi with gram a = sums within the free subspace, in the sense of least squares when
   the Gram matrix is singular there.

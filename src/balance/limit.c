@@ -98,12 +98,7 @@ static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], con
       hxx = b / n * (1 - vx * vx);
       hxy = -b / n * vx * vy;
       hyy = b / n * (1 - vy * vy);
-      power->hessian[0] += hxx;
-      power->hessian[1] += hxy;
-      power->hessian[2] += -eta * hxx + xi * hxy;
-      power->hessian[3] += hyy;
-      power->hessian[4] += -eta * hxy + xi * hyy;
-      power->hessian[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
+      SamGramAddTangential(power->hessian, hxx, hxy, hyy, xi, eta);
     }
   }
   PetscCall(SamSum(f->grid->comm, (PetscInt)(sizeof(*power) / sizeof(double)), (double *)power));

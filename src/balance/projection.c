@@ -125,12 +125,7 @@ static inline void AddNormal(Dual *d, double x, double xi, double eta)
   d->sums[0] += x;
   d->sums[1] -= x * eta;
   d->sums[2] += x * xi;
-  d->gram[0] += 1;
-  d->gram[1] -= eta;
-  d->gram[2] += xi;
-  d->gram[3] += eta * eta;
-  d->gram[4] -= eta * xi;
-  d->gram[5] += xi * xi;
+  SamGramAddNormal(d->gram, xi, eta);
 }
 
 static void PassNormal(const SamFrame *f, const void *context, const double a[3], Dual *dual)
@@ -208,17 +203,6 @@ PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds a symmetric 2 x 2 matrix hxx, hxy, hyy of one cell to the Gram matrix of the tangential phi. */
-static inline void AddTangentialGram(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi, double eta)
-{
-  gram[0] += hxx;
-  gram[1] += hxy;
-  gram[2] += -eta * hxx + xi * hxy;
-  gram[3] += hyy;
-  gram[4] += -eta * hxy + xi * hyy;
-  gram[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
-}
-
 static inline void AddShear(Dual *d, double x, double y, double value, double xi, double eta)
 {
   d->value += value;
@@ -248,13 +232,13 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
       n  = vx * vx + vy * vy;
       if (n <= b * b) {
         AddShear(&row, vx, vy, 0.5 * n, xi, eta);
-        AddTangentialGram(row.gram, 1, 0, 1, xi, eta);
+        SamGramAddTangential(row.gram, 1, 0, 1, xi, eta);
         continue;
       }
       n = sqrt(n);
       s = b / n;
       AddShear(&row, s * vx, s * vy, b * n - 0.5 * b * b, xi, eta);
-      AddTangentialGram(row.gram, s * vy * vy / (n * n), -s * vx * vy / (n * n), s * vx * vx / (n * n), xi, eta);
+      SamGramAddTangential(row.gram, s * vy * vy / (n * n), -s * vx * vy / (n * n), s * vx * vx / (n * n), xi, eta);
     }
     AddDual(dual, &row);
   }

@@ -126,17 +126,8 @@ static PetscErrorCode ComputeGram(Work *w)
   for (PetscInt j = 0; j < w->rows; j++) {
     const double eta = f->eta0 + (double)j * f->deta;
 
-    for (PetscInt i = 0; i < w->nx; i++) {
-      const double xi = f->xi0 + (double)i * f->dxi;
-
-      if (!w->active[j * w->nx + i]) continue;
-      w->gram[0] += 1;
-      w->gram[1] -= eta;
-      w->gram[2] += xi;
-      w->gram[3] += eta * eta;
-      w->gram[4] -= eta * xi;
-      w->gram[5] += xi * xi;
-    }
+    for (PetscInt i = 0; i < w->nx; i++)
+      if (w->active[j * w->nx + i]) SamGramAddNormal(w->gram, f->xi0 + (double)i * f->dxi, eta);
   }
   PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, w->gram));
   PetscFunctionReturn(PETSC_SUCCESS);

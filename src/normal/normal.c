@@ -207,7 +207,7 @@ PetscErrorCode SamNormalGetStatistics(SamNormal n, PetscReal *error, PetscInt *i
   A start from nothing: the bodies on a bed of springs, as stiff as the half-space is under a pressure over half the grid,
   which has about the right cells in contact. The admissible pressure nearest to -stiffness (h - fixed) is just that.
 */
-static PetscErrorCode StartAsFoundation(SamNormalLevel *level)
+static PetscErrorCode StartAsFoundation(SamNormalLevel *level, PetscBool *found)
 {
   const SamGrid   grid = level->grid;
   const SamFrame *f    = &level->frame;
@@ -228,7 +228,7 @@ static PetscErrorCode StartAsFoundation(SamNormalLevel *level)
 
       p[k] = stiffness * (SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, f->eta0 + (double)j * f->deta) - (h[k] - least));
     }
-  PetscCall(SamFrameProjectNormal(f, NULL, p, &(PetscBool){PETSC_FALSE}));
+  PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscCall(VecRestoreArrayWrite(level->p, &p));
   PetscCall(VecRestoreArrayRead(level->h, &h));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -306,8 +306,9 @@ static PetscErrorCode SolveLevel(SamNormal n, SamCompliance compliance, PetscInt
     PetscCall(Prolong(transfer, pc, p));
     PetscCall(VecDestroy(&hc));
     PetscCall(VecDestroy(&pc));
-  } else if (!guess) PetscCall(StartAsFoundation(&level));
-  PetscCall(MakeAdmissible(&level, &found));
+  }
+  if (coarse || guess) PetscCall(MakeAdmissible(&level, &found));
+  else PetscCall(StartAsFoundation(&level, &found));
   if (found) PetscCall(n->solve(n, &level));
   else n->reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
   for (PetscInt k = 0; k < 3; k++) rigid[k] = level.rigid[k];

@@ -46,12 +46,7 @@ static PetscErrorCode ComputeGap(Work *w)
       sums[0] += g[k];
       sums[1] -= eta * g[k];
       sums[2] += xi * g[k];
-      gram[0] += 1;
-      gram[1] -= eta;
-      gram[2] += xi;
-      gram[3] += eta * eta;
-      gram[4] -= eta * xi;
-      gram[5] += xi * xi;
+      SamGramAddNormal(gram, xi, eta);
     }
   }
   PetscCall(SamSum(w->level->grid->comm, 3, sums));
@@ -110,12 +105,7 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
       mean[0] += s[k];
       mean[1] -= eta * s[k];
       mean[2] += xi * s[k];
-      gram[0] += 1;
-      gram[1] -= eta;
-      gram[2] += xi;
-      gram[3] += eta * eta;
-      gram[4] -= eta * xi;
-      gram[5] += xi * xi;
+      SamGramAddNormal(gram, xi, eta);
     }
     PetscCall(SamSum(w->level->grid->comm, 3, mean));
     PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, gram));

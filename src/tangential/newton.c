@@ -133,12 +133,7 @@ static PetscErrorCode ComputeGram(Work *w)
       if (u->bound[k] <= 0) continue;
       ToTangent(w, k, &xx, &xy);
       ToTangent(w, k, &yx, &yy);
-      w->gram[0] += xx;
-      w->gram[1] += xy;
-      w->gram[2] += -eta * xx + xi * xy;
-      w->gram[3] += yy;
-      w->gram[4] += -eta * xy + xi * yy;
-      w->gram[5] += eta * eta * xx - 2 * xi * eta * xy + xi * xi * yy;
+      SamGramAddTangential(w->gram, xx, xy, yy, xi, eta);
     }
   }
   PetscCall(SamSum(u->level->grid->comm, SAM_GRAM, w->gram));

@@ -136,12 +136,7 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
       row[0] += tx;
       row[1] += ty;
       row[2] += xi * ty - eta * tx;
-      row[3] += hxx;
-      row[4] += hxy;
-      row[5] += -eta * hxx + xi * hxy;
-      row[6] += hyy;
-      row[7] += -eta * hxy + xi * hyy;
-      row[8] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
+      SamGramAddTangential(row + 3, hxx, hxy, hyy, xi, eta);
     }
     for (PetscInt c = 0; c < 3 + SAM_GRAM; c++) sums[c] += row[c];
   }
