@@ -9,22 +9,16 @@ nothing with petsam; Goodman's closed relation is its approximation.
 Stick ratio is sqrt(stick_area/contact_area), central pressure the mean of the four cells nearest the axis. Hertz's
 pressure is that of the same load without friction; what is called "equal radius" is Hertz's for the computed radius.
 """
-import argparse
-import json
 import os
 import sys
 
 import h5py
-import matplotlib
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 import analytic
 import loop_analytic
-from sphere_figures import STYLE, InputError, print_table, relative_l2, save
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
+from figures import STYLE, InputError, finish_numbers, main, plt, print_table, relative_l2, save
 
 FRICTION = {"0": ("0.2", "0.2986", "0.4", "0.5", "0.65", "1"), "0.2": ("0.15", "0.2", "0.3", "0.4"),
             "0.3": ("0.1", "0.15", "0.2", "0.3")}
@@ -238,15 +232,6 @@ def figure_fields(directory, case, uncoupled):
 
 # ---------------------------------------------------------------- program
 
-def parse_arguments(arguments):
-    """The command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directory", help="the HDF5 files of examples/dissimilar/run.sh")
-    parser.add_argument("--figures", metavar="DIR", help="write the PNG files here (default: the same directory)")
-    parser.add_argument("--json", metavar="FILE", help="write the numbers to FILE too")
-    return parser.parse_args(arguments)
-
-
 def run(options):
     """Read, print the numbers, draw."""
     cases = {nu: [Press(options.directory, "nu{}_mu{}".format(nu, mu)) for mu in group]
@@ -261,27 +246,11 @@ def run(options):
                       "shear": float(np.max(np.hypot(uncoupled.shear_x, uncoupled.shear_y)))},
     }
     print_numbers(numbers)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(numbers, file, indent=2)
-            file.write("\n")
-    figures = options.figures or options.directory
-    os.makedirs(figures, exist_ok=True)
-    print()
+    figures = finish_numbers(options, numbers)
     with plt.rc_context(STYLE):
         figure_stick(figures, cases, study)
         figure_fields(figures, next(case for case in cases["0"] if case.name == MAIN), uncoupled)
 
 
-def main(arguments=None):
-    """Exit code: 0, or 1 with a message when a file is missing, unreadable or cannot be written."""
-    try:
-        run(parse_arguments(arguments))
-    except (InputError, OSError) as error:
-        print("dissimilar_figures.py: error: {}".format(error), file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(run, __doc__, "dissimilar"))

@@ -13,8 +13,6 @@ Errors, all over the section:
           number of strips
   tilt    rot_y of the punch over the tilt of the strips, less 1
 """
-import argparse
-import json
 import os
 import sys
 
@@ -24,7 +22,7 @@ from matplotlib.ticker import NullLocator
 
 import analytic
 import long_punch_analytic as plane
-from sphere_figures import STYLE, InputError, plt, print_table, relative_l2, save
+from figures import STYLE, InputError, finish_numbers, main, plt, print_table, relative_l2, save
 
 RATIOS = ("2.5", "5", "10", "20", "40")
 VARIANTS = ("fine_r10", "sharp_r10", "nu0_r10")
@@ -227,41 +225,16 @@ def figure(directory, sections, numbers):
 
 # ---------------------------------------------------------------- program
 
-def parse_arguments(arguments):
-    """The command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directory", help="the HDF5 files of examples/long-punch/run.sh")
-    parser.add_argument("--figures", metavar="DIR", help="write the PNG file here (default: the same directory)")
-    parser.add_argument("--json", metavar="FILE", help="write the numbers to FILE too")
-    return parser.parse_args(arguments)
-
-
 def run(options):
     """Read, print the numbers, draw."""
     names = ["{}_r{}".format(grid, ratio) for grid in ("fine", "coarse") for ratio in RATIOS] + list(VARIANTS[1:])
     sections = {(study, name): Section(options.directory, study, name) for study in STUDIES for name in names}
     numbers = [section_numbers(study, name, case) for (study, name), case in sections.items()]
     print_numbers(numbers)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(numbers, file, indent=2)
-            file.write("\n")
-    figures = options.figures or options.directory
-    os.makedirs(figures, exist_ok=True)
-    print()
+    figures = finish_numbers(options, numbers)
     with plt.rc_context(STYLE):
         figure(figures, sections, numbers)
 
 
-def main(arguments=None):
-    """Exit code: 0, or 1 with a message when a file is missing, unreadable or cannot be written."""
-    try:
-        run(parse_arguments(arguments))
-    except (InputError, OSError) as error:
-        print("long_punch_figures.py: error: {}".format(error), file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(run, __doc__, "long-punch"))

@@ -8,21 +8,15 @@ against displacement), energy.png (dissipated energy a step, and its dependence 
 "Cycle" is the one from the first to the second positive peak. All numbers are relative: displacements to the loop's
 amplitude, forces to mu N, energies to the closed form or to the loop's area.
 """
-import argparse
-import json
 import os
 import sys
 
 import h5py
-import matplotlib
 import numpy as np
 
 import analytic
 import loop_analytic
-from sphere_figures import STYLE, InputError, print_table, save
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
+from figures import STYLE, InputError, finish_numbers, main, plt, print_table, save
 
 PARTIAL = ("partial_nu0", "partial_nu0.3")
 GROSS = ("gross_nu0", "gross_nu0.3")
@@ -274,15 +268,6 @@ def figure_slip(directory, loops):
 
 # ---------------------------------------------------------------- program
 
-def parse_arguments(arguments):
-    """The command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directory", help="the HDF5 files of examples/fretting-loop/run.sh")
-    parser.add_argument("--figures", metavar="DIR", help="write the PNG files here (default: the same directory)")
-    parser.add_argument("--json", metavar="FILE", help="write the numbers to FILE too")
-    return parser.parse_args(arguments)
-
-
 def run(options):
     """Read, print the numbers, draw."""
     partial = [Loop(options.directory, name) for name in PARTIAL]
@@ -294,28 +279,12 @@ def run(options):
         "identity": identity_error(study[0]),
     }
     print_numbers(numbers)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(numbers, file, indent=2)
-            file.write("\n")
-    figures = options.figures or options.directory
-    os.makedirs(figures, exist_ok=True)
-    print()
+    figures = finish_numbers(options, numbers)
     with plt.rc_context(STYLE):
         figure_loops(figures, partial, gross)
         figure_energy(figures, partial, gross, numbers["study"])
         figure_slip(figures, partial)
 
 
-def main(arguments=None):
-    """Exit code: 0, or 1 with a message when a file is missing, unreadable or cannot be written."""
-    try:
-        run(parse_arguments(arguments))
-    except (InputError, OSError) as error:
-        print("loop_figures.py: error: {}".format(error), file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(run, __doc__, "fretting-loop"))

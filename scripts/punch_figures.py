@@ -13,8 +13,6 @@ Jaeger's principle: for nu = 0 and a force T_x, the shear is mu (p - p*), p* the
 load N - T_x/mu; it sticks where p* > 0. It holds for petsam's discrete equations, too, so the two must agree to the
 solvers' tolerance.
 """
-import argparse
-import json
 import os
 import sys
 
@@ -22,7 +20,7 @@ import h5py
 import numpy as np
 
 import analytic
-from sphere_figures import STYLE, InputError, plt, print_table, relative_l2, save
+from figures import STYLE, InputError, finish_numbers, main, plt, print_table, relative_l2, save
 
 MOMENTS = ("0", "5e3", "1e4", "1.5e4", "2e4", "2.5e4", "3e4")
 RATIOS = ("0.10", "0.30", "0.50", "0.70", "0.90", "0.95")
@@ -353,15 +351,6 @@ def figure_torsion(directory, cases, gross, exact):
 
 # ---------------------------------------------------------------- program
 
-def parse_arguments(arguments):
-    """The command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directory", help="the HDF5 files of examples/punch/run.sh")
-    parser.add_argument("--figures", metavar="DIR", help="write the PNG files here (default: the same directory)")
-    parser.add_argument("--json", metavar="FILE", help="write the numbers to FILE too")
-    return parser.parse_args(arguments)
-
-
 def run(options):
     """Read, print the numbers, draw."""
     def load(form, levels):
@@ -380,28 +369,12 @@ def run(options):
         "torsion": [torsion_numbers(case, exact) for case in torsion + [gross]],
     }
     print_numbers(numbers)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(numbers, file, indent=2)
-            file.write("\n")
-    figures = options.figures or options.directory
-    os.makedirs(figures, exist_ok=True)
-    print()
+    figures = finish_numbers(options, numbers)
     with plt.rc_context(STYLE):
         figure_pressure(figures, tilts, exact)
         figure_tangential(figures, tangential, exact_cases, less)
         figure_torsion(figures, torsion, gross, exact)
 
 
-def main(arguments=None):
-    """Exit code: 0, or 1 with a message when a file is missing, unreadable or cannot be written."""
-    try:
-        run(parse_arguments(arguments))
-    except (InputError, OSError) as error:
-        print("punch_figures.py: error: {}".format(error), file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(run, __doc__, "punch"))

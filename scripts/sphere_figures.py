@@ -10,19 +10,14 @@ Error norms, all dimensionless:
   L2      sqrt(sum (numerical - exact)^2 / sum exact^2) over the cells
   others  numerical/exact - 1; the numerical stick radius is sqrt(stick_area/pi)
 """
-import argparse
-import json
 import os
 import sys
 
 import h5py
-import matplotlib
 import numpy as np
 
 import analytic
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
+from figures import STYLE, InputError, finish_numbers, main, plt, print_table, relative_l2, save
 
 LEVELS = ("0.10", "0.30", "0.50", "0.70", "0.90", "0.95")
 LEVELS_EXACT = ("0.30", "0.60", "0.90")
@@ -34,16 +29,6 @@ TORSION_FILES = tuple("torsion_m{}.h5".format(m) for m in LEVELS)
 FIELDS = ("pressure", "shear_x", "shear_y", "slip_x")
 HISTORY = ("load_n", "load_tx", "load_mz", "disp_z", "disp_x", "rot_z", "stick_area")
 POINTS_ON_LINE = 40
-STYLE = {
-    "font.size": 10, "axes.grid": True, "grid.color": "0.92", "axes.axisbelow": True,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 11,
-    "legend.frameon": False, "legend.fontsize": 8.5, "legend.title_fontsize": 9,
-    "savefig.dpi": 150, "mathtext.fontset": "dejavusans",
-}
-
-
-class InputError(Exception):
-    """A result that is missing, cannot be read, or lacks what the comparison needs."""
 
 
 # ---------------------------------------------------------------- reading
@@ -144,11 +129,6 @@ class Torsion(Result):
 
 # ---------------------------------------------------------------- error norms
 
-def relative_l2(numerical, exact):
-    """sqrt(sum (numerical - exact)^2 / sum exact^2) over all cells."""
-    return float(np.sqrt(np.sum((numerical - exact)**2) / np.sum(exact**2)))
-
-
 def hertz_errors(case):
     """Errors of the pressure field and of the approach."""
     exact = analytic.hertz_pressure(case.r, case.hertz.radius, case.hertz.pressure)
@@ -183,14 +163,6 @@ def torsion_errors(case):
         "stick_radius": case.stick_radius / case.c - 1.0,
         "twist": case.history["rot_z"] / twist - 1.0,
     }
-
-
-def print_table(title, columns, rows):
-    """Print rows (dicts) under a title; columns maps a heading to (key, format)."""
-    print("\n" + title)
-    print("  " + "".join("{:>14s}".format(heading) for heading in columns))
-    for row in rows:
-        print("  " + "".join("{:>14s}".format(form.format(row[key])) for key, form in columns.values()))
 
 
 def print_errors(errors):
@@ -301,14 +273,6 @@ def panel_torsion(axes, cases):
     finish(axes, "Torque: shear", r"$|q|/(\mu p_0)$", (0.0, 1.25), (-0.03, 1.08))
 
 
-def save(figure, directory, name):
-    """Write one PNG and close the figure."""
-    path = os.path.join(directory, name)
-    figure.savefig(path)
-    plt.close(figure)
-    print("wrote " + path)
-
-
 def figure_single(directory, name, panel, argument, note):
     """A figure of one panel."""
     figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
@@ -353,15 +317,6 @@ def draw_all(directory, hertz, cattaneo, exact, torsion):
 
 # ---------------------------------------------------------------- program
 
-def parse_arguments(arguments):
-    """The command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directory", help="the HDF5 files of examples/sphere/run.sh")
-    parser.add_argument("--figures", metavar="DIR", help="write the PNG files here (default: the same directory)")
-    parser.add_argument("--json", metavar="FILE", help="write the error norms to FILE too")
-    return parser.parse_args(arguments)
-
-
 def run(options):
     """Read, print the error norms, draw."""
     def load(kind, names):
@@ -376,25 +331,9 @@ def run(options):
         "torsion": [torsion_errors(case) for case in torsion],
     }
     print_errors(errors)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(errors, file, indent=2)
-            file.write("\n")
-    figures = options.figures or options.directory
-    os.makedirs(figures, exist_ok=True)
-    print()
+    figures = finish_numbers(options, errors)
     draw_all(figures, hertz, cattaneo, exact, torsion)
 
 
-def main(arguments=None):
-    """Exit code: 0, or 1 with a message when a file is missing, unreadable or cannot be written."""
-    try:
-        run(parse_arguments(arguments))
-    except (InputError, OSError) as error:
-        print("sphere_figures.py: error: {}".format(error), file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(run, __doc__, "sphere"))

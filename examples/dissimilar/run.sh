@@ -13,22 +13,10 @@
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
-root=$(CDPATH='' cd -- "$here/../.." && pwd)
-petsam=${PETSAM:-$root/build/bin/petsam}
-python=${PYTHON:-$root/build/venv/bin/python}
-mpirun=${MPIRUN:-mpirun}
-ranks=${NP:-2}
-grid_n=${GRID_N:-192}
-out=${OUT:-build/dissimilar}
-case $out in
-    /*) ;;
-    *) out=$root/$out ;;
-esac
-
-fail() {
-    printf 'dissimilar example: %s\n' "$*" >&2
-    exit 1
-}
+example=dissimilar
+default_n=192
+# shellcheck source=examples/common.sh
+. "$here/../common.sh"
 
 # solve CASE OPTION...: dissimilar.opts with further options, results to CASE.h5
 solve() {
@@ -42,21 +30,6 @@ solve() {
     tail -n 1 "$out/$name.log"
 }
 
-command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
-command -v "$python" >/dev/null || \
-    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
-command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
-
-# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
-oversubscribe=
-case $("$mpirun" --version 2>/dev/null) in
-    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
-esac
-if [ "$(id -u)" -eq 0 ]; then
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-fi
-
-mkdir -p "$out"
 # Poisson's ratio 0, 0.2, 0.3 is beta = 0.5, 0.375, 0.286. dissimilar_figures.py expects these names.
 for friction in 0.2 0.2986 0.4 0.5 0.65 1; do
     solve "nu0_mu$friction" -friction "$friction"

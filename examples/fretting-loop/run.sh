@@ -13,28 +13,16 @@
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
-root=$(CDPATH='' cd -- "$here/../.." && pwd)
-petsam=${PETSAM:-$root/build/bin/petsam}
-python=${PYTHON:-$root/build/venv/bin/python}
-mpirun=${MPIRUN:-mpirun}
-ranks=${NP:-2}
-grid_n=${GRID_N:-256}
-out=${OUT:-build/fretting-loop}
-case $out in
-    /*) ;;
-    *) out=$root/$out ;;
-esac
+example=fretting-loop
+default_n=256
+# shellcheck source=examples/common.sh
+. "$here/../common.sh"
 
 # Amplitudes: 0.8 mu N in N, and twice the displacement of incipient sliding 3 mu N (2 - nu)/(8 G a) in m.
 force=80
 displacement_nu0=1.5007406e-6
 displacement_nu03=1.8223278e-6
 steel="-body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 -body2_poisson 0.3"
-
-fail() {
-    printf 'fretting-loop example: %s\n' "$*" >&2
-    exit 1
-}
 
 # wave COLUMN AMPLITUDE STEPS QUARTERS: a triangular wave from 0 that rises first, STEPS a cycle, time in cycles
 wave() {
@@ -63,21 +51,6 @@ solve() {
     tail -n 1 "$out/$name.log"
 }
 
-command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
-command -v "$python" >/dev/null || \
-    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
-command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
-
-# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
-oversubscribe=
-case $("$mpirun" --version 2>/dev/null) in
-    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
-esac
-if [ "$(id -u)" -eq 0 ]; then
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-fi
-
-mkdir -p "$out"
 # Two cycles at 80 steps each; fields at their quarters.
 solve partial_nu0 load_tx "$force" 80 8 -output_every 20
 # shellcheck disable=SC2086  # the material is four options and their values

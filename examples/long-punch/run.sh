@@ -14,27 +14,15 @@
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
-root=$(CDPATH='' cd -- "$here/../.." && pwd)
-petsam=${PETSAM:-$root/build/bin/petsam}
-python=${PYTHON:-$root/build/venv/bin/python}
-mpirun=${MPIRUN:-mpirun}
-ranks=${NP:-2}
-grid_n=${GRID_N:-1024}
-out=${OUT:-build/long-punch}
-case $out in
-    /*) ;;
-    *) out=$root/$out ;;
-esac
+example=long-punch
+default_n=1024
+# shellcheck source=examples/common.sh
+. "$here/../common.sh"
 
 # Length over width of the base, L/c: long_punch_figures.py expects these.
 ratios="2.5 5 10 20 40"
 # nu = 0 and E/(1 - nu^2) of the steel: same E*
 young_nu0=230.76923076923077e9
-
-fail() {
-    printf 'long-punch example: %s\n' "$*" >&2
-    exit 1
-}
 
 evaluate() { # evaluate EXPRESSION: its value
     LC_ALL=C awk "BEGIN { printf \"%.10g\\n\", $1 }"
@@ -68,21 +56,6 @@ solve() {
 }
 
 [ "$grid_n" -ge 64 ] || fail "GRID_N must be at least 64"
-command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
-command -v "$python" >/dev/null || \
-    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
-command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
-
-# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
-oversubscribe=
-case $("$mpirun" --version 2>/dev/null) in
-    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
-esac
-if [ "$(id -u)" -eq 0 ]; then
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-fi
-
-mkdir -p "$out"
 for ratio in $ratios; do
     solve "fine_r$ratio" "$ratio" "$grid_n" --
     solve "coarse_r$ratio" "$ratio" "$((grid_n / 4))" --

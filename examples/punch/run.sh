@@ -14,17 +14,10 @@
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
-root=$(CDPATH='' cd -- "$here/../.." && pwd)
-petsam=${PETSAM:-$root/build/bin/petsam}
-python=${PYTHON:-$root/build/venv/bin/python}
-mpirun=${MPIRUN:-mpirun}
-ranks=${NP:-2}
-grid_n=${GRID_N:-512}
-out=${OUT:-build/punch}
-case $out in
-    /*) ;;
-    *) out=$root/$out ;;
-esac
+example=punch
+default_n=512
+# shellcheck source=examples/common.sh
+. "$here/../common.sh"
 
 # Levels in N m, mu N, mu N, N m: punch_figures.py expects these. mu N in N.
 moments="0 5e3 1e4 1.5e4 2e4 2.5e4 3e4"
@@ -34,11 +27,6 @@ torques="300 600 900 1200 1500 1700"
 force_limit=1e5
 # nu = 0 and E/(1 - nu^2) of the steel: same E*, so the same pressure.
 young_exact=230.76923076923077e9
-
-fail() {
-    printf 'punch example: %s\n' "$*" >&2
-    exit 1
-}
 
 evaluate() { # evaluate EXPRESSION: its value
     LC_ALL=C awk "BEGIN { printf \"%.10g\\n\", $1 }"
@@ -79,21 +67,6 @@ refuse() {
     grep '^petsam: ' "$out/$name.log"
 }
 
-command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
-command -v "$python" >/dev/null || \
-    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
-command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
-
-# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
-oversubscribe=
-case $("$mpirun" --version 2>/dev/null) in
-    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
-esac
-if [ "$(id -u)" -eq 0 ]; then
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-fi
-
-mkdir -p "$out"
 solve punch normal
 
 # The grid of tilt.opts is longer in x by a quarter, with the same cells.

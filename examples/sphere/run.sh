@@ -13,17 +13,10 @@
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
-root=$(CDPATH='' cd -- "$here/../.." && pwd)
-petsam=${PETSAM:-$root/build/bin/petsam}
-python=${PYTHON:-$root/build/venv/bin/python}
-mpirun=${MPIRUN:-mpirun}
-ranks=${NP:-2}
-grid_n=${GRID_N:-512}
-out=${OUT:-build/sphere}
-case $out in
-    /*) ;;
-    *) out=$root/$out ;;
-esac
+example=sphere
+default_n=512
+# shellcheck source=examples/common.sh
+. "$here/../common.sh"
 
 # Limits and levels of Table 1: mu N in N, 3 pi/16 mu N a in N m. sphere_figures.py expects these levels.
 force_limit=100
@@ -32,11 +25,6 @@ levels="0.10 0.30 0.50 0.70 0.90 0.95"
 levels_exact="0.30 0.60 0.90"
 # nu = 0 and E/(1 - nu^2) of Table 1's steel: same E*, so the same p0 and a.
 young_exact=230.76923076923077e9
-
-fail() {
-    printf 'sphere example: %s\n' "$*" >&2
-    exit 1
-}
 
 product() { # product A B: their product
     LC_ALL=C awk -v a="$1" -v b="$2" 'BEGIN { printf "%.10g\n", a * b }'
@@ -54,21 +42,6 @@ solve() {
     [ "$status" -eq 0 ] || fail "case $name failed with exit code $status"
 }
 
-command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
-command -v "$python" >/dev/null || \
-    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
-command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
-
-# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
-oversubscribe=
-case $("$mpirun" --version 2>/dev/null) in
-    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
-esac
-if [ "$(id -u)" -eq 0 ]; then
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-fi
-
-mkdir -p "$out"
 solve hertz hertz
 for level in $levels; do
     solve cattaneo "cattaneo_nu0.3_t$level" -load_tx "$(product "$level" "$force_limit")"

@@ -1,0 +1,37 @@
+# What the examples' run.sh share; sourced, with `example` (the folder's name) and `default_n` (cells) set.
+# Sets here, root, petsam, python, mpirun, ranks, grid_n, out and oversubscribe from the environment that each run.sh
+# describes, checks the programs and makes the output folder.
+# shellcheck shell=sh disable=SC2034,SC2154 # set for, and by, the script that sources this
+
+root=$(CDPATH='' cd -- "$here/../.." && pwd)
+petsam=${PETSAM:-$root/build/bin/petsam}
+python=${PYTHON:-$root/build/venv/bin/python}
+mpirun=${MPIRUN:-mpirun}
+ranks=${NP:-2}
+grid_n=${GRID_N:-$default_n}
+out=${OUT:-build/$example}
+case $out in
+    /*) ;;
+    *) out=$root/$out ;;
+esac
+
+fail() {
+    printf '%s example: %s\n' "$example" "$*" >&2
+    exit 1
+}
+
+command -v "$petsam" >/dev/null || fail "no program $petsam: run make, or set PETSAM"
+command -v "$python" >/dev/null || \
+    fail "no Python $python: make an environment with scripts/requirements.txt, or set PYTHON"
+command -v "$mpirun" >/dev/null || fail "no MPI launcher $mpirun: set MPIRUN"
+
+# Open MPI refuses more ranks than cores, and the superuser, unless told otherwise.
+oversubscribe=
+case $("$mpirun" --version 2>/dev/null) in
+    *"Open MPI"* | *OpenRTE*) oversubscribe=--oversubscribe ;;
+esac
+if [ "$(id -u)" -eq 0 ]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+
+mkdir -p "$out"
