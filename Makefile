@@ -21,13 +21,13 @@ PACKAGES := petsc fftw3 $(HDF5_PC)
 
 # `:=` for what asks pkg-config: asked once, not once a file
 PC_CFLAGS := $(shell $(PKG_CONFIG) --cflags $(PACKAGES))
-PC_LIBS   := $(shell $(PKG_CONFIG) --libs-only-L --libs-only-other $(PACKAGES)) -lfftw3_mpi $(shell $(PKG_CONFIG) --libs-only-l $(PACKAGES)) -lhdf5_hl -lm
+PC_LIBS   := $(shell $(PKG_CONFIG) --libs-only-L --libs-only-other $(PACKAGES)) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PKG_CONFIG) --libs-only-l $(PACKAGES)) -lhdf5_hl -lm
 ifeq ($(origin CC),default)
   CC := mpicc
 endif
 
 WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(WERROR),-Werror)
-ALL_CFLAGS = -std=c11 -D_GNU_SOURCE $(OPT) -fPIC -Iinclude $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
+ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd $(OPT) -fPIC -Iinclude $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
 LIB_SRC := $(filter-out src/petsam.c,$(sort $(wildcard src/*/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)

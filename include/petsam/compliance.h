@@ -33,14 +33,23 @@ PETSC_EXTERN PetscErrorCode SamComplianceApplyNormal(SamCompliance compliance, V
 PETSC_EXTERN PetscErrorCode SamComplianceApplyTangential(SamCompliance compliance, Vec q, Vec u_t);  /* u_t from q */
 PETSC_EXTERN PetscErrorCode SamComplianceApplyNormalToTangential(SamCompliance compliance, Vec p, Vec u_t); /* u_t from p */
 PETSC_EXTERN PetscErrorCode SamComplianceApplyTangentialToNormal(SamCompliance compliance, Vec q, Vec u_z); /* u_z from q */
+/*
+  The same in single precision: arrays of this rank's cells, two components one after the other; `factor` times the product.
+  For directions and corrections, whose product is small against what it is added to. Scale so that input and result are of
+  the order of one: floats end at 1e-38. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamComplianceApplyNormalSingle(SamCompliance compliance, double factor, const float p[], float u_z[]);
+PETSC_EXTERN PetscErrorCode SamComplianceApplyTangentialSingle(SamCompliance compliance, double factor, const float q[], float u_t[]);
 /* SamComplianceIsCoupled - whether pressure moves the surfaces tangentially (Dundurs' beta is not zero). */
 PETSC_EXTERN PetscErrorCode SamComplianceIsCoupled(SamCompliance compliance, PetscBool *coupled);
 
 /*
   Approximate inverses, symmetric positive, by the symbol of the half-space: |k| for the normal part and
   |k| (I + nu/(1 - nu) kk'/|k|^2) for the tangential one, on the periodic grid; the mean gets half the gain of the longest
-  wave. Collective.
+  wave. Computed in single precision; `factor` times the result in the functions of float arrays, which see above. Collective.
 */
+PETSC_EXTERN PetscErrorCode SamCompliancePreconditionNormalSingle(SamCompliance compliance, double factor, const float residual[], float p[]);
+PETSC_EXTERN PetscErrorCode SamCompliancePreconditionTangentialSingle(SamCompliance compliance, double factor, const float residual[], float q[]);
 PETSC_EXTERN PetscErrorCode SamCompliancePreconditionNormal(SamCompliance compliance, Vec residual, Vec p);
 PETSC_EXTERN PetscErrorCode SamCompliancePreconditionTangential(SamCompliance compliance, Vec residual, Vec q);
 

@@ -68,9 +68,10 @@ typedef struct {
   displacements by the compliance (with coupling unless that is false), gap and slip from their definitions with the
   rigid displacements of the step. `separation` (m) is of the undeformed bodies, `slip_before` (m, two components; NULL:
   zero) the slip at the end of the step before. Reads step->normal and step->tangential: which components are force-controlled
-  and what their loads should be is given by `given_normal`, `given_tangential`. Collective.
+  and what their loads should be is given by `given_normal`, `given_tangential`. `same_pressure`: displacement_z is that of
+  the pressure already, from the check of an earlier step with the same. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactCheck(SamCompliance compliance, PetscBool coupling, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
+PETSC_EXTERN PetscErrorCode SamContactCheck(SamCompliance compliance, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
                                             SamCheck *check);
 
 /*

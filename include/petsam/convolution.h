@@ -21,7 +21,8 @@ typedef enum {
 /*
   SamFourierBlock - a few columns of spectra, handed to a filter. Phase 0 holds the even frequencies along y, phase 1
   (only in padded mode) the odd ones: entry m of phase f of column b is frequency ky = phases * m + f of phases * hy,
-  kx = first + b of phases * hx, at data[field][((f * width + b) * stride + m][re, im].
+  kx = first + b of phases * hx, at data[field][((f * width + b) * stride + m][re, im] in double, or single[field][...] in
+  single precision; the other is NULL.
 */
 typedef struct {
   SamFourierMode mode;
@@ -32,6 +33,7 @@ typedef struct {
   PetscInt       columns;          /* columns in this block, at most width */
   PetscInt       width, stride;
   double (*data[SAM_FOURIER_FIELDS])[2];
+  float (*single[SAM_FOURIER_FIELDS])[2];
 } SamFourierBlock;
 
 /* A filter changes the spectra in place, from the input fields' to the output fields'. It is called once a block. */
@@ -49,6 +51,8 @@ PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *h
   Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, SamFourierMode mode, PetscInt n_in, const double *const in[], PetscInt n_out, double *const out[], SamFourierFilter filter, const void *context);
+/* SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective. */
+PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, SamFourierMode mode, PetscInt n_in, const float *const in[], PetscInt n_out, float *const out[], SamFourierFilter filter, const void *context);
 
 /*
   SamKernel - the transform of a kernel in padded mode, for convolution without wrapping round. A kernel is even or odd
@@ -76,5 +80,11 @@ typedef struct {
 } SamKernelMatrix;
 
 PETSC_EXTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[], double *const out[]);
+/*
+  SamConvolveSingle - `factor` times the same in single precision, for one field by an even kernel or two fields by a
+  symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` brings the result to a size that floats hold.
+  Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamConvolveSingle(SamFourier fourier, const SamKernelMatrix *matrix, double factor, const float *const in[], float *const out[]);
 
 #endif

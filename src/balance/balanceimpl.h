@@ -71,6 +71,17 @@ static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, doubl
   gram[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
 }
 
+/* The same for the cells of a row, from their sums of hxx, hxy, hyy, xi hxy, xi hyy and xi^2 hyy. */
+static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi_hxy, double xi_hyy, double xi2_hyy, double eta)
+{
+  gram[0] += hxx;
+  gram[1] += hxy;
+  gram[2] += -eta * hxx + xi_hxy;
+  gram[3] += hyy;
+  gram[4] += -eta * hxy + xi_hyy;
+  gram[5] += eta * eta * hxx - 2 * eta * xi_hxy + xi2_hyy;
+}
+
 /*
   The combination a of the free phi with gram a = sums within the free subspace, in the sense of least squares when
   the Gram matrix is singular there.

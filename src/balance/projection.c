@@ -203,13 +203,58 @@ PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static inline void AddShear(Dual *d, double x, double y, double value, double xi, double eta)
+/* Cells looked at together: where all of them are within their discs, roots and divisions are spared. */
+#define CHUNK 64
+
+/* Part of a row of shears, n <= CHUNK: v = field + phi a, projected on its disc, x = D(v), and the derivative h of D. */
+SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict bound, double xi0, double dxi, double eta, const double a[3], Dual *row)
 {
-  d->value += value;
-  d->scale += fabs(x) + fabs(y);
-  d->sums[0] += x;
-  d->sums[1] += y;
-  d->sums[2] += xi * y - eta * x;
+  const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
+  double       value = 0, scale = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
+
+#pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
+  for (PetscInt i = 0; i < n; i++) {
+    const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy;
+
+    beyond += n2 > b * b ? 1 : 0;
+    value += 0.5 * n2;
+    scale += fabs(vx) + fabs(vy);
+    x += vx;
+    y += vy;
+    turn += xi * vy;
+    hxx += in;
+    xi_hyy += in * xi;
+    xi2_hyy += in * xi * xi;
+  }
+  if (beyond > 0) {
+    value = scale = x = y = turn = hxx = xi_hyy = xi2_hyy = 0;
+#pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
+    for (PetscInt i = 0; i < n; i++) {
+      const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+      const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy, size = sqrt(n2);
+      const double inverse = 1 / n2, s = n2 > b * b ? b * size * inverse : in, g = n2 > b * b ? s * inverse : 0; /* one division */
+      const double px = s * vx, py = s * vy, gxx = s - g * vx * vx, gxy = -g * vx * vy, gyy = s - g * vy * vy;
+
+      value += n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2;
+      scale += fabs(px) + fabs(py);
+      x += px;
+      y += py;
+      turn += xi * py;
+      hxx += gxx;
+      hxy += gxy;
+      hyy += gyy;
+      xi_hxy += xi * gxy;
+      xi_hyy += xi * gyy;
+      xi2_hyy += xi * xi * gyy;
+    }
+  } else hyy = hxx;
+  row->value += value;
+  row->scale += scale;
+  row->sums[0] += x;
+  row->sums[1] += y;
+  row->sums[2] += turn - eta * x;
+  SamGramTangentialRow(row->gram, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, eta);
 }
 
 static void PassTangential(const SamFrame *f, const void *context, const double a[3], Dual *dual)
@@ -218,29 +263,28 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
   const PetscInt nx = f->grid->nx;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
-    Dual         row = {0};
+    const double *qx = c->field + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells, *b = c->bound + (ptrdiff_t)j * nx;
+    PetscInt      first = 0, last = nx;
+    Dual          row = {0};
 
-    for (PetscInt i = 0; i < nx; i++) {
-      const PetscInt k  = j * nx + i;
-      const double   b  = c->bound[k], xi = f->xi0 + (double)i * f->dxi;
-      double         vx, vy, n, s;
-
-      if (b <= 0) continue;
-      vx = c->field[k] + SamFrameX(a, eta);
-      vy = c->field[f->grid->cells + k] + SamFrameY(a, xi);
-      n  = vx * vx + vy * vy;
-      if (n <= b * b) {
-        AddShear(&row, vx, vy, 0.5 * n, xi, eta);
-        SamGramAddTangential(row.gram, 1, 0, 1, xi, eta);
-        continue;
-      }
-      n = sqrt(n);
-      s = b / n;
-      AddShear(&row, s * vx, s * vy, b * n - 0.5 * b * b, xi, eta);
-      SamGramAddTangential(row.gram, s * vy * vy / (n * n), -s * vx * vy / (n * n), s * vx * vx / (n * n), xi, eta);
-    }
+    while (first < nx && b[first] <= 0) first++;
+    while (last > first && b[last - 1] <= 0) last--;
+    for (PetscInt i = first; i < last; i += CHUNK) AddShears(PetscMin(CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, a, &row);
     AddDual(dual, &row);
+  }
+}
+
+SAM_VECTORIZED static void ApplyShearRow(PetscInt n, double *restrict qx, double *restrict qy, const double *restrict bound, double xi0, double dxi, double eta, const double a[3])
+{
+  const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) {
+    const double b = bound[i], in = b > 0 ? 1 : 0;
+    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * (xi0 + (double)i * dxi)), n2 = vx * vx + vy * vy, s = n2 > b * b ? b / sqrt(n2) : in;
+
+    qx[i] = s * vx;
+    qy[i] = s * vy;
   }
 }
 
@@ -256,18 +300,9 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
   if (f->count) PetscCall(MinimizeDual(f, PassTangential, &cells, a, found, &near));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const ptrdiff_t k = (ptrdiff_t)j * nx;
 
-    for (PetscInt i = 0; i < nx; i++) {
-      const PetscInt k  = j * nx + i;
-      const double   b  = bound[k];
-      const double   vx = q[k] + SamFrameX(a, eta), vy = q[ncells + k] + SamFrameY(a, f->xi0 + (double)i * f->dxi);
-      const double   n2 = vx * vx + vy * vy;
-      const double   s  = b <= 0 ? 0 : (n2 > b * b ? b / sqrt(n2) : 1);
-
-      q[k]          = s * vx;
-      q[ncells + k] = s * vy;
-    }
+    ApplyShearRow(nx, q + k, q + ncells + k, bound + k, f->xi0, f->dxi, f->eta0 + (double)j * f->deta, a);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -16,6 +16,7 @@ PetscErrorCode SamInitialize(void)
   if (initialized) PetscFunctionReturn(PETSC_SUCCESS);
   initialized = PETSC_TRUE;
   fftw_mpi_init();
+  fftwf_mpi_init();
   PetscCall(PetscClassIdRegister("petsam", &SAM_CLASSID));
   for (PetscInt e = 0; e < SAM_EVENT_COUNT; e++) PetscCall(PetscLogEventRegister(names[e], SAM_CLASSID, &SamEvents[e]));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -27,6 +28,7 @@ PetscErrorCode SamFinalize(void)
   if (!initialized) PetscFunctionReturn(PETSC_SUCCESS);
   initialized = PETSC_FALSE;
   fftw_mpi_cleanup();
+  fftwf_mpi_cleanup();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -193,31 +193,73 @@ static PetscErrorCode Product(SamCompliance C, const SamKernelMatrix *matrix, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode NormalMatrix(SamCompliance C, SamKernelMatrix *matrix)
+{
+  PetscFunctionBegin;
+  *matrix = (SamKernelMatrix){.n_in = 1, .n_out = 1, .scale = {{1}}};
+  PetscCall(SamComplianceGetKernel(C, SAM_ZZ, &matrix->kernel[0][0]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TangentialMatrix(SamCompliance C, SamKernelMatrix *matrix)
+{
+  PetscFunctionBegin;
+  *matrix = (SamKernelMatrix){
+    .n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}
+  };
+  PetscCall(SamComplianceGetKernel(C, SAM_XX, &matrix->kernel[0][0]));
+  PetscCall(SamComplianceGetKernel(C, SAM_XY, &matrix->kernel[0][1]));
+  PetscCall(SamComplianceGetKernel(C, SAM_YY, &matrix->kernel[1][1]));
+  matrix->kernel[1][0] = matrix->kernel[0][1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamComplianceApplyNormal(SamCompliance C, Vec p, Vec u_z)
 {
-  SamKernelMatrix matrix = {.n_in = 1, .n_out = 1, .scale = {{1}}};
+  SamKernelMatrix matrix;
 
   PetscFunctionBegin;
-  PetscCall(SamComplianceGetKernel(C, SAM_ZZ, &matrix.kernel[0][0]));
+  PetscCall(NormalMatrix(C, &matrix));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_APPLY_NORMAL], 0, 0, 0, 0));
   PetscCall(Product(C, &matrix, p, u_z));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_APPLY_NORMAL], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceApplyTangential(SamCompliance C, Vec q, Vec u_t)
+PetscErrorCode SamComplianceApplyNormalSingle(SamCompliance C, double factor, const float p[], float u_z[])
 {
-  SamKernelMatrix matrix = {
-    .n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}
-  };
+  SamKernelMatrix matrix;
 
   PetscFunctionBegin;
-  PetscCall(SamComplianceGetKernel(C, SAM_XX, &matrix.kernel[0][0]));
-  PetscCall(SamComplianceGetKernel(C, SAM_XY, &matrix.kernel[0][1]));
-  PetscCall(SamComplianceGetKernel(C, SAM_YY, &matrix.kernel[1][1]));
-  matrix.kernel[1][0] = matrix.kernel[0][1];
+  PetscCall(NormalMatrix(C, &matrix));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_APPLY_NORMAL], 0, 0, 0, 0));
+  PetscCall(SamConvolveSingle(C->fourier, &matrix, factor, &p, &u_z));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_APPLY_NORMAL], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceApplyTangential(SamCompliance C, Vec q, Vec u_t)
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(TangentialMatrix(C, &matrix));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
   PetscCall(Product(C, &matrix, q, u_t));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceApplyTangentialSingle(SamCompliance C, double factor, const float q[], float u_t[])
+{
+  const float *const in[2]  = {q, q + C->grid->cells};
+  float *const       out[2] = {u_t, u_t + C->grid->cells};
+  SamKernelMatrix    matrix;
+
+  PetscFunctionBegin;
+  PetscCall(TangentialMatrix(C, &matrix));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
+  PetscCall(SamConvolveSingle(C->fourier, &matrix, factor, in, out));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,13 +4,13 @@
 #include <math.h>
 
 /* Elastic displacements from the tractions. */
-static PetscErrorCode ComputeDisplacements(SamCompliance C, PetscBool coupling, SamFields *f)
+static PetscErrorCode ComputeDisplacements(SamCompliance C, PetscBool coupling, PetscBool same_pressure, SamFields *f)
 {
   PetscReal shear;
   PetscBool coupled;
 
   PetscFunctionBegin;
-  PetscCall(SamComplianceApplyNormal(C, f->pressure, f->displacement_z));
+  if (!same_pressure) PetscCall(SamComplianceApplyNormal(C, f->pressure, f->displacement_z));
   PetscCall(VecNorm(f->shear, NORM_INFINITY, &shear));
   if (shear != 0) PetscCall(SamComplianceApplyTangential(C, f->shear, f->displacement_t));
   else PetscCall(VecSet(f->displacement_t, 0));
@@ -158,7 +158,7 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactCheck(SamCompliance C, PetscBool coupling, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
+PetscErrorCode SamContactCheck(SamCompliance C, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
 {
   SamGrid   grid;
   PetscReal self;
@@ -168,7 +168,7 @@ PetscErrorCode SamContactCheck(SamCompliance C, PetscBool coupling, PetscReal fr
   PetscCall(PetscMemzero(check, sizeof(*check)));
   PetscCall(SamComplianceGetGrid(C, &grid));
   PetscCall(SamComplianceGetSelfInfluence(C, NULL, &self));
-  PetscCall(ComputeDisplacements(C, coupling, fields));
+  PetscCall(ComputeDisplacements(C, coupling, same_pressure, fields));
   PetscCall(ComputeGapAndSlip(grid, separation, step, fields));
   PetscCall(CheckNormal(grid, fields, check));
   PetscCall(CheckTangential(grid, friction, self, fields, slip_before, check));

@@ -6,8 +6,7 @@
   the displacement that the other's traction causes, until neither traction changes (Panagiotopoulos 1975, Ing.-Arch. 44,
   421).
 */
-#include "../base/baseimpl.h"
-#include <petsam/contact.h>
+#include "contactimpl.h"
 #include <math.h>
 
 /* The check may see what the solvers' recursions do not: rounding. Its limits are the tolerances with this on top. */
@@ -78,18 +77,18 @@ static PetscErrorCode CreateDerived(SamContact c)
 {
   PetscFunctionBegin;
   PetscCall(VecDuplicate(c->separation, &c->fields.gap));
-  PetscCall(VecDuplicate(c->separation, &c->fields.displacement_z));
+  if (!c->fields.displacement_z) PetscCall(VecDuplicate(c->separation, &c->fields.displacement_z));
   PetscCall(VecDuplicate(c->fields.shear, &c->fields.slip));
   PetscCall(VecDuplicate(c->fields.shear, &c->fields.displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode DestroyDerived(SamContact c)
+static PetscErrorCode DestroyDerived(SamContact c, PetscBool same_pressure)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&c->fields.slip));
   PetscCall(VecDestroy(&c->fields.gap));
-  PetscCall(VecDestroy(&c->fields.displacement_z));
+  if (!same_pressure) PetscCall(VecDestroy(&c->fields.displacement_z));
   PetscCall(VecDestroy(&c->fields.displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -111,7 +110,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(VecDestroy(&c->previous[1]));
   PetscCall(VecDestroy(&c->fields.pressure));
   PetscCall(VecDestroy(&c->fields.shear));
-  PetscCall(DestroyDerived(c));
+  PetscCall(DestroyDerived(c, PETSC_FALSE));
   PetscCall(SamComplianceDestroy(&c->compliance));
   PetscCall(PetscFree(*contact));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -222,7 +221,6 @@ static double Continuation(SamContact c, const double next[6])
 */
 static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamBalance *tangential, PetscBool *predicted)
 {
-  Vec   *tractions[2] = {&c->fields.pressure, &c->fields.shear};
   double next[6], alpha = 0;
 
   PetscFunctionBegin;
@@ -232,18 +230,12 @@ static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamB
   }
   if (c->steps > 1 && c->warm) alpha = Continuation(c, next);
   *predicted = alpha > 0 ? PETSC_TRUE : PETSC_FALSE;
-  for (PetscInt t = 0; t < 2 && c->steps; t++) {
-    Vec v;
-
-    if (!c->previous[t]) PetscCall(VecDuplicate(*tractions[t], &c->previous[t]));
-    if (!*predicted) {
-      PetscCall(VecCopy(*tractions[t], c->previous[t]));
-      continue;
-    }
-    v = c->previous[t];
-    PetscCall(VecAXPBY(v, 1 + alpha, -alpha, *tractions[t]));
-    c->previous[t] = *tractions[t];
-    *tractions[t]  = v;
+  if (*predicted) PetscCall(SamExtrapolate(c->grid, c->friction, alpha, c->fields.pressure, c->fields.shear, c->previous[0], c->previous[1], predicted));
+  else if (c->steps) {
+    if (!c->previous[0]) PetscCall(VecDuplicate(c->fields.pressure, &c->previous[0]));
+    if (!c->previous[1]) PetscCall(VecDuplicate(c->fields.shear, &c->previous[1]));
+    PetscCall(VecCopy(c->fields.pressure, c->previous[0]));
+    PetscCall(VecCopy(c->fields.shear, c->previous[1]));
   }
   for (PetscInt k = 0; k < 6; k++) {
     c->values[1][k] = c->values[0][k];
@@ -252,10 +244,10 @@ static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
+static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, PetscBool same_pressure, SamStep *step)
 {
   SamNormalReason reason;
-  Vec             h = c->separation;
+  Vec             h = c->separation, predicted = NULL;
   char            message[sizeof(step->message)];
   PetscBool       possible;
 
@@ -266,12 +258,18 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
     h = c->h;
   }
   step->normal = *given;
-  if (!c->coupled && c->steps && SameControl(given, &c->normal_given)) { /* nothing has changed for the pressure */
+  if (same_pressure) { /* nothing has changed for it */
     step->normal = c->normal_found;
     if (guess) PetscCall(VecCopy(c->previous[0], c->fields.pressure));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  if (guess) {
+    PetscCall(VecDuplicate(c->fields.pressure, &predicted));
+    PetscCall(VecCopy(c->fields.pressure, predicted));
+  }
   PetscCall(SamNormalSolve(c->normal, h, &step->normal, guess, c->fields.pressure));
+  if (guess) PetscCall(SamFollowBound(c->grid, predicted, c->fields.pressure, c->fields.shear));
+  PetscCall(VecDestroy(&predicted));
   c->normal_given = *given;
   c->normal_found = step->normal;
   PetscCall(Count(c, PETSC_FALSE, step));
@@ -360,7 +358,7 @@ static PetscErrorCode Change(Vec now, Vec last, PetscReal *change)
 }
 
 /* Both problems, in turn when they are coupled. */
-static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential, PetscBool predicted, SamStep *step)
+static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential, PetscBool predicted, PetscBool same_pressure, SamStep *step)
 {
   PetscReal change[2] = {PETSC_INFINITY, PETSC_INFINITY};
 
@@ -368,7 +366,7 @@ static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const 
   for (PetscInt pass = 1;; pass++) {
     const PetscBool guess = (pass > 1 || predicted) ? PETSC_TRUE : PETSC_FALSE;
 
-    PetscCall(SolveNormal(c, normal, guess, step));
+    PetscCall(SolveNormal(c, normal, guess, same_pressure, step));
     if (step->status == SAM_STATUS_CONVERGED) PetscCall(SolveTangential(c, tangential, guess, step));
     step->coupling_iterations = pass;
     if (!c->coupled || c->friction == 0 || step->status != SAM_STATUS_CONVERGED) break;
@@ -446,7 +444,7 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
 {
   const SamBalance normal = step->normal, tangential = step->tangential;
   const PetscReal  time = step->time;
-  PetscBool        predicted;
+  PetscBool        predicted, same_pressure;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(step, sizeof(*step)));
@@ -466,12 +464,13 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
     c->slip_before = c->fields.slip;
     c->fields.slip = NULL;
   }
-  PetscCall(DestroyDerived(c));
+  same_pressure = (!c->coupled && c->steps && SameControl(&normal, &c->normal_given)) ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(DestroyDerived(c, same_pressure));
   PetscCall(Predict(c, &normal, &tangential, &predicted));
-  PetscCall(SolvePasses(c, &normal, &tangential, predicted, step));
+  PetscCall(SolvePasses(c, &normal, &tangential, predicted, same_pressure, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) PetscFunctionReturn(PETSC_SUCCESS); /* there is no solution to check */
   PetscCall(CreateDerived(c));
-  PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
+  PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
   PetscCall(ComputeScalars(c, step));
   PetscCall(Judge(c, step));
   c->steps++;

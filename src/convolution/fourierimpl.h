@@ -6,37 +6,54 @@
 #include <petsam/convolution.h>
 #include <fftw3-mpi.h>
 
-/* Columns that are transformed together: two cache lines of each row are read and written at once. */
-#define COLUMN_BLOCK 8
-
 /* Columns of one mode: 0 ... n-1 along x, of which this rank works on start ... start + count - 1. */
 typedef struct {
   ptrdiff_t n, start, count;
-  fftw_plan forward[SAM_FOURIER_FIELDS], backward[SAM_FOURIER_FIELDS]; /* rows to columns and back, several ranks only */
-  fftw_plan r2c, c2r;                                                  /* one row */
 } SamColumns;
 
-struct _n_SamFourier {
-  SamGrid    grid;
-  PetscMPIInt ranks;
-  unsigned   effort;            /* FFTW's planning flag */
-  ptrdiff_t  hx, hy;
-  SamColumns columns[2];        /* by mode */
-  fftw_plan  up, down;          /* one column of hy, forward and backward, out of place */
-  double    *row;               /* one row, padded */
-  double (*twiddle)[2];         /* exp(-i pi j/hy), j < ny */
-  double (*staging)[2];         /* COLUMN_BLOCK columns as gathered */
-  double (*twisted)[2];         /* one column times the twiddles */
-  double (*buffer)[2];          /* COLUMN_BLOCK columns, both phases, all fields */
-  PetscInt   stride;            /* between columns in the buffer */
-  PetscInt   buffer_fields;     /* fields for which buffer, slabs and transposes were made */
-  double (*slab[SAM_FOURIER_FIELDS + 1])[2];
-};
+/* Plans and buffers of one precision; made when it is first used. */
+#define SAM_TRANSFORM(Name, Real, Plan) \
+  typedef struct { \
+    PetscInt fields; /* for which buffers and transposes were made */ \
+    Plan     forward[2][SAM_FOURIER_FIELDS], backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
+    Plan     r2c[2], c2r[2]; /* one row, by mode */ \
+    Plan     up, down;       /* one column of hy, forward and backward, out of place */ \
+    Real    *row;            /* one row, padded */ \
+    Real (*line)[2];         /* its transform */ \
+    Real (*twiddle)[2];      /* exp(-i pi j/hy), j < ny */ \
+    Real (*staging)[2];      /* a block of columns as gathered */ \
+    Real (*twisted)[2];      /* one column times the twiddles */ \
+    Real (*buffer)[2];       /* a block of columns, both phases, all fields */ \
+  } Name
 
-/* Makes room for that many fields. Collective. */
-PETSC_INTERN PetscErrorCode SamFourierReserve(SamFourier fourier, PetscInt fields);
+SAM_TRANSFORM(SamTransformDouble, double, fftw_plan);
+SAM_TRANSFORM(SamTransformSingle, float, fftwf_plan);
+
+struct _n_SamFourier {
+  SamGrid            grid;
+  PetscMPIInt        ranks;
+  unsigned           effort;     /* FFTW's planning flag */
+  ptrdiff_t          hx, hy;
+  PetscInt           stride;     /* between columns in the buffers */
+  SamColumns         columns[2]; /* by mode */
+  SamTransformDouble in_double;
+  SamTransformSingle in_single;
+  void              *slab[SAM_FOURIER_FIELDS + 1]; /* half spectra of the fields' rows and columns; room for doubles */
+};
 
 /* Memory for FFTW's arrays; PETSC_ERR_MEM with the size when there is none. */
 PETSC_INTERN PetscErrorCode SamFourierAllocate(size_t bytes, void *pointer);
+
+/* On several ranks field k has its rows in slab k + 1 and its columns in slab k, on one both in slab k. */
+static inline PetscInt SamFourierRowSlab(SamFourier F, PetscInt field)
+{
+  return F->ranks > 1 ? field + 1 : field;
+}
+/* Makes the slabs for that many fields. Collective. */
+PETSC_INTERN PetscErrorCode SamFourierReserveSlabs(SamFourier fourier, PetscInt fields);
+PETSC_INTERN PetscErrorCode SamFourierCheckPlan(const void *plan);
+
+PETSC_INTERN void SamTransformDestroyDouble(SamFourier fourier);
+PETSC_INTERN void SamTransformDestroySingle(SamFourier fourier);
 
 #endif

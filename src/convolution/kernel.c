@@ -156,38 +156,52 @@ static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt 
   }
 }
 
-/* One field in, one out, the kernel real: in place. */
-SAM_VECTORIZED static void MultiplyColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double (*column)[2])
-{
-  const Column c = GetColumn(kernel, block, phase, b);
-
-  for (ptrdiff_t m = 0; m < c.rising; m++) {
-    column[m][0] *= c.values[m];
-    column[m][1] *= c.values[m];
+/*
+  Products in place, of either precision: one field by an even kernel, and two fields by a symmetric matrix of kernels
+  whose off-diagonal one is odd in x and in y. Each column goes up the kernel's values and down again.
+*/
+#define DEFINE_PRODUCTS(Real, MultiplyColumn, MultiplyPair) \
+  SAM_VECTORIZED static void MultiplyColumn(Column c, ptrdiff_t n, double factor, Real (*restrict column)[2]) \
+  { \
+    for (ptrdiff_t m = 0; m < c.rising; m++) { \
+      const Real k = (Real)(factor * c.values[m]); \
+\
+      column[m][0] *= k; \
+      column[m][1] *= k; \
+    } \
+    for (ptrdiff_t m = c.rising; m < n; m++) { \
+      const Real k = (Real)(factor * c.values[c.mirror - m]); \
+\
+      column[m][0] *= k; \
+      column[m][1] *= k; \
+    } \
+  } \
+\
+  SAM_VECTORIZED static void MultiplyPair(Column xx, Column xy, Column yy, ptrdiff_t n, double factor, Real (*restrict x)[2], Real (*restrict y)[2]) \
+  { \
+    for (ptrdiff_t m = 0; m < xx.rising; m++) { \
+      const Real kxx = (Real)(factor * xx.values[m]), kxy = (Real)(factor * xy.values[m]), kyy = (Real)(factor * yy.values[m]); \
+      const Real x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
+\
+      x[m][0] = kxx * x0 + kxy * y0; \
+      x[m][1] = kxx * x1 + kxy * y1; \
+      y[m][0] = kxy * x0 + kyy * y0; \
+      y[m][1] = kxy * x1 + kyy * y1; \
+    } \
+    for (ptrdiff_t m = xx.rising; m < n; m++) { \
+      const ptrdiff_t l   = xx.mirror - m; \
+      const Real      kxx = (Real)(factor * xx.values[l]), kxy = (Real)(-factor * xy.values[l]), kyy = (Real)(factor * yy.values[l]); \
+      const Real      x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
+\
+      x[m][0] = kxx * x0 + kxy * y0; \
+      x[m][1] = kxx * x1 + kxy * y1; \
+      y[m][0] = kxy * x0 + kyy * y0; \
+      y[m][1] = kxy * x1 + kyy * y1; \
+    } \
   }
-  for (ptrdiff_t m = c.rising; m < block->hy; m++) {
-    column[m][0] *= c.values[c.mirror - m];
-    column[m][1] *= c.values[c.mirror - m];
-  }
-}
 
-/* Two fields, a symmetric matrix with real entries, the off-diagonal one odd in x and in y: in place. */
-SAM_VECTORIZED static void MultiplyPair(const SamKernelMatrix *M, const SamFourierBlock *block, PetscInt phase, PetscInt b, double (*x)[2], double (*y)[2])
-{
-  const Column xx = GetColumn(M->kernel[0][0], block, phase, b), xy = GetColumn(M->kernel[0][1], block, phase, b), yy = GetColumn(M->kernel[1][1], block, phase, b);
-
-  for (ptrdiff_t m = 0; m < block->hy; m++) {
-    const ptrdiff_t k     = m < xx.rising ? m : xx.mirror - m;
-    const double    cross = m < xx.rising ? xy.values[k] : -xy.values[k];
-
-    for (PetscInt r = 0; r < 2; r++) {
-      const double vx = x[m][r], vy = y[m][r];
-
-      x[m][r] = xx.values[k] * vx + cross * vy;
-      y[m][r] = cross * vx + yy.values[k] * vy;
-    }
-  }
-}
+DEFINE_PRODUCTS(double, MultiplyColumn, MultiplyPair)
+DEFINE_PRODUCTS(float, MultiplyColumnSingle, MultiplyPairSingle)
 
 static PetscBool IsScalar(const SamKernelMatrix *M)
 {
@@ -208,6 +222,7 @@ static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
 
 typedef struct {
   const SamKernelMatrix *matrix;
+  double                 factor;
   PetscBool              scalar, pair;
   double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
 } Filter;
@@ -232,26 +247,45 @@ static void MultiplyGeneral(const Filter *filter, const SamFourierBlock *block, 
 
 static void Multiply(const SamFourierBlock *block, const void *context)
 {
-  const Filter *filter = (const Filter *)context;
+  const Filter          *filter = (const Filter *)context;
+  const SamKernelMatrix *M      = filter->matrix;
 
   for (PetscInt f = 0; f < block->phases; f++)
     for (PetscInt b = 0; b < block->columns; b++) {
-      const ptrdiff_t offset = (f * block->width + b) * (ptrdiff_t)block->stride;
+      const ptrdiff_t offset = (f * block->width + b) * (ptrdiff_t)block->stride, n = block->hy;
 
-      if (filter->scalar) MultiplyColumn(filter->matrix->kernel[0][0], block, f, b, block->data[0] + offset);
-      else if (filter->pair) MultiplyPair(filter->matrix, block, f, b, block->data[0] + offset, block->data[1] + offset);
-      else MultiplyGeneral(filter, block, f, b);
+      if (filter->scalar) {
+        const Column c = GetColumn(M->kernel[0][0], block, f, b);
+
+        if (block->data[0]) MultiplyColumn(c, n, filter->factor, block->data[0] + offset);
+        else MultiplyColumnSingle(c, n, filter->factor, block->single[0] + offset);
+      } else if (filter->pair) {
+        const Column xx = GetColumn(M->kernel[0][0], block, f, b), xy = GetColumn(M->kernel[0][1], block, f, b), yy = GetColumn(M->kernel[1][1], block, f, b);
+
+        if (block->data[0]) MultiplyPair(xx, xy, yy, n, filter->factor, block->data[0] + offset, block->data[1] + offset);
+        else MultiplyPairSingle(xx, xy, yy, n, filter->factor, block->single[0] + offset, block->single[1] + offset);
+      } else MultiplyGeneral(filter, block, f, b);
     }
 }
 
 PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const double *const in[], double *const out[])
 {
-  Filter filter = {.matrix = matrix, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+  Filter filter = {.matrix = matrix, .factor = 1, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
 
   PetscFunctionBegin;
   if (!filter.scalar && !filter.pair)
     for (PetscInt o = 0; o < matrix->n_out; o++) PetscCall(SamFourierAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
   PetscCall(SamFourierApply(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
   for (PetscInt o = 0; o < matrix->n_out; o++) free(filter.column[o]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamConvolveSingle(SamFourier F, const SamKernelMatrix *matrix, double factor, const float *const in[], float *const out[])
+{
+  const Filter filter = {.matrix = matrix, .factor = factor, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+
+  PetscFunctionBegin;
+  PetscCheck(filter.scalar || filter.pair, PETSC_COMM_SELF, PETSC_ERR_SUP, "Convolution in single precision: one even kernel, or a symmetric pair");
+  PetscCall(SamFourierApplySingle(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,16 +4,19 @@
   Problem: minimise q.C q/2 + offset.q over the discs |q| <= b in equilibrium (or with given rigid displacements); its
   gradient is the slip increment s. Strictly convex, so there is one solution.
     1. Cells on their circle with s.q < 0 slip, the others stick. Unknown are both components of q in stick, and the one
-       along the circle in slip; T spans them.
-    2. Newton's step: conjugate gradients on T'(C + L)T in the null space of equilibrium, L = |s|/b in slip (the curvature
-       of the circle). Preconditioned by T(sqrt(h) M sqrt(h) + (1 - h)/2(L + c))T, M the spectral inverse of C, c a cell's
-       self-influence and h = c/(L + c), which is 1 in stick. It ends when the residual has fallen enough, or is smaller
-       than what the discs will cut off.
+       along the circle in slip; P projects on them.
+    2. Newton's step delta: conjugate gradients on P(C + L)P in the null space of equilibrium, L = |s|/b in slip (the
+       curvature of the circle). Preconditioned by P(w M w + (1 - h)/2(L + c))P, M the spectral inverse of C, c a cell's
+       self-influence, h = c/(L + c), which is 1 in stick, and w = sqrt(h). It ends when the residual has fallen enough,
+       or is smaller than what the discs will cut off.
     3. q becomes the nearest admissible shear: discs and equilibrium at once (SamFrameProjectTangential), the slipping
        cells having been pushed outward before.
     4. The energy may rise in a step; if the error has not fallen for several, the best point between the old and the new
        q is taken, or a projected gradient step.
   Stops on the residual of q = D(q - s/c), which only the solution makes zero.
+
+  Step 2 is done in single precision, at half the cost, in units of its residual; so is the slip that the whole step causes.
+  Their rounding is counted, and before it can matter the slip is computed anew in double precision.
   References: Dostal and Kucera 2010, SIAM J. Optim. 20, 2913 (separable convex constraints); Alart and Curnier 1991,
   CMAME 92, 353 (semi-smooth Newton for friction); the classical alternative is Wang, Jin, Zhang and Keer 2010.
 */
@@ -23,38 +26,70 @@
 /*
   The step ends when its residual has fallen by this factor, or the shear that the discs will cut off, times c, exceeds
   this part of it (squared). Both were chosen by counting: half or twice of either changes the counts by a few per cent.
+  Once a step leaves the slipping cells what they were, the next falls by more, and in the end to this part of the tolerance;
+  not by more, since the rounding of single precision remains of what the step began with.
 */
-#define INNER_FALL 0.1
-#define PROPORTION 0.3
+#define INNER_FALL  0.1
+#define PROPORTION  0.3
+#define SETTLED_FALL 1e-3
+#define LAST_FALL   0.3
 /* A cell is on its circle from this part of the bound on. */
 #define ON_CIRCLE (1 - 1e-9)
+/*
+  Rounding of a product in single precision, relative, and the part of the error that it may make up before the slip is
+  computed anew; at the end it is less than this part of the tolerance.
+*/
+#define SINGLE_ROUNDING 3e-7
+#define DOUBT           1e-4
 /* Steps without progress before the energy is watched, and before giving up. */
 #define PATIENCE   4
 #define STAGNATION 40
 
+/* Floats are in units of the step's first residual: slip in unit, shear in unit/c. */
 typedef struct {
   SamStickSlip base;
-  char        *slip;          /* 1 where a contact cell slips */
-  double      *lambda;        /* L, m/Pa; 0 in stick */
-  double      *old;           /* q at the start of the step */
-  double      *d, *t;         /* direction; C d, or the preconditioned residual before */
-  Vec          vold, vd, vt;
+  Vec          vold;
+  double      *old;            /* q at the start of the step */
+  float       *normal;         /* q/|q| where a cell slips, 0 where it sticks */
+  float       *weight;         /* w; 0 outside the contact */
+  float       *r, *d, *z;      /* residual P(-s - L delta); direction; C d, or the preconditioned residual */
+  float       *delta;
+  float       *xi;             /* of the columns */
+  double       unit;           /* m */
   double       gram[SAM_GRAM]; /* of the tangent space */
+  double       shift[3];       /* change of the motion in this step, in units */
   double       residual, rz;
+  double       doubt;          /* rounding in s since the last product in double precision, as part of the error */
+  PetscInt     changed;        /* cells that began or ceased to slip */
 } Work;
+
+/* The contact's part of a row: cells first ... first + count - 1 of the arrays. */
+typedef struct {
+  ptrdiff_t    first, count, cells;
+  const float *xi;
+  double       eta;
+} Row;
+
+static Row GetRow(const Work *w, PetscInt j)
+{
+  const SamStickSlip *u = &w->base;
+
+  return (Row){.first = (ptrdiff_t)j * u->nx + u->first[j], .count = u->last[j] - u->first[j], .cells = u->cells, .xi = w->xi + u->first[j], .eta = u->frame->eta0 + (double)j * u->frame->deta};
+}
 
 static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level, Work *w)
 {
+  const SamFrame *f = &level->frame;
+  PetscInt        n;
+
   PetscFunctionBegin;
   PetscCall(SamStickSlipCreate(solver, level, &w->base));
+  n = 2 * w->base.cells;
   PetscCall(VecDuplicate(level->q, &w->vold));
-  PetscCall(VecDuplicate(level->q, &w->vd));
-  PetscCall(VecDuplicate(level->q, &w->vt));
   PetscCall(VecGetArray(w->vold, &w->old));
-  PetscCall(VecGetArray(w->vd, &w->d));
-  PetscCall(VecGetArray(w->vt, &w->t));
-  PetscCall(PetscCalloc1(w->base.cells, &w->slip));
-  PetscCall(PetscCalloc1(w->base.cells, &w->lambda));
+  PetscCall(PetscCalloc6(n, &w->normal, n / 2, &w->weight, n, &w->r, n, &w->d, n, &w->z, n, &w->delta));
+  PetscCall(PetscMalloc1(w->base.nx, &w->xi));
+  for (PetscInt i = 0; i < w->base.nx; i++) w->xi[i] = (float)(f->xi0 + (double)i * f->dxi);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -62,270 +97,337 @@ static PetscErrorCode DestroyWork(Work *w)
 {
   PetscFunctionBegin;
   PetscCall(VecRestoreArray(w->vold, &w->old));
-  PetscCall(VecRestoreArray(w->vd, &w->d));
-  PetscCall(VecRestoreArray(w->vt, &w->t));
   PetscCall(VecDestroy(&w->vold));
-  PetscCall(VecDestroy(&w->vd));
-  PetscCall(VecDestroy(&w->vt));
-  PetscCall(PetscFree(w->slip));
-  PetscCall(PetscFree(w->lambda));
+  PetscCall(PetscFree6(w->normal, w->weight, w->r, w->d, w->z, w->delta));
+  PetscCall(PetscFree(w->xi));
   PetscCall(SamStickSlipDestroy(&w->base));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Step 1. */
-static void Classify(Work *w)
+static PetscErrorCode Classify(Work *w)
 {
-  SamStickSlip *u = &w->base;
+  SamStickSlip *u       = &w->base;
+  double        changed = 0;
 
+  PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) {
     for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) {
-      const PetscInt l = k + u->cells;
-      const double   b = u->bound[k], power = u->s[k] * u->q[k] + u->s[l] * u->q[l];
+      const PetscInt  l = k + u->cells;
+      const double    b = u->bound[k], power = u->s[k] * u->q[k] + u->s[l] * u->q[l], q2 = u->q[k] * u->q[k] + u->q[l] * u->q[l];
+      const PetscBool slips = (b > 0 && power < 0 && q2 >= ON_CIRCLE * ON_CIRCLE * b * b) ? PETSC_TRUE : PETSC_FALSE;
+      const PetscBool slipped = (w->normal[k] != 0 || w->normal[l] != 0) ? PETSC_TRUE : PETSC_FALSE;
+      const double    scale = slips ? 1 / sqrt(q2) : 0;
 
-      w->slip[k]   = b > 0 && power < 0 && u->q[k] * u->q[k] + u->q[l] * u->q[l] >= ON_CIRCLE * ON_CIRCLE * b * b;
-      w->lambda[k] = w->slip[k] ? -power / (b * b) : 0;
-      w->old[k]    = u->q[k];
-      w->old[l]    = u->q[l];
+      changed += slips != slipped;
+      w->normal[k] = (float)(scale * u->q[k]);
+      w->normal[l] = (float)(scale * u->q[l]);
+      w->weight[k] = b > 0 ? (float)(slips ? 1 / sqrt(1 - power / (b * b * u->self)) : 1) : 0;
     }
   }
+  PetscCall(SamSum(u->level->grid->comm, 1, &changed));
+  w->changed = (PetscInt)changed;
+  PetscCall(PetscArraycpy(w->old, u->q, 2 * u->cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part of a vector at cell k in the tangent space. */
-static inline void ToTangent(const Work *w, PetscInt k, double *x, double *y)
-{
-  const PetscInt l = k + w->base.cells;
-  double         along, b2;
-
-  if (!w->slip[k]) return;
-  b2    = w->old[k] * w->old[k] + w->old[l] * w->old[l];
-  along = (w->old[k] * *y - w->old[l] * *x) / b2;
-  *x    = -along * w->old[l];
-  *y    = along * w->old[k];
-}
-
-/* Minus the gradient of the quadratic model in the tangent space at cell k. */
-static inline void Residual(const Work *w, PetscInt k, double *x, double *y)
+/* The slip at cell k in the tangent space. */
+static inline void TangentSlip(const Work *w, PetscInt k, double *x, double *y)
 {
   const SamStickSlip *u = &w->base;
   const PetscInt      l = k + u->cells;
 
-  *x = -u->s[k] - w->lambda[k] * (u->q[k] - w->old[k]);
-  *y = -u->s[l] - w->lambda[k] * (u->q[l] - w->old[l]);
-  ToTangent(w, k, x, y);
+  *x = u->s[k];
+  *y = u->s[l];
+  if (w->normal[k] != 0 || w->normal[l] != 0) {
+    const double part = (*x * u->q[k] + *y * u->q[l]) / (u->q[k] * u->q[k] + u->q[l] * u->q[l]);
+
+    *x -= part * u->q[k];
+    *y -= part * u->q[l];
+  }
 }
 
-static PetscErrorCode ComputeGram(Work *w)
+/* The Gram matrix of the tangent space, the unit, the motion that fits best, and the first residual. */
+static PetscErrorCode FirstResidual(Work *w)
 {
-  const SamStickSlip *u = &w->base;
-  const SamFrame     *f = u->frame;
+  SamStickSlip   *u                  = &w->base;
+  const SamFrame *f                  = u->frame;
+  double          sums[3 + SAM_GRAM] = {0}, most = 0, a[3], inverse;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(w->gram, SAM_GRAM));
   for (PetscInt j = 0; j < u->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta               = f->eta0 + (double)j * f->deta;
+    double       row[3 + SAM_GRAM] = {0};
 
     for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      const PetscInt k  = j * u->nx + i;
-      const double   xi = f->xi0 + (double)i * f->dxi;
-      double         xx = 1, xy = 0, yx = 0, yy = 1;
+      const PetscInt k  = j * u->nx + i, l = k + u->cells;
+      const double   xi = f->xi0 + (double)i * f->dxi, nx = w->normal[k], ny = w->normal[l];
+      double         x, y;
 
       if (u->bound[k] <= 0) continue;
-      ToTangent(w, k, &xx, &xy);
-      ToTangent(w, k, &yx, &yy);
-      SamGramAddTangential(w->gram, xx, xy, yy, xi, eta);
+      TangentSlip(w, k, &x, &y);
+      row[0] += x;
+      row[1] += y;
+      row[2] += xi * y - eta * x;
+      SamGramAddTangential(row + 3, 1 - nx * nx, -nx * ny, 1 - ny * ny, xi, eta);
+      most = PetscMax(most, PetscMax(fabs(x), fabs(y)));
+    }
+    for (PetscInt c = 0; c < 3 + SAM_GRAM; c++) sums[c] += row[c];
+  }
+  PetscCall(SamSum(u->level->grid->comm, 3 + SAM_GRAM, sums));
+  PetscCall(SamMax(u->level->grid->comm, 1, &most));
+  for (PetscInt c = 0; c < SAM_GRAM; c++) w->gram[c] = sums[3 + c];
+  SamFrameSolve(f, w->gram, sums, a);
+  w->unit = most;
+  inverse = most > 0 ? 1 / most : 0;
+  for (PetscInt c = 0; c < 3; c++) w->shift[c] = a[c] * inverse;
+  for (PetscInt j = 0; j < u->rows; j++) {
+    const double eta = f->eta0 + (double)j * f->deta;
+
+    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
+      const PetscInt k  = j * u->nx + i, l = k + u->cells;
+      const double   nx = w->normal[k], ny = w->normal[l], ax = SamFrameX(a, eta), ay = SamFrameY(a, f->xi0 + (double)i * f->dxi), part = nx * ax + ny * ay;
+      double         x, y;
+
+      TangentSlip(w, k, &x, &y);
+      w->r[k] = u->bound[k] > 0 ? (float)((ax - part * nx - x) * inverse) : 0;
+      w->r[l] = u->bound[k] > 0 ? (float)((ay - part * ny - y) * inverse) : 0;
     }
   }
-  PetscCall(SamSum(u->level->grid->comm, SAM_GRAM, w->gram));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Moves s by the rigid motion that makes the residual smallest; puts the residual into t, scaled for the preconditioner. */
-static PetscErrorCode NewResidual(Work *w, double *cut)
+/* Scales the residual for the preconditioner, into z; returns its square. */
+SAM_VECTORIZED static double RowScale(const Work *w, Row row)
 {
-  SamStickSlip   *u       = &w->base;
-  const SamFrame *f       = u->frame;
-  const double    self    = u->self;
-  double          sums[3] = {0, 0, 0}, norms[2] = {0, 0}, a[3];
+  const float *restrict weight = w->weight + row.first, *restrict rx = w->r + row.first, *restrict ry = rx + row.cells;
+  float *restrict zx = w->z + row.first, *restrict zy = zx + row.cells;
+  float norm = 0;
+
+#pragma omp simd reduction(+ : norm)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const float x = weight[i] * rx[i], y = weight[i] * ry[i];
+
+    zx[i] = x;
+    zy[i] = y;
+    norm += x * x + y * y;
+  }
+  return (double)norm;
+}
+
+/* The square of the shear, in units, by which sticking cells are beyond their circles. */
+SAM_VECTORIZED static double RowCut(const Work *w, Row row)
+{
+  const SamStickSlip *u      = &w->base;
+  const double        unit_q = w->unit / u->self;
+  const float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict ex = w->delta + row.first, *restrict ey = ex + row.cells;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict b = u->bound + row.first;
+  double any = 0, sum = 0;
+
+#pragma omp simd reduction(+ : any)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const double vx = qx[i] + unit_q * (double)ex[i], vy = qy[i] + unit_q * (double)ey[i], over = vx * vx + vy * vy - b[i] * b[i];
+
+    any += (over > 0 && nx[i] == 0 && ny[i] == 0) ? 1 : 0;
+  }
+  if (any == 0) return 0; /* mostly so: no divisions */
+#pragma omp simd reduction(+ : sum)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const double vx = qx[i] + unit_q * (double)ex[i], vy = qy[i] + unit_q * (double)ey[i], v2 = vx * vx + vy * vy;
+    const double size = (v2 > b[i] * b[i] && nx[i] == 0 && ny[i] == 0) ? sqrt(v2) - b[i] : 0;
+
+    sum += size * size;
+  }
+  return sum / (unit_q * unit_q);
+}
+
+/* Prepares the preconditioner's input, which is zero outside the contact, and measures the residual. */
+static PetscErrorCode Scale(Work *w, double *cut)
+{
+  SamStickSlip *u       = &w->base;
+  double        sums[2] = {0, 0};
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
-    double       x = 0, y = 0, turn = 0; /* sums of the row stay in registers */
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt j = 0; j < u->rows; j++) {
+      float *z = w->z + c * u->cells + j * u->nx;
 
-    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      double rx, ry;
-
-      if (u->bound[j * u->nx + i] <= 0) continue;
-      Residual(w, j * u->nx + i, &rx, &ry);
-      x -= rx;
-      y -= ry;
-      turn -= (f->xi0 + (double)i * f->dxi) * ry - eta * rx;
+      PetscCall(PetscArrayzero(z, u->first[j]));
+      PetscCall(PetscArrayzero(z + u->last[j], u->nx - u->last[j]));
     }
-    sums[0] += x;
-    sums[1] += y;
-    sums[2] += turn;
-  }
-  PetscCall(SamSum(u->level->grid->comm, 3, sums));
-  SamFrameSolve(f, w->gram, sums, a);
-  for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
-  PetscCall(PetscArrayzero(w->t, 2 * u->cells)); /* the preconditioner sees the whole grid */
   for (PetscInt j = 0; j < u->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const Row row = GetRow(w, j);
 
-    const double sx = SamFrameX(a, eta);
-    double       norm = 0, beyond = 0;
-
-    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      const PetscInt k = j * u->nx + i, l = k + u->cells;
-      const double   b = u->bound[k];
-      double         rx, ry, h = 1, q2, excess;
-
-      if (b <= 0) continue;
-      u->s[k] -= sx;
-      u->s[l] -= SamFrameY(a, f->xi0 + (double)i * f->dxi);
-      Residual(w, k, &rx, &ry);
-      if (w->slip[k]) h = sqrt(self / (w->lambda[k] + self));
-      rx *= h;
-      ry *= h;
-      w->t[k] = rx;
-      w->t[l] = ry;
-      norm += rx * rx + ry * ry;
-      if (w->slip[k]) continue;
-      q2 = u->q[k] * u->q[k] + u->q[l] * u->q[l];
-      if (q2 <= b * b) continue;
-      excess = (sqrt(q2) - b) * self;
-      beyond += excess * excess;
-    }
-    norms[0] += norm;
-    norms[1] += beyond;
+    sums[0] += RowScale(w, row);
+    sums[1] += RowCut(w, row);
   }
-  PetscCall(SamSum(u->level->grid->comm, 2, norms));
-  w->residual = norms[0];
-  if (cut) *cut = norms[1];
+  PetscCall(SamSum(u->level->grid->comm, 2, sums));
+  w->residual = sums[0];
+  *cut        = sums[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* d = P M r + beta d, from the scaled residual in t. */
+/* z = P(w z + rest r), and its sums with the phi and with r. */
+SAM_VECTORIZED static void RowPreconditioned(const Work *w, Row row, double sums[4])
+{
+  const float *restrict weight = w->weight + row.first, *restrict rx = w->r + row.first, *restrict ry = rx + row.cells;
+  const float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict xi = row.xi;
+  float *restrict zx = w->z + row.first, *restrict zy = zx + row.cells;
+  float x = 0, y = 0, turn = 0, product = 0;
+
+#pragma omp simd reduction(+ : x, y, turn, product)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const float g = weight[i], h = g * g, rest = 0.5f * (1 - h) * h, part = g * (nx[i] * zx[i] + ny[i] * zy[i]);
+    const float vx = g * zx[i] - part * nx[i] + rest * rx[i], vy = g * zy[i] - part * ny[i] + rest * ry[i];
+
+    zx[i] = vx;
+    zy[i] = vy;
+    x += vx;
+    y += vy;
+    turn += xi[i] * vy;
+    product += vx * rx[i] + vy * ry[i];
+  }
+  sums[0] += (double)x;
+  sums[1] += (double)y;
+  sums[2] += (double)turn - row.eta * (double)x;
+  sums[3] += (double)product;
+}
+
+/* d = z - P a + beta d. */
+SAM_VECTORIZED static void RowDirection(const Work *w, Row row, const double a[3], float beta)
+{
+  const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict xi = row.xi;
+  const float *restrict zx = w->z + row.first, *restrict zy = zx + row.cells;
+  float *restrict dx = w->d + row.first, *restrict dy = dx + row.cells;
+  const float ax = (float)SamFrameX(a, row.eta), a1 = (float)a[1], a2 = (float)a[2];
+
+#pragma omp simd
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const float in = weight[i] > 0 ? 1.0f : 0.0f, ay = a1 + a2 * xi[i], part = nx[i] * ax + ny[i] * ay;
+
+    dx[i] = zx[i] - in * (ax - part * nx[i]) + beta * dx[i];
+    dy[i] = zy[i] - in * (ay - part * ny[i]) + beta * dy[i];
+  }
+}
+
+/* d = P M r + beta d. */
 static PetscErrorCode NewDirection(Work *w, PetscBool first)
 {
-  SamStickSlip   *u       = &w->base;
-  const SamFrame *f       = u->frame;
-  const double    self    = u->self;
-  double          sums[4] = {0, 0, 0, 0}, a[3], beta;
+  SamStickSlip *u       = &w->base;
+  double        sums[4] = {0, 0, 0, 0}, a[3], beta;
 
   PetscFunctionBegin;
-  PetscCall(VecRestoreArray(w->vt, &w->t));
-  PetscCall(SamTangentialPrecondition(u->solver, u->level, w->vt, w->vt));
-  PetscCall(VecGetArray(w->vt, &w->t));
-  for (PetscInt j = 0; j < u->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
-    double       x = 0, y = 0, turn = 0, product = 0;
-
-    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      const PetscInt k = j * u->nx + i, l = k + u->cells;
-      double         rx, ry, zx = w->t[k], zy = w->t[l];
-
-      if (u->bound[k] <= 0) continue;
-      Residual(w, k, &rx, &ry);
-      if (w->slip[k]) {
-        const double sum = w->lambda[k] + self, h = self / sum, root = sqrt(h), rest = 0.5 * (1 - h) / sum;
-
-        zx *= root;
-        zy *= root;
-        ToTangent(w, k, &zx, &zy);
-        zx += rest * rx;
-        zy += rest * ry;
-        w->t[k] = zx;
-        w->t[l] = zy;
-      }
-      x += zx;
-      y += zy;
-      turn += (f->xi0 + (double)i * f->dxi) * zy - eta * zx;
-      product += zx * rx + zy * ry;
-    }
-    sums[0] += x;
-    sums[1] += y;
-    sums[2] += turn;
-    sums[3] += product;
-  }
+  PetscCall(SamTangentialPreconditionSingle(u->solver, u->level, u->self, w->z, w->z));
+  for (PetscInt j = 0; j < u->rows; j++) RowPreconditioned(w, GetRow(w, j), sums);
   PetscCall(SamSum(u->level->grid->comm, 4, sums));
-  SamFrameSolve(f, w->gram, sums, a);
+  SamFrameSolve(u->frame, w->gram, sums, a);
   beta  = first ? 0 : sums[3] / w->rz;
   w->rz = sums[3];
-  for (PetscInt j = 0; j < u->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
-
-    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      const PetscInt k = j * u->nx + i, l = k + u->cells;
-      double         ax = SamFrameX(a, eta), ay = SamFrameY(a, f->xi0 + (double)i * f->dxi);
-
-      if (u->bound[k] <= 0) continue;
-      ToTangent(w, k, &ax, &ay);
-      w->d[k] = w->t[k] - ax + beta * w->d[k];
-      w->d[l] = w->t[l] - ay + beta * w->d[l];
-    }
-  }
+  for (PetscInt j = 0; j < u->rows; j++) RowDirection(w, GetRow(w, j), a, (float)beta);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* q += alpha d, s += alpha C d; `good` is false when there is no direction left. */
+/* d.(C + L) d, C d in z. */
+SAM_VECTORIZED static double RowCurvature(const Work *w, Row row)
+{
+  const float *restrict weight = w->weight + row.first;
+  const float *restrict dx = w->d + row.first, *restrict dy = dx + row.cells, *restrict tx = w->z + row.first, *restrict ty = tx + row.cells;
+  float sum = 0;
+
+#pragma omp simd reduction(+ : sum)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const float h = weight[i] * weight[i], lambda = h > 0 ? (1 - h) / h : 0;
+
+    sum += dx[i] * (tx[i] + lambda * dx[i]) + dy[i] * (ty[i] + lambda * dy[i]);
+  }
+  return (double)sum;
+}
+
+/* delta += alpha d, r -= alpha P(C + L) d, and the sums of r with the phi. */
+SAM_VECTORIZED static void RowStep(const Work *w, Row row, float alpha, double sums[3])
+{
+  const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict xi = row.xi;
+  const float *restrict dx = w->d + row.first, *restrict dy = dx + row.cells, *restrict tx = w->z + row.first, *restrict ty = tx + row.cells;
+  float *restrict rx = w->r + row.first, *restrict ry = rx + row.cells, *restrict ex = w->delta + row.first, *restrict ey = ex + row.cells;
+  float x = 0, y = 0, turn = 0;
+
+#pragma omp simd reduction(+ : x, y, turn)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const float h = weight[i] * weight[i], step = h > 0 ? alpha : 0, lambda = h > 0 ? (1 - h) / h : 0, part = nx[i] * tx[i] + ny[i] * ty[i];
+    const float vx = rx[i] - step * (tx[i] - part * nx[i] + lambda * dx[i]), vy = ry[i] - step * (ty[i] - part * ny[i] + lambda * dy[i]);
+
+    ex[i] += alpha * dx[i];
+    ey[i] += alpha * dy[i];
+    rx[i] = vx;
+    ry[i] = vy;
+    x += vx;
+    y += vy;
+    turn += xi[i] * vy;
+  }
+  sums[0] += (double)x;
+  sums[1] += (double)y;
+  sums[2] += (double)turn - row.eta * (double)x;
+}
+
+/* r -= P a. */
+SAM_VECTORIZED static void RowBalance(const Work *w, Row row, const double a[3])
+{
+  const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict xi = row.xi;
+  float *restrict rx = w->r + row.first, *restrict ry = rx + row.cells;
+  const float ax = (float)SamFrameX(a, row.eta), a1 = (float)a[1], a2 = (float)a[2];
+
+#pragma omp simd
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const float in = weight[i] > 0 ? 1.0f : 0.0f, ay = a1 + a2 * xi[i], part = nx[i] * ax + ny[i] * ay;
+
+    rx[i] -= in * (ax - part * nx[i]);
+    ry[i] -= in * (ay - part * ny[i]);
+  }
+}
+
+/* One step of conjugate gradients along d, and the residual after it; `good` is false when there is no direction left. */
 static PetscErrorCode Step(Work *w, PetscBool *good)
 {
   SamStickSlip *u         = &w->base;
-  double        curvature = 0, alpha;
+  double        curvature = 0, alpha, sums[3] = {0, 0, 0}, a[3];
 
   PetscFunctionBegin;
-  PetscCall(VecRestoreArray(w->vd, &w->d));
-  PetscCall(VecRestoreArray(w->vt, &w->t));
-  PetscCall(SamTangentialApply(u->solver, u->level, w->vd, w->vt));
-  PetscCall(VecGetArray(w->vd, &w->d));
-  PetscCall(VecGetArray(w->vt, &w->t));
-  for (PetscInt j = 0; j < u->rows; j++) {
-    double sum = 0;
-
-    for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) { /* d is 0 outside the contact */
-      const PetscInt l = k + u->cells;
-
-      sum += w->d[k] * (w->t[k] + w->lambda[k] * w->d[k]) + w->d[l] * (w->t[l] + w->lambda[k] * w->d[l]);
-    }
-    curvature += sum;
-  }
+  PetscCall(SamTangentialApplySingle(u->solver, u->level, 1 / u->self, w->d, w->z));
+  for (PetscInt j = 0; j < u->rows; j++) curvature += RowCurvature(w, GetRow(w, j));
   PetscCall(SamSum(u->level->grid->comm, 1, &curvature));
   *good = (curvature > 0 && w->rz > 0) ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   alpha = w->rz / curvature;
-  for (PetscInt j = 0; j < u->rows; j++)
-    for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) {
-      const PetscInt l = k + u->cells;
-
-      u->q[k] += alpha * w->d[k];
-      u->q[l] += alpha * w->d[l];
-      u->s[k] += alpha * w->t[k];
-      u->s[l] += alpha * w->t[l];
-    }
+  for (PetscInt j = 0; j < u->rows; j++) RowStep(w, GetRow(w, j), (float)alpha, sums);
+  PetscCall(SamSum(u->level->grid->comm, 3, sums));
+  SamFrameSolve(u->frame, w->gram, sums, a);
+  for (PetscInt j = 0; j < u->rows; j++) RowBalance(w, GetRow(w, j), a);
+  for (PetscInt c = 0; c < 3; c++) w->shift[c] -= a[c];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 2. */
+/* Step 2: delta, from 0. */
 static PetscErrorCode NewtonStep(Work *w)
 {
   SamStickSlip *u    = &w->base;
   PetscBool     good = PETSC_TRUE, done;
-  double        goal, cut = 0;
+  double        goal, fall, cut = 0;
 
   PetscFunctionBegin;
-  Classify(w);
-  PetscCall(ComputeGram(w));
+  PetscCall(Classify(w));
+  PetscCall(FirstResidual(w));
   PetscCall(PetscArrayzero(w->d, 2 * u->cells));
-  PetscCall(NewResidual(w, NULL));
-  goal = INNER_FALL * INNER_FALL * w->residual;
+  PetscCall(PetscArrayzero(w->delta, 2 * u->cells));
+  if (w->unit == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Scale(w, &cut));
+  fall = PetscMax(LAST_FALL * u->level->rtol / u->error, w->changed > 0 ? INNER_FALL : SETTLED_FALL);
+  goal = fall * fall * w->residual;
   done = w->residual == 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt it = 0; !done; it++) {
     PetscCall(NewDirection(w, it == 0 ? PETSC_TRUE : PETSC_FALSE));
     PetscCall(Step(w, &good));
     if (!good) break;
-    PetscCall(NewResidual(w, &cut));
+    PetscCall(Scale(w, &cut));
     SamTangentialIterated(u->solver, u->level);
     done = (w->residual <= goal || cut > PROPORTION * w->residual || !isfinite(w->residual)) ? PETSC_TRUE : PETSC_FALSE;
     if (u->level->finest && u->solver->solver.iterations >= SamSolverMaxIterations(&u->solver->solver)) done = PETSC_TRUE;
@@ -334,22 +436,69 @@ static PetscErrorCode NewtonStep(Work *w)
 }
 
 /*
-  Cells that slip go beyond their circles, so that the projection, which restores equilibrium by a common shift, leaves
-  them on it: otherwise half of them would be pulled inside, and convergence would be linear instead of quadratic.
+  q += delta. Cells that slip go beyond their circles, so that the projection, which restores equilibrium by a common shift,
+  leaves them on it: otherwise half of them would be pulled inside, and convergence would be linear instead of quadratic.
 */
-static void PushOutward(Work *w)
+static void AddStep(Work *w)
+{
+  SamStickSlip *u      = &w->base;
+  const double  unit_q = w->unit / u->self;
+
+  for (PetscInt j = 0; j < u->rows; j++)
+    for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) {
+      const PetscInt l = k + u->cells;
+      const double   x = u->q[k] + unit_q * (double)w->delta[k], y = u->q[l] + unit_q * (double)w->delta[l];
+      const double   scale = (w->normal[k] != 0 || w->normal[l] != 0) ? 2 * u->bound[k] / sqrt(x * x + y * y) : 1;
+
+      u->q[k] = scale * x;
+      u->q[l] = scale * y;
+    }
+}
+
+/* s and the motion after the step from `old` to q; how much the rounding may be. */
+static PetscErrorCode UpdateSlip(Work *w)
+{
+  SamStickSlip   *u       = &w->base;
+  const SamFrame *f       = u->frame;
+  const double    inverse = u->self / w->unit;
+  double          norm    = 0;
+
+  PetscFunctionBegin;
+  if (w->unit == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2 * u->cells; k++) w->z[k] = (float)((u->q[k] - w->old[k]) * inverse);
+  PetscCall(SamTangentialApplySingle(u->solver, u->level, 1 / u->self, w->z, w->z));
+  for (PetscInt c = 0; c < 3; c++) w->shift[c] *= w->unit;
+  for (PetscInt j = 0; j < u->rows; j++) {
+    const double sx  = SamFrameX(w->shift, f->eta0 + (double)j * f->deta);
+    double       row = 0;
+
+    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
+      const PetscInt k = j * u->nx + i, l = k + u->cells;
+
+      u->s[k] += w->unit * (double)w->z[k] - sx;
+      u->s[l] += w->unit * (double)w->z[l] - SamFrameY(w->shift, f->xi0 + (double)i * f->dxi);
+      row += (double)(w->z[k] * w->z[k] + w->z[l] * w->z[l]);
+    }
+    norm += row;
+  }
+  for (PetscInt c = 0; c < 3; c++) u->motion[c] += w->shift[c];
+  PetscCall(SamSum(u->level->grid->comm, 1, &norm));
+  w->doubt += SINGLE_ROUNDING * sqrt(norm) * w->unit / u->self;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The error after a step. Where rounding matters, the slip is computed anew. */
+static PetscErrorCode Measure(Work *w)
 {
   SamStickSlip *u = &w->base;
 
-  for (PetscInt k = 0; k < u->cells; k++) {
-    const PetscInt l = k + u->cells;
-    double         scale;
-
-    if (!w->slip[k]) continue;
-    scale = 2 * u->bound[k] / sqrt(u->q[k] * u->q[k] + u->q[l] * u->q[l]);
-    u->q[k] *= scale;
-    u->q[l] *= scale;
-  }
+  PetscFunctionBegin;
+  PetscCall(SamStickSlipMeasure(u));
+  if (w->doubt <= DOUBT * PetscMax(u->error, u->level->rtol) * u->scale) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamStickSlipComputeSlip(u));
+  PetscCall(SamStickSlipMeasure(u));
+  w->doubt = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* q = old + alpha (q - old), and its slip. */
@@ -361,6 +510,7 @@ static PetscErrorCode StepBetween(Work *w, double alpha)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2 * u->cells; k++) u->q[k] = from[k] + alpha * (u->q[k] - from[k]);
   PetscCall(SamStickSlipComputeSlip(u));
+  w->doubt = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -369,7 +519,7 @@ static PetscErrorCode GradientStep(Work *w)
 {
   SamStickSlip *u    = &w->base;
   const double *from = w->old;
-  double        sums[3] = {0, 0, 0}, before, after, length;
+  double       *slip, sums[3] = {0, 0, 0}, before, after, length;
   PetscBool     found;
 
   PetscFunctionBegin;
@@ -377,15 +527,17 @@ static PetscErrorCode GradientStep(Work *w)
   PetscCall(SamStickSlipComputeSlip(u));
   PetscCall(SamStickSlipMeasure(u));
   PetscCall(SamStickSlipEnergy(u, &before));
-  PetscCall(PetscArraycpy(w->d, u->s, 2 * u->cells));
+  PetscCall(PetscMalloc1(2 * u->cells, &slip));
+  PetscCall(PetscArraycpy(slip, u->s, 2 * u->cells));
   for (PetscInt j = 0; j < u->rows; j++)
     for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) sums[2] += u->bound[k] > 0;
   PetscCall(SamSum(u->level->grid->comm, 3, sums));
   length = 1 / (u->self * sqrt(sums[2]));
-  for (PetscInt k = 0; k < 2 * u->cells; k++) u->q[k] -= length * w->d[k];
+  for (PetscInt k = 0; k < 2 * u->cells; k++) u->q[k] -= length * slip[k];
   PetscCall(SamFrameProjectTangential(u->frame, u->bound, u->q, &found));
   sums[0] = 0;
-  for (PetscInt k = 0; k < 2 * u->cells; k++) sums[0] += w->d[k] * (u->q[k] - from[k]);
+  for (PetscInt k = 0; k < 2 * u->cells; k++) sums[0] += slip[k] * (u->q[k] - from[k]);
+  PetscCall(PetscFree(slip));
   PetscCall(SamSum(u->level->grid->comm, 1, sums));
   PetscCall(StepBetween(w, 1));
   PetscCall(SamStickSlipEnergy(u, &after));
@@ -393,20 +545,16 @@ static PetscErrorCode GradientStep(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 4, from the admissible `old` of energy *energy to q. */
-static PetscErrorCode EnsureDescent(Work *w, double *energy)
+/* Step 4, from the admissible `old` of that energy to q. */
+static PetscErrorCode EnsureDescent(Work *w, double before)
 {
-  SamStickSlip *u      = &w->base;
-  const double *from   = w->old;
-  const double  before = *energy;
+  SamStickSlip *u    = &w->base;
+  const double *from = w->old;
   double        after, sum = 0, slope, curvature;
 
   PetscFunctionBegin;
   PetscCall(SamStickSlipEnergy(u, &after));
-  if (after <= before + 1e-13 * fabs(before)) {
-    *energy = after;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
+  if (after <= before + 1e-13 * fabs(before)) PetscFunctionReturn(PETSC_SUCCESS);
   /* after = before + slope + curvature/2, and s.(q - from) = slope + curvature at q */
   for (PetscInt k = 0; k < 2 * u->cells; k++) sum += (u->q[k] - from[k]) * u->s[k];
   PetscCall(SamSum(u->level->grid->comm, 1, &sum));
@@ -414,7 +562,6 @@ static PetscErrorCode EnsureDescent(Work *w, double *energy)
   slope     = sum - curvature;
   if (slope < 0 && curvature > 0) PetscCall(StepBetween(w, -slope / curvature));
   else PetscCall(GradientStep(w));
-  PetscCall(SamStickSlipEnergy(u, energy));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -426,34 +573,45 @@ static SamTangentialReason Reason(const SamStickSlip *u, PetscInt stagnant)
   return stagnant > STAGNATION ? SAM_TANGENTIAL_DIVERGED_STAGNATED : SAM_TANGENTIAL_CONVERGED_ITERATING;
 }
 
+/* Steps 1 to 4 once. */
+static PetscErrorCode Round(Work *w, PetscBool watch, PetscBool *found)
+{
+  SamStickSlip *u = &w->base;
+  double        energy = 0;
+
+  PetscFunctionBegin;
+  if (watch) PetscCall(SamStickSlipEnergy(u, &energy));
+  PetscCall(NewtonStep(w));
+  AddStep(w);
+  PetscCall(SamFrameProjectTangential(u->frame, u->bound, u->q, found));
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(UpdateSlip(w));
+  if (watch) PetscCall(EnsureDescent(w, energy));
+  PetscCall(Measure(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SamTangentialSolve_Newton(SamTangential solver, SamTangentialLevel *level)
 {
-  Work                w = {.slip = NULL};
+  Work                w = {.doubt = 0};
   SamStickSlip       *u = &w.base;
   SamTangentialReason reason;
-  double              energy, best;
+  double              best;
   PetscInt            stagnant = 0;
 
   PetscFunctionBegin;
   PetscCall(CreateWork(solver, level, &w));
   PetscCall(SamStickSlipStart(u));
-  PetscCall(SamStickSlipEnergy(u, &energy));
   best   = u->error;
   reason = Reason(u, stagnant);
   while (!reason) {
     PetscBool found;
 
-    PetscCall(NewtonStep(&w));
-    PushOutward(&w);
-    PetscCall(SamFrameProjectTangential(u->frame, u->bound, u->q, &found));
+    PetscCall(Round(&w, stagnant > PATIENCE ? PETSC_TRUE : PETSC_FALSE, &found));
     if (!found) {
       reason = SAM_TANGENTIAL_DIVERGED_STAGNATED; /* the loads can be carried, that was found out before */
       break;
     }
-    PetscCall(SamStickSlipComputeSlip(u));
-    if (stagnant > PATIENCE) PetscCall(EnsureDescent(&w, &energy));
-    else PetscCall(SamStickSlipEnergy(u, &energy));
-    PetscCall(SamStickSlipMeasure(u));
     PetscCall(SamTangentialMeasured(solver, level, u->error));
     stagnant = u->error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, u->error);

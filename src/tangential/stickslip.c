@@ -100,58 +100,69 @@ PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  One row: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the derivative of the
+  projection of y = q - s/c on the disc, or, with `stick`, the identity.
+*/
+SAM_VECTORIZED static void FitRow(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, PetscBool stick, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
+{
+  double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0;
+
+#pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
+  for (PetscInt i = 0; i < n; i++) {
+    const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+    const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
+    const double over = (n2 > b * b && !stick) ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in, g = s * over;
+    const double gxx = s - g * yx * yx, gxy = -g * yx * yy, gyy = s - g * yy * yy;
+    const double px = gxx * tx[i] + gxy * ty[i], py = gxy * tx[i] + gyy * ty[i];
+
+    x += px;
+    y += py;
+    turn += xi * py;
+    hxx += gxx;
+    hxy += gxy;
+    hyy += gyy;
+    xi_hxy += xi * gxy;
+    xi_hyy += xi * gyy;
+    xi2_hyy += xi * xi * gyy;
+  }
+  sums[0] += x;
+  sums[1] += y;
+  sums[2] += turn - eta * x;
+  SamGramTangentialRow(sums + 3, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, eta);
+}
+
+/* Subtracts the rigid motion a from a row of slips. */
+SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *restrict sy, double xi0, double dxi, double eta, const double a[3])
+{
+  const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) {
+    sx[i] -= ax;
+    sy[i] -= a1 + a2 * (xi0 + (double)i * dxi);
+  }
+}
+
 /* Fits the motion: least squares of s over the tangent space, the sets taken from s as it is, or all of it stick. */
 static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
 {
-  const SamFrame *f = w->frame;
+  const SamFrame *f                  = w->frame;
   double          sums[3 + SAM_GRAM] = {0}, a[3];
-  const double    inverse = 1 / w->self;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
-    double       row[3 + SAM_GRAM] = {0};
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
-      const PetscInt k = j * w->nx + i, l = k + w->cells;
-      const double   b = w->bound[k], xi = f->xi0 + (double)i * f->dxi;
-      double         yx, yy, n, tx, ty, hxx = 1, hxy = 0, hyy = 1;
-
-      if (b <= 0) continue;
-      tx = w->s[k];
-      ty = w->s[l];
-      yx = w->q[k] - inverse * tx;
-      yy = w->q[l] - inverse * ty;
-      n  = yx * yx + yy * yy;
-      if (n > b * b && !stick) { /* the derivative of the projection on the disc */
-        const double scale = b / (n * sqrt(n));
-
-        hxx = scale * yy * yy;
-        hxy = -scale * yx * yy;
-        hyy = scale * yx * yx;
-        n   = tx;
-        tx  = hxx * n + hxy * ty;
-        ty  = hxy * n + hyy * ty;
-      }
-      row[0] += tx;
-      row[1] += ty;
-      row[2] += xi * ty - eta * tx;
-      SamGramAddTangential(row + 3, hxx, hxy, hyy, xi, eta);
-    }
-    for (PetscInt c = 0; c < 3 + SAM_GRAM; c++) sums[c] += row[c];
+    FitRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + w->first[j] * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, sums);
   }
   PetscCall(SamSum(w->level->grid->comm, 3 + SAM_GRAM, sums));
   SamFrameSolve(f, sums + 3, sums, a);
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
-      const PetscInt k = j * w->nx + i;
-
-      w->s[k] -= SamFrameX(a, eta);
-      w->s[k + w->cells] -= SamFrameY(a, f->xi0 + (double)i * f->dxi);
-    }
+    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, a);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -166,33 +177,40 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* One row of squares: residual q - D(q - s/c), q, D(q - s/c), and the bound as the least measure of the shear. */
+SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double sums[4])
+{
+  double residual = 0, shear = 0, projected = 0, least = 0;
+
+#pragma omp simd reduction(+ : residual, shear, projected, least)
+  for (PetscInt i = 0; i < n; i++) {
+    const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
+    const double scale = b > 0 ? (n2 > b * b ? b / sqrt(n2) : 1) : 0, rx = qx[i] - scale * yx, ry = qy[i] - scale * yy;
+
+    residual += rx * rx + ry * ry;
+    shear += qx[i] * qx[i] + qy[i] * qy[i];
+    projected += scale * scale * n2;
+    least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
+  }
+  sums[0] += residual;
+  sums[1] += shear;
+  sums[2] += projected;
+  sums[3] += least;
+}
+
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
-  const double inverse = 1 / w->self;
-  double       sums[4] = {0, 0, 0, 0};
+  double sums[4] = {0, 0, 0, 0};
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
   for (PetscInt j = 0; j < w->rows; j++) {
-    double row[4] = {0, 0, 0, 0};
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
-      const PetscInt k = j * w->nx + i, l = k + w->cells;
-      const double   b = w->bound[k], yx = w->q[k] - inverse * w->s[k], yy = w->q[l] - inverse * w->s[l];
-      const double   n2 = yx * yx + yy * yy, scale = n2 > b * b ? b / sqrt(n2) : 1;
-      double         rx, ry;
-
-      if (b <= 0) continue;
-      rx = w->q[k] - scale * yx;
-      ry = w->q[l] - scale * yy;
-      row[0] += rx * rx + ry * ry;
-      row[1] += w->q[k] * w->q[k] + w->q[l] * w->q[l];
-      row[2] += scale * scale * (yx * yx + yy * yy);
-      row[3] += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
-    }
-    for (PetscInt c = 0; c < 4; c++) sums[c] += row[c];
+    MeasureRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, sums);
   }
   PetscCall(SamSum(w->level->grid->comm, 4, sums));
-  w->error = sums[0] != 0 ? sqrt(sums[0] / PetscMax(sums[3], PetscMax(sums[1], sums[2]))) : 0;
+  w->scale = sqrt(PetscMax(sums[3], PetscMax(sums[1], sums[2])));
+  w->error = sums[0] != 0 ? sqrt(sums[0]) / w->scale : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

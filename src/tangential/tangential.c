@@ -180,11 +180,19 @@ PetscErrorCode SamTangentialApply(SamTangential t, SamTangentialLevel *level, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialPrecondition(SamTangential t, SamTangentialLevel *level, Vec r, Vec z)
+PetscErrorCode SamTangentialApplySingle(SamTangential t, SamTangentialLevel *level, double factor, const float q[], float u[])
+{
+  PetscFunctionBegin;
+  t->solver.applies += level->finest ? 1 : 0;
+  PetscCall(SamComplianceApplyTangentialSingle(level->compliance, factor, q, u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTangentialPreconditionSingle(SamTangential t, SamTangentialLevel *level, double factor, const float r[], float z[])
 {
   PetscFunctionBegin;
   t->solver.preconditions += level->finest ? 1 : 0;
-  PetscCall(SamCompliancePreconditionTangential(level->compliance, r, z));
+  PetscCall(SamCompliancePreconditionTangentialSingle(level->compliance, factor, r, z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -320,18 +328,20 @@ static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, Pet
   SamTransfer   transfer = NULL;
   const double *bound;
   double       *q;
-  PetscBool     found;
+  PetscBool     found = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&level->frame, level->grid, balance));
   if (depth > 1 && !guess) PetscCall(SamComplianceGetCoarse(level->compliance, &coarse, &transfer));
   if (coarse) PetscCall(StartFromCoarse(t, level, coarse, transfer, depth - 1, balance));
-  else if (!guess) PetscCall(VecSet(level->q, 0));
-  PetscCall(VecGetArrayRead(level->bound, &bound));
-  PetscCall(VecGetArray(level->q, &q));
-  PetscCall(SamFrameProjectTangential(&level->frame, bound, q, &found));
-  PetscCall(VecRestoreArray(level->q, &q));
-  PetscCall(VecRestoreArrayRead(level->bound, &bound));
+  else if (!level->finest) PetscCall(VecSet(level->q, 0));
+  if (coarse || !level->finest) { /* otherwise the start is what IsPossible() left */
+    PetscCall(VecGetArrayRead(level->bound, &bound));
+    PetscCall(VecGetArray(level->q, &q));
+    PetscCall(SamFrameProjectTangential(&level->frame, bound, q, &found));
+    PetscCall(VecRestoreArray(level->q, &q));
+    PetscCall(VecRestoreArrayRead(level->bound, &bound));
+  }
   t->reason = SAM_TANGENTIAL_DIVERGED_STAGNATED;
   if (found) PetscCall(t->solve(t, level));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -363,8 +373,8 @@ static PetscErrorCode SolveFree(SamTangential t, SamBalance *balance, Vec q)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether any admissible shear carries the loads: the projection of 0 tells at once. */
-static PetscErrorCode IsPossible(const SamTangentialLevel *level, const SamBalance *balance, PetscBool *possible)
+/* Whether any admissible shear carries the loads: the projection of any shear tells, that of a guess is the start as well. */
+static PetscErrorCode IsPossible(const SamTangentialLevel *level, const SamBalance *balance, PetscBool guess, PetscBool *possible)
 {
   SamFrame      frame;
   const double *bound;
@@ -372,11 +382,12 @@ static PetscErrorCode IsPossible(const SamTangentialLevel *level, const SamBalan
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&frame, level->grid, balance));
-  PetscCall(PetscCalloc1(2 * level->grid->cells, &q));
+  if (!guess) PetscCall(VecSet(level->q, 0));
   PetscCall(VecGetArrayRead(level->bound, &bound));
+  PetscCall(VecGetArray(level->q, &q));
   PetscCall(SamFrameProjectTangential(&frame, bound, q, possible));
+  PetscCall(VecRestoreArray(level->q, &q));
   PetscCall(VecRestoreArrayRead(level->bound, &bound));
-  PetscCall(PetscFree(q));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -405,7 +416,7 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
   PetscBool possible;
 
   PetscFunctionBegin;
-  PetscCall(IsPossible(level, balance, &possible));
+  PetscCall(IsPossible(level, balance, guess, &possible));
   if (possible) {
     PetscCall(SolveLevel(t, level, SamSolverLevels(&t->solver), balance, guess));
     PetscCall(CheckLimit(t, level, balance));

@@ -30,7 +30,8 @@ struct _n_SamTangential {
 
 /* Counted products: only those on the finest grid count. */
 PETSC_INTERN PetscErrorCode SamTangentialApply(SamTangential tangential, SamTangentialLevel *level, Vec q, Vec u);
-PETSC_INTERN PetscErrorCode SamTangentialPrecondition(SamTangential tangential, SamTangentialLevel *level, Vec r, Vec z);
+PETSC_INTERN PetscErrorCode SamTangentialApplySingle(SamTangential tangential, SamTangentialLevel *level, double factor, const float q[], float u[]);
+PETSC_INTERN PetscErrorCode SamTangentialPreconditionSingle(SamTangential tangential, SamTangentialLevel *level, double factor, const float r[], float z[]);
 /* Counts an iteration; and, when the error has been measured, calls the monitors: only those on the finest grid count. */
 PETSC_INTERN void           SamTangentialIterated(SamTangential tangential, SamTangentialLevel *level);
 PETSC_INTERN PetscErrorCode SamTangentialMeasured(SamTangential tangential, SamTangentialLevel *level, PetscReal error);
@@ -50,7 +51,8 @@ typedef struct {
   Vec                 vs;
   double              motion[3];    /* rigid displacement in s, fixed part included */
   double              self;         /* influence of a cell on itself, m/Pa */
-  double              error;        /* relative residual of the projection equation */
+  double              error;        /* residual of the projection equation, relative to scale */
+  double              scale;        /* norm of the shear, Pa */
 } SamStickSlip;
 
 PETSC_INTERN PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w);

@@ -3,7 +3,7 @@
  */
 #include "fields.h"
 
-#include <petsam/contact.h>
+#include "../../src/contact/contactimpl.h"
 
 static const double mu = 0.3;
 
@@ -226,7 +226,7 @@ static SamCheck CheckSpoilt(Spoil spoil)
   AssertGood(&step);
   sam_call(SamContactGetFields(c.contact, &f));
   if (spoil) spoil(&c, &step, &f);
-  sam_call(SamContactCheck(c.s.compliance, PETSC_TRUE, mu, c.s.h, NULL, &given[0], &given[1], &step, &f, &check));
+  sam_call(SamContactCheck(c.s.compliance, PETSC_TRUE, PETSC_FALSE, mu, c.s.h, NULL, &given[0], &given[1], &step, &f, &check));
   if (getenv("SAM_SHOW")) print_message("# spoilt: %g %g %g %g %g\n", check.normal, check.tangential, check.equilibrium, check.cone, check.edge);
   DestroyCase(&c);
   return check;
@@ -410,6 +410,111 @@ static void test_nan_is_no_equilibrium(void **state)
   sam_assert(!(CheckSpoilt(PutNanIntoShear).equilibrium < 1));
 }
 
+/* ---- the prediction of the next step ---- */
+
+/* Hertz's pressure of radius a, and of Cattaneo's shear under T = (1 - (c/a)^3) mu N: mu times it less that of radius c. */
+typedef struct {
+  double a, c;
+} Stage;
+
+static double HertzOf(double radius, double x, double y)
+{
+  const double left = radius * radius - x * x - y * y;
+
+  return left > 0 ? sqrt(left) : 0;
+}
+
+static double StagePressure(double x, double y, const void *stage)
+{
+  return HertzOf(((const Stage *)stage)->a, x, y);
+}
+
+static double StageShear(double x, double y, const void *stage)
+{
+  return mu * (HertzOf(((const Stage *)stage)->a, x, y) - HertzOf(((const Stage *)stage)->c, x, y));
+}
+
+static Vec NewShear(SamGrid grid, const Stage *stage)
+{
+  Vec     q = NewField(grid, 2), x = NewFrom(grid, StageShear, stage);
+  double *a, *b;
+
+  sam_call(VecGetArray(q, &a));
+  sam_call(VecGetArray(x, &b));
+  for (PetscInt k = 0; k < grid->cells; k++) a[k] = b[k];
+  sam_call(VecRestoreArray(x, &b));
+  sam_call(VecRestoreArray(q, &a));
+  sam_call(VecDestroy(&x));
+  return q;
+}
+
+/* Extrapolates from two stages of equal way in a^2 and c^2 to the third; returns the errors of p and q, relative. */
+static void PredictStages(const Stage stages[3], double errors[2])
+{
+  SamGrid   grid = NewGrid(61, 47, 2.4, 2.4);
+  Vec       p[3], q[3];
+  PetscBool found;
+
+  for (int k = 0; k < 3; k++) {
+    p[k] = NewFrom(grid, StagePressure, &stages[k]);
+    q[k] = NewShear(grid, &stages[k]);
+  }
+  errors[0] = Norm(p[2], NORM_2);
+  errors[1] = Norm(q[2], NORM_2);
+  sam_call(SamExtrapolate(grid, mu, 1, p[1], q[1], p[0], q[0], &found));
+  sam_assert(found);
+  errors[0] = Difference(p[1], p[2], NORM_2) / errors[0];
+  errors[1] = Difference(q[1], q[2], NORM_2) / errors[1];
+  for (int k = 0; k < 3; k++) {
+    sam_call(VecDestroy(&p[k]));
+    sam_call(VecDestroy(&q[k]));
+  }
+  sam_call(SamGridDestroy(&grid));
+}
+
+static void test_prediction_follows_the_edge_of_stick(void **state)
+{
+  const Stage stages[3] = {{1, 0.8}, {1, sqrt(0.54)}, {1, sqrt(0.44)}};
+  double      errors[2];
+
+  (void)state;
+  PredictStages(stages, errors);
+  /* both squares are linear in c^2: exact; extrapolating q itself would be wrong by 7 % */
+  sam_assert_close(errors[0], 0, 1e-14);
+  sam_assert_close(errors[1], 0, 1e-12);
+}
+
+static void test_prediction_follows_the_edge_of_contact(void **state)
+{
+  const Stage stages[3] = {{1, 0}, {sqrt(0.9), 0}, {sqrt(0.8), 0}};
+  double      errors[2];
+
+  (void)state;
+  PredictStages(stages, errors);
+  sam_assert_close(errors[0], 0, 1e-12);
+  sam_assert_close(errors[1], 0, 1e-12);
+}
+
+static void test_prediction_keeps_what_would_vanish(void **state)
+{
+  SamGrid   grid = NewGrid(8, 5, 1, 1);
+  Vec       p = NewField(grid, 1), q = NewField(grid, 2), p0 = Copy(p), q0 = Copy(q);
+  PetscBool found;
+
+  (void)state;
+  sam_call(VecSet(p, 1));
+  sam_call(VecSet(p0, 2));
+  sam_call(VecSet(q, 0.1));
+  sam_call(SamExtrapolate(grid, mu, 1, p, q, p0, q0, &found));
+  sam_assert(!found);
+  sam_assert(Norm(p, NORM_INFINITY) == 1 && Norm(p0, NORM_INFINITY) == 1 && Norm(q, NORM_INFINITY) == 0.1);
+  sam_call(VecDestroy(&p));
+  sam_call(VecDestroy(&q));
+  sam_call(VecDestroy(&p0));
+  sam_call(VecDestroy(&q0));
+  sam_call(SamGridDestroy(&grid));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -432,6 +537,9 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_check_finds_wrong_tangential_displacement),
     cmocka_unit_test(test_nan_does_not_pass_the_check),
     cmocka_unit_test(test_nan_is_no_equilibrium),
+    cmocka_unit_test(test_prediction_follows_the_edge_of_stick),
+    cmocka_unit_test(test_prediction_follows_the_edge_of_contact),
+    cmocka_unit_test(test_prediction_keeps_what_would_vanish),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -1,0 +1,294 @@
+/*
+  The transform of one precision: included with
+    Real     double or float
+    FFT(x)   fftw_x or fftwf_x
+    TRANSFORM, PART   the type SamTransform..., and its place in SamFourier
+    DATA     the block's array of that precision
+    DESTROY, APPLY    names of the two functions that others call
+  See fourier.c for the steps.
+*/
+#include "fourierimpl.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef Real Complex[2];
+
+/* Columns that are transformed together: two cache lines of each row are read and written at once. */
+#define BLOCK ((ptrdiff_t)(128 / sizeof(Complex)))
+
+static PetscErrorCode Allocate(size_t reals, Real **pointer)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFourierAllocate(sizeof(Real) * reals, pointer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFourierAllocate(sizeof(Complex) * count, pointer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Plans of one row, forward out of place into a row of a slab, backward from there. */
+static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
+{
+  TRANSFORM *t      = &F->PART;
+  const int  period = (int)(mode == SAM_FOURIER_PADDED ? 2 * F->hx : F->hx);
+
+  PetscFunctionBegin;
+  t->r2c[mode] = FFT(plan_dft_r2c_1d)(period, t->row, (FFT(complex) *)t->line, F->effort);
+  t->c2r[mode] = FFT(plan_dft_c2r_1d)(period, (FFT(complex) *)t->line, t->row, F->effort | FFTW_DESTROY_INPUT);
+  PetscCall(SamFourierCheckPlan(t->r2c[mode]));
+  PetscCall(SamFourierCheckPlan(t->c2r[mode]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Everything of one dimension. */
+static PetscErrorCode PlanLines(SamFourier F)
+{
+  TRANSFORM *t = &F->PART;
+
+  PetscFunctionBegin;
+  PetscCall(Allocate((size_t)(2 * F->hx + 2), &t->row));
+  PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->line));
+  PetscCall(PlanRows(F, SAM_FOURIER_PERIODIC));
+  PetscCall(PlanRows(F, SAM_FOURIER_PADDED));
+  PetscCall(AllocateComplex((size_t)F->grid->ny, &t->twiddle));
+  for (PetscInt j = 0; j < F->grid->ny; j++) {
+    t->twiddle[j][0] = (Real)cos(PETSC_PI * (double)j / (double)F->hy);
+    t->twiddle[j][1] = (Real)-sin(PETSC_PI * (double)j / (double)F->hy);
+  }
+  PetscCall(AllocateComplex((size_t)(BLOCK * F->stride), &t->staging));
+  PetscCall(AllocateComplex((size_t)F->stride, &t->twisted));
+  t->up   = FFT(plan_dft_1d)((int)F->hy, (FFT(complex) *)t->twisted, (FFT(complex) *)t->staging, FFTW_FORWARD, F->effort | FFTW_DESTROY_INPUT);
+  t->down = FFT(plan_dft_1d)((int)F->hy, (FFT(complex) *)t->twisted, (FFT(complex) *)t->staging, FFTW_BACKWARD, F->effort | FFTW_DESTROY_INPUT);
+  PetscCall(SamFourierCheckPlan(t->up));
+  PetscCall(SamFourierCheckPlan(t->down));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void DestroyTransposes(TRANSFORM *t)
+{
+  for (PetscInt m = 0; m < 2; m++) {
+    for (PetscInt k = 0; k < SAM_FOURIER_FIELDS; k++) {
+      if (t->forward[m][k]) FFT(destroy_plan)(t->forward[m][k]);
+      if (t->backward[m][k]) FFT(destroy_plan)(t->backward[m][k]);
+      t->forward[m][k] = t->backward[m][k] = NULL;
+    }
+  }
+}
+
+void DESTROY(SamFourier F)
+{
+  TRANSFORM *t = &F->PART;
+
+  if (!t->row) return;
+  DestroyTransposes(t);
+  for (PetscInt m = 0; m < 2; m++) {
+    FFT(destroy_plan)(t->r2c[m]);
+    FFT(destroy_plan)(t->c2r[m]);
+  }
+  FFT(destroy_plan)(t->up);
+  FFT(destroy_plan)(t->down);
+  free(t->buffer);
+  free(t->twiddle);
+  free(t->twisted);
+  free(t->staging);
+  free(t->row);
+  free(t->line);
+}
+
+/*
+  On several ranks each transpose goes out of place into the slab that the one before has left: forward runs through the
+  fields upwards, backward downwards.
+*/
+static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt fields)
+{
+  TRANSFORM      *t       = &F->PART;
+  const ptrdiff_t columns = F->columns[mode].n;
+  const unsigned  flags   = FFTW_ESTIMATE | FFTW_DESTROY_INPUT; /* measuring takes seconds and gains little here */
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < fields; k++) {
+    Real *by_row = (Real *)F->slab[k + 1], *by_column = (Real *)F->slab[k];
+
+    t->forward[mode][k]  = FFT(mpi_plan_many_transpose)(F->grid->ny, columns, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_row, by_column, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_OUT);
+    t->backward[mode][k] = FFT(mpi_plan_many_transpose)(columns, F->grid->ny, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_column, by_row, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_IN);
+    PetscCall(SamFourierCheckPlan(t->forward[mode][k]));
+    PetscCall(SamFourierCheckPlan(t->backward[mode][k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes room for that many fields. */
+static PetscErrorCode Reserve(SamFourier F, PetscInt fields)
+{
+  TRANSFORM *t = &F->PART;
+
+  PetscFunctionBegin;
+  if (fields <= t->fields) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!t->row) PetscCall(PlanLines(F));
+  PetscCall(SamFourierReserveSlabs(F, fields));
+  free(t->buffer);
+  PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
+  if (F->ranks > 1) {
+    DestroyTransposes(t);
+    PetscCall(PlanTransposes(F, SAM_FOURIER_PERIODIC, fields));
+    PetscCall(PlanTransposes(F, SAM_FOURIER_PADDED, fields));
+  }
+  t->fields = fields;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Rows of floats in a slab start anywhere; FFTW's plans for such arrays take several times as long. */
+static inline PetscBool IsAligned(Complex *line)
+{
+  return FFT(alignment_of)((Real *)line) == 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static void RowsForward(SamFourier F, SamFourierMode mode, const Real field[], Complex *slab)
+{
+  TRANSFORM        *t      = &F->PART;
+  const ptrdiff_t   n      = F->columns[mode].n;
+  const ptrdiff_t   period = mode == SAM_FOURIER_PADDED ? 2 * F->hx : F->hx;
+  const size_t      nx     = (size_t)F->grid->nx;
+
+  memset(t->row + nx, 0, sizeof(Real) * ((size_t)period - nx));
+  for (PetscInt j = 0; j < F->grid->rows; j++) {
+    memcpy(t->row, field + (size_t)j * nx, sizeof(Real) * nx);
+    if (IsAligned(slab + j * n)) FFT(execute_dft_r2c)(t->r2c[mode], t->row, (FFT(complex) *)(slab + j * n));
+    else {
+      FFT(execute_dft_r2c)(t->r2c[mode], t->row, (FFT(complex) *)t->line);
+      memcpy(slab + j * n, t->line, sizeof(Complex) * (size_t)n);
+    }
+  }
+}
+
+static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real field[])
+{
+  TRANSFORM      *t  = &F->PART;
+  const ptrdiff_t n  = F->columns[mode].n;
+  const size_t    nx = (size_t)F->grid->nx;
+
+  for (PetscInt j = 0; j < F->grid->rows; j++) {
+    Complex *line = slab + j * n;
+
+    if (!IsAligned(line)) line = memcpy(t->line, line, sizeof(Complex) * (size_t)n);
+    FFT(execute_dft_c2r)(t->c2r[mode], (FFT(complex) *)line, t->row);
+    memcpy(field + (size_t)j * nx, t->row, sizeof(Real) * nx);
+  }
+}
+
+/* to[j] = from[j] * exp(-i pi j/hy): the column whose transform has the odd frequencies. */
+SAM_VECTORIZED static void Twist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict from, Complex *restrict to)
+{
+  for (ptrdiff_t j = 0; j < n; j++) {
+    to[j][0] = from[j][0] * twiddle[j][0] - from[j][1] * twiddle[j][1];
+    to[j][1] = from[j][0] * twiddle[j][1] + from[j][1] * twiddle[j][0];
+  }
+}
+
+/* even[j] += odd[j] * exp(i pi j/hy). */
+SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict odd, Complex *restrict even)
+{
+  for (ptrdiff_t j = 0; j < n; j++) {
+    even[j][0] += odd[j][0] * twiddle[j][0] + odd[j][1] * twiddle[j][1];
+    even[j][1] += odd[j][1] * twiddle[j][0] - odd[j][0] * twiddle[j][1];
+  }
+}
+
+/* Columns of a slab into the buffer, where each is contiguous. */
+static void Gather(ptrdiff_t ny, ptrdiff_t row_length, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict slab, Complex *restrict buffer)
+{
+  for (ptrdiff_t j = 0; j < ny; j++)
+    for (ptrdiff_t b = 0; b < count; b++) memcpy(buffer[b * stride + j], slab[j * row_length + b], sizeof(*buffer));
+}
+
+static void Scatter(ptrdiff_t ny, ptrdiff_t row_length, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict buffer, Complex *restrict slab)
+{
+  for (ptrdiff_t j = 0; j < ny; j++)
+    for (ptrdiff_t b = 0; b < count; b++) memcpy(slab[j * row_length + b], buffer[b * stride + j], sizeof(*buffer));
+}
+
+/* Gathers columns, pads them and transforms them; then the way back. Out of place, which FFTW does faster. */
+static void ColumnsForward(SamFourier F, PetscInt phases, ptrdiff_t row_length, ptrdiff_t count, Complex *slab, Complex *buffer)
+{
+  TRANSFORM   *t  = &F->PART;
+  const size_t ny = (size_t)F->grid->ny, padding = sizeof(*buffer) * ((size_t)F->hy - ny);
+
+  Gather((ptrdiff_t)ny, row_length, count, F->stride, (const Complex *)slab, t->staging);
+  for (ptrdiff_t b = 0; b < count; b++) {
+    Complex *staged = t->staging + b * F->stride, *even = buffer + b * F->stride, *odd = even + BLOCK * F->stride;
+
+    memset(staged + ny, 0, padding);
+    FFT(execute_dft)(t->up, (FFT(complex) *)staged, (FFT(complex) *)even);
+    if (phases == 1) continue;
+    Twist((ptrdiff_t)ny, (const Complex *)t->twiddle, (const Complex *)staged, t->twisted);
+    memset(t->twisted + ny, 0, padding);
+    FFT(execute_dft)(t->up, (FFT(complex) *)t->twisted, (FFT(complex) *)odd);
+  }
+}
+
+static void ColumnsBackward(SamFourier F, PetscInt phases, ptrdiff_t row_length, ptrdiff_t count, Complex *buffer, Complex *slab)
+{
+  TRANSFORM *t = &F->PART;
+
+  for (ptrdiff_t b = 0; b < count; b++) {
+    Complex *staged = t->staging + b * F->stride, *even = buffer + b * F->stride, *odd = even + BLOCK * F->stride;
+
+    FFT(execute_dft)(t->down, (FFT(complex) *)even, (FFT(complex) *)staged);
+    if (phases == 1) continue;
+    FFT(execute_dft)(t->down, (FFT(complex) *)odd, (FFT(complex) *)t->twisted);
+    Untwist(F->grid->ny, (const Complex *)t->twiddle, (const Complex *)t->twisted, staged);
+  }
+  Scatter(F->grid->ny, row_length, count, F->stride, (const Complex *)t->staging, slab);
+}
+
+static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n_out, SamFourierFilter filter, const void *context)
+{
+  TRANSFORM        *t     = &F->PART;
+  const SamColumns *c     = &F->columns[mode];
+  SamFourierBlock   block = {.mode = mode, .phases = mode == SAM_FOURIER_PADDED ? 2 : 1, .hx = (PetscInt)F->hx, .hy = (PetscInt)F->hy, .width = BLOCK, .stride = F->stride};
+
+  for (PetscInt k = 0; k < t->fields; k++) block.DATA[k] = t->buffer + k * 2 * BLOCK * (ptrdiff_t)F->stride;
+  for (ptrdiff_t k = 0; k < c->count; k += BLOCK) {
+    const ptrdiff_t count = PetscMin(BLOCK, c->count - k);
+
+    for (PetscInt i = 0; i < n_in; i++) ColumnsForward(F, block.phases, c->count, count, (Complex *)F->slab[i] + k, block.DATA[i]);
+    block.first   = (PetscInt)(c->start + k);
+    block.local   = (PetscInt)k;
+    block.columns = (PetscInt)count;
+    filter(&block, context);
+    for (PetscInt o = 0; o < n_out; o++) ColumnsBackward(F, block.phases, c->count, count, block.DATA[o], (Complex *)F->slab[o] + k);
+  }
+}
+
+PetscErrorCode APPLY(SamFourier F, SamFourierMode mode, PetscInt n_in, const Real *const in[], PetscInt n_out, Real *const out[], SamFourierFilter filter, const void *context)
+{
+  TRANSFORM *t = &F->PART;
+
+  PetscFunctionBegin;
+  PetscCall(Reserve(F, PetscMax(n_in, n_out)));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
+  for (PetscInt i = 0; i < n_in; i++) RowsForward(F, mode, in[i], (Complex *)F->slab[SamFourierRowSlab(F, i)]);
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
+  if (F->ranks > 1) {
+    PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
+    for (PetscInt i = 0; i < n_in; i++) FFT(execute)(t->forward[mode][i]);
+    PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
+  }
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
+  Columns(F, mode, n_in, n_out, filter, context);
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
+  if (F->ranks > 1) {
+    PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
+    for (PetscInt o = n_out - 1; o >= 0; o--) FFT(execute)(t->backward[mode][o]);
+    PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
+  }
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
+  for (PetscInt o = 0; o < n_out; o++) RowsBackward(F, mode, (Complex *)F->slab[SamFourierRowSlab(F, o)], out[o]);
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
