@@ -1,0 +1,87 @@
+"""Where petsam-plot and petsam-study find Python's libraries and petsam, in the build tree as well as installed.
+
+Standard library only: it is imported before the libraries are known to be there.
+"""
+import importlib.util
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parent
+TREE = SCRIPTS.parent  # the repository, or prefix/share/petsam
+ENTERED = "PETSAM_ENTERED"
+
+
+class Missing(Exception):
+    """A program or a library that is not there; the message says what to do."""
+
+
+# ---------------------------------------------------------------- Python
+
+def _interpreter():
+    """The Python to use: $PYTHON, that of `make venv`, or this one."""
+    if os.environ.get("PYTHON"):
+        return shutil.which(os.environ["PYTHON"])
+    for venv in (TREE / "build" / "venv", TREE / "venv"):
+        if os.access(venv / "bin" / "python", os.X_OK):
+            return str(venv / "bin" / "python")
+    return None
+
+
+def enter(*libraries):
+    """Go on in the Python of _interpreter(); end with a message when it lacks one of the libraries."""
+    python = _interpreter()
+    # execv keeps the process: its number says that this one has been through here
+    if python and os.environ.get(ENTERED) != str(os.getpid()):
+        os.environ[ENTERED] = str(os.getpid())
+        sys.stdout.flush()
+        os.execv(python, [python, *sys.argv])
+    lacking = [name for name in libraries if importlib.util.find_spec(name) is None]
+    if lacking:
+        sys.exit("{}: error: {} has no {}: run `make venv`, or set PYTHON to one with {}".format(
+            os.path.basename(sys.argv[0]), sys.executable, ", ".join(lacking), SCRIPTS / "requirements.txt"))
+
+
+# ---------------------------------------------------------------- petsam
+
+def petsam():
+    """Path of the program: $PETSAM, build/bin, prefix/bin, or PATH."""
+    if os.environ.get("PETSAM"):
+        found = shutil.which(os.environ["PETSAM"])
+        if not found:
+            raise Missing("no program {}, which PETSAM names".format(os.environ["PETSAM"]))
+        return os.path.abspath(found)
+    for folder in (TREE / "build" / "bin", TREE.parents[1] / "bin"):
+        if os.access(folder / "petsam", os.X_OK):
+            return str(folder / "petsam")
+    found = shutil.which("petsam")
+    if not found:
+        raise Missing("no program petsam in build/bin or on PATH: run make, or set PETSAM")
+    return found
+
+
+def launcher(words=None):
+    """The MPI launcher's words, to which `-n RANKS PROGRAM` is added: words, $MPIRUN, or mpirun."""
+    command = shlex.split(words or os.environ.get("MPIRUN") or "mpirun")
+    if not command or not shutil.which(command[0]):
+        raise Missing("no MPI launcher {}: set MPIRUN".format(command[0] if command else words))
+    try:
+        version = subprocess.run(command + ["--version"], capture_output=True, text=True, check=False, timeout=60).stdout
+    except (OSError, subprocess.TimeoutExpired):
+        version = ""
+    if "Open MPI" in version or "OpenRTE" in version:
+        # several runs side by side would otherwise all be bound to the first cores
+        command += ["--bind-to", "none", "--oversubscribe"]
+    return command
+
+
+def run_environment():
+    """The environment of a run: one thread a rank, and Open MPI's consent to the superuser, whom a container has."""
+    variables = dict(os.environ)
+    variables.setdefault("OMP_NUM_THREADS", "1")
+    if os.geteuid() == 0:
+        variables.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return variables

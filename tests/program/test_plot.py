@@ -1,0 +1,208 @@
+"""petsam-plot: each picture from true results, its steps, files and messages."""
+import os
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from support import ROOT, ball, slide_limit
+
+import pictures
+from results import Results
+
+PROGRAM = ROOT / "scripts" / "petsam-plot"
+CASE = ball(n=48)
+AMPLITUDE = 0.7 * slide_limit(CASE)[0]
+
+
+@pytest.fixture(scope="module")
+def strokes(solve, tmp_path_factory):
+    """To the amplitude, back and forth, in four increments each; fields of every second step."""
+    table = tmp_path_factory.mktemp("history") / "strokes.csv"
+    table.write_text("time,load_tx\n0,0\n1,{0!r}\n2,-{0!r}\n3,{0!r}\n".format(float(AMPLITUDE)))
+    return solve(CASE, dict(history=table, steps=4, output_every=2)).path
+
+
+@pytest.fixture(scope="module")
+def single(solve):
+    """One load step, on another grid than the strokes'."""
+    return solve(dict(CASE, grid_n=(40, 56), load_tx=0.5 * AMPLITUDE)).path
+
+
+@pytest.fixture
+def plot(tmp_path):
+    """petsam-plot in tmp_path: the completed process."""
+    def run(*words, check=0):
+        done = subprocess.run([sys.executable, str(PROGRAM), *map(str, words)], cwd=tmp_path, capture_output=True,
+                              text=True, timeout=120, env=dict(os.environ, PYTHON=sys.executable))
+        assert done.returncode == check, done.stderr
+        return done
+    return run
+
+
+def pixels(path):
+    """Width and height of a PNG whose every quarter has been drawn on."""
+    import matplotlib.image
+    image = matplotlib.image.imread(path)[:, :, :3]
+    height, width = image.shape[:2]
+    for rows in (slice(0, height // 2), slice(height // 2, height)):
+        for columns in (slice(0, width // 2), slice(width // 2, width)):
+            assert np.ptp(image[rows, columns]) > 0.5
+    return width, height
+
+
+def lines(axes):
+    """(x, y) of the curves with more than a point."""
+    return [line.get_data() for line in axes.lines if len(np.atleast_1d(line.get_xdata())) > 1]
+
+
+# ---------------------------------------------------------------- the program
+
+def test_a_history_gives_all_four_pictures(plot, strokes, tmp_path):
+    plot(strokes)
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["results_{}.png".format(kind) for kind in ("history", "loop", "maps", "profiles")]
+    for name in names:
+        assert min(pixels(tmp_path / name)) > 300
+
+
+def test_a_single_step_gives_no_loop(plot, single, tmp_path):
+    plot(single, "-o", "one")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["one_maps.png", "one_profiles.png"]
+
+
+@pytest.mark.parametrize("kind", ["maps", "profiles", "loop", "history"])
+def test_pdf_by_the_end_of_the_name(plot, strokes, tmp_path, kind):
+    plot("--" + kind, strokes, "-o", "picture.pdf")
+    assert (tmp_path / "picture.pdf").read_bytes().startswith(b"%PDF")
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_several_files_of_different_grids_are_compared(plot, strokes, single, tmp_path):
+    plot("--maps", strokes, single, "--labels", "strokes,single", "-o", "two.png")
+    plot("--maps", strokes, "-o", "one.png")
+    assert pixels(tmp_path / "two.png")[1] > 1.5 * pixels(tmp_path / "one.png")[1]
+
+
+@pytest.mark.parametrize("words, message", [
+    (["--step", "99"], "--step 99: there are 16 steps"),
+    (["--step", "7"], "--step 7: its fields were not saved"),
+    (["--time", "8"], "--time 8: fields were saved from"),
+    (["--names", "load_q"], "--names load_q: has no such dataset"),
+    (["--profiles", "--at", "1,1"], "--at 1,1: is not on the grid"),
+    (["--maps", "-o", "nowhere/picture.png"], "nowhere/picture.png"),
+])
+def test_what_the_file_has_not_is_named(plot, strokes, words, message):
+    errors = plot(strokes, *words, check=3).stderr.splitlines()
+    assert len(errors) == 1 and errors[0].startswith("petsam-plot: error: ") and message in errors[0]
+
+
+def test_a_file_that_is_no_results_file_is_named(plot, tmp_path):
+    (tmp_path / "text.h5").write_text("no HDF5")
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["x"] = [1.0]
+    for name, reason in (("absent.h5", "no such file"), ("text.h5", "not an HDF5 file"), ("other.h5", "not a results file")):
+        assert "{}: ".format(name) in (error := plot(name, check=3).stderr) and reason in error
+
+
+def test_bad_usage_is_exit_code_2(plot, single):
+    assert "--labels" in plot(single, "--labels", "a,b", check=2).stderr
+    assert "--step" in plot(single, "--step", "two", check=2).stderr
+    assert "not allowed with" in plot(single, "--step", "1", "--time", "1", check=2).stderr
+
+
+# ---------------------------------------------------------------- what is drawn
+
+def test_maps_show_the_fields_of_the_step_in_the_units_of_the_labels(strokes):
+    results = Results(str(strokes))
+    figure = pictures.maps([(results, results.of_step(8))], whole=True)
+    with h5py.File(strokes, "r") as file:
+        k = list(file["time"]).index(file["history/time"][7])
+        q = np.hypot(file["shear_x"][k], file["shear_y"][k])
+    image, bar = figure.axes[1].images[0], figure.axes[5]
+    assert bar.get_ylabel() == "$|q|$, MPa"
+    assert np.array_equal(image.get_array(), 1e-6 * q)
+    # the contact is about 0.3 mm wide
+    assert figure.axes[1].get_xlabel() in ("$x$, mm", "$x$, µm")
+    width = CASE["grid_size"] * (1e3 if "mm" in figure.axes[1].get_xlabel() else 1e6)
+    assert np.isclose(image.get_extent()[1] - image.get_extent()[0], width, rtol=1e-9)
+
+
+def test_maps_are_of_the_contact_unless_the_whole_grid_is_asked_for(strokes):
+    results = Results(str(strokes))
+    rows, columns = results.contact_window(0, margin=0.0)
+    state = results.field("state", 0)
+    inside = np.zeros_like(state)
+    inside[rows, columns] = 1
+    assert np.all(inside[state > 0]) and inside.sum() < 0.6 * inside.size
+
+
+def test_windows_and_strides_are_those_of_the_field(strokes, monkeypatch):
+    monkeypatch.setattr("results.BLOCK", 3)
+    results = Results(str(strokes))
+    with h5py.File(strokes, "r") as file:
+        expected = file["pressure"][1][5:41:2, 3:30:2]
+    assert np.array_equal(results.field("pressure", 1, slice(5, 41), slice(3, 30), 2), expected)
+
+
+def test_profiles_go_through_the_point(single):
+    results = Results(str(single))
+    at = (2.2 * (results.x[1] - results.x[0]), -3.4 * (results.y[1] - results.y[0]))
+    panels = pictures.profiles([(results, 0)], at, whole=True).axes
+    with h5py.File(single, "r") as file:
+        p, row = 1e-6 * file["pressure"][0], np.argmin(np.abs(results.y - at[1]))
+        column = np.argmin(np.abs(results.x - at[0]))
+    assert panels[0].get_ylabel() == "$p$, MPa"
+    assert np.allclose(lines(panels[0])[0][1], p[row], rtol=1e-14)
+    assert np.allclose(lines(panels[1])[0][1], p[:, column], rtol=1e-14)
+
+
+def test_shear_profile_is_drawn_between_its_bounds(single):
+    results = Results(str(single))
+    curves = lines(pictures.profiles([(results, 0)], whole=True).axes[2])
+    upper, lower, qx = (y for _, y in curves[:3])
+    assert np.all(qx <= upper * (1 + 1e-9)) and np.all(qx >= lower * (1 + 1e-9)) and qx.max() > 0.3 * upper.max()
+
+
+def test_loop_is_force_over_displacement_of_every_step(strokes):
+    results = Results(str(strokes))
+    axes = pictures.loop([results]).axes[0]
+    (x, y), history = lines(axes)[0], results.history
+    assert axes.get_ylabel() == "$T_x$, N" and axes.get_xlabel().startswith("$d_x$, ")
+    factor = {"µm": 1e6, "nm": 1e9}[axes.get_xlabel().split()[-1]]
+    assert np.allclose(x, factor * history["disp_x"]) and np.allclose(y, history["load_tx"])
+    text = axes.get_legend().get_texts()[0].get_text()
+    assert "{:.4g}".format(1e9 * history["dissipated_energy"].sum()) in text or "{:.4g}".format(
+        1e6 * history["dissipated_energy"].sum()) in text
+
+
+def test_loop_is_that_of_the_load_which_works(solve, tmp_path):
+    table = tmp_path / "turns.csv"
+    table.write_text("time,load_mz\n0,0\n1,{0!r}\n2,-{0!r}\n".format(float(0.5 * slide_limit(CASE)[1])))
+    results = Results(str(solve(dict(CASE, grid_n=32), dict(history=table)).path))
+    assert pictures.busiest(results) == "mz"
+
+
+def test_history_leaves_out_what_is_zero_but_for_rounding(strokes):
+    labels = [axes.get_ylabel().split(",")[0] for axes in pictures.history([Results(str(strokes))]).axes]
+    assert "$T_x$" in labels and "$d_x$" in labels and "stick area" in labels
+    assert not {"$M_x$", "$M_z$", "$r_z$", "$T_y$"} & set(labels)
+
+
+def test_history_sums_the_energy(strokes):
+    results = Results(str(strokes))
+    axes = pictures.history([results], ["dissipated_energy"]).axes[0]
+    assert np.isclose(lines(axes)[0][1][-1] * (1e-9 if "nJ" in axes.get_ylabel() else 1e-6),
+                      results.history["dissipated_energy"].sum(), rtol=1e-12)
+
+
+@pytest.mark.parametrize("unit, value, factor, text", [
+    ("Pa", 636e6, 1e-6, "MPa"), ("Pa", 2e9, 1e-9, "GPa"), ("m", 0.9e-3, 1e6, "µm"), ("m", 3.0, 1.0, "m"),
+    ("m", 5e3, 1.0, "m"), ("m2", 2.3e-6, 1e6, "mm²"), ("N m", 0.05, 1e3, "mN m"), ("rad", 2e-9, 1e9, "nrad"),
+    ("J", 1e-12, 1e9, "nJ"), ("1", 1e-9, 1.0, ""), ("s", 1e-3, 1.0, "s"), ("N", 0.0, 1.0, "N"),
+])
+def test_prefix_suits_the_largest_value(unit, value, factor, text):
+    got = pictures.scale(unit, value)
+    assert np.isclose(got[0], factor, rtol=1e-12) and got[1] == text
