@@ -1,0 +1,302 @@
+"""The cases of a study, from its table: a CSV file with a row a case, or a small YAML file of combinations.
+
+CSV: the first line names options of petsam (with or without their dash), each further row is a case; an empty cell
+leaves the option out, `#` starts a comment. A column `ranks` gives a case's MPI ranks, a column `case` its name.
+
+YAML: `options` maps options of petsam to a value or to a list; every combination of the lists is a case. `parameters`
+is the same for names that are no options, `files` maps names of files that every case gets in its own folder to their
+text, `ranks` is the number of MPI ranks. Anywhere a text may hold {expressions} of parameters and options.
+
+Options that name files are meant relative to the table.
+"""
+import ast
+import csv
+import hashlib
+import itertools
+import math
+import operator
+import os
+import re
+from typing import NamedTuple
+
+import yaml
+
+PATHS = ("options_file", "history", "gap_file", "gap_rough_file")
+HASHED = ("options_file", "history")  # small texts; of the others size and time tell whether they have changed
+TAKEN = {"output": "petsam-study names the results", "checkpoint": "see --checkpoint", "restart": "see --checkpoint",
+         "checkpoint_every": "see --checkpoint"}
+FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log", "pi")}
+FUNCTIONS.update(abs=abs, min=min, max=max)
+OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+             ast.Pow: operator.pow, ast.USub: operator.neg, ast.UAdd: operator.pos}
+
+
+class TableError(Exception):
+    """A table that cannot be understood; the message names the file, and the line or the key."""
+
+
+class Case(NamedTuple):
+    """One run: number (from 1), name, inputs (name: text; what the table varies, or its columns), options (name: text or
+    None), files (name: text), MPI ranks."""
+
+    number: int
+    name: str
+    inputs: dict
+    options: dict
+    files: dict
+    ranks: int
+
+    def words(self):
+        """The command line of petsam but for the results' name."""
+        return [word for name, value in self.options.items()
+                for word in (["-" + name] if value is None else ["-" + name, value])]
+
+    def identity(self):
+        """Digest of all that determines the results: options, and the contents of the files they name."""
+        parts = []
+        for name, value in self.options.items():
+            if name in PATHS and value in self.files:
+                value = self.files[value]
+            elif name in PATHS and value:
+                value = _content(value) if name in HASHED else _stamp(value)
+            parts.append((name, value))
+        return hashlib.sha256(repr(parts).encode()).hexdigest()
+
+
+def _content(path):
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            return file.read()
+    except OSError:
+        return ""  # petsam will say so
+
+
+def _stamp(path):
+    try:
+        status = os.stat(path)
+        return "{} {} {}".format(path, status.st_size, status.st_mtime_ns)
+    except OSError:
+        return ""
+
+
+# ---------------------------------------------------------------- expressions
+
+def _number(node, lookup):
+    """Value of an arithmetic expression's syntax tree."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
+        return node.value
+    if isinstance(node, ast.Name):
+        return FUNCTIONS[node.id] if node.id == "pi" else lookup(node.id)
+    if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
+        return OPERATORS[type(node.op)](_number(node.left, lookup), _number(node.right, lookup))
+    if isinstance(node, ast.UnaryOp) and type(node.op) in OPERATORS:
+        return OPERATORS[type(node.op)](_number(node.operand, lookup))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FUNCTIONS and not node.keywords:
+        return FUNCTIONS[node.func.id](*[_number(argument, lookup) for argument in node.args])
+    raise ValueError("only numbers, names, + - * / **, and {} are understood".format(", ".join(sorted(FUNCTIONS))))
+
+
+class Expander:
+    """Replaces {expressions} by values of names, which may hold expressions themselves."""
+
+    def __init__(self, values):
+        self.values, self.open = values, []
+
+    def text(self, name):
+        """Value of a name, expanded."""
+        if name not in self.values:
+            raise ValueError("there is no parameter or option {}".format(name))
+        if name in self.open:
+            raise ValueError("{} refers to itself".format(name))
+        self.open.append(name)
+        try:
+            return self.expand(self.values[name])
+        finally:
+            self.open.pop()
+
+    def _lookup(self, name):
+        text = self.text(name)
+        try:
+            return float(text)
+        except (TypeError, ValueError):
+            raise ValueError("{} = {} is no number".format(name, text)) from None
+
+    def _value(self, match):
+        expression = match.group(1).strip()
+        if expression in self.values:
+            return self.text(expression)
+        try:
+            value = _number(ast.parse(expression, mode="eval").body, self._lookup)
+        except (SyntaxError, ArithmeticError, TypeError) as error:
+            raise ValueError(getattr(error, "msg", None) or str(error)) from error
+        return "{:.15g}".format(value)
+
+    def expand(self, text):
+        """The text with its expressions replaced; None stays."""
+        try:
+            return None if text is None else re.sub(r"\{([^{}]*)\}", self._value, text)
+        except ValueError as error:
+            raise ValueError("{}: {}".format(text.strip().splitlines()[0], error) if "{" not in str(error)
+                             else str(error)) from error
+
+
+# ---------------------------------------------------------------- reading
+
+def _plain(name):
+    return name.strip().lstrip("-")
+
+
+def _text(value):
+    """A scalar of YAML as petsam takes it; None for an option without a value."""
+    if value is None:
+        return None
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def _read_csv(path):
+    """Rows as (inputs, ranks, name)."""
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        # blank lines and comments go, but lines are counted
+        lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.lstrip().startswith("#")]
+    rows = [(number, [cell.strip() for cell in row])
+            for (number, _), row in zip(lines, csv.reader((line for _, line in lines), skipinitialspace=True))]
+    if len(rows) < 2:
+        raise TableError("{}: expected a line of option names and at least one case".format(path))
+    names = [_plain(name) for name in rows[0][1]]
+    for name in names:
+        if not re.fullmatch(r"[A-Za-z]\w*", name) or names.count(name) > 1:
+            raise TableError("{}, line {}: column {}: {}".format(
+                path, rows[0][0], name or "''", "is no option's name" if names.count(name) == 1 else "appears twice"))
+    for number, row in rows[1:]:
+        if len(row) != len(names):
+            raise TableError("{}, line {}: {} values for {} columns".format(path, number, len(row), len(names)))
+        values = {name: value for name, value in zip(names, row) if value}
+        yield "line {}".format(number), values, values.pop("ranks", None), values.pop("case", None)
+
+
+def _choices(path, key, mapping):
+    """Name: list of texts, of a section of the YAML file."""
+    if not isinstance(mapping, dict):
+        raise TableError("{}: {}: expected names and values".format(path, key))
+    choices = {}
+    for name, value in mapping.items():
+        values = value if isinstance(value, list) else [value]
+        if not values or any(isinstance(one, (list, dict)) for one in values):
+            raise TableError("{}: {}: {}: expected a value or a list of values".format(path, key, name))
+        choices[_plain(str(name))] = [_text(one) for one in values]
+    return choices
+
+
+def _read_yaml(path):
+    """The sections of the YAML file: parameters and options as choices, files as texts, ranks as text."""
+    with open(path, encoding="utf-8") as file:
+        try:
+            table = yaml.safe_load(file)
+        except yaml.YAMLError as error:
+            mark = getattr(error, "problem_mark", None)
+            raise TableError("{}{}: {}".format(path, ", line {}".format(mark.line + 1) if mark else "",
+                                               getattr(error, "problem", None) or error)) from error
+    if not isinstance(table, dict) or "options" not in table:
+        raise TableError("{}: expected a section `options`".format(path))
+    for key in table:
+        if key not in ("options", "parameters", "files", "ranks"):
+            raise TableError("{}: {}: unknown; known are options, parameters, files and ranks".format(path, key))
+    files = table.get("files") or {}
+    if not isinstance(files, dict) or not all(isinstance(text, str) and os.path.basename(name) == name
+                                              for name, text in files.items()):
+        raise TableError("{}: files: expected names without folders, and texts".format(path))
+    return (_choices(path, "parameters", table.get("parameters") or {}), _choices(path, "options", table["options"]),
+            files, _text(table.get("ranks")))
+
+
+# ---------------------------------------------------------------- cases
+
+def _name(inputs):
+    """A folder's name for what differs, which does not change when cases are added."""
+    text = "_".join("{}={}".format(name, os.path.basename(value or "")) for name, value in inputs.items()) or "case"
+    text = re.sub(r"[^A-Za-z0-9.,=+_-]", "-", text)
+    if len(text) > 100:
+        text = text[:90] + "-" + hashlib.sha256(repr(sorted(inputs.items())).encode()).hexdigest()[:8]
+    return text
+
+
+def _ranks(text, where):
+    try:
+        ranks = int(float(text))
+    except ValueError:
+        ranks = 0
+    if ranks < 1:
+        raise TableError("{}: ranks {}: expected a number from 1".format(where, text))
+    return ranks
+
+
+def _located(options, files, folder):
+    """Options with their files' absolute paths; those that the case gets in its own folder stay."""
+    return {name: os.path.normpath(os.path.join(folder, value)) if name in PATHS and value and value not in files
+            else value for name, value in options.items()}
+
+
+def common_options(words):
+    """Options given on the command line for all cases; their files are meant relative to the present folder."""
+    options, name = {}, None
+    for word in words:
+        if re.match(r"-[A-Za-z]", word):
+            name = word[1:]
+            options[name] = None
+        elif name is None or options[name] is not None:
+            raise TableError("{}: expected an option, that is a word that begins with a dash".format(word))
+        else:
+            options[name] = word
+    return _located(options, {}, os.getcwd())
+
+
+def _csv_cases(path, _common):
+    """(where, inputs, options, files, ranks, name) of each row; what differs makes the name."""
+    rows = list(_read_csv(path))
+    varied = [name for name in dict.fromkeys(name for _, values, _, _ in rows for name in values)
+              if len({values.get(name) for _, values, _, _ in rows}) > 1]
+    for where, values, ranks, name in rows:
+        yield where, values, values, {}, ranks, name or _name({key: values[key] for key in varied if key in values})
+
+
+def _yaml_cases(path, common):
+    """The same of each combination; what is common to all counts in expressions, too."""
+    parameters, options, files, ranks = _read_yaml(path)
+    options.update({name: [value] for name, value in common.items() if name in options})
+    double = set(parameters) & set(options)
+    if double:
+        raise TableError("{}: {}: is both a parameter and an option".format(path, sorted(double)[0]))
+    choices = {**parameters, **options}
+    varied = [name for name, values in choices.items() if len(values) > 1]
+    for combination in itertools.product(*choices.values()):
+        values = dict(zip(choices, combination))
+        expander, where = Expander(values), ", ".join("{} = {}".format(name, values[name]) for name in varied)
+        try:
+            expanded = {name: expander.text(name) for name in values}
+            texts = {name: expander.expand(text) for name, text in files.items()}
+            count = expanded.get("ranks") or expander.expand(ranks)
+        except ValueError as error:
+            raise TableError("{}: {}".format(path, error)) from error
+        inputs = {name: expanded[name] for name in varied}
+        yield where, inputs, {name: expanded[name] for name in options}, texts, count, _name(inputs)
+
+
+def read(path, common=None, ranks=1):
+    """The cases of a table, with options common to all (which override the table's) and the ranks of those without."""
+    kind = _yaml_cases if path.endswith((".yaml", ".yml")) else _csv_cases
+    folder, common, cases, seen = os.path.dirname(os.path.abspath(path)), common or {}, [], {}
+    for where, inputs, options, files, count, name in kind(path, common):
+        where = "{}, {}".format(path, where) if where else path
+        for option in {**options, **common}:
+            if option in TAKEN:
+                raise TableError("{}: -{}: {}".format(where, option, TAKEN[option]))
+        if not re.fullmatch(r"[A-Za-z0-9.,=+_-]+", name) or not name.strip("."):
+            raise TableError("{}: case {}: expected letters, digits and .,=+_-".format(where, name))
+        if name in seen:
+            raise TableError("{}: the same name, {}, as {}; a column `case` tells them apart".format(where, name, seen[name]))
+        seen[name] = where
+        cases.append(Case(len(cases) + 1, name, inputs, {**_located(options, files, folder), **common}, files,
+                          _ranks(count, where) if count else ranks))
+    return cases

@@ -1,0 +1,226 @@
+"""Running of a study's cases: each in its own folder, side by side within a number of cores, again where it ended.
+
+A case's folder holds petsam.log (all that the run printed), results.h5, the files of the table, and record.json: the
+identity of its inputs, its exit code (none until it has ended), seconds and message. A case is finished when its record
+has this identity and exit code 0. A lock, which the run inherits, keeps two studies from running one case at once.
+"""
+import contextlib
+import errno
+import fcntl
+import json
+import os
+import signal
+import subprocess
+import time
+
+import environment
+
+LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
+STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
+MEANINGS = {2: "bad usage", 3: "a file", 10: "not converged", 11: "no equilibrium", 12: "contact at the grid's edge",
+            STOPPED: "stopped early, to be run again"}
+PATIENCE = 10.0  # seconds that runs get to end when asked to
+GRACE = float(os.environ.get("GRACE", 90.0))  # seconds that they get to write a checkpoint and stop
+PAUSE = 0.05  # seconds between looks at the runs
+
+
+class Busy(Exception):
+    """Another study runs this case."""
+
+
+# ---------------------------------------------------------------- records
+
+def write_atomically(path, text):
+    """The file holds either what it held before or all of the text."""
+    beside = path + ".tmp"
+    with open(beside, "w", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(beside, path)
+
+
+def record(directory, case):
+    """The case's record if it is of these inputs, else an empty one."""
+    try:
+        with open(os.path.join(directory, case.name, RECORD), encoding="utf-8") as file:
+            known = json.load(file)
+    except (OSError, ValueError):
+        return {}
+    return known if isinstance(known, dict) and known.get("identity") == case.identity() else {}
+
+
+def finished(directory, case):
+    """Whether the case need not run again."""
+    return record(directory, case).get("exit_code") == 0
+
+
+def _message(log, code):
+    """The run's own words on how it ended: petsam's first complaint, else the last line."""
+    try:
+        with open(log, encoding="utf-8", errors="replace") as file:
+            lines = [line.strip() for line in file if line.strip()]
+    except OSError:
+        lines = []
+    own = [line[len("petsam: "):] for line in lines if line.startswith("petsam: ") and "warning: " not in line]
+    if own:
+        return own[0]
+    if code < 0 or code > 128:
+        number = -code if code < 0 else code - 128
+        return "ended by signal {}".format(number)
+    return lines[-1] if lines and code else ""
+
+
+# ---------------------------------------------------------------- one case
+
+class Run:
+    """A case that is running."""
+
+    def __init__(self, case, directory, command, checkpoint_every=None):
+        """Make the folder ready and start `command -n RANKS petsam ...` in it."""
+        self.case, self.folder = case, os.path.join(directory, case.name)
+        os.makedirs(self.folder, exist_ok=True)
+        self.lock = self._lock()
+        goes_on = self._goes_on(directory, checkpoint_every)
+        for name, text in case.files.items():
+            write_atomically(os.path.join(self.folder, name), text)
+        self.start, self.told = time.monotonic(), None
+        self.before = record(directory, case).get("seconds", 0.0) if goes_on else 0.0
+        self._note(None, "")
+        words = [*command(case.ranks), *case.words(), "-output", RESULTS, *self._checkpointing(checkpoint_every, goes_on)]
+        with open(os.path.join(self.folder, LOG), "a" if goes_on else "w", encoding="utf-8") as log:
+            # its own session: the terminal's Ctrl-C reaches the study alone, which then ends the runs in order
+            self.process = subprocess.Popen(words, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=log,
+                                            stderr=subprocess.STDOUT, env=environment.run_environment(),
+                                            start_new_session=True, pass_fds=(self.lock,))
+
+    def _lock(self):
+        lock = os.open(os.path.join(self.folder, "lock"), os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            # a file system without locks is no reason not to run
+            if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
+                os.close(lock)
+                raise Busy() from error
+        return lock
+
+    def _goes_on(self, directory, checkpoint_every):
+        """Whether an earlier run of these inputs left a checkpoint; the remains of others are removed."""
+        if checkpoint_every and record(directory, self.case) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
+            return True
+        for name in os.listdir(self.folder):
+            if name in (RESULTS, RECORD, LOG) or name.startswith(os.path.splitext(CHECKPOINT)[0]):
+                os.remove(os.path.join(self.folder, name))
+        return False
+
+    @staticmethod
+    def _checkpointing(every, goes_on):
+        words = ["-checkpoint", CHECKPOINT, "-checkpoint_every", str(every)] if every else []
+        return words + (["-restart", CHECKPOINT] if goes_on else [])
+
+    def _note(self, code, message):
+        seconds = self.before + time.monotonic() - self.start
+        write_atomically(os.path.join(self.folder, RECORD), json.dumps(
+            {"identity": self.case.identity(), "inputs": self.case.inputs, "ranks": self.case.ranks, "exit_code": code,
+             "seconds": round(seconds, 3), "message": message}, indent=2) + "\n")
+
+    def ended(self):
+        """Exit code when the run has ended by itself, which is then on record; else None."""
+        code = self.process.poll()
+        if self.told and code is None and time.monotonic() > self.told + GRACE:
+            self.signal(signal.SIGTERM)
+        if code is not None:
+            if self.told and code not in (0, *MEANINGS) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
+                code = STOPPED  # it was in a long step, and has an earlier checkpoint
+            message = _message(os.path.join(self.folder, LOG), code)
+            self._note(code, message)
+            os.close(self.lock)
+        return code
+
+    def tell(self):
+        """Ask for a checkpoint and an early end; it does not get to go on for long."""
+        self.told = time.monotonic()
+        self.signal(signal.SIGUSR1)
+
+    def signal(self, number):
+        """Send a signal to the launcher, which passes it on."""
+        with contextlib.suppress(ProcessLookupError):
+            self.process.send_signal(number)
+
+    def kill(self):
+        """End the launcher and all that it has started, unless it has ended."""
+        if self.process.poll() is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait()
+
+
+# ---------------------------------------------------------------- all cases
+
+class Study:
+    """Runs cases side by side within cores; report(case, exit code or None when busy) is called as they end."""
+
+    def __init__(self, directory, command, cores, report, tick, checkpoint_every=None):
+        """tick(number of running cases, number of waiting cases) is called now and then."""
+        self.directory, self.command, self.cores = directory, command, cores
+        self.report, self.tick, self.checkpoint_every = report, tick, checkpoint_every
+        self.running, self.interrupted, self.stop = [], 0, False
+
+    def _catch(self, number, _frame):
+        if number == signal.SIGUSR1:  # Slurm's notice of the end: the runs write their checkpoints and stop
+            self.stop = True
+            for run in self.running if self.checkpoint_every else ():
+                run.tell()
+        else:
+            self.interrupted, self.stop = self.interrupted or number, True
+
+    def run(self, cases):
+        """Run all; the number of the signal that ended it early, or 0."""
+        caught = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
+        before = {number: signal.signal(number, self._catch) for number in caught}
+        try:
+            self._loop(list(cases))
+        finally:
+            self._end()
+            for number, handler in before.items():
+                signal.signal(number, handler)
+        return self.interrupted
+
+    def _loop(self, waiting):
+        while (self.running or (waiting and not self.stop)) and not self.interrupted:
+            self._look()
+            while waiting and not self.stop:
+                free = self.cores - sum(run.case.ranks for run in self.running)
+                case = next((case for case in waiting if case.ranks <= free), None)
+                if case is None:
+                    break
+                waiting.remove(case)
+                self._start(case)
+            self.tick(len(self.running), len(waiting))
+            time.sleep(PAUSE)
+
+    def _start(self, case):
+        try:
+            self.running.append(Run(case, self.directory, self.command, self.checkpoint_every))
+        except Busy:
+            self.report(case, None)
+
+    def _look(self):
+        for run in list(self.running):
+            code = run.ended()
+            if code is not None:
+                self.running.remove(run)
+                self.report(run.case, code)
+
+    def _end(self):
+        """Ask what still runs to end, and make it; their records say that they have not ended by themselves."""
+        for run in self.running:
+            run.signal(signal.SIGTERM)
+        until = time.monotonic() + PATIENCE
+        for run in self.running:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                run.process.wait(max(0.0, until - time.monotonic()))
+            run.kill()
+            os.close(run.lock)
+        self.running = []

@@ -1,0 +1,67 @@
+"""A study as Slurm jobs: an array of scripts/slurm/array.sbatch for each number of ranks, and a job that collects."""
+import os
+import shlex
+import shutil
+import subprocess
+
+import environment
+
+SCRIPT = environment.SCRIPTS / "slurm" / "array.sbatch"
+STUDY = environment.SCRIPTS / "petsam-study"
+
+
+class SubmitError(Exception):
+    """sbatch is missing or refuses; the message is its own."""
+
+
+def ranges(numbers):
+    """Sorted numbers as sbatch's --array takes them: 1-3,7."""
+    parts = []
+    for number in numbers:
+        if parts and number == parts[-1][1] + 1:
+            parts[-1][1] = number
+        else:
+            parts.append([number, number])
+    return ",".join(str(low) if low == high else "{}-{}".format(low, high) for low, high in parts)
+
+
+def _sbatch(words):
+    """Submit; the job's number."""
+    if not shutil.which("sbatch"):
+        raise SubmitError("--slurm: no sbatch on PATH")
+    done = subprocess.run(["sbatch", "--parsable", *words], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise SubmitError("sbatch: {}".format(" ".join((done.stderr or done.stdout).split()) or "exit code {}".format(
+            done.returncode)))
+    return done.stdout.strip().split(";")[0]  # number;cluster
+
+
+def _study_words(options):
+    """petsam-study's arguments as each job gets them."""
+    words = [os.path.abspath(options.table), "--directory", options.directory, "--ranks", str(options.ranks)]
+    if options.checkpoint:
+        words += ["--checkpoint", str(options.checkpoint)]
+    return words
+
+
+def submit(options, cases, waiting):
+    """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables when all have ended."""
+    words, extra = _study_words(options), shlex.split(options.sbatch)
+    common = (["--", *options.words] if options.words else [])
+    log = "--output=" + os.path.join(options.directory, "slurm-%A_%a.out")
+    jobs = []
+    for ranks in sorted({case.ranks for case in waiting}):
+        numbers = [case.number for case in waiting if case.ranks == ranks]
+        limit = "%{}".format(max(1, options.cores // ranks)) if options.cores else ""
+        job = _sbatch(["--array=" + ranges(numbers) + limit, "--ntasks={}".format(ranks), "--chdir=" + os.getcwd(), log,
+                       "--export=ALL,PETSAM_STUDY={}".format(STUDY), *extra, str(SCRIPT), *words, *common])
+        print("job {}: {} cases of {} rank{}".format(job, len(numbers), ranks, "s" if ranks > 1 else ""))
+        jobs.append(job)
+    if not jobs:
+        print("all {} cases need not run".format(len(cases)))
+        return 0
+    collect = shlex.join([str(STUDY), *words, "--collect", *common])
+    job = _sbatch(["--dependency=afterany:" + ":".join(jobs), "--ntasks=1", "--chdir=" + os.getcwd(),
+                   "--output=" + os.path.join(options.directory, "slurm-%j.out"), *extra, "--wrap", collect])
+    print("job {}: writes {} when they have ended".format(job, os.path.join(options.directory, "results.csv")))
+    return 0
