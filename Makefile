@@ -35,6 +35,7 @@ BENCH   := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
+SCRIPTS := $(wildcard scripts/petsam-*)
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h))
 
 .PHONY: all help units bench venv test check-sanitize check-valgrind lint install clean
@@ -101,13 +102,18 @@ check-valgrind: all units ## unit tests under valgrind, one rank
 lint: ## cppcheck over the sources
 	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) src/petsam.c
 
-install: all ## install program, library, headers, petsam.pc: prefix=, DESTDIR=
+install: all ## install program, library, headers, petsam.pc, scripts: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/petsam
 	install -m 755 $(B)/bin/petsam $(DESTDIR)$(prefix)/bin
 	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
 	install -m 755 $(B)/lib/libpetsam.so $(DESTDIR)$(prefix)/lib
 	install -m 644 include/petsam.h $(DESTDIR)$(prefix)/include
 	install -m 644 $(filter include/petsam/%,$(HEADERS)) $(DESTDIR)$(prefix)/include/petsam
+	install -d $(DESTDIR)$(prefix)/share/petsam/scripts/slurm
+	install -m 644 $(wildcard scripts/*.py) scripts/requirements.txt $(DESTDIR)$(prefix)/share/petsam/scripts
+	install -m 755 $(SCRIPTS) $(DESTDIR)$(prefix)/share/petsam/scripts
+	install -m 755 $(wildcard scripts/slurm/*.sbatch) $(DESTDIR)$(prefix)/share/petsam/scripts/slurm
+	for s in $(notdir $(SCRIPTS)); do ln -sf ../share/petsam/scripts/$$s $(DESTDIR)$(prefix)/bin/$$s; done
 	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
 
 clean: ## remove what was built

@@ -156,7 +156,7 @@ def _text(value):
 
 
 def _read_csv(path):
-    """Rows as (inputs, ranks, name)."""
+    """Names of the columns, and rows as (line's number, values by name without the empty ones)."""
     with open(path, encoding="utf-8-sig", newline="") as file:
         # blank lines and comments go, but lines are counted
         lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.lstrip().startswith("#")]
@@ -172,8 +172,7 @@ def _read_csv(path):
     for number, row in rows[1:]:
         if len(row) != len(names):
             raise TableError("{}, line {}: {} values for {} columns".format(path, number, len(row), len(names)))
-        values = {name: value for name, value in zip(names, row) if value}
-        yield "line {}".format(number), values, values.pop("ranks", None), values.pop("case", None)
+    return names, [(number, {name: value for name, value in zip(names, row) if value}) for number, row in rows[1:]]
 
 
 def _choices(path, key, mapping):
@@ -254,11 +253,13 @@ def common_options(words):
 
 def _csv_cases(path, _common):
     """(where, inputs, options, files, ranks, name) of each row; what differs makes the name."""
-    rows = list(_read_csv(path))
-    varied = [name for name in dict.fromkeys(name for _, values, _, _ in rows for name in values)
-              if len({values.get(name) for _, values, _, _ in rows}) > 1]
-    for where, values, ranks, name in rows:
-        yield where, values, values, {}, ranks, name or _name({key: values[key] for key in varied if key in values})
+    names, rows = _read_csv(path)
+    varied = [name for name in names if name not in ("ranks", "case")
+              and len({values.get(name) for _, values in rows}) > 1]
+    for number, values in rows:
+        ranks, name = values.pop("ranks", None), values.pop("case", None)
+        yield ("line {}".format(number), values, values, {}, ranks,
+               name or _name({key: values[key] for key in varied if key in values}))
 
 
 def _yaml_cases(path, common):

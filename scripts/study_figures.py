@@ -83,10 +83,9 @@ def figure_study(directory, table):
             for panel, name in zip(axes, ("radius", "energy", "deviation")):
                 panel.plot(table["ratio"][rows], (100.0 if name == "deviation" else 1.0) * table[name][rows], mark, **style)
     for panel, title, text in zip(axes, ("Stick radius at the peak", "Energy of a cycle", "Energy over its closed form"),
-                                  ("$c/a$", r"$W/(\mu N \delta_0)$", r"$W/W_{\nu = 0}$ - 1, %")):
+                                  ("$c/a$", r"$W/(\mu N \delta_0)$", "difference, %")):
         panel.set(title=title, xlabel=r"$T_x/(\mu N)$", ylabel=text, xlim=(0.0, 1.0))
     axes[0].legend(loc="lower left")
-    axes[2].set_ylabel("difference, %")
     save(figure, directory, "study.png")
 
 

@@ -177,7 +177,9 @@ class Study:
 
     def run(self, cases):
         """Run all; the number of the signal that ended it early, or 0."""
-        caught = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
+        # what the caller ignores (nohup) stays ignored
+        caught = [number for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
+                  if signal.getsignal(number) != signal.SIG_IGN]
         before = {number: signal.signal(number, self._catch) for number in caught}
         try:
             self._loop(list(cases))
