@@ -36,7 +36,7 @@ class TableError(Exception):
 
 
 class Case(NamedTuple):
-    """One run: number (from 1), name, inputs (name: text; what the table varies, or its columns), options (name: text or
+    """One run: number (from 1), name, inputs (name: text; the lists' values, or the columns), options (name: text or
     None), files (name: text), MPI ranks."""
 
     number: int
@@ -189,7 +189,7 @@ def _choices(path, key, mapping):
 
 
 def _read_yaml(path):
-    """The sections of the YAML file: parameters and options as choices, files as texts, ranks as text."""
+    """The sections of the YAML file: parameters and options as choices, files as texts, ranks as text; names of lists."""
     with open(path, encoding="utf-8") as file:
         try:
             table = yaml.safe_load(file)
@@ -206,8 +206,10 @@ def _read_yaml(path):
     if not isinstance(files, dict) or not all(isinstance(text, str) and os.path.basename(name) == name
                                               for name, text in files.items()):
         raise TableError("{}: files: expected names without folders, and texts".format(path))
-    return (_choices(path, "parameters", table.get("parameters") or {}), _choices(path, "options", table["options"]),
-            files, _text(table.get("ranks")))
+    sections = [table.get("parameters") or {}, table["options"]]
+    parameters, options = (_choices(path, key, one) for key, one in zip(("parameters", "options"), sections))
+    lists = [_plain(str(name)) for one in sections for name, value in one.items() if isinstance(value, list)]
+    return parameters, options, files, _text(table.get("ranks")), lists
 
 
 # ---------------------------------------------------------------- cases
@@ -264,23 +266,22 @@ def _csv_cases(path, _common):
 
 def _yaml_cases(path, common):
     """The same of each combination; what is common to all counts in expressions, too."""
-    parameters, options, files, ranks = _read_yaml(path)
+    parameters, options, files, ranks, lists = _read_yaml(path)
     options.update({name: [value] for name, value in common.items() if name in options})
     double = set(parameters) & set(options)
     if double:
         raise TableError("{}: {}: is both a parameter and an option".format(path, sorted(double)[0]))
     choices = {**parameters, **options}
-    varied = [name for name, values in choices.items() if len(values) > 1]
     for combination in itertools.product(*choices.values()):
         values = dict(zip(choices, combination))
-        expander, where = Expander(values), ", ".join("{} = {}".format(name, values[name]) for name in varied)
+        expander, where = Expander(values), ", ".join("{} = {}".format(name, values[name]) for name in lists)
         try:
             expanded = {name: expander.text(name) for name in values}
             texts = {name: expander.expand(text) for name, text in files.items()}
             count = expanded.get("ranks") or expander.expand(ranks)
         except ValueError as error:
             raise TableError("{}: {}".format(path, error)) from error
-        inputs = {name: expanded[name] for name in varied}
+        inputs = {name: expanded[name] for name in lists}
         yield where, inputs, {name: expanded[name] for name in options}, texts, count, _name(inputs)
 
 

@@ -1,0 +1,177 @@
+"""Scripts from the build tree and installed, their Python and petsam; the README's five commands; the package recipes."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import types
+
+import pytest
+
+from conftest import PROGRAM, environment
+from support import ROOT, ball, words
+
+VERSION = re.search(r'PETSAM_VERSION "(.*)"', (ROOT / "include/petsam/base.h").read_text()).group(1)
+MAKEFILE = (ROOT / "Makefile").read_text()
+
+
+def shell(command, cwd, check=0, **variables):
+    """Run a line of a shell in cwd, without PYTHON and PETSAM unless given; its output."""
+    env = {key: value for key, value in environment().items() if key not in ("PYTHON", "PETSAM")}
+    env.update(OMPI_MCA_rmaps_base_oversubscribe="1", **{k: str(v) for k, v in variables.items()})
+    done = subprocess.run(command, shell=True, cwd=cwd, env=env, capture_output=True, text=True, timeout=300,
+                          stdin=subprocess.DEVNULL)
+    assert done.returncode == check, (command, done.stdout, done.stderr)
+    return done.stdout + done.stderr
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A repository with the built program, and an environment that writes down that it was used."""
+    tree = tmp_path / "petsam"
+    for name in ("scripts", "examples"):
+        shutil.copytree(ROOT / name, tree / name, ignore=shutil.ignore_patterns("__pycache__"))
+    (tree / "build" / "bin").mkdir(parents=True)
+    (tree / "build" / "bin" / "petsam").symlink_to(PROGRAM)
+    python = tree / "build" / "venv" / "bin" / "python"
+    python.parent.mkdir(parents=True)
+    python.write_text('#!/bin/sh\necho used >>{}/used.txt\nexec {} "$@"\n'.format(tmp_path, sys.executable))
+    python.chmod(0o755)
+    return tree
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory):
+    """make install."""
+    folder = tmp_path_factory.mktemp("stage")
+    build = os.path.relpath(PROGRAM.parents[1], ROOT)
+    subprocess.run(["make", "-s", "install", "B=" + build, "prefix=/opt/p", "DESTDIR=" + str(folder)], cwd=ROOT, check=True,
+                   capture_output=True, timeout=600)
+    return folder / "opt" / "p"
+
+
+# ---------------------------------------------------------------- where things are found
+
+def test_in_the_build_tree_scripts_use_its_environment_and_program(tree, tmp_path):
+    (tmp_path / "one.csv").write_text("load_tx\n1\n")
+    shell("petsam/scripts/petsam-study one.csv -- " + " ".join(words(ball(n=24))), tmp_path)
+    shell("petsam/scripts/petsam-plot --maps -o maps.png one/case/results.h5", tmp_path)
+    assert (tmp_path / "maps.png").exists() and (tmp_path / "used.txt").read_text() == "used\nused\n"
+
+
+def test_installed_scripts_find_the_installed_program(prefix, tmp_path):
+    assert (prefix / "bin" / "petsam-study").is_symlink() and not os.path.isabs(os.readlink(prefix / "bin" / "petsam-study"))
+    (tmp_path / "one.csv").write_text("load_tx\n1\n")
+    path = "{}:/usr/bin:/bin:{}".format(os.path.dirname(sys.executable), os.environ["PATH"])
+    shell("{}/bin/petsam-study one.csv -- {}".format(prefix, " ".join(words(ball(n=24)))), tmp_path, PATH=path)
+    shell("{}/bin/petsam-plot --maps -o maps.pdf one/case/results.h5".format(prefix), tmp_path, PATH=path)
+    assert (tmp_path / "maps.pdf").exists()
+
+
+def test_job_scripts_are_installed_beside_petsam_study(prefix):
+    assert sorted(path.name for path in (prefix / "share/petsam/scripts/slurm").iterdir()) == sorted(
+        path.name for path in (ROOT / "scripts/slurm").iterdir())
+
+
+def test_petsam_of_the_environment_comes_first(tree, tmp_path):
+    fake = tmp_path / "other"
+    fake.write_text("#!/bin/sh\necho petsam: the other one >&2\nexit 9\n")
+    fake.chmod(0o755)
+    (tmp_path / "one.csv").write_text("load_tx\n1\n")
+    assert "exit 9: the other one" in shell("petsam/scripts/petsam-study one.csv", tmp_path, check=1, PETSAM=fake)
+
+
+@pytest.mark.parametrize("script", ["petsam-plot", "petsam-study"])
+def test_missing_libraries_are_named_with_the_remedy(tree, tmp_path, script):
+    bare = tmp_path / "bare"
+    bare.write_text('#!/bin/sh\nexec {} -E -S "$@"\n'.format(sys.executable))
+    bare.chmod(0o755)
+    said = shell("petsam/scripts/{} --help".format(script), tmp_path, check=1, PYTHON=bare)
+    assert len(said.splitlines()) == 1 and "h5py" in said and "make venv" in said
+
+
+# ---------------------------------------------------------------- what the README says
+
+def block(heading):
+    """Commands of the first indented block after a heading, continued lines joined."""
+    text = (ROOT / "README.md").read_text().split("\n## {}\n".format(heading))[1].split("\n## ")[0]
+    lines = re.search(r"(?:^    .*\n|^\n(?=    ))+", text, re.M).group(0).replace("\\\n", " ")
+    return [re.sub(r" +", " ", line.strip()) for line in lines.splitlines() if line.strip()]
+
+
+def test_five_commands_lead_from_a_clone_to_a_plotted_loop(tree):
+    commands = block("A fretting loop in five commands")
+    assert len(commands) == 5
+    assert commands[0].startswith("git clone ") and commands[1] == "scripts/install-dependencies.sh"
+    assert commands[2].startswith("make ") and {"all", "venv"} <= set(commands[2].split())
+    for command in commands[3:]:
+        shell(command.replace(" -grid_n 256", " -grid_n 48"), tree)
+    assert (tree / "loop.png").stat().st_size > 10000
+
+
+def test_the_example_study_runs_to_its_figure(tree, tmp_path):
+    """A part of its cases, on a coarse grid."""
+    table = tree / "examples" / "study" / "study.yaml"
+    text = table.read_text()
+    cut = re.sub(r"ratio: \[.*?\]", "ratio: [0.5, 0.9]", re.sub(r"nu: \[.*?\]", "nu: [0]", text))
+    assert cut != text
+    table.write_text(cut)
+    said = shell("examples/study/run.sh", tree, GRID_N=64, OUT=tmp_path / "out", CORES=2)
+    assert "4 cases: 4 finished, 0 failed" in said and (tmp_path / "out" / "study.png").exists()
+    nu, cases, radius, energy, mu = [line for line in said.splitlines() if "between mu" in line or line.strip().startswith(
+        "0 ")][-1].split()
+    # nu = 0, where the closed solution is exact: about 42 cells in the contact's radius; mu is only a factor
+    assert cases == "4" and float(radius) < 0.02 and float(energy) < 0.01 and float(mu) < 1e-5
+
+
+# ---------------------------------------------------------------- recipes, which are not run
+
+def test_apptainer_definition_names_files_that_exist_and_this_version():
+    text = (ROOT / "scripts/packaging/petsam.def").read_text()
+    sections = dict(re.findall(r"^%(\w+)\n((?:    .*\n|\n)*)", text, re.M))
+    assert {"files", "post", "runscript", "test", "labels", "help"} <= set(sections)
+    sources = [line.split()[0] for line in sections["files"].splitlines() if line.strip()]
+    for source in sources:
+        assert (ROOT / source).exists(), source
+    # all that the build and the scripts need is taken along
+    assert {"Makefile", "src", "include", "scripts"} <= set(sources)
+    assert "version {}\n".format(VERSION) in sections["labels"]
+    assert subprocess.run(["sh", "-n"], input=sections["post"], text=True).returncode == 0
+    assert "Never built" in text
+
+
+def test_spack_recipe_asks_for_what_makefile_and_scripts_need(monkeypatch):
+    depends, versions = [], []
+
+    class Any:
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            return False
+
+    package = types.ModuleType("spack.package")
+    package.depends_on = lambda spec, **_: depends.append(spec)
+    package.version = lambda name, **_: versions.append(name)
+    package.variant = package.license = lambda *_, **__: None
+    package.when = lambda _: Any()
+    makefile = types.ModuleType("makefile")
+    makefile.MakefilePackage = object
+    for name in ("spack", "spack_repo", "spack_repo.builtin", "spack_repo.builtin.build_systems"):
+        monkeypatch.setitem(sys.modules, name, types.ModuleType(name))
+    monkeypatch.setitem(sys.modules, "spack.package", package)
+    monkeypatch.setitem(sys.modules, "spack_repo.builtin.build_systems.makefile", makefile)
+    names = {}
+    exec((ROOT / "scripts/packaging/package.py").read_text(), names)  # pylint: disable=exec-used
+    assert VERSION in versions
+    packages = {re.match(r"[\w-]+", spec).group(0) for spec in depends}
+    assert {"mpi", "petsc", "fftw", "hdf5", "pkgconfig", "cmocka"} <= packages
+    libraries = {re.match(r"\w+", line).group(0).lower() for line in (ROOT / "scripts/requirements.txt").read_text().splitlines()}
+    assert {name[3:] for name in packages if name.startswith("py-")} == libraries - {"pytest"}
+    recipe = names["Petsam"]()
+    recipe.prefix = "/opt/petsam"
+    recipe.spec = {"mpi": types.SimpleNamespace(mpicc="/opt/bin/mpicc")}
+    for word in recipe.build_targets + recipe.install_targets:
+        name, _, value = word.partition("=")
+        # variables and targets that the Makefile knows
+        assert re.search(r"^ *{} *[:?]?=".format(name) if value else r"^{}:".format(name), MAKEFILE, re.M), word
