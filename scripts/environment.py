@@ -24,7 +24,10 @@ class Missing(Exception):
 def _interpreter():
     """The Python to use: $PYTHON, that of `make venv`, or this one."""
     if os.environ.get("PYTHON"):
-        return shutil.which(os.environ["PYTHON"])
+        found = shutil.which(os.environ["PYTHON"])
+        if not found:
+            sys.exit("{}: error: no Python {}, which PYTHON names".format(os.path.basename(sys.argv[0]), os.environ["PYTHON"]))
+        return found
     for venv in (TREE / "build" / "venv", TREE / "venv"):
         if os.access(venv / "bin" / "python", os.X_OK):
             return str(venv / "bin" / "python")

@@ -58,8 +58,8 @@ class Results:
         low, high, _ = rows.indices(self.y.size)
         try:
             data = self.file[name]
-            parts = [data[index, k:min(k + BLOCK * stride, high), columns][::stride, ::stride]
-                     for k in range(low, high, BLOCK * stride)]
+            block = stride * max(1, BLOCK // stride)
+            parts = [data[index, k:min(k + block, high), columns][::stride, ::stride] for k in range(low, high, block)]
         except (OSError, KeyError) as error:
             raise InputError("{}: {}".format(self.path, _reason(error))) from error
         return np.concatenate(parts)

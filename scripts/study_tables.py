@@ -3,8 +3,9 @@
 CSV: case, exit_code (empty: not run), seconds, ranks, the inputs, `steps`, the names of petsam's /history (those of the
 last step, and `dissipated_energy_sum` of all steps), message. A scalar that has an input's name gets `_end` added.
 
-HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results, NaN
-where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own results file.
+HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
+NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
+results file.
 """
 import csv
 import io
@@ -90,7 +91,8 @@ def write_hdf5(path, found, study):
     shared = set.intersection(*[set(case.options.items()) for case, _, _ in found])
     with h5py.File(path + ".tmp", "w") as file:
         file.attrs["study"] = study
-        file.attrs["options"] = " ".join("-" + name + (" " + value if value else "") for name, value in sorted(shared, key=str))
+        file.attrs["options"] = " ".join("-" + name + (" " + value if value else "")
+                                         for name, value in sorted(shared, key=str))
         for name, values in (("case", [case.name for case, _, _ in found]),
                              ("message", [known.get("message", "") for _, known, _ in found])):
             file.create_dataset(name, data=values, dtype=h5py.string_dtype())
