@@ -68,7 +68,7 @@ def run_units(programs, ranks):
 
 def run_pytest(build, names):
     python = build / "venv" / "bin" / "python"
-    words = [str(python), "-m", "pytest", "-q", "-p", "no:cacheprovider", str(ROOT / "tests" / "program")]
+    words = [str(python), "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", str(ROOT / "tests" / "program")]
     if names:
         words += ["-k", " or ".join(names)]
     done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
