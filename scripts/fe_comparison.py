@@ -6,13 +6,15 @@ That is not the half-space's approach of distant points, so petsam gets the forc
 
 Writes to a directory, one HDF5 file a run with its costs as attributes:
   mesh_N.h5                the sequence of meshes at Table 1's contact, N elements along the cube's edge; mesh_N_direct.h5
-                           the same by the direct solver, stiffness_F.h5 with contact stiffness times F
+                           the same by the direct solver
   ratio_R.h5, large_R.h5   contact radius R times the sphere's, small displacements and large ones
+  stiffness_F.h5           the first of these with contact stiffness times F
   tangential.h5            both hemispheres with friction
   petsam_...h5             petsam at the same loads; the grids at Table 1's contact are petsam_grid_N.h5
 fe_figures.py reads these. Every run has one process and one thread.
 """
 import argparse
+import glob
 import os
 import shutil
 import subprocess
@@ -163,6 +165,12 @@ def write_sphere(path, grid, size, radius):
         file["height"] = 2.0 * (radius - np.sqrt(radius**2 - x[:, None]**2 - x**2))
 
 
+def forget(options, pattern):
+    """Remove earlier results, which the figures would take for this run's."""
+    for path in glob.glob(os.path.join(options.directory, pattern)):
+        os.remove(path)
+
+
 def report(name, used, what):
     """A line a run."""
     print("== {}: {}, CPU {:.1f} s, {:.0f} MB".format(name, what, used["cpu"], used["memory"] / 1e6), flush=True)
@@ -172,28 +180,30 @@ def report(name, used, what):
 
 def table_of_meshes(options):
     """Meshes and grids at Table 1's contact. The finest mesh's load is petsam's."""
+    forget(options, "mesh_*.h5")
+    forget(options, "petsam_grid_*.h5")
     for n in options.meshes:
         surface = solve_mesh(options, "mesh_{}".format(n), n)
     for grid in options.grids:
         solve_petsam(options, "petsam_grid_{}".format(grid), grid, surface)
-    if options.direct:
-        solve_mesh(options, "mesh_{}_direct".format(options.direct), options.direct,
-                   controls=fe_model.Controls(solver="SPOOLES"))
-    n = options.sweep
-    for factor in (0.1, 10.0):
-        stiffness = factor * fe_model.default_stiffness(TABLE1, n)
-        solve_mesh(options, "stiffness_{:g}".format(factor), n, controls=fe_model.Controls(stiffness=stiffness))
+    solve_mesh(options, "mesh_{}_direct".format(options.direct), options.direct,
+               controls=fe_model.Controls(solver="SPOOLES"))
 
 
 def growing_contact(options):
-    """Contact radii up to a fifth of the sphere's."""
+    """Contact radii up to a fifth of the sphere's; and what the contact stiffness does to the smallest."""
+    forget(options, "*ratio_*.h5")
+    forget(options, "*large_*.h5")
     for ratio in (TABLE1.contact_radius / TABLE1.radius, 0.05, 0.1, 0.2):
         study = TABLE1._replace(contact_radius=ratio * TABLE1.radius)
         for kind in ("ratio", "large"):
             name = "{}_{:.4g}".format(kind, ratio)
             surface = solve_mesh(options, name, options.sweep, study, fe_model.Controls(nlgeom=kind == "large"))
-            solve_petsam(options, "petsam_" + name, options.grids[-2], surface, study)
-            solve_petsam(options, "petsam_true_" + name, options.grids[-2], surface, study, true_sphere=True)
+            solve_petsam(options, "petsam_" + name, options.grids[-1], surface, study)
+            solve_petsam(options, "petsam_true_" + name, options.grids[-1], surface, study, true_sphere=True)
+    for factor in (0.1, 10.0):
+        stiffness = factor * fe_model.default_stiffness(TABLE1, options.sweep)
+        solve_mesh(options, "stiffness_{:g}".format(factor), options.sweep, controls=fe_model.Controls(stiffness=stiffness))
 
 
 def friction(options):
@@ -214,10 +224,11 @@ def main():
     parser.add_argument("directory", help="where results go")
     parser.add_argument("--petsam", default="petsam", help="the program")
     parser.add_argument("--ccx", default="ccx", help="CalculiX")
-    parser.add_argument("--meshes", type=int, nargs="+", default=[6, 8, 12, 16, 24], help="elements along the cube's edge")
+    parser.add_argument("--meshes", type=int, nargs="+", default=[6, 8, 12, 16, 20],
+                        help="elements along the cube's edge")
     parser.add_argument("--grids", type=int, nargs="+", default=[32, 64, 128, 256, 512], help="petsam's cells")
-    parser.add_argument("--direct", type=int, default=8, help="mesh for the direct solver, 0: none")
-    parser.add_argument("--sweep", type=int, default=16, help="mesh for growing contact and for the contact stiffness")
+    parser.add_argument("--direct", type=int, default=12, help="mesh for the direct solver")
+    parser.add_argument("--sweep", type=int, default=12, help="mesh for growing contact and for the contact stiffness")
     parser.add_argument("--tangential", type=int, default=10, help="mesh with friction")
     parser.add_argument("--only", choices=sorted(studies), help="one study")
     parser.add_argument("--keep", action="store_true", help="keep decks and CalculiX's result files")

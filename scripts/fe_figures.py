@@ -134,7 +134,7 @@ class Comparison:
     def numbers(self):
         """All tables."""
         meshes, grids = [case.row() for case in self.meshes], [case.row() for case in self.grids]
-        middle = min(self.meshes, key=lambda mesh: abs(mesh["n"] - self.stiffness[0]["n"])).row()
+        middle = self.ratios[0][0].row()
         stiffness = sorted([case.row() for case in self.stiffness] + [middle], key=lambda row: row["stiffness"])
         for row in stiffness:
             row["factor"] = row["stiffness"] / middle["stiffness"]
@@ -177,8 +177,9 @@ def ratio_row(small, large, grid, true_sphere):
         numbers = case.row()
         row.update({name + "_peak": 1.0 + numbers["peak"], name + "_radius": numbers["radius_ratio"],
                     name + "_l2": numbers["pressure_l2"]})
-    for name, case in (("small", small), ("large", large)):
-        row[name + "_force"] = case["hertz_approach"]**1.5 / case["approach"]**1.5
+    for name, case in (("small", small), ("large", large)):  # Hertz: force as approach^1.5
+        row[name + "_force"] = (case["hertz_approach"] / case["approach"])**1.5
+    row["petsam_force"] = (small["hertz_approach"] / grid["disp_z"])**1.5
     return row
 
 
@@ -228,7 +229,8 @@ def draw_pressure(axes, mesh, grid):
               markerfacecolor="white", label="CalculiX, {} elements".format(int(mesh["elements"])))
     keep = np.flatnonzero(grid.x > 0.0)[::max(1, grid.x.size // 64)]
     axes.plot(grid.x[keep] / grid.radius, grid.pressure[grid.middle, keep] / grid.peak, "o",
-              color=COLOUR_PETSAM, markersize=3.6, markerfacecolor="white", label="petsam, {0} x {0} cells".format(grid.x.size), zorder=3)
+              color=COLOUR_PETSAM, markersize=3.6, markerfacecolor="white",
+              label="petsam, {0} x {0} cells".format(grid.x.size), zorder=3)
     axes.set(title="Pressure", xlabel="$r/a$", ylabel="$p/p_0$", xlim=(0.0, 1.3), ylim=(-0.03, 1.08))
     axes.legend(loc="lower left")
 
@@ -268,14 +270,15 @@ def draw_cost(axes, numbers):
 
 def draw_ratio(axes, rows, key, label):
     """A quantity over Hertz's for growing a/R."""
-    ratio, large = [row["ratio"] for row in rows], [row["large_ratio"] for row in rows]
     axes.axhspan(0.97, 1.03, color="0.93", zorder=0, linewidth=0.0)
-    axes.plot(ratio, [row["petsam_" + key] for row in rows], "o-", color=COLOUR_PETSAM, markersize=5, label="petsam")
-    axes.plot(ratio, [row["small_" + key] for row in rows], "s--", color=COLOUR_FE, markersize=5, markerfacecolor="white",
-              label="finite elements, small displacements")
-    axes.plot(large, [row["large_" + key] for row in rows], "D-", color=COLOUR_LARGE, markersize=5, markerfacecolor="white",
-              label="finite elements, large displacements")
-    axes.set(xlabel="contact radius over sphere radius, $a/R$", title=label, xlim=(0.0, None))
+    for name, where, style, colour, legend in (
+            ("petsam", "ratio", "o-", COLOUR_PETSAM, "petsam"),
+            ("small", "ratio", "s--", COLOUR_FE, "finite elements,\nsmall displacements"),
+            ("large", "large_ratio", "D-", COLOUR_LARGE, "finite elements,\nlarge displacements")):
+        axes.plot([row[where] for row in rows], [row[name + "_" + key] for row in rows], style, color=colour, markersize=5,
+                  linewidth=1.2, markerfacecolor="white", label=legend)
+    axes.set(xlabel="$a/R$", xlim=(0.0, 0.22), xticks=(0.0, 0.05, 0.1, 0.15, 0.2))
+    axes.set_title(label, fontsize=10)
 
 
 def draw_all(directory, comparison, numbers):
@@ -285,9 +288,10 @@ def draw_all(directory, comparison, numbers):
     draw_shear(axes[1], comparison)
     draw_cost(axes[2], numbers)
     save(picture, directory, "comparison.png")
-    picture, axes = plt.subplots(1, 2, figsize=(8.6, 3.3), constrained_layout=True)
-    draw_ratio(axes[0], numbers["ratios"], "peak", "peak pressure over Hertz's, same force")
-    draw_ratio(axes[1], numbers["ratios"], "radius", "contact radius over Hertz's, same force")
+    picture, axes = plt.subplots(1, 3, figsize=(10.4, 3.2), constrained_layout=True)
+    draw_ratio(axes[0], numbers["ratios"], "peak", "Peak pressure over Hertz's, same force")
+    draw_ratio(axes[1], numbers["ratios"], "radius", "Contact radius over Hertz's, same force")
+    draw_ratio(axes[2], numbers["ratios"], "force", "Force over Hertz's, same approach")
     axes[0].legend(loc="lower left")
     save(picture, directory, "half-space.png")
 
