@@ -7,7 +7,8 @@ That is not the half-space's approach of distant points, so petsam gets the forc
 Writes to a directory, one HDF5 file a run with its costs as attributes:
   mesh_N.h5                the sequence of meshes at Table 1's contact, N elements along the cube's edge; mesh_N_direct.h5
                            the same by the direct solver
-  ratio_R.h5, large_R.h5   contact radius R times the sphere's, small displacements and large ones
+  small_R.h5               contact radius R times the sphere's
+  large_R.h5, neo_R.h5     the same with large displacements, after St. Venant and Kirchhoff, and neo-Hooke
   stiffness_F.h5           the first of these with contact stiffness times F
   tangential.h5            both hemispheres with friction
   petsam_...h5             petsam at the same loads; the grids at Table 1's contact are petsam_grid_N.h5
@@ -32,6 +33,9 @@ PACKAGE = "calculix-ccx"
 HALF_WIDTH = 1.5  # of petsam's grids in contact radii, as in Table 1
 LOAD_RATIO = 0.6  # tangential force over mu N that the tangential displacement is of
 TABLE1 = fe_model.Study()
+# small strains and displacements; large ones with two laws of material
+LAWS = {"small": fe_model.Controls(), "large": fe_model.Controls(nlgeom=True),
+        "neo": fe_model.Controls(nlgeom=True, neo_hooke=True)}
 
 
 class RunError(Exception):
@@ -192,15 +196,16 @@ def table_of_meshes(options):
 
 def growing_contact(options):
     """Contact radii up to a fifth of the sphere's; and what the contact stiffness does to the smallest."""
-    forget(options, "*ratio_*.h5")
-    forget(options, "*large_*.h5")
+    for kind in LAWS:
+        forget(options, "*{}_*.h5".format(kind))
     for ratio in (TABLE1.contact_radius / TABLE1.radius, 0.05, 0.1, 0.2):
         study = TABLE1._replace(contact_radius=ratio * TABLE1.radius)
-        for kind in ("ratio", "large"):
+        for kind, controls in LAWS.items():
             name = "{}_{:.4g}".format(kind, ratio)
-            surface = solve_mesh(options, name, options.sweep, study, fe_model.Controls(nlgeom=kind == "large"))
-            solve_petsam(options, "petsam_" + name, options.grids[-1], surface, study)
-            solve_petsam(options, "petsam_true_" + name, options.grids[-1], surface, study, true_sphere=True)
+            surface = solve_mesh(options, name, options.sweep, study, controls)
+            if kind == "small":
+                solve_petsam(options, "petsam_" + name, options.grids[-1], surface, study)
+                solve_petsam(options, "petsam_true_" + name, options.grids[-1], surface, study, true_sphere=True)
     for factor in (0.1, 10.0):
         stiffness = factor * fe_model.default_stiffness(TABLE1, options.sweep)
         solve_mesh(options, "stiffness_{:g}".format(factor), options.sweep, controls=fe_model.Controls(stiffness=stiffness))

@@ -22,7 +22,8 @@ import numpy as np
 import analytic
 from figures import STYLE, InputError, finish_numbers, main, plt, print_table, relative_l2, save
 
-COLOUR_FE, COLOUR_PETSAM, COLOUR_LARGE = "#c0392b", "#1f5fa8", "#e08e0b"
+LAWS = ("small", "large", "neo")
+COLOUR_FE, COLOUR_PETSAM, COLOUR_LARGE, COLOUR_NEO = "#c0392b", "#1f5fa8", "#e08e0b", "#6a8f3c"
 
 
 # ---------------------------------------------------------------- reading
@@ -96,12 +97,12 @@ class Grid(Case):
             "radius_ratio": radius / self.radius}
 
 
-def found(directory, pattern):
-    """Names of result files that match, by their number."""
+def found(directory, form):
+    """Names of result files of a form, N in it a number, in the order of those."""
     names = [os.path.basename(path)[:-3] for path in glob.glob(os.path.join(directory, "*.h5"))]
-    names = [name for name in names if re.fullmatch(pattern, name)]
+    names = [name for name in names if re.fullmatch(form.replace("N", "[0-9.]+"), name)]
     if not names:
-        raise InputError("{}: no {}.h5; run examples/fe-comparison/run.sh first".format(directory, pattern))
+        raise InputError("{}: no {}.h5; run examples/fe-comparison/run.sh first".format(directory, form))
     return sorted(names, key=lambda name: float(re.findall(r"[0-9.]+", name)[-1]))
 
 
@@ -111,15 +112,16 @@ class Comparison:
     """All results of a directory."""
 
     def __init__(self, directory):
-        self.meshes = [Mesh(directory, name) for name in found(directory, r"mesh_\d+")]
-        self.direct = [Mesh(directory, name) for name in found(directory, r"mesh_\d+_direct")]
-        self.grids = [Grid(directory, name, self.meshes[-1]) for name in found(directory, r"petsam_grid_\d+")]
-        self.stiffness = [Mesh(directory, name) for name in found(directory, r"stiffness_[0-9.]+")]
+        self.meshes = [Mesh(directory, name) for name in found(directory, "mesh_N")]
+        self.direct = [Mesh(directory, name) for name in found(directory, "mesh_N_direct")]
+        self.grids = [Grid(directory, name, self.meshes[-1]) for name in found(directory, "petsam_grid_N")]
+        self.stiffness = [Mesh(directory, name) for name in found(directory, "stiffness_N")]
         self.ratios = []
-        for name in found(directory, r"ratio_[0-9.]+"):
-            small, large = (Mesh(directory, other) for other in (name, name.replace("ratio", "large")))
-            self.ratios.append((small, large, Grid(directory, "petsam_" + name, small),
-                                Grid(directory, "petsam_true_" + name, small)))
+        for name in found(directory, "small_N"):
+            case = {law: Mesh(directory, name.replace("small", law)) for law in LAWS}
+            for grid in ("petsam", "petsam_true"):
+                case[grid] = Grid(directory, grid + "_" + name, case["small"])
+            self.ratios.append(case)
         self.tangential = Mesh(directory, "tangential")
         self.sheared = Grid(directory, "petsam_tangential", self.tangential)
         mu_p0 = self.tangential["friction"] * self.tangential["hertz_peak"]
@@ -134,7 +136,7 @@ class Comparison:
     def numbers(self):
         """All tables."""
         meshes, grids = [case.row() for case in self.meshes], [case.row() for case in self.grids]
-        middle = self.ratios[0][0].row()
+        middle = self.ratios[0]["small"].row()
         stiffness = sorted([case.row() for case in self.stiffness] + [middle], key=lambda row: row["stiffness"])
         for row in stiffness:
             row["factor"] = row["stiffness"] / middle["stiffness"]
@@ -142,7 +144,7 @@ class Comparison:
         return {
             "meshes": meshes, "direct": [case.row() for case in self.direct], "grids": grids,
             "equal_error": equal_error(meshes, grids), "stiffness": stiffness,
-            "ratios": [ratio_row(*cases) for cases in self.ratios],
+            "ratios": [ratio_row(cases) for cases in self.ratios],
             "tangential": [
                 {"program": "CalculiX", "level": self.level, "load": self.tangential["load_n"],
                  **pick(self.tangential.row()), "shear_l2": self.tangential.l2("shear_x", "cattaneo"),
@@ -170,16 +172,17 @@ def equal_error(meshes, grids):
     return rows
 
 
-def ratio_row(small, large, grid, true_sphere):
-    """Peak pressure and contact radius over Hertz's of one contact, each at its own force."""
-    row = {"ratio": small.row()["ratio"], "large_ratio": large.row()["ratio"]}
-    for name, case in (("small", small), ("large", large), ("petsam", grid), ("true", true_sphere)):
+def ratio_row(cases):
+    """Peak pressure and contact radius over Hertz's, each at its own force, of one contact."""
+    row = {}
+    for name, case in cases.items():
         numbers = case.row()
-        row.update({name + "_peak": 1.0 + numbers["peak"], name + "_radius": numbers["radius_ratio"],
-                    name + "_l2": numbers["pressure_l2"]})
-    for name, case in (("small", small), ("large", large)):  # Hertz: force as approach^1.5
-        row[name + "_force"] = (case["hertz_approach"] / case["approach"])**1.5
-    row["petsam_force"] = (small["hertz_approach"] / grid["disp_z"])**1.5
+        row.update({name + "_peak": 1.0 + numbers["peak"], name + "_radius": numbers["radius_ratio"]})
+        if name in LAWS:  # Hertz: force as approach^1.5
+            row[name + "_ratio"] = numbers["ratio"]
+            row[name + "_force"] = (case["hertz_approach"] / case["approach"])**1.5
+    row["petsam_ratio"] = row["small_ratio"]
+    row["petsam_force"] = (cases["small"]["hertz_approach"] / cases["petsam"]["disp_z"])**1.5
     return row
 
 
@@ -203,14 +206,16 @@ def print_numbers(numbers):
         numbers["equal_error"])
     print_table("CalculiX, contact stiffness", {
         "times default": ("factor", "{:g}"), "CPU, s": ("cpu", "{:.1f}"), **newton, **errors, **own}, numbers["stiffness"])
-    print_table("Growing contact, over Hertz's at the same force: peak pressure and radius; force over Hertz's at "
-                "the same approach", {
-                    "a/R": ("ratio", "{:.4f}"), "petsam p0": ("petsam_peak", "{:.4f}"),
-                    "true sphere": ("true_peak", "{:.4f}"),
-                    "CalculiX p0": ("small_peak", "{:.4f}"), "large p0": ("large_peak", "{:.4f}"),
-                    "petsam a": ("petsam_radius", "{:.4f}"), "CalculiX a": ("small_radius", "{:.4f}"),
-                    "large a": ("large_radius", "{:.4f}"), "large p, L2": ("large_l2", "{:.1e}"),
-                    "force": ("small_force", "{:.3f}"), "large force": ("large_force", "{:.3f}")}, numbers["ratios"])
+    for quantity, key in (("peak pressure over Hertz's at the same force", "peak"),
+                          ("contact radius over Hertz's at the same force", "radius"),
+                          ("force over Hertz's at the same approach", "force")):
+        columns = {"a/R": ("small_ratio", "{:.4f}"), "petsam": ("petsam_" + key, "{:.4f}")}
+        if key != "force":
+            columns["true sphere"] = ("petsam_true_" + key, "{:.4f}")
+        columns.update({
+            "FE, small": ("small_" + key, "{:.4f}"), "FE, St.V.-K.": ("large_" + key, "{:.4f}"),
+            "FE, neo-H.": ("neo_" + key, "{:.4f}")})
+        print_table("Growing contact: " + quantity, columns, numbers["ratios"])
     print_table("With friction, both spheres: shear against Cattaneo-Mindlin", {
         "program": ("program", "{}"), "N": ("load", "{:.2f}"), "T/(mu N)": ("level", "{:.4f}"), "CPU, s": ("cpu", "{:.1f}"),
         "memory, MB": ("memory", "{:.0f}"), "p, L2": ("pressure_l2", "{:.2e}"), "q, L2": ("shear_l2", "{:.2e}"),
@@ -271,12 +276,13 @@ def draw_cost(axes, numbers):
 def draw_ratio(axes, rows, key, label):
     """A quantity over Hertz's for growing a/R."""
     axes.axhspan(0.97, 1.03, color="0.93", zorder=0, linewidth=0.0)
-    for name, where, style, colour, legend in (
-            ("petsam", "ratio", "o-", COLOUR_PETSAM, "petsam"),
-            ("small", "ratio", "s--", COLOUR_FE, "finite elements,\nsmall displacements"),
-            ("large", "large_ratio", "D-", COLOUR_LARGE, "finite elements,\nlarge displacements")):
-        axes.plot([row[where] for row in rows], [row[name + "_" + key] for row in rows], style, color=colour, markersize=5,
-                  linewidth=1.2, markerfacecolor="white", label=legend)
+    for name, style, colour, legend in (
+            ("petsam", "o-", COLOUR_PETSAM, "petsam"),
+            ("small", "s--", COLOUR_FE, "FE, small displacements"),
+            ("large", "D-", COLOUR_LARGE, "FE, large, St. Venant-Kirchhoff"),
+            ("neo", "^-", COLOUR_NEO, "FE, large, neo-Hooke")):
+        axes.plot([row[name + "_ratio"] for row in rows], [row[name + "_" + key] for row in rows], style, color=colour,
+                  markersize=5, linewidth=1.2, markerfacecolor="white", label=legend)
     axes.set(xlabel="$a/R$", xlim=(0.0, 0.22), xticks=(0.0, 0.05, 0.1, 0.15, 0.2))
     axes.set_title(label, fontsize=10)
 
@@ -288,11 +294,12 @@ def draw_all(directory, comparison, numbers):
     draw_shear(axes[1], comparison)
     draw_cost(axes[2], numbers)
     save(picture, directory, "comparison.png")
-    picture, axes = plt.subplots(1, 3, figsize=(10.4, 3.2), constrained_layout=True)
+    picture, axes = plt.subplots(1, 3, figsize=(10.4, 3.5), constrained_layout=True)
     draw_ratio(axes[0], numbers["ratios"], "peak", "Peak pressure over Hertz's, same force")
     draw_ratio(axes[1], numbers["ratios"], "radius", "Contact radius over Hertz's, same force")
     draw_ratio(axes[2], numbers["ratios"], "force", "Force over Hertz's, same approach")
-    axes[0].legend(loc="lower left")
+    axes[0].legend(loc="lower left", borderpad=0.0, labelspacing=0.3)
+    axes[0].set_ylim(bottom=0.82)
     save(picture, directory, "half-space.png")
 
 

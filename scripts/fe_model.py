@@ -175,11 +175,16 @@ def half(n, study):
 # ---------------------------------------------------------------- the deck
 
 class Controls(NamedTuple):
-    """What a deck may vary besides mesh and study: equation solver, contact stiffness (MPa/mm), large displacements."""
+    """What a deck may vary besides mesh and study: equation solver, contact stiffness (MPa/mm), large displacements.
+
+    These need a law for large strains: linear between Green's strain and the second Piola-Kirchhoff stress, which
+    CalculiX makes of *ELASTIC (St. Venant-Kirchhoff), or neo-Hooke's. Both are Hooke's with E and nu for small ones.
+    """
 
     solver: str = "ITERATIVE CHOLESKY"
     stiffness: float = 0.0  # 0: default_stiffness()
     nlgeom: bool = False
+    neo_hooke: bool = False
 
 
 def default_stiffness(study, n):
@@ -225,9 +230,13 @@ class Deck:
         self.add("*SOLID SECTION, ELSET=E{}, MATERIAL=STEEL".format(name), "*SURFACE, NAME=S" + name)
         self.add(*("{}, S{}".format(element + e, face) for e, face in mesh.faces))
 
-    def material(self, study):
-        """Steel."""
-        self.add("*MATERIAL, NAME=STEEL", "*ELASTIC", "{:.12g}, {:.12g}".format(study.young, study.poisson))
+    def material(self, study, neo_hooke):
+        """Steel, or what has its E and nu."""
+        law, constants = "*ELASTIC", (study.young, study.poisson)
+        if neo_hooke:  # half the shear modulus, two over the bulk modulus
+            law = "*HYPERELASTIC, NEO HOOKE"
+            constants = (0.25 * study.young / (1.0 + study.poisson), 6.0 * (1.0 - 2.0 * study.poisson) / study.young)
+        self.add("*MATERIAL, NAME=STEEL", law, "{:.12g}, {:.12g}".format(*constants))
 
     def contact(self, independent, stiffness, friction=0.0):
         """Surface-to-surface penalty contact of the upper body; its pressure is linear in the overclosure."""
@@ -267,7 +276,7 @@ def normal_deck(path, n, study, displacement, controls=Controls()):
     elements, printed = rim(mesh)
 
     deck = Deck("a sphere on a rigid frictionless plane: one of two equal spheres under a normal load")
-    deck.material(study)
+    deck.material(study, controls.neo_hooke)
     deck.body("UPPER", mesh)
     deck.body("PLANE", plane, mesh)
     deck.contact("PLANE", controls.stiffness or default_stiffness(study, n))
@@ -293,7 +302,7 @@ def tangential_deck(path, n, study, displacement, tangential, controls=Controls(
     elements, printed = rim(mesh)
 
     deck = Deck("two equal spheres pressed together, then pushed sideways")
-    deck.material(study)
+    deck.material(study, controls.neo_hooke)
     deck.body("UPPER", mesh)
     deck.body("LOWER", mirrored(mesh, 2), mesh)
     deck.contact("LOWER", controls.stiffness or default_stiffness(study, n), study.friction)
@@ -321,13 +330,16 @@ def main():
     parser.add_argument("--solver", default=Controls().solver, help="CalculiX's equation solver (ITERATIVE CHOLESKY)")
     parser.add_argument("--stiffness", type=float, default=0.0, help="of the contact, MPa/mm (10 E/element size)")
     parser.add_argument("--nlgeom", action="store_true", help="large displacements")
+    parser.add_argument("--neo-hooke", action="store_true", help="neo-Hooke's law, with --nlgeom")
     options = parser.parse_args()
+    if options.neo_hooke and not options.nlgeom:
+        parser.error("--neo-hooke needs --nlgeom")
     if options.n < 2:
         parser.error("--n must be at least 2")
 
     study = Study(options.radius, options.contact_radius)
     approach = options.displacement or 2.0 * study.contact_radius**2 / study.radius
-    controls = Controls(options.solver, options.stiffness, options.nlgeom)
+    controls = Controls(options.solver, options.stiffness, options.nlgeom, options.neo_hooke)
     if options.tangential:
         mesh = tangential_deck(options.file, options.n, study, approach, options.tangential, controls)
     else:

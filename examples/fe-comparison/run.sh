@@ -3,7 +3,7 @@
 #
 #   examples/fe-comparison/run.sh [OPTION...]
 #
-# Works from any directory; options go to scripts/fe_comparison.py (--help lists them). Environment:
+# Works from any directory; options go to scripts/fe_comparison.py, which lists them. Environment:
 #   CCX      CalculiX, Debian package calculix-ccx  (ccx)
 #   PETSAM   the program              (build/bin/petsam of the repository)
 #   OUT      results and figures, relative to the repository's root  (build/fe-comparison)
