@@ -5,7 +5,6 @@ import subprocess
 import sys
 from argparse import Namespace
 
-import h5py
 import numpy as np
 import pytest
 
