@@ -15,6 +15,6 @@
 #include <petsam/contact.h>
 #include <petsam/history.h>
 #include <petsam/output.h>
-#include <petsam/summary.h>
+#include <petsam/report.h>
 
 #endif

@@ -7,17 +7,28 @@
 #include <petsam.h>
 #include "base/baseimpl.h"
 #include <errno.h>
+#include <signal.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 enum { EXIT_USAGE = 2, EXIT_FILE = 3 };
 
 static const char usage[] = "petsam " PETSAM_VERSION ": partial-slip contact of elastic bodies by the semi-analytical method.\n"
-                            "usage: petsam [-option value ...]   or   mpirun -n 4 petsam -options_file study.opts [-option value ...]\n"
-                            "All quantities in SI units. Required: -grid_n, -grid_size, -body1_young, -body1_poisson, -body2_young, -body2_poisson,\n"
-                            "-gap_type, and one of -load_n, -disp_z. Every PETSc option works too (-log_view, -options_left, ...).\n";
+                            "\n"
+                            "  petsam [-option value ...]\n"
+                            "  mpirun -n 4 petsam -options_file study.opts [-option value ...]\n"
+                            "\n"
+                            "All quantities in SI units; defaults in parentheses. Required: -grid_n, -grid_size, -body1_young, -body1_poisson,\n"
+                            "-body2_young, -body2_poisson, -gap_type with its radii, and one of -load_n, -disp_z. For example, two steel spheres\n"
+                            "pressed together and pushed sideways:\n"
+                            "\n"
+                            "  petsam -grid_n 256 -grid_size 2.6e-3 -body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 \\\n"
+                            "    -body2_poisson 0.3 -gap_type sphere -gap_radius1 0.2 -gap_radius2 0.2 -friction 0.1 -load_n 1000 -load_tx 60 \\\n"
+                            "    -output sphere.h5\n"
+                            "\n"
+                            "-help prints this, -version the version. PETSc's options work too (-options_file, -log_view, ...).\n"
+                            "Exit codes: 0 converged, 2 bad usage, 3 a file, 10 not converged, 11 no equilibrium, 12 contact at the grid's edge.\n";
 
 /* ---- errors ---- */
 
@@ -158,9 +169,16 @@ static PetscErrorCode RefuseUnknownOptions(void)
 
 /* ---- memory ---- */
 
-/* Bytes a cell at the peak: 225 to 280 and 165 were measured at 1024 to 4096 cells. */
+/* Bytes a cell at the peak: 225 to 280 and 165 were measured at 1024 to 4096 cells; and the program with its libraries. */
 #define BYTES_PER_CELL             300
 #define BYTES_PER_CELL_NO_FRICTION 200
+#define BYTES_PROGRAM              50e6
+
+/* What this rank will need. */
+static double Memory(SamGrid grid, PetscReal friction)
+{
+  return BYTES_PROGRAM + (friction > 0 ? BYTES_PER_CELL : BYTES_PER_CELL_NO_FRICTION) * (double)grid->cells;
+}
 
 /* Memory of this node that can be had, bytes; 0 when it cannot be told. */
 static double AvailableMemory(void)
@@ -179,7 +197,6 @@ static double AvailableMemory(void)
 /* Refuses what this node cannot hold before the system kills the run for it. */
 static PetscErrorCode RefuseTooLarge(SamGrid grid, PetscReal friction)
 {
-  const double per_cell = friction > 0 ? BYTES_PER_CELL : BYTES_PER_CELL_NO_FRICTION;
   double       need, worst;
   MPI_Comm     node;
   PetscBool    check = PETSC_TRUE;
@@ -187,7 +204,7 @@ static PetscErrorCode RefuseTooLarge(SamGrid grid, PetscReal friction)
   PetscFunctionBegin;
   PetscCall(SamOptionsBool(NULL, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
   PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  need = per_cell * (double)grid->cells;
+  need = Memory(grid, friction);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
   PetscCallMPI(MPI_Comm_free(&node));
   worst = AvailableMemory();
@@ -244,22 +261,6 @@ static PetscErrorCode WriteParameters(SamOutput output, SamGrid grid, const SamP
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Time and memory of the run so far, the largest rank's. */
-static PetscErrorCode PrintResources(SamGrid grid, double start)
-{
-  struct rusage used;
-  double        numbers[3];
-
-  PetscFunctionBegin;
-  getrusage(RUSAGE_SELF, &used);
-  numbers[0] = MPI_Wtime() - start;
-  numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec + 1e-6 * (double)used.ru_stime.tv_usec;
-  numbers[2] = 1024e-6 * (double)used.ru_maxrss;
-  PetscCall(SamMax(grid->comm, 3, numbers));
-  PetscCall(PetscPrintf(grid->comm, "  %-10s  %.2f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used", numbers[0], numbers[1], numbers[2]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the run ---- */
 
 typedef struct {
@@ -272,8 +273,9 @@ typedef struct {
   SamOutput     output;
   PetscReal     friction;
   SamHistory    history;
+  SamReport     report;
   SamStatus     status; /* the worst so far */
-  PetscInt      output_every;
+  PetscInt      output_every, solved, saved; /* saved: steps with fields */
   PetscBool     has_output, writing;
   char          filename[PETSC_MAX_PATH_LEN];
 } Run;
@@ -310,6 +312,7 @@ static PetscErrorCode SetUp(Run *run)
   PetscCall(SamGapCreate(PETSC_COMM_WORLD, &run->gap));
   PetscCall(SamGapSetFromOptions(run->gap));
   PetscCall(SamHistoryCreateFromOptions(PETSC_COMM_WORLD, &run->history));
+  PetscCall(SamReportCreateFromOptions(PETSC_COMM_WORLD, &run->report));
   PetscCall(SamOptionsHeading("Results and resources"));
   PetscCall(SamOptionsString(NULL, "output", "HDF5 file of the results", run->filename, sizeof(run->filename), &run->has_output));
   run->output_every = 1;
@@ -330,6 +333,7 @@ static PetscErrorCode TearDown(Run *run)
 {
   PetscFunctionBegin;
   PetscCall(SamOutputDestroy(&run->output));
+  PetscCall(SamReportDestroy(&run->report));
   PetscCall(SamContactDestroy(&run->contact));
   PetscCall(VecDestroy(&run->separation));
   PetscCall(SamComplianceDestroy(&run->compliance));
@@ -339,42 +343,35 @@ static PetscErrorCode TearDown(Run *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode PrintBanner(const Run *run)
-{
-  PetscMPIInt ranks;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(run->grid->comm, &ranks));
-  PetscCall(PetscPrintf(run->grid->comm, "petsam %s: %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m, %d rank%s\n", PETSAM_VERSION, run->grid->nx, run->grid->ny, (double)run->grid->dx, (double)run->grid->dy, ranks, ranks > 1 ? "s" : ""));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Results of a step. Where there is no equilibrium there are no fields. */
 static PetscErrorCode WriteStep(Run *run, const SamStep *step, PetscInt k, PetscInt count)
 {
   const PetscBool due = ((k + 1) % run->output_every == 0 || k + 1 == count || step->status == SAM_STATUS_NOT_CONVERGED) ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool has = (due && step->status != SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
   SamFields       fields;
 
   PetscFunctionBegin;
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetFields(run->contact, &fields));
   run->writing = PETSC_TRUE;
-  PetscCall(SamOutputWriteStep(run->output, step, due && step->status != SAM_STATUS_NO_EQUILIBRIUM ? &fields : NULL, run->friction));
+  PetscCall(SamOutputWriteStep(run->output, step, has ? &fields : NULL, run->friction));
   run->writing = PETSC_FALSE;
+  run->solved++;
+  run->saved += has ? 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A step's message goes to stderr, from the first rank. */
-static void PrintMessage(const Run *run, const SamStep *step, PetscInt k, PetscInt count)
+/* Closes the results file, so that what is said of it is true. */
+static PetscErrorCode FinishResults(Run *run)
 {
-  PetscMPIInt rank;
-  char        where[32] = "";
+  char content[96];
 
-  MPI_Comm_rank(run->grid->comm, &rank);
-  if (rank || !step->message[0]) return;
-  if (count > 1) snprintf(where, sizeof(where), "step %d: ", (int)k + 1);
-  fflush(PETSC_STDOUT);
-  fprintf(stderr, "petsam: %s%s%s\n", step->status ? "" : "warning: ", where, step->message);
+  PetscFunctionBegin;
+  if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOutputDestroy(&run->output));
+  PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, run->solved, run->solved == 1 ? "" : "s", run->saved));
+  PetscCall(SamReportAddFile(run->report, run->filename, content));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* All load steps, their results, and what is to be said of them. Ends early where a step has no solution. */
@@ -385,16 +382,14 @@ static PetscErrorCode SolveSteps(Run *run)
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetCount(run->history, &count));
-  if (count > 1) PetscCall(SamStepViewHeading(PETSC_VIEWER_STDOUT_(run->grid->comm)));
   for (PetscInt k = 0; k < count && !ended; k++) {
     SamStep step;
 
     PetscCall(SamHistoryGetStep(run->history, k, &step));
+    PetscCall(SamReportBeginStep(run->report, k, run->contact));
     PetscCall(SamContactSolve(run->contact, &step));
-    if (count > 1) PetscCall(SamStepViewLine(&step, k + 1, PETSC_VIEWER_STDOUT_(run->grid->comm)));
-    else PetscCall(SamStepView(&step, PETSC_VIEWER_STDOUT_(run->grid->comm)));
     PetscCall(WriteStep(run, &step, k, count));
-    PrintMessage(run, &step, k, count);
+    PetscCall(SamReportEndStep(run->report, &step)); /* a step that is told is in the file */
     ended = (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
     if (ended || !run->status) run->status = step.status;
   }
@@ -403,7 +398,7 @@ static PetscErrorCode SolveSteps(Run *run)
 
 static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help, PetscErrorCode bad_file, const char message[])
 {
-  const double start = MPI_Wtime();
+  PetscInt steps;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
@@ -418,13 +413,15 @@ static PetscErrorCode RunProgram(Run *run, int argc, char **argv, PetscBool help
   PetscCall(RefuseStrayWords(argc, argv));
   PetscCall(SetUp(run));
   PetscCall(RefuseUnknownOptions());
-  PetscCall(PrintBanner(run));
+  PetscCall(SamHistoryGetCount(run->history, &steps));
+  PetscCall(SamReportBanner(run->report, run->grid, Memory(run->grid, run->friction), steps, run->has_output ? run->filename : NULL));
   if (run->has_output) {
     PetscCall(SamOutputCreate(run->grid, run->filename, &run->output));
     PetscCall(WriteParameters(run->output, run->grid, &run->pair, run->gap, run->friction, run->history));
   }
   PetscCall(SolveSteps(run));
-  PetscCall(PrintResources(run->grid, start));
+  PetscCall(FinishResults(run));
+  PetscCall(SamReportClosing(run->report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -442,6 +439,7 @@ int main(int argc, char **argv)
   code = SamHistoryClaimOption();
   if (!code) code = PetscInitialize(&argc, &argv, NULL, NULL);
   if (code) return code;
+  (void)signal(SIGPIPE, SIG_DFL); /* `petsam -help | head` is no crash to be traced */
   PetscCall(PetscPushErrorHandler(HandleError, NULL));
   if (version) {
     char petsc[256];

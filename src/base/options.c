@@ -30,16 +30,23 @@ PetscErrorCode SamOptionsHeading(const char title[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], const char help[], const char value[])
+/*
+  A line of the help: name, kind of the value, what it is, and its default unless it must be given. A name that is too
+  long for its column has a line of its own.
+*/
+#define HELP_COLUMN 40
+static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], const char help[], const char kind[], const char value[])
 {
   PetscBool print;
-  char      option[128];
+  char      option[128], shown[TEXT_SIZE + 4] = "";
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&print));
   if (!print) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s%s <%s>", prefix ? prefix : "", name, value));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-40s %s\n", option, help));
+  snprintf(option, sizeof(option), "-%s%s %s", prefix ? prefix : "", name, kind);
+  if (value[0] && !strstr(help, "required")) snprintf(shown, sizeof(shown), " (%s)", value);
+  if (strlen(option) >= HELP_COLUMN) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n  %*s%s%s\n", option, HELP_COLUMN, "", help, shown));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-*s%s%s\n", HELP_COLUMN, option, help, shown));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,8 +127,8 @@ PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char
   PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%g", (double)*value));
-  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  snprintf(shown, sizeof(shown), "%g", (double)*value);
+  PetscCall(PrintHelpLine(prefix, name, help, "<number>", shown));
   PetscCall(GetReals(prefix, name, DescribeRange(range), 1, range, value, &found));
   if (set) *set = found;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -133,8 +140,8 @@ PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const 
   PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%g,%g", (double)value[0], (double)value[1]));
-  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  snprintf(shown, sizeof(shown), "%g,%g", (double)value[0], (double)value[1]);
+  PetscCall(PrintHelpLine(prefix, name, help, "<number>[,<number>]", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected), "%s, or two separated by a comma", DescribeRange(range)));
   PetscCall(GetReals(prefix, name, expected, 2, range, value, &found));
   if (set) *set = found;
@@ -177,7 +184,7 @@ PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char 
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT, *value));
-  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  PetscCall(PrintHelpLine(prefix, name, help, "<whole>", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT, least));
   PetscCall(GetInts(prefix, name, expected, 1, least, value, &found));
   if (set) *set = found;
@@ -191,7 +198,7 @@ PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const c
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT ",%" PetscInt_FMT, value[0], value[1]));
-  PetscCall(PrintHelpLine(prefix, name, help, shown));
+  PetscCall(PrintHelpLine(prefix, name, help, "<whole>[,<whole>]", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT ", or two separated by a comma", least));
   PetscCall(GetInts(prefix, name, expected, 2, least, value, &found));
   if (set) *set = found;
@@ -205,7 +212,7 @@ PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char
   PetscBool                found, good;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, *value ? "true" : "false"));
+  PetscCall(PrintHelpLine(prefix, name, help, "[<bool>]", *value ? "true" : "false"));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
   PetscCall(PetscOptionsGetString(NULL, prefix, option, text, sizeof(text), &found));
   if (set) *set = found;
@@ -226,7 +233,7 @@ PetscErrorCode SamOptionsString(const char prefix[], const char name[], const ch
   PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, value[0] ? value : "none"));
+  PetscCall(PrintHelpLine(prefix, name, help, "<text>", value));
   PetscCall(GetText(prefix, name, "a text", text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
@@ -242,7 +249,7 @@ PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char
   PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, words[*value]));
+  PetscCall(PrintHelpLine(prefix, name, help, "<word>", words[*value]));
   for (PetscInt w = 0; words[w]; w++) {
     if (w) PetscCall(PetscStrlcat(list, words[w + 1] ? ", " : " or ", sizeof(list)));
     PetscCall(PetscStrlcat(list, words[w], sizeof(list)));
@@ -262,7 +269,7 @@ PetscErrorCode SamOptionsHasViewer(const char prefix[], const char name[], const
   char option[128], text[TEXT_SIZE] = "";
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, "viewer"));
+  PetscCall(PrintHelpLine(prefix, name, help, "[<viewer>]", ""));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
   PetscCall(PetscOptionsGetString(NULL, prefix, option, text, sizeof(text), set));
   PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected nothing, ascii or ascii:file", prefix ? prefix : "", name, text);

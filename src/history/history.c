@@ -29,9 +29,9 @@ static PetscErrorCode ReadComponent(SamHistory h, const char file[], PetscInt co
   char                     text[64];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(text, sizeof(text), "load (%s); or instead:", units[balance->kind][k]));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "load (%s), or instead %s", units[balance->kind][k], rigid));
   PetscCall(SamOptionsReal(NULL, load, text, is_n ? SAM_RANGE_NONNEGATIVE : SAM_RANGE_ANY, &balance->load[k], &has_load));
-  PetscCall(SamOptionsReal(NULL, rigid, !strncmp(rigid, "rot", 3) ? "its rotation (rad)" : "its displacement (m)", SAM_RANGE_ANY, &balance->rigid[k], &has_rigid));
+  PetscCall(SamOptionsReal(NULL, rigid, !strncmp(rigid, "rot", 3) ? "the conjugate rotation (rad)" : "the conjugate displacement (m)", SAM_RANGE_ANY, &balance->rigid[k], &has_rigid));
   PetscCheck(!has_load || !has_rigid, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s and -%s are conjugate: give one of them", load, rigid);
   PetscCheck(load_column < 0 || rigid_column < 0, PETSC_COMM_WORLD, SAM_ERR_USER, "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file, h->table.header_line, load, rigid);
   for (PetscInt c = 0; c < 2; c++) {

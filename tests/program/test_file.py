@@ -126,7 +126,7 @@ def test_help_names_every_option_once(petsam, tmp_path, word, ranks):
                                 "allow_edge_contact"] + [
                                 f"{solver}_{option}" for solver in ("normal", "tangential") for option in
                                 ("type", "rtol", "max_it", "monitor", "converged_reason", "view")]:
-        assert len(re.findall(rf"^ *-{name} ", done.stdout, re.M)) == 1, name
+        assert len(re.findall(rf"^  -{name} ", done.stdout, re.M)) == 1, name
     assert done.stderr == "" and not list(tmp_path.iterdir())
 
 

@@ -1,6 +1,5 @@
-/* What a run says about its steps. */
-#include "../base/baseimpl.h"
-#include <petsam/summary.h>
+/* A load step in words: in full, and as a line of a table. */
+#include "reportimpl.h"
 
 static PetscErrorCode ViewBalance(const SamBalance *balance, const char title[], PetscViewer viewer)
 {
@@ -29,17 +28,28 @@ PetscErrorCode SamStepView(const SamStep *s, PetscViewer viewer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamReportDuration(double seconds, char text[], size_t size)
+{
+  const long total = (long)(seconds + 0.5);
+
+  snprintf(text, size, "%ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
+}
+
 PetscErrorCode SamStepViewHeading(PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%5s %11s %11s %11s %11s %11s %11s %10s %10s %5s %5s %8s %8s\n", "step", "time", "load_n", "load_tx", "load_ty", "load_mz", "disp_x", "contact/m2", "stick/m2", "its n", "its t", "check n", "check t"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%6s %10s %10s %10s %10s %10s %10s %10s %10s %9s %4s %4s %7s %7s %8s %9s\n", "step", "time/s", "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2", "stick/m2", "it n", "it t", "res n", "res t", "s", "left"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStepViewLine(const SamStep *s, PetscInt number, PetscViewer viewer)
+PetscErrorCode SamStepViewLine(const SamStep *s, PetscInt number, double seconds, double left, PetscViewer viewer)
 {
+  const PetscReal *n = s->normal.load, *t = s->tangential.load;
+  char             duration[32];
+
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT " %11.4g %11.4g %11.4g %11.4g %11.4g %11.4g %10.4g %10.4g %5" PetscInt_FMT " %5" PetscInt_FMT " %8.1e %8.1e\n", number, (double)s->time, (double)s->normal.load[0], (double)s->tangential.load[0], (double)s->tangential.load[1],
-                                   (double)s->tangential.load[2], (double)s->tangential.rigid[0], (double)s->contact_area, (double)s->stick_area, s->normal_iterations, s->tangential_iterations, (double)s->check.normal, (double)s->check.tangential));
+  SamReportDuration(left, duration, sizeof(duration));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%6" PetscInt_FMT " %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9.3g %4" PetscInt_FMT " %4" PetscInt_FMT " %7.1e %7.1e %8.2f %9s\n", number, (double)s->time, (double)n[0], (double)t[0], (double)t[1], (double)n[1],
+                                   (double)n[2], (double)t[2], (double)s->contact_area, (double)s->stick_area, s->normal_iterations, s->tangential_iterations, (double)s->check.normal, (double)s->check.tangential, seconds, duration));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

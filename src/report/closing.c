@@ -1,0 +1,136 @@
+/*
+  The end of the report: where the time went, the worst residuals, the files, and what the run used.
+
+  Times are those of petsam's own log events, on the rank where they are largest.
+*/
+#include "reportimpl.h"
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+/* A row: the times of one or more events together. */
+typedef struct {
+  const char *name;
+  SamEvent    events[3];
+  PetscInt    count;
+} Part;
+
+/* These follow on one another, and with set-up and the rest make up the whole run. */
+static const Part parts[] = {
+  {"normal problem",     {SAM_EVENT_NORMAL_SOLVE},     1},
+  {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
+  {"check",              {SAM_EVENT_CHECK},            1},
+  {"results",            {SAM_EVENT_OUTPUT},           1}
+};
+static const Part *const output = &parts[3];
+
+/* These lie within those. */
+static const Part inner[] = {
+  {"influence coefficients", {SAM_EVENT_SETUP_INFLUENCE},                                                      1},
+  {"products",               {SAM_EVENT_APPLY_NORMAL, SAM_EVENT_APPLY_TANGENTIAL, SAM_EVENT_APPLY_COUPLING},   3},
+  {"preconditioner",         {SAM_EVENT_PRECONDITION_NORMAL, SAM_EVENT_PRECONDITION_TANGENTIAL},               2},
+  {"Fourier transforms",     {SAM_EVENT_FFT_ROWS, SAM_EVENT_FFT_COLUMNS, SAM_EVENT_FFT_TRANSPOSE},             3}
+};
+
+enum { PARTS = sizeof(parts) / sizeof(parts[0]), INNER = sizeof(inner) / sizeof(inner[0]) };
+
+static PetscErrorCode GetTime(SamReport r, const Part *part, double *seconds)
+{
+  PetscFunctionBegin;
+  *seconds = 0;
+  for (PetscInt e = 0; e < part->count && r->logging; e++) {
+#if defined(PETSC_USE_LOG)
+    PetscEventPerfInfo info;
+
+    PetscCall(PetscLogEventGetPerfInfo(0, SamEvents[part->events[e]], &info));
+    *seconds += info.time;
+#endif
+  }
+  PetscCall(SamMax(r->comm, 1, seconds));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportGetOutputTime(SamReport r, double *seconds)
+{
+  PetscFunctionBegin;
+  PetscCall(GetTime(r, output, seconds));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintRow(SamReport r, const char indent[], const char name[], double seconds, double total)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(r->comm, "    %s%-*s %10.2f s %5.1f %%\n", indent, 26 - (int)strlen(indent), name, seconds, total > 0 ? 100 * seconds / total : 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintTimes(SamReport r)
+{
+  double total = MPI_Wtime() - r->start, setup = r->first - r->start - r->output_before, rest, seconds;
+
+  PetscFunctionBegin;
+  PetscCall(SamMax(r->comm, 1, &total));
+  PetscCall(SamMax(r->comm, 1, &setup));
+  rest = total - setup;
+  PetscCall(PetscPrintf(r->comm, "\n  time by part\n"));
+  PetscCall(PrintRow(r, "", "set-up", setup, total));
+  for (PetscInt p = 0; p < PARTS; p++) {
+    PetscCall(GetTime(r, &parts[p], &seconds));
+    PetscCall(PrintRow(r, "", parts[p].name, seconds, total));
+    rest -= seconds;
+  }
+  PetscCall(PrintRow(r, "", "other", PetscMax(rest, 0), total));
+  PetscCall(PrintRow(r, "", "total", total, total));
+  PetscCall(PetscPrintf(r->comm, "    within these:\n"));
+  for (PetscInt p = 0; p < INNER; p++) {
+    PetscCall(GetTime(r, &inner[p], &seconds));
+    PetscCall(PrintRow(r, "  ", inner[p].name, seconds, total));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintFiles(SamReport r)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < r->files; k++) {
+    struct stat status = {.st_size = 0};
+
+    if (!r->rank) (void)stat(r->name[k], &status);
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %s: %s, %.3g MB\n", k ? "" : "written", r->name[k], r->content[k], 1e-6 * (double)status.st_size));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Time and memory, the largest rank's. */
+static PetscErrorCode PrintResources(SamReport r)
+{
+  struct rusage used;
+  double        numbers[3];
+
+  PetscFunctionBegin;
+  getrusage(RUSAGE_SELF, &used);
+  numbers[0] = MPI_Wtime() - r->start;
+  numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec + 1e-6 * (double)used.ru_stime.tv_usec;
+  numbers[2] = 1024e-6 * (double)used.ru_maxrss;
+  PetscCall(SamMax(r->comm, 3, numbers));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %.2f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used", numbers[0], numbers[1], numbers[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportClosing(SamReport r)
+{
+  static const char *const names[] = {"normal", "tangential", "equilibrium"};
+
+  PetscFunctionBegin;
+  if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
+  if (r->logging) PetscCall(PrintTimes(r));
+  PetscCall(PetscPrintf(r->comm, "  %-10s ", "worst"));
+  for (PetscInt k = 0; k < 3; k++) {
+    PetscCall(PetscPrintf(r->comm, "%s %s %.2e", k ? "," : "", names[k], (double)r->worst[k].residual));
+    if (r->steps > 1 && r->worst[k].step) PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ")", r->worst[k].step));
+  }
+  PetscCall(PetscPrintf(r->comm, "\n"));
+  PetscCall(PrintFiles(r));
+  PetscCall(PrintResources(r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,113 @@
+/*
+  A line on the terminal that is written over while a step is being solved.
+
+  It is for eyes only, so that nothing of it may get into a file. Under an MPI launcher that is not told by rank 0's own
+  stdout: Open MPI gives its processes a pseudo terminal wherever the launcher's output goes. There the launcher's, that
+  is the parent's, counts too; where it cannot be seen, nothing is shown.
+*/
+#include "reportimpl.h"
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define AFTER    1.0  /* s: shorter steps need no line */
+#define INTERVAL 0.25 /* s */
+
+static const char *const mode_words[] = {"auto", "always", "never", NULL};
+
+/* The environment that this process began with: MPI adds its own variables to that of a process without a launcher. */
+static PetscBool LaunchedByMPI(void)
+{
+  static const char *const names[] = {"OMPI_COMM_WORLD_SIZE=", "PMI_RANK=", "PMIX_RANK=", "SLURM_PROCID=", NULL};
+  FILE                    *file    = fopen("/proc/self/environ", "r");
+  char                    *entry   = NULL;
+  size_t                   size    = 0;
+  PetscBool                found   = file ? PETSC_FALSE : PETSC_TRUE; /* it cannot be told: then rather so */
+
+  while (!found && getdelim(&entry, &size, '\0', file) > 0)
+    for (PetscInt k = 0; names[k]; k++)
+      if (!strncmp(entry, names[k], strlen(names[k]))) found = PETSC_TRUE;
+  free(entry);
+  if (file) fclose(file);
+  return found;
+}
+
+/* Whether what is written to stdout is seen by somebody. */
+static PetscBool OnTerminal(void)
+{
+  char    link[64], target[64];
+  ssize_t length;
+
+  if (!isatty(STDOUT_FILENO)) return PETSC_FALSE;
+  if (!LaunchedByMPI()) return PETSC_TRUE;
+  snprintf(link, sizeof(link), "/proc/%ld/fd/1", (long)getppid());
+  length = readlink(link, target, sizeof(target) - 1);
+  if (length < 0) return PETSC_FALSE;
+  target[length] = '\0';
+  return (!strncmp(target, "/dev/pts/", 9) || !strncmp(target, "/dev/tty", 8)) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode SamProgressSetFromOptions(SamReport r)
+{
+  PetscInt mode = SAM_PROGRESS_AUTO;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsEnum(NULL, "progress", "line within long steps: auto (on a terminal), always or never", mode_words, &mode, NULL));
+  r->progress.active = (!r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal()))) ? PETSC_TRUE : PETSC_FALSE;
+  r->progress.after  = mode == SAM_PROGRESS_ALWAYS ? 0 : AFTER;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamProgressErase(SamReport r)
+{
+  if (!r->progress.length) return;
+  fprintf(stdout, "\r%*s\r", r->progress.length, "");
+  fflush(stdout);
+  r->progress.length = 0;
+}
+
+static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
+{
+  const double now = MPI_Wtime();
+  char         text[128], duration[32];
+  int          length;
+
+  if (!r->progress.active || now - r->begin < r->progress.after || now - r->progress.shown_at < INTERVAL) return;
+  SamReportDuration(now - r->begin, duration, sizeof(duration));
+  length = snprintf(text, sizeof(text), "step %" PetscInt_FMT " of %" PetscInt_FMT ", %s: %s problem, iteration %" PetscInt_FMT ", residual %.1e", r->number + 1, r->steps, duration, kind, it, (double)error);
+  fprintf(stdout, "\r%-*s\r", r->progress.length, text); /* a monitor's line may follow */
+  fflush(stdout);
+  r->progress.length   = PetscMax(length, r->progress.length);
+  r->progress.shown_at = now;
+}
+
+static PetscErrorCode WatchNormal(void *normal, PetscInt it, PetscReal error, void *context)
+{
+  PetscFunctionBegin;
+  (void)normal;
+  Show((SamReport)context, "normal", it, error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode WatchTangential(void *tangential, PetscInt it, PetscReal error, void *context)
+{
+  PetscFunctionBegin;
+  (void)tangential;
+  Show((SamReport)context, "tangential", it, error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProgressWatch(SamReport r, SamContact contact)
+{
+  SamNormal     normal;
+  SamTangential tangential;
+
+  PetscFunctionBegin;
+  if (!r->progress.active || r->contact == contact) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetNormal(contact, &normal));
+  PetscCall(SamNormalMonitorSet(normal, WatchNormal, r));
+  PetscCall(SamContactGetTangential(contact, &tangential));
+  PetscCall(SamTangentialMonitorSet(tangential, WatchTangential, r));
+  r->contact = contact;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,186 @@
+/* The report: banner, a line a load step, messages. */
+#include "reportimpl.h"
+#include <fftw3-mpi.h>
+#include <hdf5.h>
+#include <string.h>
+
+/* Whether PETSc's log can tell the time of an event: not where the user asked for a nested log, whose events are others. */
+static PetscErrorCode StartLog(SamReport r)
+{
+  char      text[PETSC_MAX_PATH_LEN] = "";
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-log_view", text, sizeof(text), &set));
+#if defined(PETSC_USE_LOG)
+  r->logging = (strstr(text, "ascii_xml") || strstr(text, "ascii_flamegraph")) ? PETSC_FALSE : PETSC_TRUE;
+  if (r->logging && !set) PetscCall(PetscLogDefaultBegin());
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportCreateFromOptions(MPI_Comm comm, SamReport *report)
+{
+  SamReport r;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(PetscNew(&r));
+  *report  = r;
+  r->comm  = comm;
+  r->start = r->first = r->begin = MPI_Wtime();
+  PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
+  PetscCall(SamOptionsHeading("What the run says"));
+  PetscCall(SamOptionsBool(NULL, "quiet", "nothing on stdout; warnings and errors stay", &r->quiet, NULL));
+  PetscCall(SamProgressSetFromOptions(r));
+  if (!r->quiet) PetscCall(StartLog(r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportDestroy(SamReport *report)
+{
+  PetscFunctionBegin;
+  if (!*report) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < (*report)->files; k++) {
+    PetscCall(PetscFree((*report)->name[k]));
+    PetscCall(PetscFree((*report)->content[k]));
+  }
+  PetscCall(PetscFree(*report));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- banner ---- */
+
+/* What runs under this program, with versions: "PETSc 3.18.5, FFTW 3.3.10, HDF5 1.10.8, Open MPI v4.1.4". */
+static PetscErrorCode DescribeLibraries(char text[], size_t size)
+{
+  char        mpi[MPI_MAX_LIBRARY_VERSION_STRING], fftw[64];
+  const char *number = strchr(fftw_version, '-');
+  PetscInt    petsc[3];
+  unsigned    hdf5[3];
+  int         length;
+
+  PetscFunctionBegin;
+  PetscCall(PetscGetVersionNumber(&petsc[0], &petsc[1], &petsc[2], NULL));
+  PetscCheck(H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "H5get_libversion() failed");
+  PetscCallMPI(MPI_Get_library_version(mpi, &length));
+  mpi[strcspn(mpi, ",\n")] = '\0'; /* the rest tells how it was built */
+  snprintf(fftw, sizeof(fftw), "%s", number ? number + 1 : fftw_version);
+  fftw[strcspn(fftw, "-")] = '\0';
+  snprintf(text, size, "PETSc %d.%d.%d, FFTW %s, HDF5 %u.%u.%u, %s", (int)petsc[0], (int)petsc[1], (int)petsc[2], fftw, hdf5[0], hdf5[1], hdf5[2], mpi);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CountNodes(MPI_Comm comm, double *nodes)
+{
+  MPI_Comm    node;
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
+  PetscCallMPI(MPI_Comm_rank(node, &rank));
+  PetscCallMPI(MPI_Comm_free(&node));
+  *nodes = rank ? 0 : 1;
+  PetscCall(SamSum(comm, 1, nodes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt steps, const char output[])
+{
+  PetscMPIInt ranks;
+  double      nodes;
+  char        libraries[512];
+
+  PetscFunctionBegin;
+  r->steps = steps;
+  if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
+  PetscCall(CountNodes(r->comm, &nodes));
+  PetscCall(SamMax(r->comm, 1, &bytes));
+  PetscCall(DescribeLibraries(libraries, sizeof(libraries)));
+  PetscCall(PetscPrintf(r->comm, "petsam %s: partial-slip contact by the semi-analytical method\n", PETSAM_VERSION));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "libraries", libraries));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid", grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  about %.3g MB a rank\n", "memory", 1e-6 * bytes));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n\n", "steps", steps, output ? "in " : "not kept (no -output)", output ? output : ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- steps ---- */
+
+PetscErrorCode SamReportBeginStep(SamReport r, PetscInt number, SamContact contact)
+{
+  PetscFunctionBegin;
+  r->number = number;
+  r->begin  = MPI_Wtime();
+  if (!r->done) {
+    PetscCall(SamReportGetOutputTime(r, &r->output_before));
+    r->first = r->begin;
+  }
+  PetscCall(SamProgressWatch(r, contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Seconds that the remaining steps will take if they are as the last ones were. */
+static double TimeLeft(SamReport r, double seconds)
+{
+  const PetscInt known = PetscMin(r->done, SAM_REPORT_RECENT);
+  double         sum   = 0;
+
+  r->recent[(r->done - 1) % SAM_REPORT_RECENT] = seconds;
+  for (PetscInt k = 0; k < known; k++) sum += r->recent[k];
+  return sum / (double)known * (double)(r->steps - r->number - 1);
+}
+
+static void KeepWorst(SamReport r, const SamStep *step)
+{
+  const PetscReal residuals[3] = {step->check.normal, step->check.tangential, step->check.equilibrium};
+
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscReal worst = SamLarger(r->worst[k].residual, residuals[k]);
+
+    if (worst > r->worst[k].residual || r->done == 1) r->worst[k].step = r->number + 1;
+    r->worst[k].residual = worst;
+  }
+}
+
+/* A step's message goes to stderr, from the first rank. */
+static void PrintMessage(SamReport r, const SamStep *step)
+{
+  char where[32] = "";
+
+  if (r->rank || !step->message[0]) return;
+  if (r->steps > 1) snprintf(where, sizeof(where), "step %ld: ", (long)r->number + 1);
+  fflush(stdout);
+  fprintf(stderr, "petsam: %s%s%s\n", step->status ? "" : "warning: ", where, step->message);
+}
+
+PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
+{
+  const double seconds = MPI_Wtime() - r->begin;
+  PetscViewer  viewer;
+
+  PetscFunctionBegin;
+  SamProgressErase(r);
+  r->done++;
+  if (step->status != SAM_STATUS_NO_EQUILIBRIUM) KeepWorst(r, step);
+  if (!r->quiet) {
+    PetscCall(PetscViewerASCIIGetStdout(r->comm, &viewer));
+    if (r->done == 1) PetscCall(SamStepViewHeading(viewer));
+    PetscCall(SamStepViewLine(step, r->number + 1, seconds, TimeLeft(r, seconds), viewer));
+    if (r->steps == 1) PetscCall(SamStepView(step, viewer));
+  }
+  PrintMessage(r, step);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportAddFile(SamReport r, const char name[], const char content[])
+{
+  PetscFunctionBegin;
+  PetscCheck(r->files < SAM_REPORT_FILES, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d files", SAM_REPORT_FILES);
+  PetscCall(PetscStrallocpy(name, &r->name[r->files]));
+  PetscCall(PetscStrallocpy(content, &r->content[r->files]));
+  r->files++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

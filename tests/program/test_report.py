@@ -1,0 +1,246 @@
+"""What a run says: banner, a line a load step, closing table, progress; and where it says it."""
+import os
+import pty
+import re
+import subprocess
+
+import h5py
+import numpy as np
+import pytest
+
+from conftest import PROGRAM, environment
+from support import SPHERE, ball, flatten
+
+STEPS = dict(ball(48), load_tx=20.0, steps=4)
+HEADING = ["step", "time/s", "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2", "stick/m2", "it n", "it t", "res n", "res t", "s",
+           "left"]
+
+
+def table(text):
+    """Heading and lines of the steps."""
+    lines = text.splitlines()
+    first = next(k for k, line in enumerate(lines) if line.split()[:2] == ["step", "time/s"])
+    return lines[first], [line for line in lines[first + 1:] if re.match(r" *\d+ ", line)]
+
+
+def banner(text, name):
+    return re.search(rf"^  {name} +(.+)$", text, re.M).group(1)
+
+
+def seconds(text, name):
+    return float(re.search(rf"^ +{name} +(\d+\.\d+) s", text, re.M).group(1))
+
+
+# ---- banner
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_banner_tells_version_libraries_ranks_and_grid(petsam, ranks):
+    text = petsam(STEPS, ranks=ranks).stdout
+    version, petsc = petsam("--version").stdout.splitlines()[:2]
+    assert text.startswith(version + ":")
+    libraries = banner(text, "libraries")
+    assert re.search(r"PETSc " + re.search(r"\d+\.\d+\.\d+", petsc).group() + ",", libraries)
+    assert re.search(r"FFTW \d+\.\d+[\d.]*, HDF5 \d+\.\d+\.\d+, \S+", libraries)
+    assert banner(text, "ranks").startswith(f"{ranks} on 1 node")
+    assert banner(text, "grid").startswith("48 x 48 cells of ")
+    assert banner(text, "steps").startswith("4,")
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_memory_estimate_is_what_the_run_uses(petsam, ranks):
+    """A rough figure for the choice of a machine: the program alone differs by tens of MB between systems."""
+    text = petsam(ball(512), dict(load_tx=20.0), ranks=ranks).stdout
+    told = float(re.search(r"about (\S+) MB a rank", banner(text, "memory")).group(1))
+    used = float(re.search(r"memory (\d+) MB of the largest rank", text).group(1))
+    assert 0.7 * used <= told <= 1.6 * used
+
+
+# ---- steps
+
+def test_each_step_is_a_line_of_fixed_columns(petsam, tmp_path):
+    heading, lines = table(petsam(STEPS, dict(output="out.h5")).stdout)
+    assert heading.split() == " ".join(HEADING).split()
+    assert len({len(line) for line in [heading, *lines]}) == 1
+    names = ("time", "load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz", "contact_area", "stick_area", "normal_iterations",
+             "tangential_iterations", "normal_residual", "tangential_residual")
+    with h5py.File(tmp_path / "out.h5") as f:
+        for k, line in enumerate(lines):
+            values = line.split()
+            assert int(values[0]) == k + 1
+            for name, shown in zip(names, values[1:]):
+                assert float(shown) == pytest.approx(f["history"][name][k], rel=0.06 if "residual" in name else 6e-3, abs=1e-300), name
+    assert len(lines) == 4
+
+
+def test_time_left_is_what_the_other_steps_take(petsam):
+    _, lines = table(petsam(dict(STEPS, grid_n=300, steps=6)).stdout)
+    taken = [float(line.split()[-2]) for line in lines]
+    left = [sum(int(part) * unit for part, unit in zip(line.split()[-1].split(":"), (3600, 60, 1))) for line in lines]
+    assert left[-1] == 0
+    for k in range(6):  # of the mean so far times the steps to come, rounded to seconds
+        recent = taken[max(0, k - 4):k + 1]
+        assert left[k] == pytest.approx(np.mean(recent) * (5 - k), abs=0.51 + 0.005 * 5)
+
+
+def test_failed_step_is_a_line_too(petsam):
+    done = petsam(STEPS, dict(load_tx=100.0), check=11)
+    assert len(table(done.stdout)[1]) == 1 and done.complaint[0].startswith("petsam: step 1: gross slip")
+
+
+def test_steps_are_told_when_they_are_done(tmp_path):
+    """Into a pipe as well, which C's streams would fill before they say anything."""
+    run = subprocess.Popen([str(PROGRAM), *flatten([STEPS, dict(steps=100000)])], stdout=subprocess.PIPE, text=True, env=environment(),
+                           cwd=tmp_path, stdin=subprocess.DEVNULL)
+    try:
+        assert any(re.match(r" *3 ", line) for line in run.stdout)
+        assert run.poll() is None
+    finally:
+        run.kill()
+        run.communicate()
+
+
+# ---- the end
+
+def test_parts_of_the_time_make_up_the_whole(petsam):
+    text = petsam(dict(STEPS, grid_n=200), dict(output="out.h5")).stdout
+    parts = [seconds(text, name) for name in ("set-up", "normal problem", "tangential problem", "check", "results", "other")]
+    total = seconds(text, "total")
+    assert sum(parts) == pytest.approx(total, abs=0.005 * 7) and total > 0
+    assert parts[1] > 0 and parts[2] > 0
+    for name in ("influence coefficients", "products", "preconditioner", "Fourier transforms"):
+        assert 0 < seconds(text, name) <= total
+
+
+def test_worst_residuals_are_those_of_the_history(petsam, tmp_path):
+    text = petsam(STEPS, dict(output="out.h5")).stdout
+    with h5py.File(tmp_path / "out.h5") as f:
+        for kind in ("normal", "tangential", "equilibrium"):
+            value, step = re.search(rf"worst .*\b{kind} (\S+) \(step (\d+)\)", text).groups()
+            column = f["history"][f"{kind}_residual"][:]
+            assert float(value) == pytest.approx(column.max(), rel=6e-3)
+            assert column[int(step) - 1] == column.max()
+
+
+@pytest.mark.parametrize("every, fields", [(1, 4), (3, 2)])
+def test_files_written_are_named(petsam, tmp_path, every, fields):
+    text = petsam(STEPS, dict(output="out.h5", output_every=every)).stdout
+    steps, saved, size = re.search(r"written +out\.h5: (\d+) steps, fields of (\d+), (\S+) MB", text).groups()
+    assert (int(steps), int(saved)) == (4, fields)
+    assert float(size) == pytest.approx((tmp_path / "out.h5").stat().st_size * 1e-6, rel=6e-3)
+
+
+def test_nested_log_of_petsc_stays_as_it_is(petsam, tmp_path):
+    """Its events are others than those of the closing table, which is left out."""
+    text = petsam(STEPS, "-log_view", ":log.xml:ascii_xml").stdout
+    assert "SamNormalSolve" in (tmp_path / "log.xml").read_text()
+    assert "time by part" not in text and "worst" in text
+
+
+# ---- quiet, stderr
+
+def test_quiet_says_nothing_and_computes_the_same(petsam, tmp_path):
+    done = petsam(STEPS, "-quiet", "-output", "a.h5")
+    assert done.stdout == "" and done.stderr == ""
+    petsam(STEPS, "-output", "b.h5")
+    with h5py.File(tmp_path / "a.h5") as a, h5py.File(tmp_path / "b.h5") as b:
+        assert np.array_equal(a["shear_x"], b["shear_x"])
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_quiet_leaves_warnings_and_errors(petsam, ranks):
+    small = ball(40, half_width=0.9)
+    done = petsam(small, "-quiet", "-allow_edge_contact", ranks=ranks)
+    assert done.stdout == "" and len(done.complaint) == 1 and "warning" in done.complaint[0]
+    done = petsam(small, "-quiet", ranks=ranks, check=12)
+    assert len(done.complaint) == 1 and "edge" in done.complaint[0]
+
+
+# ---- progress
+
+# a second at least: the slow method on a fine grid
+LONG = dict(ball(600), normal_type="polonskykeer", normal_levels=1, load_tx=20.0)
+
+
+def on_terminal(words, folder):
+    """What a terminal gets of a command."""
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.chdir(folder)
+        os.execvpe(words[0], words, environment())
+    text = b""
+    while True:
+        try:
+            part = os.read(terminal, 65536)
+        except OSError:  # the other end is closed
+            break
+        if not part:
+            break
+        text += part
+    assert os.waitpid(pid, 0)[1] == 0
+    return text.decode()
+
+
+def progress(text):
+    return re.findall(r"step 1 of 1, \d:\d\d:\d\d: (?:normal|tangential) problem, iteration \d+, residual \S+", text)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_long_step_shows_its_progress_on_a_terminal(launcher, tmp_path, ranks):
+    words = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM), *flatten([LONG])]
+    text = on_terminal(words, tmp_path)
+    assert progress(text)
+    assert re.search(r"\r +\r +step +time/s", text), "the line is not taken away"
+
+
+def test_short_step_shows_no_progress(tmp_path):
+    assert "\r" not in on_terminal([str(PROGRAM), *flatten([ball(40)])], tmp_path).replace("\r\n", "")
+
+
+def test_progress_may_be_declined(tmp_path):
+    assert not progress(on_terminal([str(PROGRAM), *flatten([LONG, "-progress", "never"])], tmp_path))
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_no_progress_gets_into_a_file(launcher, tmp_path, ranks):
+    """Not even where the launcher, itself on a terminal, gives its processes one and writes to a file."""
+    words = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM), *flatten([LONG])]
+    on_terminal(["sh", "-c", " ".join(words) + " > log.txt"], tmp_path)
+    text = (tmp_path / "log.txt").read_text()
+    assert len(table(text)[1]) == 1 and "\r" not in text
+
+
+def test_progress_may_be_asked_for(petsam):
+    assert progress(petsam(LONG, "-progress", "always").stdout)
+
+
+# ---- help and version
+
+def test_help_is_grouped(petsam):
+    text = petsam("-help").stdout
+    groups = re.findall(r"^([A-Z]\w+(?: \w+)*)$", text, re.M)
+    assert groups[:4] == ["Grid", "Bodies", "Gap", "Loads and displacements"] and len(groups) >= 7
+    assert len(set(groups)) == len(groups)
+    assert max(map(len, text.splitlines())) <= 120
+
+
+def test_help_shows_a_command_that_works(petsam):
+    text = petsam("-help").stdout
+    command = re.search(r"^  petsam (-grid_n.*?[^\\])$", text, re.M | re.S).group(1)
+    petsam(*command.replace("\\\n", " ").split())
+
+
+@pytest.mark.parametrize("word", ["--version", "-version"])
+def test_version_is_told_by_either_word(petsam, word):
+    assert petsam(word).stdout.startswith("petsam ")
+
+
+def test_help_into_a_pipe_that_closes_is_no_crash(tmp_path):
+    run = subprocess.Popen([str(PROGRAM), "-help"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment(), cwd=tmp_path)
+    run.stdout.close()
+    assert "PETSC ERROR" not in run.stderr.read()
+    run.wait()
+
+
+@pytest.mark.parametrize("word", ["-quiet", "-progress"])
+def test_wrong_word_for_an_option_is_named(petsam, word):
+    assert word in petsam(SPHERE, word, "perhaps", check=2).complaint[0]
