@@ -13,15 +13,19 @@ B          := build
 Q          := $(if $(V),,@)
 say        := $(if $(V),@true,@echo)
 
+# in the command itself: before GNU make 4.4 $(shell) does not see what is exported
 ifneq ($(PETSC_DIR),)
-  export PKG_CONFIG_PATH := $(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PETSC_DIR)/lib/pkgconfig:$(PKG_CONFIG_PATH)
+  PC := PKG_CONFIG_PATH="$(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PETSC_DIR)/lib/pkgconfig:$(PKG_CONFIG_PATH)" $(PKG_CONFIG)
+  RPATH := -Wl,-rpath,$(shell $(PC) --variable=libdir petsc)
+else
+  PC := $(PKG_CONFIG)
 endif
-HDF5_PC := $(shell for p in hdf5-openmpi hdf5-mpich hdf5; do $(PKG_CONFIG) --exists $$p && echo $$p && break; done)
+HDF5_PC := $(shell for p in hdf5-openmpi hdf5-mpich hdf5; do $(PC) --exists $$p && echo $$p && break; done)
 PACKAGES := petsc fftw3 $(HDF5_PC)
 
 # `:=` for what asks pkg-config: asked once, not once a file
-PC_CFLAGS := $(shell $(PKG_CONFIG) --cflags $(PACKAGES))
-PC_LIBS   := $(shell $(PKG_CONFIG) --libs-only-L --libs-only-other $(PACKAGES)) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PKG_CONFIG) --libs-only-l $(PACKAGES)) -lhdf5_hl -lm
+PC_CFLAGS := $(shell $(PC) --cflags $(PACKAGES))
+PC_LIBS   := $(shell $(PC) --libs-only-L --libs-only-other $(PACKAGES)) $(RPATH) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PC) --libs-only-l $(PACKAGES)) -lhdf5_hl -lm
 ifeq ($(origin CC),default)
   CC := mpicc
 endif

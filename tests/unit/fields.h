@@ -93,7 +93,7 @@ static inline double *Whole(SamGrid grid, PetscInt components, Vec v)
   for (PetscInt c = 0; c < components; c++)
     for (PetscInt k = 0; k < grid->cells; k++) w[c * all + grid->row_start * grid->nx + k] = a[c * grid->cells + k];
   sam_call(VecRestoreArrayRead(v, &a));
-  if (grid->comm != PETSC_COMM_SELF) MPI_Allreduce(MPI_IN_PLACE, w, (int)(components * all), MPI_DOUBLE, MPI_SUM, grid->comm);
+  if (grid->comm != PETSC_COMM_SELF) (void)MPI_Allreduce(MPI_IN_PLACE, w, (int)(components * all), MPI_DOUBLE, MPI_SUM, grid->comm);
   return w;
 }
 

@@ -23,7 +23,7 @@ static inline int SamFailingRank_(int ok, int *rank)
   int mine[2] = {ok ? 1 : 0, 0}, worst[2] = {0, 0}; /* outcome, rank */
 
   MPI_Comm_rank(PETSC_COMM_WORLD, &mine[1]);
-  MPI_Allreduce(mine, worst, 1, MPI_2INT, MPI_MINLOC, PETSC_COMM_WORLD);
+  (void)MPI_Allreduce(mine, worst, 1, MPI_2INT, MPI_MINLOC, PETSC_COMM_WORLD);
   *rank = mine[1];
   return worst[0] ? -1 : worst[1];
 }
@@ -53,7 +53,7 @@ static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *te
   if (rank && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr))) MPI_Abort(PETSC_COMM_WORLD, 1);
   cmocka_set_message_output(CM_OUTPUT_STDOUT);
   failed = _cmocka_run_group_tests(argv[0], tests, n, NULL, NULL);
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  (void)MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
   if (SamFinalize() || PetscFinalize()) return 1;
   return failed ? 1 : 0;
 }

@@ -372,7 +372,7 @@ static void test_sliding_motion_dissipates_what_the_limit_says(void **state)
     for (PetscInt j = 0; j < grid->rows; j++)
       for (PetscInt i = 0; i < grid->nx; i++) power += a[j * grid->nx + i] * grid->dx * grid->dy * hypot(v[0] - SamGridY(grid, grid->row_start + j) * v[2], v[1] + SamGridX(grid, i) * v[2]);
     sam_call(VecRestoreArrayRead(bound, &a));
-    MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+    (void)MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
     /* only the direction of v is told; far away the parts of the velocity cancel by a factor of 1000 */
     sam_assert_close(power / (given[0] * v[0] + given[1] * v[1] + given[2] * v[2]), factor, 1e-10 * factor);
     sam_call(VecDestroy(&bound));
@@ -448,7 +448,7 @@ static void test_loads_are_conjugate_to_displacements(void **state)
           else power += a[c] * (rigid[0] - y * rigid[2]) + a[c + grid->cells] * (rigid[1] + x * rigid[2]);
         }
       sam_call(VecRestoreArrayRead(t, &a));
-      MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+      (void)MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
       power *= grid->dx * grid->dy;
       sam_call(SamBalanceGetLoads(grid, kind ? SAM_BALANCE_TANGENTIAL : SAM_BALANCE_NORMAL, t, loads));
       sam_assert_close(loads[0] * rigid[0] + loads[1] * rigid[1] + loads[2] * rigid[2], power, 1e-13 * Norm(t, NORM_1) * grid->dx * grid->dy); /* rounding of sums */

@@ -318,7 +318,7 @@ static double HertzError(PetscInt n)
       if (r2 < 0.25) error = fmax(error, fabs(a[j * n + i] * 4 * pair.modulus / (2 * PETSC_PI) - (1 - r2 / 2)));
     }
   sam_call(VecRestoreArrayRead(u, &a));
-  MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  (void)MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
   sam_call(VecDestroy(&u));
   sam_call(SamComplianceDestroy(&C));
   sam_call(SamGridDestroy(&grid));

@@ -206,17 +206,17 @@ static void WriteDataset(const char *file, const char *name, hid_t type, int ran
     H5Fclose(f);
     free(values);
   }
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
 static void Remove(const char *file)
 {
   int me;
 
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
   MPI_Comm_rank(PETSC_COMM_WORLD, &me);
   if (me == 0) (void)unlink(file);
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
 static int HasStored(SamGrid grid, Vec h, double (*added)(double, double))
@@ -372,7 +372,7 @@ static void test_unusable_files_are_named_on_all_ranks(void **state)
       (void)fclose(file);
     }
   }
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
   AssertError("-gap_type file -gap_file test_gap_none.h5", SAM_ERR_FILE, "-gap_file test_gap_none.h5", "cannot be read");
   AssertError("-gap_type file -gap_file .", SAM_ERR_FILE, "-gap_file .", "cannot be read");
   AssertError("-gap_type file -gap_file test_gap_text.txt", SAM_ERR_FILE, "-gap_file test_gap_text.txt", "is not an HDF5 file");

@@ -26,7 +26,7 @@ static void test_rows_fill_the_grid_in_blocks_of_ceil_ny_over_ranks(void **state
     Vec            v;
     PetscInt       local, global, start;
 
-    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+    (void)MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
     sam_assert(all == ny);
     sam_assert(grid->rows >= 0 && grid->rows <= block && grid->cells == 5 * grid->rows);
     sam_assert(grid->rows == 0 || grid->row_start == rank * block);
@@ -146,7 +146,7 @@ static double SumOf(SamGrid grid, Vec v, PetscInt component)
   sam_call(VecGetArrayRead(v, &a));
   for (PetscInt k = 0; k < grid->cells; k++) sum += a[component * grid->cells + k];
   sam_call(VecRestoreArrayRead(v, &a));
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  (void)MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   return sum * grid->dx * grid->dy;
 }
 

@@ -20,9 +20,9 @@ static int Rank(void)
 
 static void Remove(void)
 {
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
   if (Rank() == 0) (void)unlink(file);
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
 /* Rank 0 writes the file; only it needs to see it. */
@@ -30,7 +30,7 @@ static void WriteBytes(const char *text, size_t size)
 {
   int good = 1;
 
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
   if (Rank() == 0) {
     FILE *stream = fopen(file, "wb");
 

@@ -36,9 +36,9 @@ static int Rank(void)
 
 static void Remove(const char *file)
 {
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
   if (Rank() == 0) (void)unlink(file);
-  MPI_Barrier(PETSC_COMM_WORLD);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
 static SamGrid CreateGrid(int k)
@@ -468,7 +468,7 @@ static void test_file_is_complete_after_each_step(void **state)
 
       FillFields(grid, &fields, step);
       sam_call(SamOutputWriteStep(output, &numbers, step == 1 ? NULL : &fields, friction));
-      MPI_Barrier(PETSC_COMM_WORLD);
+      (void)MPI_Barrier(PETSC_COMM_WORLD);
       sam_assert(Copy(filename, copy));
       sam_assert(IsGood(copy, grid, step + 1, step < 2 ? 1 : 2));
     }
@@ -551,7 +551,7 @@ static void AssertNoRoom(SamOutput output, const SamStep *step, const SamFields 
   int            good;
 
   sam_assert(!getrlimit(RLIMIT_FSIZE, &usual) && !stat(filename, &status));
-  MPI_Barrier(PETSC_COMM_WORLD); /* until all have seen the size */
+  (void)MPI_Barrier(PETSC_COMM_WORLD); /* until all have seen the size */
   small          = usual;
   small.rlim_cur = (rlim_t)status.st_size + 10000;
   sam_assert(signal(SIGXFSZ, SIG_IGN) != SIG_ERR && !setrlimit(RLIMIT_FSIZE, &small));

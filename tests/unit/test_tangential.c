@@ -205,7 +205,7 @@ static void AssertConditions(const Case *c, const SamBalance *balance, const Sam
   sam_call(VecRestoreArrayRead(slip, &s));
   sam_call(VecRestoreArrayRead(q, &t));
   sam_call(VecRestoreArrayRead(c->bound, &b));
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  (void)MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
   sam_assert_close(fmax(cone, 0), 0, 1e-14 * most); /* rounding of a square root */
   /* the residual, 1e-6 of |q| times the self-influence, about 1/n of the displacement, may lie in a few cells */
   sam_assert_close(stick, 0, 2e-5 * largest);
