@@ -93,7 +93,13 @@ $(B)/venv/done: scripts/requirements.txt
 	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
 	touch $@
 
-test: all units bench venv ## run all tests
+# what the tests need besides; where there is no wheel of an optional one, its tests are skipped and say so
+$(B)/venv/tests-done: tests/requirements.txt tests/requirements-optional.txt $(B)/venv/done
+	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
+	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r tests/requirements-optional.txt || echo "not installed: $$(cat tests/requirements-optional.txt); its tests will be skipped"
+	touch $@
+
+test: all units bench $(B)/venv/tests-done ## run all tests
 	$(PYTHON) tests/run.py --build $(B)
 
 check-sanitize: ## unit tests under the address and undefined-behaviour sanitizers

@@ -364,13 +364,16 @@ static PetscErrorCode WriteStep(Run *run, const SamStep *step, PetscInt k, Petsc
 /* Closes the results file, so that what is said of it is true. */
 static PetscErrorCode FinishResults(Run *run)
 {
-  char content[96];
+  char        content[96];
+  const char *xdmf;
 
   PetscFunctionBegin;
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamOutputDestroy(&run->output));
   PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, run->solved, run->solved == 1 ? "" : "s", run->saved));
   PetscCall(SamReportAddFile(run->report, run->filename, content));
+  PetscCall(SamOutputGetXdmf(run->output, &xdmf));
+  if (xdmf) PetscCall(SamReportAddFile(run->report, xdmf, "the same for ParaView and VisIt"));
+  PetscCall(SamOutputDestroy(&run->output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -439,6 +442,7 @@ int main(int argc, char **argv)
   code = SamHistoryClaimOption();
   if (!code) code = PetscInitialize(&argc, &argv, NULL, NULL);
   if (code) return code;
+  (void)signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of the call that tries */
   (void)signal(SIGPIPE, SIG_DFL); /* `petsam -help | head` is no crash to be traced */
   PetscCall(PetscPushErrorHandler(HandleError, NULL));
   if (version) {

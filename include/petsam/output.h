@@ -6,14 +6,15 @@
 
 /*
   SamOutput - a results file that grows by a load step at a time (layout: README, "Results"). Every dataset has `units`
-  and `long_name`; dimension scales time, y, x are attached, so that h5py, xarray (netcdf4) and ParaView open it.
+  and `long_name`; dimension scales time, y, x are attached, so that h5py and xarray (netcdf4) open it. The same datasets stand
+  in a group VTKHDF, which VTK from 9.3 on reads, and in an XDMF file beside it for older ParaViews and VisIt.
 */
 typedef struct _n_SamOutput *SamOutput;
 
 /*
   SamOutputCheckOptions - tells the help of, and checks, the options that SamOutputCreate() reads, so that a mistake is
-  found before a file is created: -output_compress (level of deflate of the fields, 0 to 9; 0, the default: none).
-  Collective. Errors: SAM_ERR_USER.
+  found before a file is created: -output_compress (level of deflate of the fields, 0 to 9; 0, the default: none),
+  -output_chunk (most cells of a chunk in x, y), -output_xdmf (the XDMF file, true). Collective. Errors: SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamOutputCheckOptions(MPI_Comm comm);
 /*
@@ -33,6 +34,8 @@ PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
   the program should end by MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, const SamStep *step, const SamFields *fields, PetscReal friction);
+/* SamOutputGetXdmf - name of the XDMF file beside the results, NULL without; borrowed. Not collective. */
+PETSC_EXTERN PetscErrorCode SamOutputGetXdmf(SamOutput output, const char **filename);
 /* SamOutputDestroy - closes the file; *output is NULL after it, also when that fails. Collective. Errors: SAM_ERR_FILE. */
 PETSC_EXTERN PetscErrorCode SamOutputDestroy(SamOutput *output);
 

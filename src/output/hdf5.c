@@ -86,22 +86,24 @@ hid_t SamOutputNote(SamOutput o, hid_t result)
 
 /* ---- options ---- */
 
-static PetscErrorCode GetCompression(MPI_Comm comm, PetscInt *level)
+static PetscErrorCode GetSettings(MPI_Comm comm, SamOutputSettings *set)
 {
   PetscFunctionBegin;
-  *level = 0;
-  PetscCall(SamOptionsInt(NULL, "output_compress", "level of compression of the fields, 0 (none) to 9", 0, level, NULL));
-  PetscCheck(*level <= 9, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", *level);
-  PetscCheck(*level == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": this HDF5 was built without zlib", *level);
+  *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
+  PetscCall(SamOptionsInt(NULL, "output_compress", "level of compression of the fields, 0 (none) to 9", 0, &set->compress, NULL));
+  PetscCheck(set->compress <= 9, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", set->compress);
+  PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": this HDF5 was built without zlib", set->compress);
+  PetscCall(SamOptionsIntPair(NULL, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
+  PetscCall(SamOptionsBool(NULL, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOutputCheckOptions(MPI_Comm comm)
 {
-  PetscInt level;
+  SamOutputSettings set;
 
   PetscFunctionBegin;
-  PetscCall(GetCompression(comm, &level));
+  PetscCall(GetSettings(comm, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -121,16 +123,43 @@ static int Reserve(int file, off_t bytes, PetscBool keep)
 #endif
   if (error != EOPNOTSUPP && error != ENOSYS) return error;
   if (fstatvfs(file, &space)) return errno;
-  return (double)space.f_bavail * (double)space.f_frsize < (double)bytes ? ENOSPC : 0;
+  if ((double)space.f_bavail * (double)space.f_frsize < (double)bytes) return ENOSPC;
+  return keep && ftruncate(file, status.st_size + bytes) ? errno : 0;
 }
 
-static int ReserveInFile(const char filename[], off_t bytes, PetscBool keep)
+static int ReserveInFile(const char filename[], off_t bytes)
 {
   const int file = open(filename, O_WRONLY);
   int       error;
 
   if (file < 0) return errno;
-  error = Reserve(file, bytes, keep);
+  error = Reserve(file, bytes, PETSC_TRUE);
+  return close(file) && !error ? errno : error;
+}
+
+/*
+  Moves what the superblock says is the end of the data to the end of the file, before HDF5 writes what points there: the
+  space of a step has been reserved, so that it lies before. HDF5 itself tells the end last; a run that is killed in
+  between would leave datasets that lead beyond it, and with them steps that were complete before. Version 0 of the superblock has no checksum and the end at byte 40 (HDF5 file format
+  specification, II.A); of others this is left to HDF5.
+*/
+#define SUPERBLOCK_VERSION 8
+#define SUPERBLOCK_OFFSETS 13 /* bytes of an address */
+#define SUPERBLOCK_END     40
+static int MoveEnd(const char filename[])
+{
+  const int     file = open(filename, O_RDWR);
+  unsigned char start[SUPERBLOCK_END], end[8];
+  struct stat   status;
+  int           error = 0;
+
+  if (file < 0) return errno;
+  errno = EIO; /* of what is shorter than it should be */
+  if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status)) error = errno;
+  else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
+    for (unsigned k = 0; k < sizeof(end); k++) end[k] = (unsigned char)((uint64_t)status.st_size >> 8 * k & 0xff);
+    if (pwrite(file, end, sizeof(end), SUPERBLOCK_END) != (ssize_t)sizeof(end)) error = errno;
+  }
   return close(file) && !error ? errno : error;
 }
 
@@ -151,8 +180,7 @@ static int Probe(const char filename[])
   return error;
 }
 
-/* Raises the error that rank 0 found. Collective. */
-static PetscErrorCode RaiseFileError(SamGrid grid, const char filename[], int error)
+PetscErrorCode SamOutputRaise(SamGrid grid, const char filename[], int error)
 {
   PetscFunctionBegin;
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
@@ -168,23 +196,23 @@ static PetscErrorCode CheckName(SamGrid grid, const char filename[])
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
   if (rank == 0) error = Probe(filename);
-  PetscCall(RaiseFileError(grid, filename, error));
+  PetscCall(SamOutputRaise(grid, filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the file ---- */
 
 /* An object with nothing open. */
-static PetscErrorCode Allocate(SamGrid grid, const char filename[], PetscInt compress, SamOutput *output)
+static PetscErrorCode Allocate(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
 {
   SamOutput o;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&o));
   PetscCall(SamGridReference(grid));
-  o->grid     = grid;
-  o->compress = compress;
-  o->file = o->transfer = o->time = o->state = -1;
+  o->grid = grid;
+  o->set  = *set;
+  o->file = o->transfer = o->time = o->state = o->vtk_steps = -1;
   for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = -1;
   for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) o->columns[c] = -1;
   PetscCallMPI(MPI_Comm_rank(grid->comm, &o->rank));
@@ -205,6 +233,7 @@ static void CloseFile(SamOutput o)
 static PetscErrorCode Free(SamOutput *output)
 {
   PetscFunctionBegin;
+  PetscCall(SamXdmfDestroy(&(*output)->xdmf));
   PetscCall(SamGridDestroy(&(*output)->grid));
   PetscCall(PetscFree((*output)->filename));
   PetscCall(PetscFree((*output)->states));
@@ -241,18 +270,19 @@ static PetscErrorCode CreateDatasets(SamOutput o)
 
 PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], SamOutput *output)
 {
-  PetscInt       compress;
-  PetscErrorCode ierr;
+  SamOutputSettings set;
+  PetscErrorCode    ierr;
 
   PetscFunctionBegin;
   *output = NULL;
   PetscCall(SamInitialize());
-  PetscCall(GetCompression(grid->comm, &compress));
+  PetscCall(GetSettings(grid->comm, &set));
   PetscCall(CheckName(grid, filename));
-  PetscCall(Allocate(grid, filename, compress, output));
+  PetscCall(Allocate(grid, filename, &set, output));
   ierr = CreateFile(*output);
   if (ierr) (*output)->file = -1; /* not closed: that would wait for a rank that could not open it */
   else ierr = CreateDatasets(*output);
+  if (!ierr && set.xdmf) ierr = SamXdmfCreate(grid, filename, &(*output)->xdmf);
   if (ierr) {
     Silence(*output);
     CloseFile(*output);
@@ -277,6 +307,13 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   ierr = SamOutputEnd(o);
   PetscCall(Free(&o));
   PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputGetXdmf(SamOutput o, const char **filename)
+{
+  PetscFunctionBegin;
+  *filename = o->xdmf ? SamXdmfGetName(o->xdmf) : NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -400,15 +437,32 @@ static PetscErrorCode AppendFields(SamOutput o, const SamFields *fields, PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Room for a step: kept for fields, whose end becomes that of the file; the history mostly has its place in it. */
+/* Room for a step, by which the file becomes longer; what is not needed of it, HDF5 cuts off when it flushes. */
 static PetscErrorCode ReserveStep(SamOutput o, PetscBool has_fields)
 {
-  const off_t bytes = ADMINISTRATION + (has_fields ? SamOutputFieldBytes(o->grid) : 0);
+  const off_t bytes = ADMINISTRATION + (has_fields ? SamOutputFieldBytes(o) : 0);
   int         error = 0;
 
   PetscFunctionBegin;
-  if (o->rank == 0) error = ReserveInFile(o->filename, bytes, has_fields);
-  PetscCall(RaiseFileError(o->grid, o->filename, error));
+  if (o->rank == 0) error = ReserveInFile(o->filename, bytes);
+  PetscCall(SamOutputRaise(o->grid, o->filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes the file complete up to here: first its end is told, then HDF5 writes its administration. */
+static PetscErrorCode Flush(SamOutput o)
+{
+  int error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(Agree(o)); /* flush only what is there */
+  if (o->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (o->rank == 0) error = MoveEnd(o->filename);
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->grid->comm)); /* readers see the end before what points there */
+  if (error) {
+    o->failed = PETSC_TRUE;
+    (void)snprintf(o->reason, sizeof(o->reason), "%s", strerror(error));
+  } else (void)SamOutputNote(o, H5Fflush(o->file, H5F_SCOPE_GLOBAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -426,13 +480,14 @@ PetscErrorCode SamOutputWriteStep(SamOutput o, const SamStep *step, const SamFie
 
     AppendNumber(o, o->time, H5T_NATIVE_DOUBLE, o->saved, &time);
     PetscCall(AppendFields(o, fields, friction));
+    SamOutputCountVTK(o, o->saved + 1);
   }
-  PetscCall(Agree(o)); /* flush only what is there */
-  if (!o->failed) (void)SamOutputNote(o, H5Fflush(o->file, H5F_SCOPE_GLOBAL));
+  PetscCall(Flush(o));
   o->steps++;
   o->saved += fields ? 1 : 0;
   ierr = SamOutputEnd(o);
   if (ierr) o->broken = PETSC_TRUE;
   PetscCall(ierr);
+  if (fields && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, step->time));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

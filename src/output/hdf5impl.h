@@ -32,14 +32,26 @@ typedef struct {
 PETSC_INTERN const SamOutputField  SamOutputFields[SAM_OUTPUT_FIELDS];
 PETSC_INTERN const SamOutputColumn SamOutputColumns[SAM_OUTPUT_COLUMNS];
 
+/* What the options say of the file. */
+typedef struct {
+  PetscInt  compress; /* level of deflate */
+  PetscInt  chunk[2]; /* most cells of a chunk in x, y */
+  PetscBool xdmf;
+} SamOutputSettings;
+
+/* The XDMF file beside the results. */
+typedef struct _n_SamXdmf *SamXdmf;
+
 struct _n_SamOutput {
   /* what the user set */
-  SamGrid  grid;
-  char    *filename;
-  PetscInt compress; /* level of deflate */
+  SamGrid           grid;
+  char             *filename;
+  SamOutputSettings set;
   /* what it owns; identifiers are negative where nothing is open */
   PetscMPIInt  rank;
   hid_t        file, transfer; /* transfer: collective */
+  hid_t        vtk_steps; /* attribute: number of steps that VTK sees */
+  SamXdmf      xdmf;      /* NULL: none */
   hid_t        time, state, fields[SAM_OUTPUT_FIELDS], columns[SAM_OUTPUT_COLUMNS];
   signed char *states; /* of this rank's cells */
   /* status */
@@ -68,6 +80,21 @@ PETSC_INTERN void SamOutputWriteTextAttribute(SamOutput output, hid_t object, co
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
 PETSC_INTERN void SamOutputCloseLayout(SamOutput output);
 /* SamOutputFieldBytes - what the fields of one step take uncompressed. */
-PETSC_INTERN off_t SamOutputFieldBytes(SamGrid grid);
+PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
+/* SamOutputCreateVTK, SamOutputCountVTK - the group VTKHDF of the file, and how many steps there are in it. */
+PETSC_INTERN void SamOutputCreateVTK(SamOutput output);
+PETSC_INTERN void SamOutputCountVTK(SamOutput output, hsize_t saved);
+
+/* SamOutputRaise - raises SAM_ERR_FILE for the errno that rank 0 has; does nothing for 0. Collective. */
+PETSC_INTERN PetscErrorCode SamOutputRaise(SamGrid grid, const char filename[], int error);
+
+/*
+  SamXdmfCreate - a file with no step for results of that name, replacing one there is. SamXdmfAddStep - one more, which
+  has that index in the results. Collective. Errors: SAM_ERR_FILE; the object, and the file with the steps before, stay.
+*/
+PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf);
+PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);
+PETSC_INTERN const char    *SamXdmfGetName(SamXdmf xdmf);
+PETSC_INTERN PetscErrorCode SamXdmfDestroy(SamXdmf *xdmf);
 
 #endif

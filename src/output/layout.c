@@ -7,10 +7,7 @@
 #include "hdf5impl.h"
 #include <hdf5_hl.h>
 
-/* Chunks are one step deep, and of at most this size, at which their administration does not matter. */
-#define CHUNK_ROWS    256
-#define CHUNK_COLUMNS 1024
-#define CHUNK_STEPS   256 /* of what has one number a step */
+#define CHUNK_STEPS 256 /* of what has one number a step */
 
 const SamOutputField SamOutputFields[SAM_OUTPUT_FIELDS] = {
   {{"pressure", "Pa", "contact pressure"},                                      offsetof(SamFields, pressure),       0},
@@ -114,10 +111,13 @@ static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label
   return dataset;
 }
 
-static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const Shape *shape)
+/* A coordinate, which CF's attributes tell by its axis and its standard name. */
+static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const char axis[], const char standard_name[], const Shape *shape)
 {
   const hid_t scale = CreateDataset(o, where, label, H5T_IEEE_F64LE, shape, 0);
 
+  SamOutputWriteTextAttribute(o, scale, "axis", axis);
+  SamOutputWriteTextAttribute(o, scale, "standard_name", standard_name);
   (void)SamOutputNote(o, H5DSset_scale(scale, label->name));
   return scale;
 }
@@ -133,7 +133,7 @@ static PetscErrorCode CreateAxis(SamOutput o, const SamOutputLabel *label, Petsc
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &values));
   for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->grid, k) : SamGridX(o->grid, k);
-  *scale = CreateScale(o, o->file, label, &shape);
+  *scale = CreateScale(o, o->file, label, direction ? "Y" : "X", direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape);
   space  = SamOutputNote(o, H5Dget_space(*scale));
   if (o->rank) (void)SamOutputNote(o, H5Sselect_none(space));
   (void)SamOutputNote(o, H5Dwrite(*scale, H5T_NATIVE_DOUBLE, space, space, o->transfer, values));
@@ -150,16 +150,17 @@ static hsize_t ChunkSize(hsize_t n, hsize_t most)
   return (n + chunks - 1) / chunks;
 }
 
-static Shape FieldShape(SamGrid grid)
+/* Chunks are one step deep. */
+static Shape FieldShape(SamOutput o)
 {
-  const hsize_t ny = (hsize_t)grid->ny, nx = (hsize_t)grid->nx;
+  const hsize_t ny = (hsize_t)o->grid->ny, nx = (hsize_t)o->grid->nx;
 
-  return (Shape){3, {0, ny, nx}, {H5S_UNLIMITED, ny, nx}, {1, ChunkSize(ny, CHUNK_ROWS), ChunkSize(nx, CHUNK_COLUMNS)}};
+  return (Shape){3, {0, ny, nx}, {H5S_UNLIMITED, ny, nx}, {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
 }
 
-off_t SamOutputFieldBytes(SamGrid grid)
+off_t SamOutputFieldBytes(SamOutput o)
 {
-  const Shape shape = FieldShape(grid);
+  const Shape shape = FieldShape(o);
   hsize_t     cells = 1; /* of whole chunks */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
@@ -168,16 +169,16 @@ off_t SamOutputFieldBytes(SamGrid grid)
 
 static PetscErrorCode CreateFields(SamOutput o)
 {
-  const Shape    shape    = FieldShape(o->grid);
+  const Shape    shape    = FieldShape(o);
   const int8_t   states[] = {SAM_STATE_OPEN, SAM_STATE_STICK, SAM_STATE_SLIP};
   hid_t          scales[3]; /* of [time, y, x] */
 
   PetscFunctionBegin;
   PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
   PetscCall(CreateAxis(o, &y_label, 1, &scales[1]));
-  scales[0] = o->time = CreateScale(o, o->file, &time_label, &series);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = CreateDataset(o, o->file, &SamOutputFields[f].label, H5T_IEEE_F64LE, &shape, o->compress);
-  o->state = CreateDataset(o, o->file, &state_label, H5T_STD_I8LE, &shape, o->compress);
+  scales[0] = o->time = CreateScale(o, o->file, &time_label, "T", "time", &series);
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = CreateDataset(o, o->file, &SamOutputFields[f].label, H5T_IEEE_F64LE, &shape, o->set.compress);
+  o->state = CreateDataset(o, o->file, &state_label, H5T_STD_I8LE, &shape, o->set.compress);
   SamOutputWriteAttribute(o, o->state, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8, 3, states);
   SamOutputWriteTextAttribute(o, o->state, "flag_meanings", state_words);
   for (unsigned d = 0; d < 3; d++) {
@@ -195,7 +196,7 @@ static void CreateHistory(SamOutput o)
   const int64_t statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM, SAM_STATUS_EDGE_CONTACT};
   const hid_t   group      = SamOutputNote(o, H5Gcreate2(o->file, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 
-  o->columns[0] = CreateScale(o, group, &SamOutputColumns[0].label, &series);
+  o->columns[0] = CreateScale(o, group, &SamOutputColumns[0].label, "T", "time", &series);
   for (PetscInt c = 1; c < SAM_OUTPUT_COLUMNS; c++) {
     const SamOutputColumn *column = &SamOutputColumns[c];
 
@@ -214,7 +215,10 @@ PetscErrorCode SamOutputCreateLayout(SamOutput o)
   PetscFunctionBegin;
   PetscCall(CreateFields(o));
   CreateHistory(o);
+  SamOutputCreateVTK(o);
   SamOutputWriteTextAttribute(o, o->file, "Conventions", "CF-1.8");
+  SamOutputWriteTextAttribute(o, o->file, "title", "Partial-slip contact of elastic bodies");
+  SamOutputWriteTextAttribute(o, o->file, "source", "petsam " PETSAM_VERSION ", semi-analytical method");
   SamOutputWriteTextAttribute(o, o->file, "petsam_version", PETSAM_VERSION);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -227,6 +231,8 @@ static void Close(SamOutput o, hid_t *dataset)
 
 void SamOutputCloseLayout(SamOutput o)
 {
+  if (o->vtk_steps >= 0) (void)SamOutputNote(o, H5Aclose(o->vtk_steps));
+  o->vtk_steps = -1;
   Close(o, &o->time);
   Close(o, &o->state);
   for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) Close(o, &o->fields[f]);

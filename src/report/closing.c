@@ -4,6 +4,7 @@
   Times are those of petsam's own log events, on the rank where they are largest.
 */
 #include "reportimpl.h"
+#include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -101,6 +102,22 @@ static PetscErrorCode PrintFiles(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The most memory held so far, bytes. What getrusage() tells may be the launcher's, from before this program was loaded. */
+static double LargestMemory(void)
+{
+  FILE         *file = fopen("/proc/self/status", "r");
+  char          line[128];
+  double        kilobytes = 0;
+  struct rusage used;
+
+  while (file && fgets(line, sizeof(line), file))
+    if (sscanf(line, "VmHWM: %lf", &kilobytes) == 1) break;
+  if (file) fclose(file);
+  if (kilobytes > 0) return 1024 * kilobytes;
+  getrusage(RUSAGE_SELF, &used);
+  return 1024 * (double)used.ru_maxrss;
+}
+
 /* Time and memory, the largest rank's. */
 static PetscErrorCode PrintResources(SamReport r)
 {
@@ -111,7 +128,7 @@ static PetscErrorCode PrintResources(SamReport r)
   getrusage(RUSAGE_SELF, &used);
   numbers[0] = MPI_Wtime() - r->start;
   numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec + 1e-6 * (double)used.ru_stime.tv_usec;
-  numbers[2] = 1024e-6 * (double)used.ru_maxrss;
+  numbers[2] = 1e-6 * LargestMemory();
   PetscCall(SamMax(r->comm, 3, numbers));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %.2f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used", numbers[0], numbers[1], numbers[2]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -206,9 +206,9 @@ def test_wrong_number_of_steps_is_named(petsam, steps):
 
 
 def test_too_many_steps_are_refused(petsam, tmp_path):
-    """Three rows of 2e9 increments: more than a 32-bit index counts."""
+    """Three rows of so many increments are more than an index counts, be it of 32 or of 64 bits."""
     csv(tmp_path / "loads.csv", ("load_tx",), [1, 2, 3])
-    assert "-steps" in petsam(dict(SPHERE, grid_n=8), "-history", "loads.csv", "-steps", "2000000000", check=2).complaint[0]
+    assert "-steps" in petsam(dict(SPHERE, grid_n=8), "-history", "loads.csv", "-steps", str(2**63 - 1), check=2).complaint[0]
 
 
 @pytest.mark.parametrize("value", ["0", "-1", "2.5"])

@@ -1,0 +1,163 @@
+"""A full disk, a lost folder, a run that is killed: the file stays readable up to its last complete step."""
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import conftest
+from support import FIELDS, SPHERE, flatten
+
+# a load that goes on changing, so that every step has its own fields
+TX = [float(5 * np.sin(k / 5)) for k in range(3000)]
+CASE = dict(SPHERE, history="history.csv", output="out/out.h5")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "history.csv").write_text("time, load_tx\n" + "".join(f"{k + 1}, {tx!r}\n" for k, tx in enumerate(TX)))
+    (tmp_path / "out").mkdir()
+    return tmp_path
+
+
+def assert_intact(path, least):
+    """All steps up to the last complete one hold what was computed; there are at least so many."""
+    with h5py.File(path) as f:
+        steps = min(len(data) for data in f["history"].values())
+        saved = min(f[name].shape[0] for name in (*FIELDS, "time"))
+        assert steps >= least and saved >= least, (steps, saved, least)
+        area = np.diff(f["x"])[0] * np.diff(f["y"])[0]
+        assert np.array_equal(f["time"][:least], np.arange(least) + 1.0)
+        assert f["pressure"][:least].sum(axis=(1, 2)) * area == pytest.approx(SPHERE["load_n"], rel=1e-9)
+        assert f["shear_x"][:least].sum(axis=(1, 2)) * area == pytest.approx(TX[:least], rel=1e-9, abs=1e-9)
+        assert f["history/load_tx"][:least] == pytest.approx(TX[:least], rel=1e-9, abs=1e-9)
+        for name in FIELDS:
+            assert np.all(np.isfinite(f[name][:least])), name
+    return steps
+
+
+def start(launcher, folder, ranks, *options, **how):
+    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten([CASE, *options])]
+    return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                            env={**conftest.environment(), **conftest.alone(ranks)}, **how)
+
+
+def wait_for(run, step):
+    """Until the run has told that step."""
+    for line in run.stdout:
+        if re.match(rf" *{step} +\S", line):
+            return
+    pytest.fail(f"the run ended before step {step}: {run.stderr.read()}")
+
+
+def told(text):
+    return len(re.findall(r"^ *\d+ +\S+ +1000 ", text, re.M))
+
+
+def ended(run):
+    """Exit code, what was told since, and the program's complaints."""
+    out, err = run.communicate(timeout=60)
+    return run.returncode, told(out), [line for line in err.splitlines() if line.startswith("petsam: ")]
+
+
+# ---- no room
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("options", [{}, dict(output_compress=4)], ids=["plain", "compressed"])
+def test_file_that_may_not_grow_ends_the_run(launcher, folder, ranks, options):
+    """The limit of a file's size stands for a quota."""
+    limit = 12 << 20
+    run = start(launcher, folder, ranks, options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    code, steps, complaint = ended(run)
+    assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0]
+    assert steps >= 10
+    assert assert_intact(folder / "out" / "out.h5", steps) == steps
+
+
+@pytest.fixture
+def small_disk(folder):
+    """out/ on a disk of 16 MB."""
+    disk = folder / "out"
+    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "tmpfs", str(disk)], capture_output=True, text=True)
+    if done.returncode:
+        pytest.skip("no right to mount a small disk")
+    yield folder
+    subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_full_disk_ends_the_run(launcher, small_disk, ranks):
+    code, steps, complaint = ended(start(launcher, small_disk, ranks))
+    assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0] and "No space left" in complaint[0]
+    assert steps >= 10
+    assert_intact(small_disk / "out" / "out.h5", steps)
+
+
+# ---- no folder
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("lose", [lambda out: out.rename(out.parent / "away"), shutil.rmtree], ids=["moved", "removed"])
+def test_lost_folder_ends_the_run(launcher, folder, ranks, lose):
+    run = start(launcher, folder, ranks)
+    wait_for(run, 4)
+    lose(folder / "out")
+    code, steps, complaint = ended(run)
+    assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0]
+    if (folder / "away").exists():
+        assert_intact(folder / "away" / "out.h5", 4 + steps)
+
+
+# ---- killed
+
+def kill(run, ranks):
+    """All ranks at once, by the signal that nothing can catch."""
+    if ranks > 1:
+        for process in Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split():
+            try:
+                os.kill(int(process), signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+    else:
+        run.kill()
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("step", [1, 5, 20])
+def test_killed_run_leaves_what_it_has_told(launcher, folder, ranks, step):
+    """At once after a step is told: its results are in the file, not on their way."""
+    run = start(launcher, folder, ranks)
+    wait_for(run, step)
+    kill(run, ranks)
+    _, more, _ = ended(run)
+    assert_intact(folder / "out" / "out.h5", step + more)
+
+
+def test_file_can_be_read_at_any_time(launcher, folder):
+    """By another program, while the run goes on: a copy made between two steps that are told holds the first."""
+    run = start(launcher, folder, 1)
+    wait_for(run, 3)
+    os.kill(run.pid, signal.SIGSTOP)
+    try:
+        shutil.copy(folder / "out" / "out.h5", folder / "copy.h5")
+    finally:
+        os.kill(run.pid, signal.SIGCONT)
+        run.kill()
+        run.communicate()
+    assert_intact(folder / "copy.h5", 3)
+
+
+def test_XDMF_of_a_killed_run_is_whole(launcher, folder):
+    from xml.etree import ElementTree
+    run = start(launcher, folder, 1)
+    wait_for(run, 6)
+    run.kill()
+    _, more, _ = ended(run)
+    steps = ElementTree.parse(folder / "out" / "out.xdmf").getroot().findall("./Domain/Grid/Grid")
+    assert len(steps) >= 6 + more
+    assert [float(step.find("Time").get("Value")) for step in steps] == list(range(1, len(steps) + 1))
