@@ -161,3 +161,43 @@ def test_XDMF_of_a_killed_run_is_whole(launcher, folder):
     steps = ElementTree.parse(folder / "out" / "out.xdmf").getroot().findall("./Domain/Grid/Grid")
     assert len(steps) >= 6 + more
     assert [float(step.find("Time").get("Value")) for step in steps] == list(range(1, len(steps) + 1))
+
+
+# ---- killed at every write of a step
+
+@pytest.fixture(scope="module")
+def deadly(tmp_path_factory):
+    """A library that kills the program before a write that is counted."""
+    library = tmp_path_factory.mktemp("deadly") / "die_at_write.so"
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    if not compiler:
+        pytest.skip("no C compiler")
+    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", str(library), str(Path(__file__).with_name("die_at_write.c")), "-ldl"], check=True)
+    return library
+
+
+def die(deadly, folder, **variables):
+    """Steps told before the end, and how the run ended."""
+    command = [str(conftest.PROGRAM), *flatten([CASE, dict(grid_n=24)])]
+    run = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,
+                         env={**conftest.environment(), **conftest.alone(1), "LD_PRELOAD": str(deadly), **variables})
+    return told(run.stdout), run.returncode
+
+
+def test_no_write_of_a_step_harms_the_steps_before(deadly, folder):
+    """Of the step at which HDF5 divides the nodes of its indices, which hold 64 chunks, and of a common one.
+
+    HDF5 writes some hundred pieces a step; a run that is killed before any of them leaves the steps that were told.
+    """
+    (folder / "history.csv").write_text("\n".join((folder / "history.csv").read_text().splitlines()[:69]) + "\n")
+    die(deadly, folder, DIE_LOG="log")
+    # the superblock is the last that HDF5 writes of a step
+    ends = [k for k, line in enumerate((folder / "log").read_text().split(), 1) if line == "0"][-68:]
+    for step, stride in ((66, 4), (31, 9)):
+        for n in range(ends[step - 2] + 1, ends[step - 1] + 3, stride):
+            steps, code = die(deadly, folder, DIE_AT=str(n))
+            assert code == -signal.SIGKILL and steps >= step - 2
+            with h5py.File(folder / "out" / "out.h5") as f:  # all that is there can be read
+                for name in (*FIELDS, "time", *(f"history/{column}" for column in f["history"])):
+                    assert len(f[name][:]) >= steps, (n, name)
+            assert_intact(folder / "out" / "out.h5", steps)
