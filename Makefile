@@ -112,19 +112,21 @@ check-valgrind: all units ## unit tests under valgrind, one rank
 lint: ## cppcheck over the sources
 	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) src/petsam.c
 
-install: all ## install program, library, headers, petsam.pc, scripts: prefix=, DESTDIR=
+# the scripts and examples of users; what builds and maintains petsam stays in its sources
+SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
+share  = $(DESTDIR)$(prefix)/share/petsam
+
+install: all ## install program, library, headers, petsam.pc, scripts, examples: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/petsam
 	install -m 755 $(B)/bin/petsam $(DESTDIR)$(prefix)/bin
 	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
 	install -m 755 $(B)/lib/libpetsam.so $(DESTDIR)$(prefix)/lib
 	install -m 644 include/petsam.h $(DESTDIR)$(prefix)/include
 	install -m 644 $(filter include/petsam/%,$(HEADERS)) $(DESTDIR)$(prefix)/include/petsam
-	install -d $(DESTDIR)$(prefix)/share/petsam/scripts/slurm
-	install -m 644 $(wildcard scripts/*.py) scripts/requirements.txt $(DESTDIR)$(prefix)/share/petsam/scripts
-	install -m 755 $(SCRIPTS) $(DESTDIR)$(prefix)/share/petsam/scripts
-	install -m 755 $(wildcard scripts/slurm/*.sbatch) $(DESTDIR)$(prefix)/share/petsam/scripts/slurm
-	for s in $(notdir $(SCRIPTS)); do ln -sf ../share/petsam/scripts/$$s $(DESTDIR)$(prefix)/bin/$$s; done
-	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
+	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lfftw3f_mpi -lfftw3f -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
+	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done
+	for f in $(notdir $(wildcard scripts/petsam-*)); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
+	install -m 644 README.md LICENSE CITATION.cff $(share)
 
 clean: ## remove what was built
 	rm -rf $(B)

@@ -4,15 +4,23 @@
 # shellcheck shell=sh disable=SC2034,SC2154 # set for, and by, the script that sources this
 
 root=$(CDPATH='' cd -- "$here/../.." && pwd)
-petsam=${PETSAM:-$root/build/bin/petsam}
-python=${PYTHON:-$root/build/venv/bin/python}
+if [ -f "$root/Makefile" ]; then # the sources; else they are installed, as share/petsam
+    petsam=${PETSAM:-$root/build/bin/petsam}
+    python=${PYTHON:-$root/build/venv/bin/python}
+    base=$root
+    out=${OUT:-build/$example}
+else
+    petsam=${PETSAM:-$root/../../bin/petsam}
+    python=${PYTHON:-python3}
+    base=$(pwd)
+    out=${OUT:-$example}
+fi
 mpirun=${MPIRUN:-mpirun}
 ranks=${NP:-2}
 grid_n=${GRID_N:-$default_n}
-out=${OUT:-build/$example}
 case $out in
     /*) ;;
-    *) out=$root/$out ;;
+    *) out=$base/$out ;;
 esac
 
 fail() {
