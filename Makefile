@@ -39,7 +39,6 @@ BENCH   := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
-SCRIPTS := $(wildcard scripts/petsam-*)
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h))
 
 .PHONY: all help units bench venv test check-sanitize check-valgrind lint install clean
