@@ -169,11 +169,19 @@ PetscErrorCode SamNormalApply(SamNormal n, SamNormalLevel *level, Vec p, Vec u)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamNormalPrecondition(SamNormal n, SamNormalLevel *level, Vec r, Vec z)
+PetscErrorCode SamNormalApplySingle(SamNormal n, SamNormalLevel *level, double factor, const float p[], float u[])
+{
+  PetscFunctionBegin;
+  n->solver.applies += level->finest ? 1 : 0;
+  PetscCall(SamComplianceApplyNormalSingle(level->compliance, factor, p, u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamNormalPreconditionSingle(SamNormal n, SamNormalLevel *level, double factor, const float r[], float z[])
 {
   PetscFunctionBegin;
   n->solver.preconditions += level->finest ? 1 : 0;
-  PetscCall(SamCompliancePreconditionNormal(level->compliance, r, z));
+  PetscCall(SamCompliancePreconditionNormalSingle(level->compliance, factor, r, z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

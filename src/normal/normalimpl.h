@@ -26,7 +26,8 @@ struct _n_SamNormal {
 
 /* Counted products: only those on the finest grid count. */
 PETSC_INTERN PetscErrorCode SamNormalApply(SamNormal normal, SamNormalLevel *level, Vec p, Vec u);
-PETSC_INTERN PetscErrorCode SamNormalPrecondition(SamNormal normal, SamNormalLevel *level, Vec r, Vec z);
+PETSC_INTERN PetscErrorCode SamNormalApplySingle(SamNormal normal, SamNormalLevel *level, double factor, const float p[], float u[]);
+PETSC_INTERN PetscErrorCode SamNormalPreconditionSingle(SamNormal normal, SamNormalLevel *level, double factor, const float r[], float z[]);
 /* Counts an iteration, calls the monitors. */
 PETSC_INTERN PetscErrorCode SamNormalIterated(SamNormal normal, SamNormalLevel *level, PetscReal error);
 
