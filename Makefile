@@ -35,13 +35,13 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd $(OPT) -fPIC -Iinclude $(PC_CF
 
 LIB_SRC := $(filter-out src/petsam.c,$(sort $(wildcard src/*/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
-BENCH   := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
+BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h))
 
-.PHONY: all help units bench venv test check-sanitize check-valgrind lint install clean
+.PHONY: all help units bench bench-programs peers venv test check-sanitize check-valgrind lint install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -82,7 +82,20 @@ $(B)/tests/%: $(B)/obj/tests/unit/%.o $(B)/lib/libpetsam.a
 
 units: $(UNIT) ## build the unit tests
 
-bench: $(BENCH) ## build the benchmark programs
+bench-programs: $(BENCHES) ## build the benchmark's programs
+
+bench: all bench-programs venv peers ## run the benchmark, report in build/bench/report: ARGS=--quick for a short one
+	$(PYTHON) tests/bench/benchmark.py --build $(B) --out $(B)/bench/report $(ARGS)
+
+# the programs that the benchmark compares with, built for this processor; without one of them it runs all the same
+peers: $(B)/peers/done ## install the benchmark's peers
+$(B)/peers/done: tests/bench/requirements.txt
+	@mkdir -p $(B)
+	$(PYTHON) -m venv $(B)/peers
+	@while read -r package; do \
+	  CMAKE_ARGS="-DASPHER_USE_FFTW=ON -DASPHER_NATIVE=ON" $(B)/peers/bin/python -m pip install -q --disable-pip-version-check --no-cache-dir $$package || \
+	    { echo "peers: no $$package: aspher needs g++ and libeigen3-dev" >&2; failed=1; }; \
+	done < $<; [ -n "$$failed" ] || touch $@
 
 # the scripts' Python: one environment, from PyPI, made anew when its list changes
 venv: $(B)/venv/done ## make the Python environment of the scripts
@@ -98,7 +111,7 @@ $(B)/venv/tests-done: tests/requirements.txt tests/requirements-optional.txt $(B
 	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r tests/requirements-optional.txt || echo "not installed: $$(cat tests/requirements-optional.txt); its tests will be skipped"
 	touch $@
 
-test: all units bench $(B)/venv/tests-done ## run all tests
+test: all units bench-programs $(B)/venv/tests-done ## run all tests
 	$(PYTHON) tests/run.py --build $(B)
 
 check-sanitize: ## unit tests under the address and undefined-behaviour sanitizers

@@ -26,12 +26,12 @@ def environment():
     return env
 
 
-def mpirun(ranks):
+def mpirun(ranks, timeout=TIMEOUT):
     """The launcher's words for that many ranks, on a machine with fewer cores as well."""
     words = os.environ.get("MPIRUN", "mpirun").split()
     version = subprocess.run(words + ["--version"], capture_output=True, text=True, env=environment()).stdout
     if "Open MPI" in version:
-        words += ["--oversubscribe", "--timeout", str(TIMEOUT)]
+        words += ["--oversubscribe", "--timeout", str(int(timeout))]
     return words + ["-n", str(ranks)]
 
 

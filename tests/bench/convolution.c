@@ -174,7 +174,7 @@ int main(int argc, char **argv)
 
     PetscCall(TimePadded(sizes[k], repeats, &padded));
     PetscCall(TimePruned(sizes[k], repeats, &pruned));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%7" PetscInt_FMT "  %15.5f  %12.5f  %6.3f\n", sizes[k], padded, pruned, pruned / padded));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%7" PetscInt_FMT "  %15.7f  %12.7f  %6.3f\n", sizes[k], padded, pruned, pruned / padded));
   }
   PetscCall(SamFinalize());
   PetscCall(PetscFinalize());

@@ -31,6 +31,16 @@ def force(k, steps):
     return 0.8 * LIMIT * (phase if phase <= 1 else 2 - phase if phase <= 3 else phase - 4)
 
 
+def forces(steps):
+    """T_x after every step of the cycle, N."""
+    return [force(k, steps) for k in range(1, steps + 1)]
+
+
+def write_history(path, steps):
+    """The cycle as a load program for petsam."""
+    path.write_text("time, load_tx\n" + "".join(f"{k + 1}, {t:.10g}\n" for k, t in enumerate(forces(steps))))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--cells", type=int, default=512)
@@ -42,7 +52,7 @@ def main():
     cold = statistics.median(cpu(base + ["-load_tx", str(0.6 * LIMIT)]) for _ in range(5))
     with tempfile.TemporaryDirectory() as folder:
         history = Path(folder) / "cycle.csv"
-        history.write_text("time, load_tx\n" + "".join(f"{k}, {force(k, args.steps):.10g}\n" for k in range(1, args.steps + 1)))
+        write_history(history, args.steps)
         cycle = cpu(base + ["-history", str(history)])
     print(f"cold solve {cold:.2f} s, {args.steps} steps {cycle:.2f} s, ratio {cycle / cold:.1f}")
 
