@@ -66,7 +66,8 @@ class Report:
                    "first grid. Memory is the peak resident set (for several ranks the largest rank's times their number; "
                    "a peer's holds Python). Error is the largest of complementarity sum p |g|/(N u), penetration over u and load, "
                    f"by one measure for all (`tests/bench/problem.py`): exact is at most {d['exact']:g}, approximate at most "
-                   f"{d['approximate']:g}.\n")
+                   f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the program's own check "
+                   f"certifies, to {d['shear_exact']:g} or {d['shear_approximate']:g} (relative L2).\n")
 
     def machine(self):
         self.write("## Memory and transforms\n", table(["ranks", "triad, GB/s"], [[n, f"{b:.1f}"] for n, b in self.data["bandwidth"].items()]))
@@ -153,25 +154,30 @@ class Report:
 
     # ---------------------------------------------------------------- figures
 
+    def lines(self):
+        """(program, cores) of every curve: petsam's ranks apart, a peer's cores not."""
+        return list(dict.fromkeys((r["program"], r["cores"] if r["program"] == "petsam" else None) for r in self.rows if "seconds" in r))
+
     def curves(self, key, label):
         """A panel a case: seconds or memory over n, a line a program."""
         cases = self.cases()
         columns = min(3, len(cases))
         lines = -(-len(cases) // columns)
-        figure, axes = plt.subplots(lines, columns, figsize=(4.2 * columns, 3.4 * lines), squeeze=False, layout="constrained")
+        figure, axes = plt.subplots(lines, columns, figsize=(4.2 * columns, 3.2 * lines + 0.8), squeeze=False, layout="constrained")
+        handles = {}
         for axis, case in zip(axes.flat, cases):
-            names = dict.fromkeys((r["program"], r["cores"] if r["program"] == "petsam" else 0) for r in self.of(case) if key in r)
-            for program, cores in names:
-                rows = [r for r in self.of(case, program=program) if key in r and (not cores or r["cores"] == cores)]
-                axis.loglog([r["cells"] for r in rows], [r[key] for r in rows], "o-" if cores else "s--", markersize=4,
-                            label=program + (f", {cores} rank{'s' if cores > 1 else ''}" if cores else ""))
+            for k, (program, cores) in enumerate(self.lines()):
+                rows = [r for r in self.of(case, program=program) if key in r and cores in (None, r["cores"])]
+                if rows:
+                    name = program + (f", {cores} rank{'s' if cores > 1 else ''}" if cores else "")
+                    handles[name], = axis.loglog([r["cells"] for r in rows], [r[key] for r in rows], "o-" if cores else "s--", color=f"C{k}", markersize=4)
             grids = self.grids(case)
             axis.set_xticks(grids, [str(n) for n in grids])
-            axis.minorticks_off()
+            axis.xaxis.minorticks_off()
             axis.set(title=TITLES[case], xlabel="n", ylabel=label)
-            axis.legend()
         for axis in axes.flat[len(cases):]:
             axis.set_visible(False)
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)
         save(figure, self.directory, f"{key}.png")
 
     # ---------------------------------------------------------------- scaling on paper
@@ -215,23 +221,22 @@ class Report:
         self.scaling_tables(convolution, solves)
 
     def scaling_tables(self, convolution, solves):
-        figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
+        figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
         strong, weak, shares = [], [], []
-        for case, (solve, _, _) in solves.items():
-            for n in STRONG:
+        for k, (case, (solve, _, _)) in enumerate(solves.items()):
+            for n, style in zip(STRONG, ("o-", "s--")):
                 times = [solve.seconds(convolution, n, p) for p in RANKS]
-                left.loglog(RANKS, times, "o-", markersize=3, label=f"{TITLES[case]}, {n}²")
+                left.loglog(RANKS, times, style, color=f"C{k}", markersize=3, label=f"{TITLES[case]}, {n}²")
                 strong.append([TITLES[case], f"{n}²", *self.efficiencies(times, RANKS, RANKS)])
                 parts = solve.parts(convolution, n, RANKS[-1])
                 shares.append([TITLES[case], f"{n}²", *[f"{100 * part / sum(parts):.0f} %" for part in parts]])
             squares = RANKS[::2]  # whole sides
             times = [solve.seconds(convolution, WEAK * round(p**0.5), p) for p in squares]
-            right.semilogx(squares, [100 * times[0] / t for t in times], "o-", markersize=3, label=TITLES[case])
+            right.semilogx(squares, [100 * times[0] / t for t in times], "o-", color=f"C{k}", markersize=3)
             weak.append([TITLES[case], *self.efficiencies(times, squares, [1] * len(squares))])
         left.set(title="strong scaling", xlabel="ranks", ylabel="s")
         right.set(title=f"weak scaling, {WEAK}² cells a rank", xlabel="ranks", ylabel="efficiency, %", ylim=(0, 105))
-        for axis in (left, right):
-            axis.legend()
+        figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
         save(figure, self.directory, "scaling.png")
         shown = [f"{p} rank{'s' if p > 1 else ''}" for p in SHOWN]
         self.write("Strong scaling, seconds (efficiency):\n", table(["case", "cells", *shown], strong),
