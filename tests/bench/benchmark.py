@@ -47,7 +47,7 @@ ENOUGH = 30.0  # seconds of repeats after which one median is good enough
 
 
 class Ran:
-    """How a command ended: code (None: killed at the limit), output, seconds, peak memory (MB)."""
+    """How a command ended: code (None: killed at the limit), output, seconds, CPU seconds, peak memory (MB)."""
 
     def __init__(self, command, limit, env=None):
         with tempfile.TemporaryFile() as out:
@@ -73,7 +73,7 @@ class Ran:
             out.seek(0)
             self.text = out.read().decode(errors="replace")
         self.code = None if late else child.returncode
-        self.memory = usage.ru_maxrss * 1024e-6
+        self.memory, self.cpu = usage.ru_maxrss * 1024e-6, usage.ru_utime + usage.ru_stime
 
     def must(self, what):
         if self.code != 0:
@@ -149,11 +149,12 @@ class Bench:
         say(line + (f"{row['seconds']:.2f} s, {row['memory']:.0f} MB, error {row['error']:.1e}" if "error" in row else note))
 
     def repeat(self, once):
-        """Median seconds and memory of runs until there are enough; once() gives (seconds, memory)."""
+        """Medians of runs until there are enough, and the greatest memory; once() gives (seconds, CPU seconds, memory)."""
         runs = []
-        while len(runs) < self.args.repeats and (not runs or sum(s for s, _ in runs) < ENOUGH):
+        while len(runs) < self.args.repeats and (not runs or sum(r[0] for r in runs) < ENOUGH):
             runs.append(once())
-        return dict(seconds=statistics.median(s for s, _ in runs), memory=max(m for _, m in runs), runs=[s for s, _ in runs])
+        times, cpu, memory = zip(*runs)
+        return dict(seconds=statistics.median(times), cpu=statistics.median(cpu), memory=max(memory), runs=times)
 
     # ---------------------------------------------------------------- petsam
 
@@ -166,7 +167,7 @@ class Bench:
         for n in self.args.ranks:
             def once(ranks=n):
                 ran = Ran(launch(ranks, PATIENCE) + [program, *options], PATIENCE)
-                return float(re.search(r"used\s+([\d.]+) s", ran.must(f"petsam, {case}"))[1]), ran.memory * ranks
+                return float(re.search(r"used\s+([\d.]+) s", ran.must(f"petsam, {case}"))[1]), ran.cpu, ran.memory * ranks
             self.add(case, cells, "petsam", n, **self.repeat(once), **accuracy)
 
     # ---------------------------------------------------------------- peers
@@ -197,7 +198,7 @@ class Bench:
         if not said["converged"]:
             return dict(note="does not converge: {} after {:.1f} s, its residual {:.1e}".format(
                 said.get("reason", "its own test fails"), said["seconds"], said["residual"]))
-        return dict(said, memory=ran.memory)
+        return dict(said, cpu=ran.cpu, memory=ran.memory)
 
     def peer(self, setting, case, cells, folder, earlier):
         """All runs of one setting; earlier are the notes of smaller grids, which need not be tried again."""
@@ -212,7 +213,7 @@ class Bench:
 
         def once():
             said = runs.pop() if runs else self.run_peer(setting, folder, cores)
-            return said.get("seconds", self.args.limit), said.get("memory", 0.0)
+            return said.get("seconds", self.args.limit), said.get("cpu", 0.0), said.get("memory", 0.0)
         return self.add(case, cells, setting, cores, iterations=first.get("iterations"), **self.repeat(once), **accuracy)
 
     def hindrance(self, name, kind):

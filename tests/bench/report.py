@@ -19,7 +19,7 @@ TITLES = {
     "slip_tx": "partial slip, T_x = 0.6 mu N", "slip_tx_mz": "partial slip, T_x and M_z, half of each limit",
     "cycle_80": "fretting cycle, 80 steps", "cycle_16": "fretting cycle, 16 steps",
 }
-COLUMNS = ("case", "cells", "program", "cores", "seconds", "memory", "error", "tangential_residual", "accuracy", "hertz_l2",
+COLUMNS = ("case", "cells", "program", "cores", "seconds", "cpu", "memory", "error", "tangential_residual", "accuracy", "hertz_l2",
            "contact", "iterations", "normal_iterations", "tangential_iterations", "total_normal_applies",
            "total_tangential_applies", "note")
 STRONG, WEAK = (4096, 16384), 1024  # cells of a grid; cells of a rank's square
@@ -63,7 +63,7 @@ class Report:
         self.write("# Benchmark\n", f"`{d['command']}`, {m['date']}, {m['processor']}, {m['cores']} cores, load at the start "
                    f"{m['load']:.1f}. Seconds are medians of up to {d['repeats']} runs from building the operators to the solution, "
                    "without the start of MPI or Python; a peer runs on one core or all, whichever is the faster on the case's "
-                   "first grid. Memory is the peak resident set (for several ranks the largest rank's times their number; "
+                   "first grid. CPU seconds are the process's, its start and all ranks with it. Memory is the peak resident set (for several ranks the largest rank's times their number; "
                    "a peer's holds Python). Error is the largest of complementarity sum p |g|/(N u), penetration over u and load, "
                    f"by one measure for all (`tests/bench/problem.py`): exact is at most {d['exact']:g}, approximate at most "
                    f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the program's own check "
@@ -129,9 +129,9 @@ class Report:
             rows = []
             for r in self.of(case):
                 timed = "seconds" in r
-                rest = [seconds(r["seconds"]), f"{self.ratio(r):.2f}", f"{r['memory']:.0f}", self.error(r), r["accuracy"]] if timed else ["", "", "", "", r["note"]]
+                rest = [seconds(r["seconds"]), f"{self.ratio(r):.2f}", seconds(r["cpu"]), f"{r['memory']:.0f}", self.error(r), r["accuracy"]] if timed else [""] * 5 + [r["note"]]
                 rows.append([f"{r['cells']}²", r["program"], str(r["cores"]), *rest])
-            self.write(f"## {TITLES[case]}\n", table(["cells", "program", "cores", "s", "times petsam", "MB", "error", ""], rows))
+            self.write(f"## {TITLES[case]}\n", table(["cells", "program", "cores", "s", "times petsam", "CPU s", "MB", "error", ""], rows))
         self.write("Settings: " + "; ".join(f"{k}: {v}" for k, v in self.data["settings"].items()) + ".\n")
 
     def ratio(self, row):
