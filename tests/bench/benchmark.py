@@ -32,7 +32,7 @@ from run import environment, mpirun  # noqa: E402
 CASES = {
     "hertz": ("normal", (512, 1024, 2048), (128, 256)),
     "rough_1": ("rough", (512, 1024, 2048), ()),
-    "rough_8": ("rough", (512, 1024, 2048), (128, 256)),
+    "rough_8": ("rough", (512, 1024, 2048), (128,)),
     "rough_40": ("rough", (512, 1024, 2048), ()),
     "slip_tx": ("tangential", (512, 1024, 2048), (128,)),
     "slip_tx_mz": ("torque", (512, 1024, 2048), (128,)),
@@ -99,7 +99,7 @@ class Bench:
         self.python = self.build / "venv" / "bin" / "python"
         self.peer_python = self.build / "peers" / "bin" / "python"
         self.cores = max(args.ranks)
-        self.rows, self.threads = [], {}
+        self.rows = []
 
     # ---------------------------------------------------------------- the machine
 
@@ -172,18 +172,15 @@ class Bench:
 
     # ---------------------------------------------------------------- peers
 
-    def first_run(self, setting, case, folder):
-        """A first run, and the cores of it: all or one, whichever is the faster on the first grid of a case."""
-        key = (setting, case)
-        counts = [self.threads[key]] if key in self.threads else sorted({1, self.cores}, reverse=True)
+    def first_run(self, setting, folder):
+        """A first run, and the cores of it: all or one, whichever is the faster."""
         best = None
-        for n in counts:
+        for n in sorted({1, self.cores}, reverse=True):
             said = self.run_peer(setting, folder, n)
             if best is None or said.get("seconds", float("inf")) < best[0].get("seconds", float("inf")):
                 best = said, n
             if "seconds" not in said:  # one core does not help
                 break
-        self.threads[key] = best[1]
         return best
 
     def run_peer(self, setting, folder, cores):
@@ -201,10 +198,10 @@ class Bench:
         return dict(said, cpu=ran.cpu, memory=ran.memory)
 
     def peer(self, setting, case, cells, folder, earlier):
-        """All runs of one setting; earlier are the notes of smaller grids, which need not be tried again."""
+        """All runs of one setting; earlier are the notes of smaller grids, which larger ones need not try."""
         if earlier.get(setting):
             return self.add(case, cells, setting, self.cores, note=earlier[setting])
-        first, cores = self.first_run(setting, case, folder)
+        first, cores = self.first_run(setting, folder)
         if "seconds" not in first:
             earlier[setting] = first["note"] + ("" if "converge" in first["note"] else f" at {cells}")
             return self.add(case, cells, setting, cores, note=first["note"])

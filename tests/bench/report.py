@@ -62,8 +62,8 @@ class Report:
         m, d = self.data["machine"], self.data
         self.write("# Benchmark\n", f"`{d['command']}`, {m['date']}, {m['processor']}, {m['cores']} cores, load at the start "
                    f"{m['load']:.1f}. Seconds are medians of up to {d['repeats']} runs from building the operators to the solution, "
-                   "without the start of MPI or Python; a peer runs on one core or all, whichever is the faster on the case's "
-                   "first grid. CPU seconds are the process's, its start and all ranks with it. Memory is the peak resident set (for several ranks the largest rank's times their number; "
+                   "without the start of MPI or Python; a peer runs on one core or all, whichever is the faster. "
+                   "CPU seconds are the process's, its start and all ranks with it. Memory is the peak resident set (for several ranks the largest rank's times their number; "
                    "a peer's holds Python). Error is the largest of complementarity sum p |g|/(N u), penetration over u and load, "
                    f"by one measure for all (`tests/bench/problem.py`): exact is at most {d['exact']:g}, approximate at most "
                    f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the program's own check "
