@@ -25,6 +25,9 @@
 #define PROPORTION 0.1
 /* A round ends at this part of its first residual, so that rounding stays small. */
 #define ROUND_FALL 3e-3
+/* Rounding of g in a round, as a part of its first error, and the part of the tolerance that it may be at the end. */
+#define SINGLE_ROUNDING 3e-7
+#define DOUBT           0.03
 /* Rounds without progress before the energy is watched, and before giving up: then it is rounding that stands in the way. */
 #define PATIENCE 5
 #define STAGNATION 50
@@ -333,7 +336,9 @@ static PetscErrorCode Step(Work *w, PetscBool *good)
 */
 static PetscErrorCode Iterate(Work *w, PetscBool *solved)
 {
-  const double goal = ROUND_FALL * ROUND_FALL * w->residual;
+  const double goal = ROUND_FALL * ROUND_FALL * w->residual, tolerance = w->level->rtol * w->displacement;
+  /* after a round that began far from the solution the error is what a product in double precision says */
+  const PetscBool trusted = SINGLE_ROUNDING * w->error <= DOUBT * tolerance ? PETSC_TRUE : PETSC_FALSE;
   PetscBool    good = PETSC_TRUE, done = w->residual == 0 ? PETSC_TRUE : PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -346,9 +351,9 @@ static PetscErrorCode Iterate(Work *w, PetscBool *solved)
     if (!good) break;
     PetscCall(FitMotion(w));
     PetscCall(SamNormalIterated(w->normal, w->level, w->error / w->displacement));
-    *solved = (w->error <= w->level->rtol * w->displacement && w->pulling == 0) ? PETSC_TRUE : PETSC_FALSE;
+    *solved = (trusted && w->error <= tolerance && w->pulling == 0) ? PETSC_TRUE : PETSC_FALSE;
     done    = (*solved || w->violation > PROPORTION * w->residual || w->residual <= goal || !isfinite(w->residual)) ? PETSC_TRUE : PETSC_FALSE;
-    if (w->error <= 0.5 * w->level->rtol * w->displacement) done = PETSC_TRUE;
+    if (w->error <= 0.5 * tolerance) done = PETSC_TRUE;
     if (w->level->finest && w->normal->solver.iterations >= SamSolverMaxIterations(&w->normal->solver)) done = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
