@@ -279,10 +279,12 @@ PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], SamOutput *o
   PetscCall(GetSettings(grid->comm, &set));
   PetscCall(CheckName(grid, filename));
   PetscCall(Allocate(grid, filename, &set, output));
-  ierr = CreateFile(*output);
-  if (ierr) (*output)->file = -1; /* not closed: that would wait for a rank that could not open it */
-  else ierr = CreateDatasets(*output);
-  if (!ierr && set.xdmf) ierr = SamXdmfCreate(grid, filename, &(*output)->xdmf);
+  ierr = set.xdmf ? SamXdmfCreate(grid, filename, &(*output)->xdmf) : PETSC_SUCCESS; /* first: the old results stay if it fails */
+  if (!ierr) {
+    ierr = CreateFile(*output);
+    if (ierr) (*output)->file = -1; /* not closed: that would wait for a rank that could not open it */
+    else ierr = CreateDatasets(*output);
+  }
   if (ierr) {
     Silence(*output);
     CloseFile(*output);
