@@ -61,9 +61,33 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
+
+/* Largest of each kind in a row, but for the edge; a value that is not a number makes the gap so. */
+SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict g, const double *restrict u, double max[COUNT])
+{
+  double gap = 0, tension = 0, displacement = 0, pressure = 0, opening = 0, nan = 0;
+
+#pragma omp simd reduction(max : gap, tension, displacement, pressure, opening) reduction(+ : nan)
+  for (PetscInt i = 0; i < n; i++) {
+    const double size = fabs(u[i]), wrong = p[i] > 0 ? fabs(g[i]) : -g[i];
+
+    gap          = wrong > gap ? wrong : gap;
+    opening      = g[i] > opening ? g[i] : opening;
+    tension      = -p[i] > tension ? -p[i] : tension;
+    pressure     = p[i] > pressure ? p[i] : pressure;
+    displacement = size > displacement ? size : displacement;
+    nan += p[i] + g[i] == p[i] + g[i] ? 0 : 1;
+  }
+  max[GAP]          = nan > 0 ? NAN : SamLarger(max[GAP], gap);
+  max[OPENING]      = PetscMax(max[OPENING], opening);
+  max[TENSION]      = PetscMax(max[TENSION], tension);
+  max[PRESSURE]     = PetscMax(max[PRESSURE], pressure);
+  max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], displacement);
+}
+
 static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *check)
 {
-  enum { GAP, TENSION, DISPLACEMENT, PRESSURE, EDGE, OPENING, COUNT };
   double        max[COUNT] = {0};
   const double *p, *g, *u;
 
@@ -73,17 +97,10 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
   PetscCall(VecGetArrayRead(f->displacement_z, &u));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const PetscBool edge_row = (grid->row_start + j == 0 || grid->row_start + j == grid->ny - 1) ? PETSC_TRUE : PETSC_FALSE;
+    const ptrdiff_t k        = (ptrdiff_t)j * grid->nx;
 
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const PetscInt k = j * grid->nx + i;
-
-      max[GAP]          = SamLarger(max[GAP], p[k] > 0 ? fabs(g[k]) : -g[k]);
-      max[OPENING]      = PetscMax(max[OPENING], g[k]);
-      max[TENSION]      = PetscMax(max[TENSION], -p[k]);
-      max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], fabs(u[k]));
-      max[PRESSURE]     = PetscMax(max[PRESSURE], p[k]);
-      if (edge_row || i == 0 || i == grid->nx - 1) max[EDGE] = PetscMax(max[EDGE], p[k]);
-    }
+    NormalRow(grid->nx, p + k, g + k, u + k, max);
+    for (PetscInt i = 0; i < grid->nx; i += edge_row ? 1 : PetscMax(grid->nx - 1, 1)) max[EDGE] = PetscMax(max[EDGE], p[k + i]);
   }
   PetscCall(VecRestoreArrayRead(f->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(f->gap, &g));
@@ -100,9 +117,34 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A row's squares (residual, q, D(q - ds/c), bound) and largest |q| - mu p and mu p. */
+SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, const double *restrict qx, const double *restrict qy, const double *restrict sx, const double *restrict sy, double friction, double inverse, double sums[4], double max[2])
+{
+  double residual = 0, shear = 0, projected = 0, least = 0, over = max[0], most = max[1];
+
+#pragma omp simd reduction(+ : residual, shear, projected, least) reduction(max : over, most)
+  for (PetscInt i = 0; i < n; i++) {
+    const double b = friction * (p[i] > 0 ? p[i] : 0), yx = qx[i] - inverse * sx[i], yy = qy[i] - inverse * sy[i], y2 = yx * yx + yy * yy;
+    const double scale = y2 > b * b ? b / sqrt(y2) : 1, rx = qx[i] - scale * yx, ry = qy[i] - scale * yy, q2 = qx[i] * qx[i] + qy[i] * qy[i], beyond = sqrt(q2) - b;
+
+    residual += rx * rx + ry * ry;
+    shear += q2;
+    projected += scale * scale * y2;
+    least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
+    over = beyond > over ? beyond : over;
+    most = b > most ? b : most;
+  }
+  sums[0] += residual;
+  sums[1] += shear;
+  sums[2] += projected;
+  sums[3] += least;
+  max[0] = over;
+  max[1] = most;
+}
+
 static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscReal self, const SamFields *f, Vec slip_before, SamCheck *check)
 {
-  double        sums[4] = {0, 0, 0, 0}, max[2] = {0, 0};
+  double        sums[4] = {0, 0, 0, 0}, max[2] = {0, 0}, *ds;
   const double *p, *q, *s, *before = NULL;
 
   PetscFunctionBegin;
@@ -110,20 +152,17 @@ static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscRea
   PetscCall(VecGetArrayRead(f->shear, &q));
   PetscCall(VecGetArrayRead(f->slip, &s));
   if (slip_before) PetscCall(VecGetArrayRead(slip_before, &before));
-  for (PetscInt k = 0; k < grid->cells; k++) {
-    const PetscInt l = k + grid->cells;
-    const double   b = friction * PetscMax(p[k], 0);
-    const double   dx = s[k] - (before ? before[k] : 0), dy = s[l] - (before ? before[l] : 0);
-    const double   yx = q[k] - dx / self, yy = q[l] - dy / self, y = sqrt(yx * yx + yy * yy);
-    const double   scale = y > b ? b / y : 1, rx = q[k] - scale * yx, ry = q[l] - scale * yy;
+  PetscCall(PetscMalloc1(2 * grid->nx, &ds));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx, l = k + grid->cells;
 
-    sums[0] += rx * rx + ry * ry;
-    sums[1] += q[k] * q[k] + q[l] * q[l];
-    sums[2] += scale * scale * y * y;
-    sums[3] += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
-    max[0] = SamLarger(max[0], sqrt(q[k] * q[k] + q[l] * q[l]) - b);
-    max[1] = PetscMax(max[1], b);
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      ds[i]            = s[k + i] - (before ? before[k + i] : 0);
+      ds[i + grid->nx] = s[l + i] - (before ? before[l + i] : 0);
+    }
+    TangentialRow(grid->nx, p + k, q + k, q + l, ds, ds + grid->nx, friction, 1 / self, sums, max);
   }
+  PetscCall(PetscFree(ds));
   if (slip_before) PetscCall(VecRestoreArrayRead(slip_before, &before));
   PetscCall(VecRestoreArrayRead(f->slip, &s));
   PetscCall(VecRestoreArrayRead(f->shear, &q));

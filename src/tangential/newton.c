@@ -29,7 +29,7 @@
   Once a step leaves the slipping cells what they were, the next falls by more, and in the end to this part of the tolerance;
   not by more, since the rounding of single precision remains of what the step began with.
 */
-#define INNER_FALL  0.1
+#define INNER_FALL  0.02
 #define PROPORTION  0.3
 #define SETTLED_FALL 1e-3
 #define LAST_FALL   0.3
@@ -67,14 +67,14 @@ typedef struct {
 typedef struct {
   ptrdiff_t    first, count, cells;
   const float *xi;
-  double       eta;
+  double       xi0, dxi, eta;
 } Row;
 
 static Row GetRow(const Work *w, PetscInt j)
 {
   const SamStickSlip *u = &w->base;
 
-  return (Row){.first = (ptrdiff_t)j * u->nx + u->first[j], .count = u->last[j] - u->first[j], .cells = u->cells, .xi = w->xi + u->first[j], .eta = u->frame->eta0 + (double)j * u->frame->deta};
+  return (Row){.first = (ptrdiff_t)j * u->nx + u->first[j], .count = u->last[j] - u->first[j], .cells = u->cells, .xi = w->xi + u->first[j], .xi0 = u->frame->xi0 + (double)u->first[j] * u->frame->dxi, .dxi = u->frame->dxi, .eta = u->frame->eta0 + (double)j * u->frame->deta};
 }
 
 static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level, Work *w)
@@ -104,96 +104,91 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 1. */
-static PetscErrorCode Classify(Work *w)
+/* Sums over the cells in the tangent space: the slip with the phi, the Gram matrix there, its parts as in SamGramTangentialRow. */
+typedef struct {
+  double changed, most, sums[3], gram[SAM_GRAM];
+} Space;
+
+/* Step 1 for a row, and the sums of the tangent space that it makes. */
+SAM_VECTORIZED static void RowClassify(const Work *w, Row row, Space *space)
 {
-  SamStickSlip *u       = &w->base;
-  double        changed = 0;
+  const SamStickSlip *u       = &w->base;
+  const double        inverse = 1 / u->self;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
+  const double *restrict bound = u->bound + row.first;
+  float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict weight = w->weight + row.first;
+  double changed = 0, most = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0;
 
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) {
-    for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) {
-      const PetscInt  l = k + u->cells;
-      const double    b = u->bound[k], power = u->s[k] * u->q[k] + u->s[l] * u->q[l], q2 = u->q[k] * u->q[k] + u->q[l] * u->q[l];
-      const PetscBool slips = (b > 0 && power < 0 && q2 >= ON_CIRCLE * ON_CIRCLE * b * b) ? PETSC_TRUE : PETSC_FALSE;
-      const PetscBool slipped = (w->normal[k] != 0 || w->normal[l] != 0) ? PETSC_TRUE : PETSC_FALSE;
-      const double    scale = slips ? 1 / sqrt(q2) : 0;
+#pragma omp simd reduction(+ : changed, x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy) reduction(max : most)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const double b = bound[i], in = b > 0 ? 1 : 0, xi = row.xi0 + (double)i * row.dxi, power = sx[i] * qx[i] + sy[i] * qy[i], q2 = qx[i] * qx[i] + qy[i] * qy[i];
+    const double slips = (b > 0 && power < 0 && q2 >= ON_CIRCLE * ON_CIRCLE * b * b) ? 1 : 0, slipped = (nx[i] != 0 || ny[i] != 0) ? 1 : 0;
+    const double scale = slips > 0 ? 1 / sqrt(q2) : 0, vx = scale * qx[i], vy = scale * qy[i], part = vx * sx[i] + vy * sy[i];
+    const double px = in * (sx[i] - part * vx), py = in * (sy[i] - part * vy), gxx = in - vx * vx, gxy = -vx * vy, gyy = in - vy * vy;
+    const double largest = fabs(px) > fabs(py) ? fabs(px) : fabs(py);
 
-      changed += slips != slipped;
-      w->normal[k] = (float)(scale * u->q[k]);
-      w->normal[l] = (float)(scale * u->q[l]);
-      w->weight[k] = b > 0 ? (float)(slips ? 1 / sqrt(1 - power / (b * b * u->self)) : 1) : 0;
-    }
+    changed += slips != slipped ? 1 : 0;
+    nx[i]     = (float)vx;
+    ny[i]     = (float)vy;
+    weight[i] = (float)(slips > 0 ? 1 / sqrt(1 - inverse * power * scale * scale) : in);
+    most = largest > most ? largest : most;
+    x += px;
+    y += py;
+    turn += xi * py;
+    hxx += gxx;
+    hxy += gxy;
+    hyy += gyy;
+    xi_hxy += xi * gxy;
+    xi_hyy += xi * gyy;
+    xi2_hyy += xi * xi * gyy;
   }
-  PetscCall(SamSum(u->level->grid->comm, 1, &changed));
-  w->changed = (PetscInt)changed;
-  PetscCall(PetscArraycpy(w->old, u->q, 2 * u->cells));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  space->changed += changed;
+  space->most = PetscMax(space->most, most);
+  space->sums[0] += x;
+  space->sums[1] += y;
+  space->sums[2] += turn - row.eta * x;
+  SamGramTangentialRow(space->gram, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, row.eta);
 }
 
-/* The slip at cell k in the tangent space. */
-static inline void TangentSlip(const Work *w, PetscInt k, double *x, double *y)
+/* r = P(a - s), in units. */
+SAM_VECTORIZED static void RowFirstResidual(const Work *w, Row row, double inverse, const double a[3])
 {
   const SamStickSlip *u = &w->base;
-  const PetscInt      l = k + u->cells;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
+  const float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict weight = w->weight + row.first;
+  float *restrict rx = w->r + row.first, *restrict ry = rx + row.cells;
+  const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
 
-  *x = u->s[k];
-  *y = u->s[l];
-  if (w->normal[k] != 0 || w->normal[l] != 0) {
-    const double part = (*x * u->q[k] + *y * u->q[l]) / (u->q[k] * u->q[k] + u->q[l] * u->q[l]);
+#pragma omp simd
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const double x = ax - sx[i], y = a1 + a2 * (row.xi0 + (double)i * row.dxi) - sy[i], q2 = qx[i] * qx[i] + qy[i] * qy[i];
+    const double part = (nx[i] != 0 || ny[i] != 0) ? (x * qx[i] + y * qy[i]) / q2 : 0, scale = weight[i] > 0 ? inverse : 0;
 
-    *x -= part * u->q[k];
-    *y -= part * u->q[l];
+    rx[i] = (float)(scale * (x - part * qx[i]));
+    ry[i] = (float)(scale * (y - part * qy[i]));
   }
 }
 
-/* The Gram matrix of the tangent space, the unit, the motion that fits best, and the first residual. */
-static PetscErrorCode FirstResidual(Work *w)
+/* Step 1, the Gram matrix of the tangent space, the unit, the motion that fits best, and the first residual. */
+static PetscErrorCode Classify(Work *w)
 {
-  SamStickSlip   *u                  = &w->base;
-  const SamFrame *f                  = u->frame;
-  double          sums[3 + SAM_GRAM] = {0}, most = 0, a[3], inverse;
+  SamStickSlip *u     = &w->base;
+  Space         space = {0};
+  double        a[3], inverse;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) {
-    const double eta               = f->eta0 + (double)j * f->deta;
-    double       row[3 + SAM_GRAM] = {0};
-
-    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      const PetscInt k  = j * u->nx + i, l = k + u->cells;
-      const double   xi = f->xi0 + (double)i * f->dxi, nx = w->normal[k], ny = w->normal[l];
-      double         x, y;
-
-      if (u->bound[k] <= 0) continue;
-      TangentSlip(w, k, &x, &y);
-      row[0] += x;
-      row[1] += y;
-      row[2] += xi * y - eta * x;
-      SamGramAddTangential(row + 3, 1 - nx * nx, -nx * ny, 1 - ny * ny, xi, eta);
-      most = PetscMax(most, PetscMax(fabs(x), fabs(y)));
-    }
-    for (PetscInt c = 0; c < 3 + SAM_GRAM; c++) sums[c] += row[c];
-  }
-  PetscCall(SamSum(u->level->grid->comm, 3 + SAM_GRAM, sums));
-  PetscCall(SamMax(u->level->grid->comm, 1, &most));
-  for (PetscInt c = 0; c < SAM_GRAM; c++) w->gram[c] = sums[3 + c];
-  SamFrameSolve(f, w->gram, sums, a);
-  w->unit = most;
-  inverse = most > 0 ? 1 / most : 0;
+  for (PetscInt j = 0; j < u->rows; j++) RowClassify(w, GetRow(w, j), &space);
+  PetscCall(SamMax(u->level->grid->comm, 1, &space.most));
+  w->unit       = space.most;
+  space.most    = 0;
+  PetscCall(SamSum(u->level->grid->comm, (PetscInt)(sizeof(space) / sizeof(double)), (double *)&space));
+  w->changed = (PetscInt)space.changed;
+  PetscCall(PetscArraycpy(w->gram, space.gram, SAM_GRAM));
+  SamFrameSolve(u->frame, w->gram, space.sums, a);
+  inverse = w->unit > 0 ? 1 / w->unit : 0;
   for (PetscInt c = 0; c < 3; c++) w->shift[c] = a[c] * inverse;
-  for (PetscInt j = 0; j < u->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
-
-    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      const PetscInt k  = j * u->nx + i, l = k + u->cells;
-      const double   nx = w->normal[k], ny = w->normal[l], ax = SamFrameX(a, eta), ay = SamFrameY(a, f->xi0 + (double)i * f->dxi), part = nx * ax + ny * ay;
-      double         x, y;
-
-      TangentSlip(w, k, &x, &y);
-      w->r[k] = u->bound[k] > 0 ? (float)((ax - part * nx - x) * inverse) : 0;
-      w->r[l] = u->bound[k] > 0 ? (float)((ay - part * ny - y) * inverse) : 0;
-    }
-  }
+  for (PetscInt j = 0; j < u->rows; j++) RowFirstResidual(w, GetRow(w, j), inverse, a);
+  PetscCall(PetscArraycpy(w->old, u->q, 2 * u->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -241,11 +236,10 @@ SAM_VECTORIZED static double RowCut(const Work *w, Row row)
   return sum / (unit_q * unit_q);
 }
 
-/* Prepares the preconditioner's input, which is zero outside the contact, and measures the residual. */
-static PetscErrorCode Scale(Work *w, double *cut)
+/* z = 0 beside the contact's rows, which alone are written to. */
+static PetscErrorCode ClearMargins(Work *w)
 {
-  SamStickSlip *u       = &w->base;
-  double        sums[2] = {0, 0};
+  const SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 2; c++)
@@ -255,6 +249,17 @@ static PetscErrorCode Scale(Work *w, double *cut)
       PetscCall(PetscArrayzero(z, u->first[j]));
       PetscCall(PetscArrayzero(z + u->last[j], u->nx - u->last[j]));
     }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Prepares the preconditioner's input, and measures the residual. */
+static PetscErrorCode Scale(Work *w, double *cut)
+{
+  SamStickSlip *u       = &w->base;
+  double        sums[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(ClearMargins(w));
   for (PetscInt j = 0; j < u->rows; j++) {
     const Row row = GetRow(w, j);
 
@@ -415,7 +420,6 @@ static PetscErrorCode NewtonStep(Work *w)
 
   PetscFunctionBegin;
   PetscCall(Classify(w));
-  PetscCall(FirstResidual(w));
   PetscCall(PetscArrayzero(w->d, 2 * u->cells));
   PetscCall(PetscArrayzero(w->delta, 2 * u->cells));
   if (w->unit == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -439,48 +443,70 @@ static PetscErrorCode NewtonStep(Work *w)
   q += delta. Cells that slip go beyond their circles, so that the projection, which restores equilibrium by a common shift,
   leaves them on it: otherwise half of them would be pulled inside, and convergence would be linear instead of quadratic.
 */
-static void AddStep(Work *w)
+SAM_VECTORIZED static void RowAddStep(const Work *w, Row row)
 {
-  SamStickSlip *u      = &w->base;
-  const double  unit_q = w->unit / u->self;
+  const SamStickSlip *u      = &w->base;
+  const double        unit_q = w->unit / u->self;
+  const float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict ex = w->delta + row.first, *restrict ey = ex + row.cells;
+  const double *restrict b = u->bound + row.first;
+  double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells;
 
-  for (PetscInt j = 0; j < u->rows; j++)
-    for (PetscInt k = j * u->nx + u->first[j]; k < j * u->nx + u->last[j]; k++) {
-      const PetscInt l = k + u->cells;
-      const double   x = u->q[k] + unit_q * (double)w->delta[k], y = u->q[l] + unit_q * (double)w->delta[l];
-      const double   scale = (w->normal[k] != 0 || w->normal[l] != 0) ? 2 * u->bound[k] / sqrt(x * x + y * y) : 1;
+#pragma omp simd
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    const double x = qx[i] + unit_q * (double)ex[i], y = qy[i] + unit_q * (double)ey[i];
+    const double scale = (nx[i] != 0 || ny[i] != 0) ? 2 * b[i] / sqrt(x * x + y * y) : 1;
 
-      u->q[k] = scale * x;
-      u->q[l] = scale * y;
-    }
+    qx[i] = scale * x;
+    qy[i] = scale * y;
+  }
+}
+
+/* z = q - old, in units. */
+SAM_VECTORIZED static void RowChange(const Work *w, Row row)
+{
+  const SamStickSlip *u       = &w->base;
+  const double        inverse = u->self / w->unit;
+
+  for (PetscInt c = 0; c < 2; c++) {
+    const double *restrict q = u->q + row.first + c * row.cells, *restrict old = w->old + row.first + c * row.cells;
+    float *restrict z = w->z + row.first + c * row.cells;
+
+#pragma omp simd
+    for (ptrdiff_t i = 0; i < row.count; i++) z[i] = (float)((q[i] - old[i]) * inverse);
+  }
+}
+
+/* s += unit z - shift; returns the square of z. */
+SAM_VECTORIZED static double RowUpdateSlip(const Work *w, Row row)
+{
+  const SamStickSlip *u    = &w->base;
+  const double        unit = w->unit, ax = SamFrameX(w->shift, row.eta), a1 = w->shift[1], a2 = w->shift[2];
+  const float *restrict zx = w->z + row.first, *restrict zy = zx + row.cells;
+  double *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
+  float norm = 0;
+
+#pragma omp simd reduction(+ : norm)
+  for (ptrdiff_t i = 0; i < row.count; i++) {
+    sx[i] += unit * (double)zx[i] - ax;
+    sy[i] += unit * (double)zy[i] - a1 - a2 * (row.xi0 + (double)i * row.dxi);
+    norm += zx[i] * zx[i] + zy[i] * zy[i];
+  }
+  return (double)norm;
 }
 
 /* s and the motion after the step from `old` to q; how much the rounding may be. */
 static PetscErrorCode UpdateSlip(Work *w)
 {
-  SamStickSlip   *u       = &w->base;
-  const SamFrame *f       = u->frame;
-  const double    inverse = u->self / w->unit;
-  double          norm    = 0;
+  SamStickSlip *u    = &w->base;
+  double        norm = 0;
 
   PetscFunctionBegin;
   if (w->unit == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < 2 * u->cells; k++) w->z[k] = (float)((u->q[k] - w->old[k]) * inverse);
+  PetscCall(ClearMargins(w));
+  for (PetscInt j = 0; j < u->rows; j++) RowChange(w, GetRow(w, j));
   PetscCall(SamTangentialApplySingle(u->solver, u->level, 1 / u->self, w->z, w->z));
   for (PetscInt c = 0; c < 3; c++) w->shift[c] *= w->unit;
-  for (PetscInt j = 0; j < u->rows; j++) {
-    const double sx  = SamFrameX(w->shift, f->eta0 + (double)j * f->deta);
-    double       row = 0;
-
-    for (PetscInt i = u->first[j]; i < u->last[j]; i++) {
-      const PetscInt k = j * u->nx + i, l = k + u->cells;
-
-      u->s[k] += w->unit * (double)w->z[k] - sx;
-      u->s[l] += w->unit * (double)w->z[l] - SamFrameY(w->shift, f->xi0 + (double)i * f->dxi);
-      row += (double)(w->z[k] * w->z[k] + w->z[l] * w->z[l]);
-    }
-    norm += row;
-  }
+  for (PetscInt j = 0; j < u->rows; j++) norm += RowUpdateSlip(w, GetRow(w, j));
   for (PetscInt c = 0; c < 3; c++) u->motion[c] += w->shift[c];
   PetscCall(SamSum(u->level->grid->comm, 1, &norm));
   w->doubt += SINGLE_ROUNDING * sqrt(norm) * w->unit / u->self;
@@ -582,7 +608,7 @@ static PetscErrorCode Round(Work *w, PetscBool watch, PetscBool *found)
   PetscFunctionBegin;
   if (watch) PetscCall(SamStickSlipEnergy(u, &energy));
   PetscCall(NewtonStep(w));
-  AddStep(w);
+  for (PetscInt j = 0; j < u->rows; j++) RowAddStep(w, GetRow(w, j));
   PetscCall(SamFrameProjectTangential(u->frame, u->bound, u->q, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(UpdateSlip(w));

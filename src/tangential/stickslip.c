@@ -100,31 +100,51 @@ PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  One row: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the derivative of the
-  projection of y = q - s/c on the disc, or, with `stick`, the identity.
-*/
-SAM_VECTORIZED static void FitRow(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, PetscBool stick, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
-{
-  double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0;
+/* Cells looked at together: where all of them stick, roots and divisions are spared. */
+#define CHUNK 64
 
-#pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
+/*
+  Part of a row, n <= CHUNK: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the
+  derivative of the projection of y = q - s/c on the disc, or, with `stick`, the identity.
+*/
+SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, PetscBool stick, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
+{
+  double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
+
+#pragma omp simd reduction(+ : x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
   for (PetscInt i = 0; i < n; i++) {
     const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
-    const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
-    const double over = (n2 > b * b && !stick) ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in, g = s * over;
-    const double gxx = s - g * yx * yx, gxy = -g * yx * yy, gyy = s - g * yy * yy;
-    const double px = gxx * tx[i] + gxy * ty[i], py = gxy * tx[i] + gyy * ty[i];
+    const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i];
 
-    x += px;
-    y += py;
-    turn += xi * py;
-    hxx += gxx;
-    hxy += gxy;
-    hyy += gyy;
-    xi_hxy += xi * gxy;
-    xi_hyy += xi * gyy;
-    xi2_hyy += xi * xi * gyy;
+    beyond += yx * yx + yy * yy > b * b ? in : 0;
+    x += in * tx[i];
+    y += in * ty[i];
+    turn += in * xi * ty[i];
+    hxx += in;
+    xi_hyy += in * xi;
+    xi2_hyy += in * xi * xi;
+  }
+  hyy = hxx;
+  if (beyond > 0 && !stick) {
+    x = y = turn = hxx = hyy = xi_hyy = xi2_hyy = 0;
+#pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
+    for (PetscInt i = 0; i < n; i++) {
+      const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+      const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
+      const double over = n2 > b * b ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in, g = s * over;
+      const double gxx = s - g * yx * yx, gxy = -g * yx * yy, gyy = s - g * yy * yy;
+      const double px = gxx * tx[i] + gxy * ty[i], py = gxy * tx[i] + gyy * ty[i];
+
+      x += px;
+      y += py;
+      turn += xi * py;
+      hxx += gxx;
+      hxy += gxy;
+      hyy += gyy;
+      xi_hxy += xi * gxy;
+      xi_hyy += xi * gyy;
+      xi2_hyy += xi * xi * gyy;
+    }
   }
   sums[0] += x;
   sums[1] += y;
@@ -152,9 +172,14 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
+    double row[3 + SAM_GRAM] = {0};
 
-    FitRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + w->first[j] * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, sums);
+    for (PetscInt i = w->first[j]; i < w->last[j]; i += CHUNK) {
+      const ptrdiff_t k = (ptrdiff_t)j * w->nx + i, l = k + w->cells;
+
+      FitCells(PetscMin(CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + i * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, row);
+    }
+    for (PetscInt c = 0; c < 3 + SAM_GRAM; c++) sums[c] += row[c];
   }
   PetscCall(SamSum(w->level->grid->comm, 3 + SAM_GRAM, sums));
   SamFrameSolve(f, sums + 3, sums, a);
@@ -173,7 +198,13 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   PetscCall(SamStickSlipComputeSlip(w));
   if (!w->level->has_motion && w->frame->count) PetscCall(FitMotion(w, PETSC_TRUE));
   /* the fit and the sets depend on each other */
-  for (PetscInt sweep = 0; sweep < 4; sweep++) PetscCall(SamStickSlipMeasure(w));
+  w->error = 0;
+  for (PetscInt sweep = 0; sweep < 4; sweep++) {
+    const double before = w->error;
+
+    PetscCall(SamStickSlipMeasure(w));
+    if (fabs(w->error - before) <= 1e-3 * w->error) break;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
