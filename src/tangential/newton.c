@@ -32,7 +32,7 @@
 #define INNER_FALL  0.02
 #define PROPORTION  0.3
 #define SETTLED_FALL 1e-3
-#define LAST_FALL   0.3
+#define LAST_FALL   0.7
 /* A cell is on its circle from this part of the bound on. */
 #define ON_CIRCLE (1 - 1e-9)
 /*
