@@ -40,6 +40,7 @@
  *     for contact analyses. Wear 243, 101-111.
  *   Trefethen, L.N. (2008). Is Gauss quadrature better than Clenshaw-Curtis? SIAM Rev. 50, 67-87.
  */
+#include "../base/baseimpl.h"
 #include <petsam/influence.h>
 
 #include <math.h>
@@ -135,23 +136,28 @@ static const Rule *SelectRule(Side side, double beside, int power)
 }
 
 /* Adds `weight` times the kernel at (x, y), and at the points shifted from it along the run. */
-static void AddPoint(SamIntegral kind, const Run *run, double x, double y, double weight, double *values)
+SAM_VECTORIZED static void AddPoint(SamIntegral kind, const Run *run, double x, double y, double weight, double *restrict values)
 {
-  const double yy = y * y;
+  const double    yy = y * y, first = run->first, direction = run->direction, step = run->step;
+  const ptrdiff_t n = run->n;
 
-  for (ptrdiff_t k = 0; k < run->n; k++) {
-    const double xk = (run->first + run->direction * (double)k) * run->step + x;
-    const double rr = xk * xk + yy;
+#define SUM(term) \
+  for (ptrdiff_t k = 0; k < n; k++) { \
+    const double xk = (first + direction * (double)k) * step + x, rr = xk * xk + yy; \
+\
+    values[k] += weight * (term); \
+  } \
+  break
 
-    switch (kind) {
-    case SAM_INTEGRAL_R: values[k] += weight / sqrt(rr); break;
-    case SAM_INTEGRAL_XX: values[k] += weight * xk * xk / (rr * sqrt(rr)); break;
-    case SAM_INTEGRAL_YY: values[k] += weight * yy / (rr * sqrt(rr)); break;
-    case SAM_INTEGRAL_XY: values[k] += weight * y * xk / (rr * sqrt(rr)); break;
-    case SAM_INTEGRAL_X: values[k] += weight * xk / rr; break;
-    case SAM_INTEGRAL_Y: values[k] += weight * y / rr; break;
-    }
+  switch (kind) {
+  case SAM_INTEGRAL_R: SUM(1 / sqrt(rr));
+  case SAM_INTEGRAL_XX: SUM(xk * xk / (rr * sqrt(rr)));
+  case SAM_INTEGRAL_YY: SUM(yy / (rr * sqrt(rr)));
+  case SAM_INTEGRAL_XY: SUM(y * xk / (rr * sqrt(rr)));
+  case SAM_INTEGRAL_X: SUM(xk / rr);
+  case SAM_INTEGRAL_Y: SUM(y / rr);
   }
+#undef SUM
 }
 
 /* Adds the integrals over the rectangles of a run, by the rules given. */
