@@ -63,7 +63,7 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
 
 enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
 
-/* Largest of each kind in a row, but for the edge; a value that is not a number makes the gap so. */
+/* Largest of each kind in a row, but for the edge; a value that is not a number makes the gap infinite. */
 SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict g, const double *restrict u, double max[COUNT])
 {
   double gap = 0, tension = 0, displacement = 0, pressure = 0, opening = 0, nan = 0;
@@ -79,7 +79,7 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
     displacement = size > displacement ? size : displacement;
     nan += p[i] + g[i] == p[i] + g[i] ? 0 : 1;
   }
-  max[GAP]          = nan > 0 ? NAN : SamLarger(max[GAP], gap);
+  max[GAP]          = nan > 0 ? INFINITY : SamLarger(max[GAP], gap);
   max[OPENING]      = PetscMax(max[OPENING], opening);
   max[TENSION]      = PetscMax(max[TENSION], tension);
   max[PRESSURE]     = PetscMax(max[PRESSURE], pressure);

@@ -22,7 +22,7 @@
 #include <string.h>
 
 /* The set is changed when what is wrong with it exceeds this part of the residual (both squared). */
-#define PROPORTION 0.1
+#define PROPORTION 0.01
 /* A round ends at this part of its first residual, so that rounding stays small. */
 #define ROUND_FALL 3e-3
 /* Rounding of g in a round, as a part of its first error, and the part of the tolerance that it may be at the end. */
@@ -37,8 +37,8 @@ typedef struct {
   SamNormalLevel *level;
   const SamFrame *frame;
   PetscInt        nx, rows, cells;
-  Vec             vg, vold;
-  double         *p, *g, *old;         /* pressure; gap; pressure before */
+  Vec             vg;
+  double         *p, *g, *old;         /* pressure; gap; pressure before the round, while the energy is watched */
   float          *d, *s;               /* direction; S d, or the residual, preconditioned or not */
   float          *xi;                  /* of the columns */
   double          unit;                /* of s, m; d is in units of unit/self */
@@ -65,11 +65,9 @@ static PetscErrorCode CreateWork(SamNormal normal, SamNormalLevel *level, Work *
   w->cells  = level->grid->cells;
   PetscCall(SamComplianceGetSelfInfluence(level->compliance, &w->self, NULL));
   PetscCall(VecDuplicate(level->p, &w->vg));
-  PetscCall(VecDuplicate(level->p, &w->vold));
   PetscCall(VecGetArray(level->p, &w->p));
   PetscCall(VecGetArrayRead(level->h, &w->h));
   PetscCall(VecGetArray(w->vg, &w->g));
-  PetscCall(VecGetArray(w->vold, &w->old));
   PetscCall(PetscCalloc1(w->cells, &w->active));
   PetscCall(PetscCalloc2(w->cells, &w->d, w->cells, &w->s));
   PetscCall(PetscMalloc1(w->nx, &w->xi));
@@ -83,11 +81,10 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArray(w->level->p, &w->p));
   PetscCall(VecRestoreArrayRead(w->level->h, &w->h));
   PetscCall(VecRestoreArray(w->vg, &w->g));
-  PetscCall(VecRestoreArray(w->vold, &w->old));
   PetscCall(VecDestroy(&w->vg));
   PetscCall(PetscFree2(w->d, w->s));
   PetscCall(PetscFree(w->xi));
-  PetscCall(VecDestroy(&w->vold));
+  PetscCall(PetscFree(w->old));
   PetscCall(PetscFree(w->active));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -511,7 +508,10 @@ static PetscErrorCode Round(Work *w, PetscBool watch, double *energy, PetscBool 
   PetscFunctionBegin;
   *found = PETSC_TRUE;
   PetscCall(AddPenetrating(w));
-  PetscCall(PetscArraycpy(w->old, w->p, w->cells));
+  if (watch) {
+    if (!w->old) PetscCall(PetscMalloc1(w->cells, &w->old));
+    PetscCall(PetscArraycpy(w->old, w->p, w->cells));
+  }
   PetscCall(Iterate(w, solved));
   if (*solved) { /* the directions balance to the rounding of single precision only */
     PetscCall(SamFrameProjectNormal(w->frame, w->active, w->p, found));
