@@ -92,11 +92,32 @@ PETSC_EXTERN PetscErrorCode SamContactGetNormal(SamContact contact, SamNormal *n
 PETSC_EXTERN PetscErrorCode SamContactGetTangential(SamContact contact, SamTangential *tangential); /* borrowed */
 /*
   SamContactSolve - one load step: step->normal, step->tangential give what is controlled and by how much, all else of
-  the step is filled in. The slip at its end is the reference of the next one. A status other than 0 comes with a message.
+  the step is filled in. The slip at its end is the reference of the next one. A status other than 0 comes with a message;
+  a step without equilibrium leaves the contact as it was after the one before.
   Collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactSolve(SamContact contact, SamStep *step);
-/* SamContactGetFields - the fields of the last step; borrowed. */
+/* SamContactGetFields - the fields of the last step that had a solution; borrowed. */
 PETSC_EXTERN PetscErrorCode SamContactGetFields(SamContact contact, SamFields *fields);
+PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);          /* borrowed */
+PETSC_EXTERN PetscErrorCode SamContactGetCoupling(SamContact contact, PetscBool *full); /* of -coupling */
+
+/*
+  SamContactState - all that the steps before have to say to those that come: a contact that is given the state of
+  another goes on as that one would, to the last bit on the same number of ranks.
+*/
+typedef struct {
+  PetscInt   steps;                             /* that count for the prediction of the next one */
+  SamBalance given, found;                      /* normal control of the last step, and its outcome */
+  double     values[2][6];                      /* what was controlled in the last step and in the one before */
+  PetscInt   window_first[2], window_n[2];      /* of the tangential solver; n = 0: none */
+  Vec        pressure, shear, slip, displacement_z; /* as in SamFields, after the last step */
+  Vec        previous_pressure, previous_shear; /* of the step before it; NULL before the second */
+} SamContactState;
+
+/* SamContactGetState - after a step; the vectors are borrowed until the next one. */
+PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamContactState *state);
+/* SamContactSetState - copies the vectors; the contact has no gap and no displacement_t until its next step. Collective. */
+PETSC_EXTERN PetscErrorCode SamContactSetState(SamContact contact, const SamContactState *state);
 
 #endif

@@ -68,6 +68,8 @@ typedef struct _n_SamWindow *SamWindow;
 PETSC_EXTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2], SamWindow *window);
 PETSC_EXTERN PetscErrorCode SamWindowDestroy(SamWindow *window);
 PETSC_EXTERN PetscErrorCode SamWindowGetGrid(SamWindow window, SamGrid *grid); /* borrowed */
+/* SamWindowGetPlace - first column and row, and their numbers. Not collective. */
+PETSC_EXTERN PetscErrorCode SamWindowGetPlace(SamWindow window, PetscInt first[2], PetscInt n[2]);
 /* SamWindowCovers - whether all those cells lie in the window. Not collective. */
 PETSC_EXTERN PetscBool SamWindowCovers(SamWindow window, const PetscInt first[2], const PetscInt n[2]);
 /* SamWindowTake, SamWindowPut - copy the window's part of a field out, or back in (zero elsewhere). Collective. */

@@ -29,6 +29,7 @@ PETSC_EXTERN PetscErrorCode SamHistoryClaimOption(void);
 PETSC_EXTERN PetscErrorCode SamHistoryCreateFromOptions(MPI_Comm comm, SamHistory *history);
 PETSC_EXTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
 PETSC_EXTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *steps);
+PETSC_EXTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments); /* of each row */
 /*
   SamHistoryGetStep - time and the two balances of step k (from 0), all else of the step cleared. Increments before the
   first row start from no load and no displacement at time 0, or, when the first time is not positive, as far before it

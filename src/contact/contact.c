@@ -20,30 +20,6 @@
 
 static const char *const coupling_words[] = {"none", "full", NULL};
 
-struct _n_SamContact {
-  /* what the user set */
-  PetscReal friction, coupling_rtol;
-  PetscInt  coupling, coupling_max_it;
-  PetscBool warm;
-  PetscBool coupling_monitor, allow_edge, print_check;
-  /* what it owns */
-  SamCompliance compliance;
-  SamGrid       grid;
-  SamNormal     normal;
-  SamTangential tangential;
-  Vec           separation;
-  Vec           slip_before; /* at the end of the step before; NULL: zero */
-  Vec           h;           /* separation and u_z from q; NULL when not coupled */
-  Vec           last[2];     /* p and q of the pass before; NULL when not coupled */
-  SamFields     fields;
-  /* status */
-  PetscBool  coupled;
-  PetscInt   steps;                      /* solved so far */
-  SamBalance normal_given, normal_found; /* of the last normal solve */
-  double     values[2][6];               /* what was controlled in the last step and in the one before */
-  Vec        previous[2];                /* p and q of the step before the last; NULL until there are two */
-};
-
 PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscReal friction, SamContact *contact)
 {
   SamContact c;
@@ -73,7 +49,7 @@ PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscR
   The fields that follow from the tractions exist from the end of a step to the beginning of the next: while the solvers
   work, their memory is the solvers'.
 */
-static PetscErrorCode CreateDerived(SamContact c)
+PetscErrorCode SamContactCreateDerived(SamContact c)
 {
   PetscFunctionBegin;
   PetscCall(VecDuplicate(c->separation, &c->fields.gap));
@@ -83,7 +59,7 @@ static PetscErrorCode CreateDerived(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode DestroyDerived(SamContact c, PetscBool same_pressure)
+PetscErrorCode SamContactDestroyDerived(SamContact c, PetscBool same_pressure)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&c->fields.slip));
@@ -110,7 +86,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(VecDestroy(&c->previous[1]));
   PetscCall(VecDestroy(&c->fields.pressure));
   PetscCall(VecDestroy(&c->fields.shear));
-  PetscCall(DestroyDerived(c, PETSC_FALSE));
+  PetscCall(SamContactDestroyDerived(c, PETSC_FALSE));
   PetscCall(SamComplianceDestroy(&c->compliance));
   PetscCall(PetscFree(*contact));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -443,6 +419,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
 PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
 {
   const SamBalance normal = step->normal, tangential = step->tangential;
+  const SamBalance given = c->normal_given, found = c->normal_found;
   const PetscReal  time = step->time;
   PetscBool        predicted, same_pressure;
 
@@ -465,11 +442,14 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
     c->fields.slip = NULL;
   }
   same_pressure = (!c->coupled && c->steps && SameControl(&normal, &c->normal_given)) ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(DestroyDerived(c, same_pressure));
+  PetscCall(SamContactDestroyDerived(c, same_pressure));
   PetscCall(Predict(c, &normal, &tangential, &predicted));
   PetscCall(SolvePasses(c, &normal, &tangential, predicted, same_pressure, step));
-  if (step->status == SAM_STATUS_NO_EQUILIBRIUM) PetscFunctionReturn(PETSC_SUCCESS); /* there is no solution to check */
-  PetscCall(CreateDerived(c));
+  if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
+    PetscCall(SamContactStepBack(c, &given, &found, same_pressure));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamContactCreateDerived(c));
   PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
   PetscCall(ComputeScalars(c, step));
   PetscCall(Judge(c, step));

@@ -85,6 +85,15 @@ PetscErrorCode SamWindowDestroy(SamWindow *window)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamWindowGetPlace(SamWindow w, PetscInt first[2], PetscInt n[2])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; k++) first[k] = w->first[k];
+  n[0] = w->part->nx;
+  n[1] = w->part->ny;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamWindowGetGrid(SamWindow w, SamGrid *grid)
 {
   PetscFunctionBegin;

@@ -138,6 +138,13 @@ PetscErrorCode SamHistoryGetCount(SamHistory h, PetscInt *steps)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamHistoryGetIncrements(SamHistory h, PetscInt *increments)
+{
+  PetscFunctionBegin;
+  *increments = h->increments;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Value of a component, or the time (component -1), in row r; row -1 is the start. */
 static double RowValue(SamHistory h, PetscInt component, PetscInt r)
 {

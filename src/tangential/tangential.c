@@ -433,6 +433,30 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamTangentialGetWindow(SamTangential t, PetscInt first[2], PetscInt n[2])
+{
+  PetscFunctionBegin;
+  first[0] = first[1] = n[0] = n[1] = 0;
+  if (t->window) PetscCall(SamWindowGetPlace(t->window, first, n));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTangentialSetWindow(SamTangential t, const PetscInt first[2], const PetscInt n[2])
+{
+  SamGrid        grid, part;
+  const SamPair *pair;
+
+  PetscFunctionBegin;
+  PetscCall(DestroyWindow(t));
+  if (!n[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamComplianceGetGrid(t->compliance, &grid));
+  PetscCall(SamWindowCreate(grid, first, n, &t->window));
+  PetscCall(SamWindowGetGrid(t->window, &part));
+  PetscCall(SamComplianceGetPair(t->compliance, &pair));
+  PetscCall(SamComplianceCreate(part, pair, &t->window_compliance));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Shear acts only where there is contact, and only there its displacement counts: the problem is solved on a window around
   the contact, on transforms of its size. The window is kept as long as the contact stays in it and fills most of it.
@@ -442,7 +466,6 @@ static PetscErrorCode ChooseWindow(SamTangential t, SamGrid grid, Vec bound)
   const PetscInt all[2] = {grid->nx, grid->ny};
   PetscInt       first[2], n[2];
   SamGrid        part;
-  const SamPair *pair;
 
   PetscFunctionBegin;
   PetscCall(SamGridGetSupport(grid, bound, first, n));
@@ -458,10 +481,7 @@ static PetscErrorCode ChooseWindow(SamTangential t, SamGrid grid, Vec bound)
     n[k]     = PetscMax(last - first[k], 2);
   }
   if ((double)n[0] * (double)n[1] > WINDOW_WORTH * (double)all[0] * (double)all[1]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamWindowCreate(grid, first, n, &t->window));
-  PetscCall(SamWindowGetGrid(t->window, &part));
-  PetscCall(SamComplianceGetPair(t->compliance, &pair));
-  PetscCall(SamComplianceCreate(part, pair, &t->window_compliance));
+  PetscCall(SamTangentialSetWindow(t, first, n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -130,6 +130,92 @@ static void test_gross_slip_is_told_with_its_limit(void **state)
   DestroyCase(&c);
 }
 
+/* Tractions and slip to the last bit, what is computed from them to `rest`, relative. */
+static void AssertSameFields(const SamFields *a, const SamFields *b, double rest)
+{
+  PetscBool same[3];
+
+  sam_call(VecEqual(a->pressure, b->pressure, &same[0]));
+  sam_call(VecEqual(a->shear, b->shear, &same[1]));
+  sam_call(VecEqual(a->slip, b->slip, &same[2]));
+  sam_assert(same[0] && same[1] && same[2]);
+  sam_assert(Difference(a->gap, b->gap, NORM_INFINITY) <= rest && Difference(a->displacement_z, b->displacement_z, NORM_INFINITY) <= rest && Difference(a->displacement_t, b->displacement_t, NORM_INFINITY) <= rest);
+}
+
+/* Loads of a sequence in which N stays for a while and T turns. */
+static SamStep Turn(const Case *c, int k)
+{
+  const double N[] = {1, 1.1, 1.1, 1.1, 1.05}, T[] = {0.1, 0.3, 0.6, 0.2, -0.3};
+
+  return Loaded(c, N[k], T[k], 0.1, 0);
+}
+
+static void test_contact_with_the_state_of_another_goes_on_as_it_would(void **state)
+{
+  (void)state;
+  for (int solved = 1; solved < 4; solved++) {
+    Case            one = NewCase(Steel(), 45, 2, mu, ""), other = NewCase(Steel(), 45, 2, mu, "");
+    SamContactState held;
+    SamFields       f[2];
+
+    for (int k = 0; k < solved; k++) {
+      SamStep step = Turn(&one, k);
+
+      Solve(&one, &step);
+    }
+    sam_call(SamContactGetState(one.contact, &held));
+    sam_call(SamContactSetState(other.contact, &held));
+    for (int k = solved; k < 5; k++) {
+      SamStep a = Turn(&one, k), b = Turn(&other, k);
+
+      Solve(&one, &a);
+      Solve(&other, &b);
+      sam_call(SamContactGetFields(one.contact, &f[0]));
+      sam_call(SamContactGetFields(other.contact, &f[1]));
+      AssertSameFields(&f[0], &f[1], 0);
+      sam_assert(a.tangential_iterations == b.tangential_iterations && a.dissipated_energy == b.dissipated_energy);
+    }
+    DestroyCase(&one);
+    DestroyCase(&other);
+  }
+}
+
+static void test_step_without_equilibrium_leaves_the_contact_as_it_was(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 3; kind++) { /* gross slip at the same and at another N, and a moment that tips */
+    Case    c = NewCase(Steel(), 45, 2, mu, ""), whole = NewCase(Steel(), 45, 2, mu, "");
+    SamStep step, next, same, fails = Loaded(&c, kind == 1 ? 0.9 : 1.1, kind < 2 ? 1.5 : 0, 0, 0);
+
+    if (kind == 2) fails.normal.load[2] = 9 * c.s.a * c.s.N;
+    for (int k = 0; k < 3; k++) {
+      step = Turn(&c, k);
+      same = step;
+      Solve(&c, &step);
+      Solve(&whole, &same);
+    }
+    Solve(&c, &fails);
+    sam_assert(fails.status == SAM_STATUS_NO_EQUILIBRIUM);
+    {
+      SamFields f[2];
+
+      sam_call(SamContactGetFields(c.contact, &f[0]));
+      sam_call(SamContactGetFields(whole.contact, &f[1]));
+      AssertSameFields(&f[0], &f[1], 1e-13);
+    }
+    next = same = Turn(&c, 3);
+    Solve(&c, &next);
+    Solve(&whole, &same);
+    AssertGood(&next);
+    /* the starts differ, so the solutions do within the tolerances */
+    sam_assert_close(next.tangential.rigid[0], same.tangential.rigid[0], 1e-7 * fabs(same.tangential.rigid[0]));
+    sam_assert_close(next.normal.rigid[0], same.normal.rigid[0], 1e-9 * same.normal.rigid[0]);
+    sam_assert_close(next.dissipated_energy, same.dissipated_energy, 1e-5 * same.dissipated_energy);
+    DestroyCase(&c);
+    DestroyCase(&whole);
+  }
+}
+
 static void test_moment_beyond_the_grid_is_told(void **state)
 {
   Case    c    = NewCase(Steel(), 40, 1.5, mu, "");
@@ -522,6 +608,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_second_step_with_the_same_load_dissipates_nothing),
     cmocka_unit_test(test_dissipation_is_work_at_the_final_shear_less_that_of_the_elastic_part),
     cmocka_unit_test(test_gross_slip_is_told_with_its_limit),
+    cmocka_unit_test(test_contact_with_the_state_of_another_goes_on_as_it_would),
+    cmocka_unit_test(test_step_without_equilibrium_leaves_the_contact_as_it_was),
     cmocka_unit_test(test_moment_beyond_the_grid_is_told),
     cmocka_unit_test(test_contact_at_the_edge_of_the_grid_is_a_status),
     cmocka_unit_test(test_dissimilar_bodies_without_friction_need_one_pass),
