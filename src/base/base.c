@@ -10,7 +10,7 @@ static PetscBool initialized = PETSC_FALSE;
 PetscErrorCode SamInitialize(void)
 {
   static const char *const names[SAM_EVENT_COUNT] = {"SamInfluence", "SamFFTRows",   "SamFFTColumns",  "SamFFTTranspose", "SamApplyN",  "SamApplyT", "SamApplyNT",
-                                                     "SamPrecondN",  "SamPrecondT", "SamNormalSolve", "SamTangSolve",    "SamCheck",   "SamOutput"};
+                                                     "SamPrecondN",  "SamPrecondT", "SamNormalSolve", "SamTangSolve",    "SamCheck",   "SamOutput", "SamCheckpoint"};
 
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(PETSC_SUCCESS);

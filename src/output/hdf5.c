@@ -1,92 +1,19 @@
 /*
-  Results in an HDF5 file, written by all ranks together through MPI-IO.
+  Results in an HDF5 file, written by all ranks together.
 
-  Datasets stay open and grow by one along time with each step; each rank writes its rows.
-
-  Open MPI's collective writes, and HDF5 where it flushes its administration, may hang for ever when writing fails on one
-  rank alone. So what is likely to go wrong is found before MPI-IO sees it, on rank 0: a name that cannot be written, and
-  a disk or quota that is full, by allocating the space of a step first. The file is then in order as it is, and
-  can be closed.
+  Datasets stay open and grow by one along time with each step; each rank writes its rows. The space of a step is reserved
+  before anything of it is written.
 */
 #include "hdf5impl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
-
-#define ADMINISTRATION (1 << 20) /* bytes, more than HDF5 needs for its administration at creation or for a step */
-
-/* ---- errors ---- */
-
-/* HDF5 prints its own stack of errors unless told not to. */
-static void Silence(SamOutput o)
-{
-  (void)SamOutputNote(o, H5Eget_auto2(H5E_DEFAULT, &o->print, &o->print_data));
-  (void)SamOutputNote(o, H5Eset_auto2(H5E_DEFAULT, NULL, NULL));
-}
-
-static void Unsilence(SamOutput o)
-{
-  (void)SamOutputNote(o, H5Eset_auto2(H5E_DEFAULT, o->print, o->print_data));
-}
-
-PetscErrorCode SamOutputBegin(SamOutput o)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_OUTPUT], 0, 0, 0, 0));
-  Silence(o);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Makes the failure of one rank that of all. */
-static PetscErrorCode Agree(SamOutput o)
-{
-  struct {
-    int good, rank;
-  } worst;
-
-  PetscFunctionBegin;
-  worst.good = o->failed ? 0 : 1;
-  worst.rank = o->rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MINLOC, o->grid->comm));
-  if (!worst.good) {
-    o->failed = PETSC_TRUE;
-    PetscCallMPI(MPI_Bcast(o->reason, (PetscMPIInt)sizeof(o->reason), MPI_CHAR, worst.rank, o->grid->comm));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputEnd(SamOutput o)
-{
-  PetscFunctionBegin;
-  Unsilence(o);
-  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_OUTPUT], 0, 0, 0, 0));
-  PetscCall(Agree(o));
-  PetscCheck(!o->failed, o->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->filename, o->reason);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The first entry of a walk upward through HDF5's errors is where it went wrong. */
-static herr_t TakeReason(unsigned n, const H5E_error2_t *error, void *reason)
-{
-  if (n == 0 && error->desc) (void)snprintf((char *)reason, sizeof(((SamOutput)NULL)->reason), "%s", error->desc);
-  return 0;
-}
-
-hid_t SamOutputNote(SamOutput o, hid_t result)
-{
-  if (result >= 0 || o->failed) return result;
-  o->failed = PETSC_TRUE;
-  (void)snprintf(o->reason, sizeof(o->reason), "HDF5 failed");
-  (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, TakeReason, o->reason);
-  return result;
-}
 
 /* ---- options ---- */
 
-static PetscErrorCode GetSettings(MPI_Comm comm, SamOutputSettings *set)
+PetscErrorCode SamOutputGetSettings(MPI_Comm comm, SamOutputSettings *set)
 {
   PetscFunctionBegin;
   *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
@@ -103,39 +30,11 @@ PetscErrorCode SamOutputCheckOptions(MPI_Comm comm)
   SamOutputSettings set;
 
   PetscFunctionBegin;
-  PetscCall(GetSettings(comm, &set));
+  PetscCall(SamOutputGetSettings(comm, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- looking at the file before HDF5 does, on one rank; these return an errno or 0 ---- */
-
-/* Allocates this many bytes beyond the end of the file, which becomes that much longer if they are to be kept. */
-static int Reserve(int file, off_t bytes, PetscBool keep)
-{
-  struct stat    status;
-  struct statvfs space;
-  int            error = EOPNOTSUPP;
-
-  if (fstat(file, &status)) return errno;
-#if defined(__linux__)
-  error = fallocate(file, 0, status.st_size, bytes) ? errno : 0;
-  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* part may be allocated */
-#endif
-  if (error != EOPNOTSUPP && error != ENOSYS) return error;
-  if (fstatvfs(file, &space)) return errno;
-  if ((double)space.f_bavail * (double)space.f_frsize < (double)bytes) return ENOSPC;
-  return keep && ftruncate(file, status.st_size + bytes) ? errno : 0;
-}
-
-static int ReserveInFile(const char filename[], off_t bytes)
-{
-  const int file = open(filename, O_WRONLY);
-  int       error;
-
-  if (file < 0) return errno;
-  error = Reserve(file, bytes, PETSC_TRUE);
-  return close(file) && !error ? errno : error;
-}
+/* ---- on one rank ---- */
 
 /*
   Moves what the superblock says is the end of the data to the end of the file, before HDF5 writes what points there: the
@@ -163,136 +62,75 @@ static int MoveEnd(const char filename[])
   return close(file) && !error ? errno : error;
 }
 
-/* Whether a file of the name can be written; leaves an existing one as it is, and none that was not there. */
-static int Probe(const char filename[])
-{
-  struct stat status, link;
-  const int   exists = !stat(filename, &status), named = !lstat(filename, &link); /* a link may lead nowhere */
-  int         file, error;
-
-  if (exists && S_ISDIR(status.st_mode)) return EISDIR;
-  if (exists && !S_ISREG(status.st_mode)) return EINVAL; /* a pipe would wait for its reader */
-  file = open(filename, O_WRONLY | O_CREAT, 0666);
-  if (file < 0) return errno;
-  error = Reserve(file, ADMINISTRATION, PETSC_FALSE);
-  if (close(file) && !error) error = errno;
-  if (!named && unlink(filename) && !error) error = errno;
-  return error;
-}
-
-PetscErrorCode SamOutputRaise(SamGrid grid, const char filename[], int error)
-{
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
-  PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", filename, strerror(error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CheckName(SamGrid grid, const char filename[])
-{
-  PetscMPIInt rank;
-  int         error = 0;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
-  if (rank == 0) error = Probe(filename);
-  PetscCall(SamOutputRaise(grid, filename, error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the file ---- */
 
-/* An object with nothing open. */
-static PetscErrorCode Allocate(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
+PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output)
 {
   SamOutput o;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&o));
-  PetscCall(SamGridReference(grid));
-  o->grid = grid;
+  o->f    = file;
   o->set  = *set;
-  o->file = o->transfer = o->time = o->state = o->vtk_steps = -1;
+  o->time = o->state = o->vtk_steps = o->closed = -1;
+  o->saved_time = PETSC_NINFINITY;
   for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = -1;
   for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) o->columns[c] = -1;
-  PetscCallMPI(MPI_Comm_rank(grid->comm, &o->rank));
-  PetscCall(PetscStrallocpy(filename, &o->filename));
-  PetscCall(PetscMalloc1(grid->cells, &o->states));
+  PetscCall(PetscMalloc1(file->grid->cells, &o->states));
   *output = o;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static void CloseFile(SamOutput o)
-{
-  SamOutputCloseLayout(o);
-  if (o->transfer >= 0) (void)SamOutputNote(o, H5Pclose(o->transfer));
-  if (o->file >= 0) (void)SamOutputNote(o, H5Fclose(o->file));
-  o->transfer = o->file = -1;
-}
-
-static PetscErrorCode Free(SamOutput *output)
-{
-  PetscFunctionBegin;
-  PetscCall(SamXdmfDestroy(&(*output)->xdmf));
-  PetscCall(SamGridDestroy(&(*output)->grid));
-  PetscCall(PetscFree((*output)->filename));
-  PetscCall(PetscFree((*output)->states));
-  PetscCall(PetscFree(*output));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CreateFile(SamOutput o)
-{
-  hid_t access;
-
-  PetscFunctionBegin;
-  PetscCall(SamOutputBegin(o));
-  access = SamOutputNote(o, H5Pcreate(H5P_FILE_ACCESS));
-  (void)SamOutputNote(o, H5Pset_fapl_mpio(access, o->grid->comm, MPI_INFO_NULL));
-  (void)SamOutputNote(o, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
-  o->transfer = SamOutputNote(o, H5Pcreate(H5P_DATASET_XFER));
-  (void)SamOutputNote(o, H5Pset_dxpl_mpio(o->transfer, H5FD_MPIO_COLLECTIVE));
-  o->file = SamOutputNote(o, H5Fcreate(o->filename, H5F_ACC_TRUNC, H5P_DEFAULT, access));
-  (void)SamOutputNote(o, H5Pclose(access));
-  PetscCall(SamOutputEnd(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode CreateDatasets(SamOutput o)
 {
   PetscFunctionBegin;
-  PetscCall(SamOutputBegin(o));
+  PetscCall(SamFileBegin(o->f));
   PetscCall(SamOutputCreateLayout(o));
-  (void)SamOutputNote(o, H5Fflush(o->file, H5F_SCOPE_GLOBAL));
-  PetscCall(SamOutputEnd(o));
+  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCreateWith(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
+{
+  SamFile        file;
+  SamXdmf        xdmf = NULL;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileCheckName(grid, "output", filename));
+  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, &xdmf)); /* first: the old results stay if it fails */
+  ierr = SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &file);
+  if (ierr) {
+    PetscCall(SamXdmfDestroy(&xdmf));
+    PetscCall(ierr);
+  }
+  PetscCall(SamOutputAllocate(file, set, output));
+  (*output)->xdmf = xdmf;
+  ierr            = CreateDatasets(*output);
+  if (ierr) (void)SamOutputDestroy(output);
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], SamOutput *output)
 {
   SamOutputSettings set;
-  PetscErrorCode    ierr;
 
   PetscFunctionBegin;
   *output = NULL;
   PetscCall(SamInitialize());
-  PetscCall(GetSettings(grid->comm, &set));
-  PetscCall(CheckName(grid, filename));
-  PetscCall(Allocate(grid, filename, &set, output));
-  ierr = set.xdmf ? SamXdmfCreate(grid, filename, &(*output)->xdmf) : PETSC_SUCCESS; /* first: the old results stay if it fails */
-  if (!ierr) {
-    ierr = CreateFile(*output);
-    if (ierr) (*output)->file = -1; /* not closed: that would wait for a rank that could not open it */
-    else ierr = CreateDatasets(*output);
-  }
-  if (ierr) {
-    Silence(*output);
-    CloseFile(*output);
-    Unsilence(*output);
-    PetscCall(Free(output));
-  }
-  PetscCall(ierr);
+  PetscCall(SamOutputGetSettings(grid->comm, &set));
+  PetscCall(SamOutputCreateWith(grid, filename, &set, output));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The last word of a run: what is read as open, was left by one that did not get to its end. */
+static void MarkClosed(SamOutput o)
+{
+  const int8_t closed = 1;
+
+  if (o->closed >= 0 && o->f->writing && !o->unchanged) (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
 }
 
 PetscErrorCode SamOutputDestroy(SamOutput *output)
@@ -303,11 +141,18 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   PetscFunctionBegin;
   *output = NULL;
   if (!o) PetscFunctionReturn(PETSC_SUCCESS);
-  o->failed = PETSC_FALSE; /* what failed before has been raised */
-  PetscCall(SamOutputBegin(o));
-  if (!o->broken) CloseFile(o);
-  ierr = SamOutputEnd(o);
-  PetscCall(Free(&o));
+  o->f->failed = PETSC_FALSE; /* what failed before has been raised */
+  PetscCall(SamFileBegin(o->f));
+  if (!o->broken) {
+    MarkClosed(o);
+    SamOutputCloseLayout(o);
+    SamFileClose(o->f);
+  }
+  ierr = SamFileEnd(o->f);
+  PetscCall(SamXdmfDestroy(&o->xdmf));
+  PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
+  PetscCall(PetscFree(o->states));
+  PetscCall(PetscFree(o));
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -324,18 +169,27 @@ PetscErrorCode SamOutputGetXdmf(SamOutput o, const char **filename)
 PetscErrorCode SamOutputSetReals(SamOutput o, const char name[], PetscInt count, const PetscReal values[])
 {
   PetscFunctionBegin;
-  PetscCall(SamOutputBegin(o));
-  SamOutputWriteAttribute(o, o->file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, values);
-  PetscCall(SamOutputEnd(o));
+  PetscCall(SamFileBegin(o->f));
+  SamFileWriteAttribute(o->f, o->f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, values);
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputSetParameters(SamOutput o, const SamParameters *parameters)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(o->f));
+  SamParametersWrite(o->f, parameters);
+  PetscCall(SamFileEnd(o->f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOutputSetText(SamOutput o, const char name[], const char text[])
 {
   PetscFunctionBegin;
-  PetscCall(SamOutputBegin(o));
-  SamOutputWriteTextAttribute(o, o->file, name, text);
-  PetscCall(SamOutputEnd(o));
+  PetscCall(SamFileBegin(o->f));
+  SamFileWriteTextAttribute(o->f, o->f->id, name, text);
+  PetscCall(SamFileEnd(o->f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -345,20 +199,20 @@ PetscErrorCode SamOutputSetText(SamOutput o, const char name[], const char text[
 static void AppendNumber(SamOutput o, hid_t dataset, hid_t type, hsize_t index, const void *number)
 {
   const hsize_t size = index + 1, one = 1;
-  const hid_t   memory = SamOutputNote(o, H5Screate_simple(1, &one, NULL));
+  const hid_t   memory = SamFileNote(o->f, H5Screate_simple(1, &one, NULL));
   hid_t         space;
 
-  (void)SamOutputNote(o, H5Dset_extent(dataset, &size));
-  space = SamOutputNote(o, H5Dget_space(dataset));
-  if (o->rank == 0) {
-    (void)SamOutputNote(o, H5Sselect_hyperslab(space, H5S_SELECT_SET, &index, NULL, &one, NULL));
+  (void)SamFileNote(o->f, H5Dset_extent(dataset, &size));
+  space = SamFileNote(o->f, H5Dget_space(dataset));
+  if (o->f->rank == 0) {
+    (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, &index, NULL, &one, NULL));
   } else {
-    (void)SamOutputNote(o, H5Sselect_none(space));
-    (void)SamOutputNote(o, H5Sselect_none(memory));
+    (void)SamFileNote(o->f, H5Sselect_none(space));
+    (void)SamFileNote(o->f, H5Sselect_none(memory));
   }
-  (void)SamOutputNote(o, H5Dwrite(dataset, type, memory, space, o->transfer, number));
-  (void)SamOutputNote(o, H5Sclose(space));
-  (void)SamOutputNote(o, H5Sclose(memory));
+  (void)SamFileNote(o->f, H5Dwrite(dataset, type, memory, space, o->f->transfer, number));
+  (void)SamFileNote(o->f, H5Sclose(space));
+  (void)SamFileNote(o->f, H5Sclose(memory));
 }
 
 static void AppendHistory(SamOutput o, const SamStep *step)
@@ -385,33 +239,17 @@ static void AppendHistory(SamOutput o, const SamStep *step)
   }
 }
 
-/* Appends a field, of which each rank writes its rows; a rank without rows takes part with an empty selection. */
 static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *values)
 {
-  const SamGrid grid     = o->grid;
-  const hsize_t size[3]  = {o->saved + 1, (hsize_t)grid->ny, (hsize_t)grid->nx};
-  const hsize_t start[3] = {o->saved, (hsize_t)grid->row_start, 0};
-  const hsize_t count[3] = {1, (hsize_t)grid->rows, (hsize_t)grid->nx};
-  const hid_t   memory   = SamOutputNote(o, H5Screate_simple(3, count, NULL));
-  const double  nothing  = 0;
-  hid_t         space;
+  const hsize_t size[3] = {o->saved + 1, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
 
-  (void)SamOutputNote(o, H5Dset_extent(dataset, size));
-  space = SamOutputNote(o, H5Dget_space(dataset));
-  if (grid->rows) {
-    (void)SamOutputNote(o, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL));
-  } else {
-    (void)SamOutputNote(o, H5Sselect_none(space));
-    (void)SamOutputNote(o, H5Sselect_none(memory));
-  }
-  (void)SamOutputNote(o, H5Dwrite(dataset, type, memory, space, o->transfer, grid->rows ? values : &nothing));
-  (void)SamOutputNote(o, H5Sclose(space));
-  (void)SamOutputNote(o, H5Sclose(memory));
+  (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
+  SamFileWriteLayer(o->f, dataset, type, o->saved, values);
 }
 
 static PetscErrorCode AppendState(SamOutput o, const SamFields *fields, PetscReal friction)
 {
-  const PetscInt     cells = o->grid->cells;
+  const PetscInt     cells = o->f->grid->cells;
   const PetscScalar *p, *q;
 
   PetscFunctionBegin;
@@ -432,22 +270,10 @@ static PetscErrorCode AppendFields(SamOutput o, const SamFields *fields, PetscRe
     const PetscScalar *values;
 
     PetscCall(VecGetArrayRead(vec, &values));
-    AppendField(o, o->fields[f], H5T_NATIVE_DOUBLE, values + SamOutputFields[f].component * o->grid->cells);
+    AppendField(o, o->fields[f], H5T_NATIVE_DOUBLE, values + SamOutputFields[f].component * o->f->grid->cells);
     PetscCall(VecRestoreArrayRead(vec, &values));
   }
   PetscCall(AppendState(o, fields, friction));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Room for a step, by which the file becomes longer; what is not needed of it, HDF5 cuts off when it flushes. */
-static PetscErrorCode ReserveStep(SamOutput o, PetscBool has_fields)
-{
-  const off_t bytes = ADMINISTRATION + (has_fields ? SamOutputFieldBytes(o) : 0);
-  int         error = 0;
-
-  PetscFunctionBegin;
-  if (o->rank == 0) error = ReserveInFile(o->filename, bytes);
-  PetscCall(SamOutputRaise(o->grid, o->filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -457,39 +283,64 @@ static PetscErrorCode Flush(SamOutput o)
   int error = 0;
 
   PetscFunctionBegin;
-  PetscCall(Agree(o)); /* flush only what is there */
-  if (o->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (o->rank == 0) error = MoveEnd(o->filename);
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->grid->comm)); /* readers see the end before what points there */
+  PetscCall(SamFileAgree(o->f)); /* flush only what is there */
+  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (o->f->rank == 0) error = MoveEnd(o->f->filename);
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->f->grid->comm)); /* readers see the end before what points there */
   if (error) {
-    o->failed = PETSC_TRUE;
-    (void)snprintf(o->reason, sizeof(o->reason), "%s", strerror(error));
-  } else (void)SamOutputNote(o, H5Fflush(o->file, H5F_SCOPE_GLOBAL));
+    o->f->failed = PETSC_TRUE;
+    (void)snprintf(o->f->reason, sizeof(o->f->reason), "%s", strerror(error));
+  } else (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A step, fields, or both, and what belongs to them; then all of it is on its way to the disk. */
+static PetscErrorCode Append(SamOutput o, const SamStep *step, PetscReal time, const SamFields *fields, PetscReal friction)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename, o->f->reason);
+  PetscCall(SamFileReserve(o->f, fields ? SamOutputFieldBytes(o) : 0));
+  PetscCall(SamFileBegin(o->f));
+  if (step) AppendHistory(o, step);
+  if (fields) {
+    const double now = (double)time;
+
+    AppendNumber(o, o->time, H5T_NATIVE_DOUBLE, o->saved, &now);
+    PetscCall(AppendFields(o, fields, friction));
+    SamOutputCountVTK(o, o->saved + 1);
+    o->saved_time = time;
+  }
+  PetscCall(Flush(o));
+  o->steps += step ? 1 : 0;
+  o->saved += fields ? 1 : 0;
+  ierr = SamFileEnd(o->f);
+  if (ierr) o->broken = PETSC_TRUE;
+  PetscCall(ierr);
+  if (fields && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOutputWriteStep(SamOutput o, const SamStep *step, const SamFields *fields, PetscReal friction)
 {
-  PetscErrorCode ierr;
-
   PetscFunctionBegin;
-  PetscCheck(!o->broken, o->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->filename, o->reason);
-  PetscCall(ReserveStep(o, fields ? PETSC_TRUE : PETSC_FALSE));
-  PetscCall(SamOutputBegin(o));
-  AppendHistory(o, step);
-  if (fields) {
-    const double time = (double)step->time;
+  PetscCall(Append(o, step, step->time, fields, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    AppendNumber(o, o->time, H5T_NATIVE_DOUBLE, o->saved, &time);
-    PetscCall(AppendFields(o, fields, friction));
-    SamOutputCountVTK(o, o->saved + 1);
-  }
-  PetscCall(Flush(o));
-  o->steps++;
-  o->saved += fields ? 1 : 0;
-  ierr = SamOutputEnd(o);
-  if (ierr) o->broken = PETSC_TRUE;
-  PetscCall(ierr);
-  if (fields && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, step->time));
+PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time, const SamFields *fields, PetscReal friction)
+{
+  PetscFunctionBegin;
+  PetscCall(Append(o, NULL, time, fields, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputGetSaved(SamOutput o, PetscInt *steps, PetscInt *saved, PetscReal *time)
+{
+  PetscFunctionBegin;
+  if (steps) *steps = (PetscInt)o->steps;
+  if (saved) *saved = (PetscInt)o->saved;
+  if (time) *time = o->saved_time;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

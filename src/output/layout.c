@@ -67,47 +67,23 @@ typedef struct {
 
 static const Shape series = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
 
-void SamOutputWriteAttribute(SamOutput o, hid_t object, const char name[], hid_t stored, hid_t type, PetscInt count, const void *values)
-{
-  const hsize_t size  = (hsize_t)count;
-  const hid_t   space = SamOutputNote(o, count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL));
-  hid_t         attribute;
-
-  if (SamOutputNote(o, H5Aexists(object, name)) > 0) (void)SamOutputNote(o, H5Adelete(object, name));
-  attribute = SamOutputNote(o, H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT));
-  (void)SamOutputNote(o, H5Awrite(attribute, type, values));
-  (void)SamOutputNote(o, H5Aclose(attribute));
-  (void)SamOutputNote(o, H5Sclose(space));
-}
-
-/* Texts are stored with variable length, which h5py gives back as str. */
-void SamOutputWriteTextAttribute(SamOutput o, hid_t object, const char name[], const char text[])
-{
-  const hid_t type = SamOutputNote(o, H5Tcopy(H5T_C_S1));
-
-  (void)SamOutputNote(o, H5Tset_size(type, H5T_VARIABLE));
-  (void)SamOutputNote(o, H5Tset_cset(type, H5T_CSET_UTF8));
-  SamOutputWriteAttribute(o, object, name, type, type, 1, &text);
-  (void)SamOutputNote(o, H5Tclose(type));
-}
-
 static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label, hid_t type, const Shape *shape, PetscInt compress)
 {
-  const hid_t space = SamOutputNote(o, H5Screate_simple(shape->rank, shape->size, shape->largest)), creation = SamOutputNote(o, H5Pcreate(H5P_DATASET_CREATE));
+  const hid_t space = SamFileNote(o->f, H5Screate_simple(shape->rank, shape->size, shape->largest)), creation = SamFileNote(o->f, H5Pcreate(H5P_DATASET_CREATE));
   hid_t       dataset;
 
-  if (shape->chunk[0]) (void)SamOutputNote(o, H5Pset_chunk(creation, shape->rank, shape->chunk));
+  if (shape->chunk[0]) (void)SamFileNote(o->f, H5Pset_chunk(creation, shape->rank, shape->chunk));
   /* all is written that is there: filling new chunks would only write them twice */
-  (void)SamOutputNote(o, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
+  (void)SamFileNote(o->f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
   if (compress > 0) {
-    (void)SamOutputNote(o, H5Pset_shuffle(creation));
-    (void)SamOutputNote(o, H5Pset_deflate(creation, (unsigned)compress));
+    (void)SamFileNote(o->f, H5Pset_shuffle(creation));
+    (void)SamFileNote(o->f, H5Pset_deflate(creation, (unsigned)compress));
   }
-  dataset = SamOutputNote(o, H5Dcreate2(where, label->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  SamOutputWriteTextAttribute(o, dataset, "units", label->units);
-  SamOutputWriteTextAttribute(o, dataset, "long_name", label->long_name);
-  (void)SamOutputNote(o, H5Pclose(creation));
-  (void)SamOutputNote(o, H5Sclose(space));
+  dataset = SamFileNote(o->f, H5Dcreate2(where, label->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  SamFileWriteTextAttribute(o->f, dataset, "units", label->units);
+  SamFileWriteTextAttribute(o->f, dataset, "long_name", label->long_name);
+  (void)SamFileNote(o->f, H5Pclose(creation));
+  (void)SamFileNote(o->f, H5Sclose(space));
   return dataset;
 }
 
@@ -116,28 +92,28 @@ static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, 
 {
   const hid_t scale = CreateDataset(o, where, label, H5T_IEEE_F64LE, shape, 0);
 
-  SamOutputWriteTextAttribute(o, scale, "axis", axis);
-  SamOutputWriteTextAttribute(o, scale, "standard_name", standard_name);
-  (void)SamOutputNote(o, H5DSset_scale(scale, label->name));
+  SamFileWriteTextAttribute(o->f, scale, "axis", axis);
+  SamFileWriteTextAttribute(o->f, scale, "standard_name", standard_name);
+  (void)SamFileNote(o->f, H5DSset_scale(scale, label->name));
   return scale;
 }
 
 /* The coordinates of the cell centres, which rank 0 writes. */
 static PetscErrorCode CreateAxis(SamOutput o, const SamOutputLabel *label, PetscInt direction, hid_t *scale)
 {
-  const PetscInt n     = direction ? o->grid->ny : o->grid->nx;
+  const PetscInt n     = direction ? o->f->grid->ny : o->f->grid->nx;
   const Shape    shape = {1, {(hsize_t)n}, {(hsize_t)n}, {0}};
   double        *values;
   hid_t          space;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &values));
-  for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->grid, k) : SamGridX(o->grid, k);
-  *scale = CreateScale(o, o->file, label, direction ? "Y" : "X", direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape);
-  space  = SamOutputNote(o, H5Dget_space(*scale));
-  if (o->rank) (void)SamOutputNote(o, H5Sselect_none(space));
-  (void)SamOutputNote(o, H5Dwrite(*scale, H5T_NATIVE_DOUBLE, space, space, o->transfer, values));
-  (void)SamOutputNote(o, H5Sclose(space));
+  for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->f->grid, k) : SamGridX(o->f->grid, k);
+  *scale = CreateScale(o, o->f->id, label, direction ? "Y" : "X", direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape);
+  space  = SamFileNote(o->f, H5Dget_space(*scale));
+  if (o->f->rank) (void)SamFileNote(o->f, H5Sselect_none(space));
+  (void)SamFileNote(o->f, H5Dwrite(*scale, H5T_NATIVE_DOUBLE, space, space, o->f->transfer, values));
+  (void)SamFileNote(o->f, H5Sclose(space));
   PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -153,7 +129,7 @@ static hsize_t ChunkSize(hsize_t n, hsize_t most)
 /* Chunks are one step deep. */
 static Shape FieldShape(SamOutput o)
 {
-  const hsize_t ny = (hsize_t)o->grid->ny, nx = (hsize_t)o->grid->nx;
+  const hsize_t ny = (hsize_t)o->f->grid->ny, nx = (hsize_t)o->f->grid->nx;
 
   return (Shape){3, {0, ny, nx}, {H5S_UNLIMITED, ny, nx}, {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
 }
@@ -176,17 +152,17 @@ static PetscErrorCode CreateFields(SamOutput o)
   PetscFunctionBegin;
   PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
   PetscCall(CreateAxis(o, &y_label, 1, &scales[1]));
-  scales[0] = o->time = CreateScale(o, o->file, &time_label, "T", "time", &series);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = CreateDataset(o, o->file, &SamOutputFields[f].label, H5T_IEEE_F64LE, &shape, o->set.compress);
-  o->state = CreateDataset(o, o->file, &state_label, H5T_STD_I8LE, &shape, o->set.compress);
-  SamOutputWriteAttribute(o, o->state, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8, 3, states);
-  SamOutputWriteTextAttribute(o, o->state, "flag_meanings", state_words);
+  scales[0] = o->time = CreateScale(o, o->f->id, &time_label, "T", "time", &series);
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = CreateDataset(o, o->f->id, &SamOutputFields[f].label, H5T_IEEE_F64LE, &shape, o->set.compress);
+  o->state = CreateDataset(o, o->f->id, &state_label, H5T_STD_I8LE, &shape, o->set.compress);
+  SamFileWriteAttribute(o->f, o->state, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8, 3, states);
+  SamFileWriteTextAttribute(o->f, o->state, "flag_meanings", state_words);
   for (unsigned d = 0; d < 3; d++) {
-    for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) (void)SamOutputNote(o, H5DSattach_scale(o->fields[f], scales[d], d));
-    (void)SamOutputNote(o, H5DSattach_scale(o->state, scales[d], d));
+    for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
+    (void)SamFileNote(o->f, H5DSattach_scale(o->state, scales[d], d));
   }
-  (void)SamOutputNote(o, H5Dclose(scales[1]));
-  (void)SamOutputNote(o, H5Dclose(scales[2]));
+  (void)SamFileNote(o->f, H5Dclose(scales[1]));
+  (void)SamFileNote(o->f, H5Dclose(scales[2]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -194,47 +170,105 @@ static PetscErrorCode CreateFields(SamOutput o)
 static void CreateHistory(SamOutput o)
 {
   const int64_t statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM, SAM_STATUS_EDGE_CONTACT};
-  const hid_t   group      = SamOutputNote(o, H5Gcreate2(o->file, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const hid_t   group      = SamFileNote(o->f, H5Gcreate2(o->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 
   o->columns[0] = CreateScale(o, group, &SamOutputColumns[0].label, "T", "time", &series);
   for (PetscInt c = 1; c < SAM_OUTPUT_COLUMNS; c++) {
     const SamOutputColumn *column = &SamOutputColumns[c];
 
     o->columns[c] = CreateDataset(o, group, &column->label, column->kind == SAM_COLUMN_REAL ? H5T_IEEE_F64LE : H5T_STD_I64LE, &series, 0);
-    (void)SamOutputNote(o, H5DSattach_scale(o->columns[c], o->columns[0], 0));
+    (void)SamFileNote(o->f, H5DSattach_scale(o->columns[c], o->columns[0], 0));
     if (column->kind == SAM_COLUMN_STATUS) {
-      SamOutputWriteAttribute(o, o->columns[c], "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
-      SamOutputWriteTextAttribute(o, o->columns[c], "flag_meanings", status_words);
+      SamFileWriteAttribute(o->f, o->columns[c], "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
+      SamFileWriteTextAttribute(o->f, o->columns[c], "flag_meanings", status_words);
     }
   }
-  (void)SamOutputNote(o, H5Gclose(group));
+  (void)SamFileNote(o->f, H5Gclose(group));
 }
 
 PetscErrorCode SamOutputCreateLayout(SamOutput o)
 {
+  const int8_t open = 0;
+
   PetscFunctionBegin;
   PetscCall(CreateFields(o));
   CreateHistory(o);
   SamOutputCreateVTK(o);
-  SamOutputWriteTextAttribute(o, o->file, "Conventions", "CF-1.8");
-  SamOutputWriteTextAttribute(o, o->file, "title", "Partial-slip contact of elastic bodies");
-  SamOutputWriteTextAttribute(o, o->file, "source", "petsam " PETSAM_VERSION ", semi-analytical method");
-  SamOutputWriteTextAttribute(o, o->file, "petsam_version", PETSAM_VERSION);
+  SamFileWriteTextAttribute(o->f, o->f->id, "Conventions", "CF-1.8");
+  SamFileWriteTextAttribute(o->f, o->f->id, "title", "Partial-slip contact of elastic bodies");
+  SamFileWriteTextAttribute(o->f, o->f->id, "source", "petsam " PETSAM_VERSION ", semi-analytical method");
+  SamFileWriteTextAttribute(o->f, o->f->id, "petsam_version", PETSAM_VERSION);
+  SamFileWriteAttribute(o->f, o->f->id, "closed", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &open);
+  o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void OpenDataset(SamOutput o, hid_t where, const char name[], hid_t *dataset)
+{
+  *dataset = SamFileNote(o->f, H5Dopen2(where, name, H5P_DEFAULT));
+}
+
+/* Chunks as they are in the file. */
+static void ReadChunks(SamOutput o)
+{
+  const hid_t creation = SamFileNote(o->f, H5Dget_create_plist(o->fields[0]));
+  hsize_t     chunk[3] = {1, 1, 1};
+
+  (void)SamFileNote(o->f, H5Pget_chunk(creation, 3, chunk));
+  o->set.chunk[0] = (PetscInt)chunk[2];
+  o->set.chunk[1] = (PetscInt)chunk[1];
+  (void)SamFileNote(o->f, H5Pclose(creation));
+}
+
+void SamOutputOpenLayout(SamOutput o)
+{
+  const hid_t history = SamFileNote(o->f, H5Gopen2(o->f->id, "history", H5P_DEFAULT));
+
+  OpenDataset(o, o->f->id, "time", &o->time);
+  OpenDataset(o, o->f->id, "state", &o->state);
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) OpenDataset(o, o->f->id, SamOutputFields[f].label.name, &o->fields[f]);
+  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) OpenDataset(o, history, SamOutputColumns[c].label.name, &o->columns[c]);
+  ReadChunks(o);
+  SamOutputOpenVTK(o);
+  o->closed    = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
+  if (history >= 0) (void)SamFileNote(o->f, H5Gclose(history));
 }
 
 static void Close(SamOutput o, hid_t *dataset)
 {
-  if (*dataset >= 0) (void)SamOutputNote(o, H5Dclose(*dataset));
+  if (*dataset >= 0) (void)SamFileNote(o->f, H5Dclose(*dataset));
   *dataset = -1;
 }
 
 void SamOutputCloseLayout(SamOutput o)
 {
-  if (o->vtk_steps >= 0) (void)SamOutputNote(o, H5Aclose(o->vtk_steps));
-  o->vtk_steps = -1;
+  if (o->vtk_steps >= 0) (void)SamFileNote(o->f, H5Aclose(o->vtk_steps));
+  if (o->closed >= 0) (void)SamFileNote(o->f, H5Aclose(o->closed));
+  o->vtk_steps = o->closed = -1;
   Close(o, &o->time);
   Close(o, &o->state);
   for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) Close(o, &o->fields[f]);
   for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) Close(o, &o->columns[c]);
+}
+
+/* ---- reading ---- */
+
+hsize_t SamOutputLength(SamOutput o, hid_t dataset)
+{
+  const hid_t space   = SamFileNote(o->f, H5Dget_space(dataset));
+  hsize_t     size[3] = {0, 0, 0};
+
+  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3) (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
+  if (space >= 0) (void)SamFileNote(o->f, H5Sclose(space));
+  return size[0];
+}
+
+void SamOutputReadSeries(SamOutput o, hid_t dataset, hid_t type, hsize_t first, hsize_t count, void *values)
+{
+  const hid_t space = SamFileNote(o->f, H5Dget_space(dataset)), memory = SamFileNote(o->f, H5Screate_simple(1, &count, NULL));
+
+  if (count) (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, NULL, &count, NULL));
+  if (count) (void)SamFileNote(o->f, H5Dread(dataset, type, memory, space, o->f->transfer, values));
+  (void)SamFileNote(o->f, H5Sclose(memory));
+  (void)SamFileNote(o->f, H5Sclose(space));
 }

@@ -11,34 +11,34 @@
 static void WriteType(SamOutput o, hid_t group)
 {
   static const char image[] = "ImageData";
-  const hid_t       type    = SamOutputNote(o, H5Tcopy(H5T_C_S1));
+  const hid_t       type    = SamFileNote(o->f, H5Tcopy(H5T_C_S1));
 
-  (void)SamOutputNote(o, H5Tset_size(type, sizeof(image) - 1));
-  (void)SamOutputNote(o, H5Tset_strpad(type, H5T_STR_NULLPAD));
-  SamOutputWriteAttribute(o, group, "Type", type, type, 1, image);
-  (void)SamOutputNote(o, H5Tclose(type));
+  (void)SamFileNote(o->f, H5Tset_size(type, sizeof(image) - 1));
+  (void)SamFileNote(o->f, H5Tset_strpad(type, H5T_STR_NULLPAD));
+  SamFileWriteAttribute(o->f, group, "Type", type, type, 1, image);
+  (void)SamFileNote(o->f, H5Tclose(type));
 }
 
 static void WriteGeometry(SamOutput o, hid_t group)
 {
-  const SamGrid grid         = o->grid;
+  const SamGrid grid         = o->f->grid;
   const int64_t version[2]   = {2, 0};
   const int64_t extent[6]    = {0, grid->nx, 0, grid->ny, 0, 0};
   const double  origin[3]    = {SamGridX(grid, 0) - 0.5 * grid->dx, SamGridY(grid, 0) - 0.5 * grid->dy, 0};
   const double  spacing[3]   = {grid->dx, grid->dy, PetscMax(grid->dx, grid->dy)};
   const double  direction[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-  SamOutputWriteAttribute(o, group, "Version", H5T_STD_I64LE, H5T_NATIVE_INT64, 2, version);
+  SamFileWriteAttribute(o->f, group, "Version", H5T_STD_I64LE, H5T_NATIVE_INT64, 2, version);
   WriteType(o, group);
-  SamOutputWriteAttribute(o, group, "WholeExtent", H5T_STD_I64LE, H5T_NATIVE_INT64, 6, extent);
-  SamOutputWriteAttribute(o, group, "Origin", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3, origin);
-  SamOutputWriteAttribute(o, group, "Spacing", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3, spacing);
-  SamOutputWriteAttribute(o, group, "Direction", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 9, direction);
+  SamFileWriteAttribute(o->f, group, "WholeExtent", H5T_STD_I64LE, H5T_NATIVE_INT64, 6, extent);
+  SamFileWriteAttribute(o->f, group, "Origin", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3, origin);
+  SamFileWriteAttribute(o->f, group, "Spacing", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3, spacing);
+  SamFileWriteAttribute(o->f, group, "Direction", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 9, direction);
 }
 
 static hid_t CreateGroup(SamOutput o, hid_t where, const char name[])
 {
-  return SamOutputNote(o, H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  return SamFileNote(o->f, H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 }
 
 /* A soft link leaves the dataset its own name only, which is what readers tell of a dimension. */
@@ -47,28 +47,36 @@ static void Link(SamOutput o, hid_t group, const char name[], const char dataset
   char path[64];
 
   (void)snprintf(path, sizeof(path), "/%s", dataset);
-  (void)SamOutputNote(o, H5Lcreate_soft(path, group, name, H5P_DEFAULT, H5P_DEFAULT));
+  (void)SamFileNote(o->f, H5Lcreate_soft(path, group, name, H5P_DEFAULT, H5P_DEFAULT));
 }
 
 void SamOutputCreateVTK(SamOutput o)
 {
-  const hid_t   group = CreateGroup(o, o->file, "VTKHDF"), cells = CreateGroup(o, group, "CellData"), steps = CreateGroup(o, group, "Steps");
+  const hid_t   group = CreateGroup(o, o->f->id, "VTKHDF"), cells = CreateGroup(o, group, "CellData"), steps = CreateGroup(o, group, "Steps");
   const int64_t none = 0;
 
   WriteGeometry(o, group);
   for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) Link(o, cells, SamOutputFields[f].label.name, SamOutputFields[f].label.name);
   Link(o, cells, "state", "state");
   Link(o, steps, "Values", "time");
-  SamOutputWriteAttribute(o, steps, "NSteps", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &none);
-  o->vtk_steps = SamOutputNote(o, H5Aopen(steps, "NSteps", H5P_DEFAULT));
-  (void)SamOutputNote(o, H5Gclose(steps));
-  (void)SamOutputNote(o, H5Gclose(cells));
-  (void)SamOutputNote(o, H5Gclose(group));
+  SamFileWriteAttribute(o->f, steps, "NSteps", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &none);
+  o->vtk_steps = SamFileNote(o->f, H5Aopen(steps, "NSteps", H5P_DEFAULT));
+  (void)SamFileNote(o->f, H5Gclose(steps));
+  (void)SamFileNote(o->f, H5Gclose(cells));
+  (void)SamFileNote(o->f, H5Gclose(group));
+}
+
+void SamOutputOpenVTK(SamOutput o)
+{
+  const hid_t steps = SamFileNote(o->f, H5Gopen2(o->f->id, "VTKHDF/Steps", H5P_DEFAULT));
+
+  o->vtk_steps = SamFileNote(o->f, H5Aopen(steps, "NSteps", H5P_DEFAULT));
+  if (steps >= 0) (void)SamFileNote(o->f, H5Gclose(steps));
 }
 
 void SamOutputCountVTK(SamOutput o, hsize_t saved)
 {
   const int64_t count = (int64_t)saved;
 
-  (void)SamOutputNote(o, H5Awrite(o->vtk_steps, H5T_NATIVE_INT64, &count));
+  (void)SamFileNote(o->f, H5Awrite(o->vtk_steps, H5T_NATIVE_INT64, &count));
 }

@@ -164,7 +164,7 @@ PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf)
   PetscCall(CopyAsXML(slash ? slash + 1 : results, &x->results));
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
   if (!rank) error = Begin(x);
-  PetscCall(SamOutputRaise(grid, x->filename, error));
+  PetscCall(SamFileRaise(grid, "output", x->filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -174,7 +174,7 @@ PetscErrorCode SamXdmfAddStep(SamXdmf x, PetscInt step, PetscReal time)
 
   PetscFunctionBegin;
   if (x->file >= 0) error = Append(x, (long)step, (double)time);
-  PetscCall(SamOutputRaise(x->grid, x->filename, error));
+  PetscCall(SamFileRaise(x->grid, "output", x->filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
