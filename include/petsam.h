@@ -15,6 +15,7 @@
 #include <petsam/contact.h>
 #include <petsam/history.h>
 #include <petsam/output.h>
+#include <petsam/checkpoint.h>
 #include <petsam/report.h>
 
 #endif

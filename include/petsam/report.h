@@ -26,6 +26,8 @@ typedef struct _n_SamReport *SamReport;
 */
 PETSC_EXTERN PetscErrorCode SamReportCreateFromOptions(MPI_Comm comm, SamReport *report);
 PETSC_EXTERN PetscErrorCode SamReportDestroy(SamReport *report);
+/* SamReportSetRestart - the run goes on from that checkpoint, after that step; told by the banner. The name is not copied. Not collective. */
+PETSC_EXTERN PetscErrorCode SamReportSetRestart(SamReport report, const char checkpoint[], PetscInt step);
 /*
   SamReportBanner - version, libraries, ranks, grid, memory (`bytes`: what the largest rank will need), steps, and the file
   of the results (NULL: none). Collective.

@@ -21,9 +21,10 @@ static const Part parts[] = {
   {"normal problem",     {SAM_EVENT_NORMAL_SOLVE},     1},
   {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
   {"check",              {SAM_EVENT_CHECK},            1},
-  {"results",            {SAM_EVENT_OUTPUT},           1}
+  {"results",            {SAM_EVENT_OUTPUT},           1},
+  {"checkpoints",        {SAM_EVENT_CHECKPOINT},       1}
 };
-static const Part *const output = &parts[3];
+static const Part files = {"files", {SAM_EVENT_OUTPUT, SAM_EVENT_CHECKPOINT}, 2};
 
 /* These lie within those. */
 static const Part inner[] = {
@@ -54,7 +55,7 @@ static PetscErrorCode GetTime(SamReport r, const Part *part, double *seconds)
 PetscErrorCode SamReportGetOutputTime(SamReport r, double *seconds)
 {
   PetscFunctionBegin;
-  PetscCall(GetTime(r, output, seconds));
+  PetscCall(GetTime(r, &files, seconds));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

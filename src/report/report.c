@@ -85,6 +85,14 @@ static PetscErrorCode CountNodes(MPI_Comm comm, double *nodes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamReportSetRestart(SamReport r, const char checkpoint[], PetscInt step)
+{
+  PetscFunctionBegin;
+  r->restart      = checkpoint;
+  r->restart_step = step;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt steps, const char output[])
 {
   PetscMPIInt ranks;
@@ -103,7 +111,9 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt
   PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid", grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %.3g MB a rank\n", "memory", 1e-6 * bytes));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n\n", "steps", steps, output ? "in " : "not kept (no -output)", output ? output : ""));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n", "steps", steps, output ? "in " : "not kept (no -output)", output ? output : ""));
+  if (r->restart) PetscCall(PetscPrintf(r->comm, "  %-10s  after step %" PetscInt_FMT ", from %s\n", "restart", r->restart_step, r->restart));
+  PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

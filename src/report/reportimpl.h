@@ -28,11 +28,13 @@ struct _n_SamReport {
   /* what the user set */
   MPI_Comm  comm;
   PetscBool quiet;
+  const char *restart;     /* the checkpoint from which the run goes on; NULL: none */
+  PetscInt    restart_step;
   /* status */
   PetscMPIInt    rank;
   PetscBool      logging;                   /* PETSc's log holds the times */
   double         start, first, begin;       /* of the report, of the first step, of this one (MPI_Wtime) */
-  double         output_before;             /* seconds of output in the set-up */
+  double         output_before;             /* seconds of results and checkpoints in the set-up */
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
@@ -49,7 +51,7 @@ PETSC_INTERN PetscErrorCode SamProgressSetFromOptions(SamReport report);
 PETSC_INTERN PetscErrorCode SamProgressWatch(SamReport report, SamContact contact);
 /* Takes the line off the terminal. Not collective. */
 PETSC_INTERN void SamProgressErase(SamReport report);
-/* Seconds spent on the results file so far, the largest rank's. Collective. */
+/* Seconds spent on results and checkpoints so far, the largest rank's. Collective. */
 PETSC_INTERN PetscErrorCode SamReportGetOutputTime(SamReport report, double *seconds);
 /* Seconds as h:mm:ss. */
 PETSC_INTERN void SamReportDuration(double seconds, char text[], size_t size);

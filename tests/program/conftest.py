@@ -1,5 +1,7 @@
 """Fixtures that run the built program: build/bin/petsam, or that of the directory in PETSAM_BUILD."""
+import contextlib
 import os
+import signal
 import subprocess
 import tempfile
 from pathlib import Path
@@ -22,12 +24,34 @@ def environment():
     return env
 
 
-@pytest.fixture(scope="session")
-def launcher():
+def launcher_words():
     """The launcher's words but the number of ranks."""
     words = os.environ.get("MPIRUN", "mpirun").split()
     version = subprocess.run(words + ["--version"], capture_output=True, text=True, env=environment(), timeout=60).stdout
     return words + (["--oversubscribe", "--timeout", str(TIMEOUT)] if "Open MPI" in version else [])
+
+
+@pytest.fixture(scope="session")
+def launcher():
+    return launcher_words()
+
+
+def processes(run, ranks):
+    """Process numbers of the ranks of a run that was started by the launcher, or alone."""
+    if ranks == 1:
+        return [run.pid]
+    return [int(word) for word in Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()]
+
+
+def kill_all(run, ranks):
+    """All ranks at once, by the signal that nothing can catch."""
+    try:
+        ranks = processes(run, ranks)
+    except FileNotFoundError:  # the launcher has ended
+        ranks = []
+    for process in ranks or [run.pid]:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
 
 
 def alone(ranks):

@@ -115,25 +115,13 @@ def test_lost_folder_ends_the_run(launcher, folder, ranks, lose):
 
 # ---- killed
 
-def kill(run, ranks):
-    """All ranks at once, by the signal that nothing can catch."""
-    if ranks > 1:
-        for process in Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split():
-            try:
-                os.kill(int(process), signal.SIGKILL)
-            except ProcessLookupError:
-                pass
-    else:
-        run.kill()
-
-
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("step", [1, 5, 20])
 def test_killed_run_leaves_what_it_has_told(launcher, folder, ranks, step):
     """At once after a step is told: its results are in the file, not on their way."""
     run = start(launcher, folder, ranks)
     wait_for(run, step)
-    kill(run, ranks)
+    conftest.kill_all(run, ranks)
     _, more, _ = ended(run)
     assert_intact(folder / "out" / "out.h5", step + more)
 

@@ -1,0 +1,45 @@
+/* What a run needs, and whether a node has it. */
+#include "runimpl.h"
+
+/* Bytes a cell at the peak: 225 to 280 and 165 were measured at 1024 to 4096 cells; and the program with its libraries. */
+#define BYTES_PER_CELL             300
+#define BYTES_PER_CELL_NO_FRICTION 200
+#define BYTES_PROGRAM              50e6
+
+double SamRunMemory(SamGrid grid, PetscReal friction)
+{
+  return BYTES_PROGRAM + (friction > 0 ? BYTES_PER_CELL : BYTES_PER_CELL_NO_FRICTION) * (double)grid->cells;
+}
+
+/* Memory of this node that can be had, bytes; 0 when it cannot be told. */
+static double AvailableMemory(void)
+{
+  FILE  *file = fopen("/proc/meminfo", "r");
+  char   line[128];
+  double kilobytes = 0;
+
+  if (!file) return 0;
+  while (fgets(line, sizeof(line), file))
+    if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) break;
+  fclose(file);
+  return 1024 * kilobytes;
+}
+
+PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, PetscReal friction)
+{
+  double       need, worst;
+  MPI_Comm     node;
+  PetscBool    check = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsBool(NULL, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
+  PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
+  need = SamRunMemory(grid, friction);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
+  PetscCallMPI(MPI_Comm_free(&node));
+  worst = AvailableMemory();
+  worst = worst > 0 ? need / worst : 0;
+  PetscCall(SamMax(grid->comm, 1, &worst));
+  PetscCheck(!check || worst <= 1, grid->comm, SAM_ERR_USER, "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT ": needs about %.3g GB on a node, %.1f times what is available; use more nodes, or -memory_check false", grid->nx, grid->ny, 1e-9 * need, worst);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

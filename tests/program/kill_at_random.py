@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Kills runs with checkpoints at random moments, by the signal that nothing can catch, and goes on from what is left.
+
+After every kill there is a checkpoint that can be read, if one was told of, and the results hold the steps that were told;
+what the last run ends with is what a run without kills ends with, to the last bit. Ends with 0 when all of that holds.
+
+    python3 tests/program/kill_at_random.py [--build build] [--kills 50] [--ranks 1] [--seed 1]
+"""
+import argparse
+import math
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+import conftest
+from support import FIELDS, SPHERE, flatten
+
+STEPS = 60
+CASE = dict(SPHERE, load_n=None, grid_n=32, history="history.csv", output="out.h5")
+KEPT = dict(checkpoint="state.h5", checkpoint_every=1)
+
+
+def write_history(folder, steps=STEPS):
+    """Normal and tangential force change along a curve, so that every step has its own fields."""
+    rows = [f"{k + 1}, {1000 + 20 * math.sin(k / 7)!r}, {60 * math.sin(k / 5)!r}" for k in range(steps)]
+    (folder / "history.csv").write_text("time, load_n, load_tx\n" + "\n".join(rows) + "\n")
+
+
+def start(launcher, folder, options, ranks):
+    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten(options)]
+    return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                            env={**conftest.environment(), **conftest.alone(ranks)})
+
+
+def complete_steps(path):
+    """Steps that are in all datasets, all of them readable; each as it must be."""
+    with h5py.File(path, "r") as f:
+        columns = {name: data[:] for name, data in f["history"].items()}
+        saved = min(f[name].shape[0] for name in (*FIELDS, "time"))
+        steps = min(saved, *(len(column) for column in columns.values()))
+        for name in FIELDS:
+            assert np.all(np.isfinite(f[name][:steps])), name
+        assert np.array_equal(f["time"][:steps], np.arange(steps) + 1.0)
+        assert np.array_equal(columns["time"][:steps], np.arange(steps) + 1.0)
+        area = np.diff(f["x"])[0] * np.diff(f["y"])[0]
+        assert np.allclose(f["pressure"][:steps].sum(axis=(1, 2)) * area, columns["load_n"][:steps], rtol=1e-9)
+        return steps
+
+
+def differences(one, two):
+    """Names of what is not the same to the last bit."""
+    with h5py.File(one, "r") as a, h5py.File(two, "r") as b:
+        names = [*FIELDS, "time", *(f"history/{name}" for name in a["history"])]
+        return [name for name in names if not np.array_equal(a[name][:], b[name][:])]
+
+
+def torture(launcher, folder, kills, ranks, seed, say=lambda text: None):
+    """So many kills over as many runs as it takes; returns how many went on from a checkpoint."""
+    chance, restarts = random.Random(seed), 0
+    write_history(folder)
+    begin = time.monotonic()
+    run = start(launcher, folder, [CASE, dict(output="whole.h5"), KEPT, dict(checkpoint="whole.state.h5")], ranks)
+    out, err = run.communicate()
+    assert run.returncode == 0, (run.returncode, out, err)
+    length = time.monotonic() - begin
+    while True:
+        told_before = complete_steps(folder / "out.h5") if (folder / "state.h5").exists() else 0
+        goes_on = (folder / "state.h5").exists()
+        restarts += goes_on
+        run = start(launcher, folder, [CASE, KEPT, dict(restart="state.h5") if goes_on else {}], ranks)
+        try:
+            out, err = run.communicate(timeout=chance.uniform(0, length) if kills > 0 else None)
+        except subprocess.TimeoutExpired:
+            conftest.kill_all(run, ranks)
+            out, err = run.communicate()
+        told = re.findall(r"^ *(\d+) +\S+ +\d+", out, re.M)
+        if run.returncode == 0:
+            wrong = differences(folder / "out.h5", folder / "whole.h5")
+            assert not wrong, wrong
+            if kills <= 0:
+                return restarts
+            say("a run got to its end; the next begins anew")
+            for name in folder.glob("state.h5*"):
+                name.unlink()
+            (folder / "out.h5").unlink()
+            continue
+        assert "petsam: " not in err, err
+        kills -= 1
+        if told or told_before:
+            steps = complete_steps(folder / "out.h5")
+            assert steps >= (int(told[-1]) if told else 0), (steps, told)
+            assert told or goes_on
+            say(f"killed after {told[-1] if told else 'no step'}, {steps} complete, checkpoint {'yes' if (folder / 'state.h5').exists() else 'no'}")
+        else:
+            say("killed before its first step")
+        assert not goes_on or (folder / "state.h5").exists()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", default="build")
+    parser.add_argument("--kills", type=int, default=50)
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=1)
+    args = parser.parse_args()
+    conftest.PROGRAM = Path(args.build).resolve() / "bin" / "petsam"
+    with tempfile.TemporaryDirectory(prefix="petsam") as folder:
+        restarts = torture(conftest.launcher_words(), Path(folder), args.kills, args.ranks, args.seed, print)
+    print(f"{args.kills} kills, {restarts} runs went on from a checkpoint: fields and scalars as without them")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,473 @@
+"""Checkpoints: what goes on from one is what would have come without it; a wrong or damaged one is refused."""
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+import conftest
+import kill_at_random
+from kill_at_random import CASE, complete_steps, differences, start, write_history
+from support import SPHERE, Results, assert_same, ball
+
+STEPS = 24
+KEPT = dict(checkpoint="state.h5", checkpoint_every=7)
+ON = dict(restart="state.h5")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    write_history(tmp_path, STEPS)
+    return tmp_path
+
+
+@pytest.fixture
+def stopped(folder, petsam):
+    """A run with checkpoints after steps 14 and 21."""
+    petsam(CASE, KEPT)
+    return folder
+
+
+def progress(path):
+    """Load steps before a checkpoint."""
+    with h5py.File(path, "r") as f:
+        return int(f.attrs["progress"][0])
+
+
+def steps(path):
+    with h5py.File(path, "r") as f:
+        return len(f["history/time"])
+
+
+def is_closed(path):
+    with h5py.File(path, "r") as f:
+        return bool(f.attrs["closed"])
+
+
+# ---------------------------------------------------------------- going on
+
+# materials for which p and q act on one another; N that stays, so that its solution is used again; a contact that moves
+# over the grid and takes the tangential solver's window with it
+DISSIMILAR = dict(CASE, grid_size=6e-3, body2_young=9e9, body2_poisson=0.4, friction=0.3)
+CONSTANT = dict(CASE, load_n=1000.0), "time, load_tx", lambda k: (60 * np.sin(k / 5),)
+ROLLING = dict(CASE, grid_n=64, grid_size=4e-3, load_n=300.0), "time, load_my, load_tx", lambda k: (0.05 * np.sin(k / 4), 10 * np.cos(k / 5))
+
+
+def write(folder, header, values):
+    (folder / "history.csv").write_text(header + "\n" + "".join(f"{k + 1}, {', '.join(repr(float(v)) for v in values(k))}\n" for k in range(STEPS)))
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+@pytest.mark.parametrize("case", [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING], ids=["similar", "dissimilar", "constant", "rolling"])
+def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
+    """To the last bit, which asks for all of the state: what is lost of it shows at the solvers' tolerance."""
+    if len(case) > 1:
+        write(folder, *case[1:])
+    petsam(case[0], KEPT, ranks=ranks)
+    shutil.copy(folder / "out.h5", folder / "whole.h5")
+    for checkpoint, solved in (("state.h5.1", 14), ("state.h5", 21)):
+        assert progress(folder / checkpoint) == solved
+        petsam(case[0], dict(restart=checkpoint), ranks=ranks)
+        assert not differences(folder / "out.h5", folder / "whole.h5")
+
+
+@pytest.mark.parametrize("before, after", [(1, 2), (2, 3), (3, 1), (1, 5)])
+def test_run_goes_on_with_other_ranks(folder, petsam, before, after):
+    """At tolerances below what is asked: ranks change rounding, and with it the solvers' path, with or without a restart."""
+    sharp = dict(normal_rtol=1e-11, tangential_rtol=1e-10)
+    petsam(CASE, sharp, KEPT, ranks=before)
+    whole = Results(shutil.copy(folder / "out.h5", folder / "whole.h5"))
+    petsam(CASE, sharp, dict(restart="state.h5.1"), ranks=after)
+    assert steps(folder / "out.h5") == STEPS
+    assert_same(Results(folder / "out.h5"), whole, 1e-10)
+
+
+def test_longer_history_goes_on(folder, petsam):
+    petsam(CASE, dict(output="whole.h5"))
+    rows = (folder / "history.csv").read_text()
+    (folder / "history.csv").write_text("\n".join(rows.splitlines()[:11]) + "\n")
+    petsam(CASE, KEPT, dict(checkpoint_every=10))
+    (folder / "history.csv").write_text(rows)
+    petsam(CASE, ON)
+    assert not differences(folder / "out.h5", folder / "whole.h5")
+
+
+def test_run_that_was_at_its_end_is_left_as_it_is(folder, petsam):
+    petsam(CASE, KEPT, dict(checkpoint_every=STEPS))
+    before = (folder / "out.h5").stat().st_ino
+    petsam(CASE, ON)
+    assert steps(folder / "out.h5") == STEPS and (folder / "out.h5").stat().st_ino == before
+
+
+def test_run_goes_on_without_results(stopped, petsam):
+    done = petsam(CASE, dict(output=None), ON)
+    assert re.search(r"restart +after step 21, from state.h5", done.stdout) and re.search(r"^ *22 +22 ", done.stdout, re.M)
+
+
+def test_worst_status_is_kept(folder, petsam):
+    """The contact was at the edge before the checkpoint, and is not after it."""
+    (folder / "history.csv").write_text("time, load_n\n1, 1e4\n2, 1000\n3, 900\n")
+    case = dict(CASE, grid_size=3e-3)
+    petsam(case, KEPT, dict(checkpoint_every=2), check=12)
+    petsam(case, ON, check=12)
+
+
+# ---------------------------------------------------------------- the results
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("every", [1, 5])
+def test_steps_after_the_checkpoint_are_solved_once_more(folder, petsam, ranks, every):
+    """The file held all steps: those after the checkpoint must not be there twice, nor those before it be lost."""
+    case = dict(CASE, output_every=every, output_compress=4)
+    petsam(case, KEPT, ranks=ranks)
+    with h5py.File(folder / "out.h5", "r") as f:
+        options = f.attrs["options"]
+    shutil.copy(folder / "out.h5", folder / "whole.h5")
+    petsam(case, dict(restart="state.h5.1"), ranks=ranks)
+    assert not differences(folder / "out.h5", folder / "whole.h5")
+    assert not (folder / "out.h5.tmp").exists()
+    with h5py.File(folder / "out.h5", "r") as f:
+        assert f.attrs["options"] == options
+        assert f["pressure"].compression_opts == 4
+        assert f["VTKHDF/Steps"].attrs["NSteps"] == len(f["time"])
+    with open(folder / "out.xdmf", encoding="utf-8") as xdmf:
+        assert xdmf.read().count("<Time ") == (STEPS if every == 1 else 5)
+
+
+def test_results_that_were_closed_go_on_in_place(folder, launcher, petsam):
+    """They may be larger than the disk can hold twice."""
+    stop_by_signal(launcher, folder, 1)
+    before = (folder / "out.h5").stat().st_ino
+    petsam(CASE, ON)
+    assert (folder / "out.h5").stat().st_ino == before and steps(folder / "out.h5") == STEPS
+
+
+@pytest.mark.parametrize("spoil, code, word", [
+    (lambda f: f.unlink(), 3, "No such file"),
+    (lambda f: f.write_text("no"), 3, "not an HDF5 file"),
+    (lambda f: shutil.copy(f.with_name("short.h5"), f), 3, "3 of the 21 steps"),
+    (lambda f: shutil.copy(f.with_name("other.h5"), f), 2, "-friction is 0.3 there, not 0.1"),
+    (lambda f: shutil.copy(f.with_name("late.h5"), f), 2, "times"),
+], ids=["missing", "text", "short", "friction", "times"])
+def test_results_of_another_run_are_left_alone(stopped, petsam, spoil, code, word):
+    rows = (stopped / "history.csv").read_text()
+    petsam(CASE, dict(output="other.h5", friction=0.3))
+    (stopped / "history.csv").write_text("\n".join(rows.splitlines()[:4]) + "\n")
+    petsam(CASE, dict(output="short.h5"))
+    (stopped / "history.csv").write_text(re.sub(r"^1,", "0.5,", rows, flags=re.M))
+    petsam(CASE, dict(output="late.h5"))
+    (stopped / "history.csv").write_text(rows)
+    results = stopped / "out.h5"
+    spoil(results)
+    before = results.read_bytes() if results.exists() else None
+    done = petsam(CASE, ON, check=code)
+    assert len(done.complaint) <= 2 and "-output out.h5" in done.complaint[0] and word in done.complaint[0]
+    assert (results.read_bytes() if results.exists() else None) == before
+
+
+# ---------------------------------------------------------------- when
+
+def test_without_every_nothing_is_written(folder, petsam):
+    petsam(CASE, dict(checkpoint="state.h5"))
+    assert not list(folder.glob("state.h5*"))
+
+
+def test_last_two_are_kept(stopped):
+    assert sorted(path.name for path in stopped.glob("state.h5*")) == ["state.h5", "state.h5.1"]
+    assert progress(stopped / "state.h5") == 21 and progress(stopped / "state.h5.1") == 14
+
+
+def wait_for(run, step):
+    for line in run.stdout:
+        if re.match(rf" *{step} +\S", line):
+            return
+    pytest.fail(f"the run ended before step {step}: {run.stderr.read()}")
+
+
+def send(run, ranks, number, rank=-1):
+    """A signal to one rank alone."""
+    os.kill(conftest.processes(run, ranks)[rank], number)
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_USR1_writes_a_checkpoint_and_the_run_goes_on(launcher, folder, petsam, ranks):
+    run = start(launcher, folder, [CASE, dict(checkpoint="state.h5", output="whole.h5")], ranks)
+    wait_for(run, 2)
+    send(run, ranks, signal.SIGUSR1)
+    out, err = run.communicate(timeout=60)
+    assert run.returncode == 0 and steps(folder / "whole.h5") == STEPS, err
+    last = progress(folder / "state.h5")
+    assert 2 <= last < STEPS and f"checkpoint after step {last}" in out
+    assert not (folder / "state.h5.1").exists()
+    shutil.copy(folder / "whole.h5", folder / "out.h5")
+    petsam(CASE, ON, ranks=ranks)
+    assert not differences(folder / "out.h5", folder / "whole.h5")
+
+
+def stop_by_signal(launcher, folder, ranks):
+    run = start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
+    wait_for(run, 2)
+    if ranks == 2:
+        run.send_signal(signal.SIGUSR2)  # to the launcher, which passes it on
+    else:
+        send(run, ranks, signal.SIGUSR2)
+    _, err = run.communicate(timeout=60)
+    assert run.returncode == 75, err
+    return err
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_USR2_writes_a_checkpoint_and_stops(launcher, folder, petsam, ranks):
+    err = stop_by_signal(launcher, folder, ranks)
+    last = progress(folder / "state.h5")
+    assert 2 <= last < STEPS and steps(folder / "out.h5") == last and is_closed(folder / "out.h5")
+    assert f"stopped after step {last} of {STEPS}" in err and "-restart state.h5" in err
+    petsam(CASE, ON, ranks=ranks)
+    petsam(CASE, dict(output="whole.h5"), ranks=ranks)
+    assert not differences(folder / "out.h5", folder / "whole.h5")
+
+
+def test_signal_without_a_checkpoint_is_a_warning(launcher, folder):
+    run = start(launcher, folder, [CASE], 1)
+    wait_for(run, 2)
+    send(run, 1, signal.SIGUSR2)
+    _, err = run.communicate(timeout=60)
+    assert run.returncode == 0 and "warning" in err and "-checkpoint" in err and steps(folder / "out.h5") == STEPS
+
+
+@pytest.mark.parametrize("limit, seconds, ranks", [("1.5", 1.5, 1), ("0:03", 3, 2), ("0:0:2", 2, 1)])
+def test_run_stops_before_its_time_is_up(folder, petsam, limit, seconds, ranks):
+    """Many steps in few seconds, over as many runs as it takes; each ends by itself and gets on."""
+    write_history(folder, 2000)
+    case = [dict(CASE, grid_n=96, output_every=2000), dict(checkpoint="state.h5", max_walltime=limit)]
+    begin = time.monotonic()
+    done = petsam(*case, ranks=ranks, check=75)
+    # the launcher's own time comes on top
+    assert time.monotonic() - begin < seconds + 3
+    first = progress(folder / "state.h5")
+    assert first >= 1 and "before -max_walltime" in done.stderr and steps(folder / "out.h5") == first
+    petsam(*case, ON, ranks=ranks, check=75)
+    assert progress(folder / "state.h5") > first and progress(folder / "state.h5.1") == first
+    assert steps(folder / "out.h5") == progress(folder / "state.h5")
+
+
+def test_step_longer_than_the_limit_still_gets_on(folder, petsam):
+    """A run solves at least one step, so that it does not go round in circles."""
+    petsam(CASE, dict(checkpoint="state.h5", max_walltime=1e-3), check=75)
+    petsam(CASE, dict(checkpoint="state.h5", max_walltime=1e-3), ON, check=75)
+    assert progress(folder / "state.h5") == 2
+
+
+def test_last_step_is_the_end_not_a_stop(folder, petsam):
+    (folder / "history.csv").write_text("time, load_n\n1, 1000\n")
+    petsam(CASE, dict(checkpoint="state.h5", max_walltime=1e-3))
+
+
+@pytest.mark.parametrize("text", ["0", "-5", "1:60", "1:2:3:4", "soon", "1:", "nan", "inf", "1.5:00", "2h"])
+def test_wrong_time_limit_is_refused(folder, petsam, text):
+    done = petsam(CASE, dict(checkpoint="state.h5", max_walltime=text), check=2)
+    assert "-max_walltime" in done.complaint[0]
+
+
+@pytest.mark.parametrize("options, word", [
+    (dict(checkpoint_every=2), "-checkpoint_every"), (dict(max_walltime=60), "-max_walltime"),
+    (dict(checkpoint="out.h5"), "-checkpoint out.h5"), (dict(checkpoint="history.csv"), "-history"),
+    (dict(checkpoint="state.h5", checkpoint_every=-1), "-checkpoint_every -1"),
+])
+def test_contradictory_options_are_refused(folder, petsam, options, word):
+    done = petsam(CASE, options, check=2)
+    assert word in done.complaint[0] and not (folder / "out.h5").exists()
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_checkpoint_that_cannot_be_written_is_told_at_the_start(folder, petsam, ranks):
+    done = petsam(CASE, dict(checkpoint="nowhere/state.h5"), ranks=ranks, check=3)
+    assert len(done.complaint) == 1 and "-checkpoint nowhere/state.h5" in done.complaint[0] and not (folder / "out.h5").exists()
+
+
+def test_results_may_not_replace_the_checkpoint(stopped, petsam):
+    assert "-restart" in petsam(CASE, ON, dict(output="state.h5"), check=2).complaint[0]
+    assert progress(stopped / "state.h5") == 21
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_lost_folder_ends_the_run(launcher, folder, ranks):
+    write_history(folder, 2000)
+    (folder / "away").mkdir()
+    run = start(launcher, folder, [CASE, dict(checkpoint="away/state.h5", checkpoint_every=1)], ranks)
+    wait_for(run, 5)
+    (folder / "away").rename(folder / "gone")
+    _, err = run.communicate(timeout=60)
+    assert run.returncode == 3 and "-checkpoint away/state.h5" in err
+    assert complete_steps(folder / "out.h5") >= 5
+
+
+@pytest.fixture
+def small_disk(folder):
+    """away/ on a disk that holds one checkpoint of 128 x 128 cells and not two."""
+    (folder / "away").mkdir()
+    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=3m", "tmpfs", str(folder / "away")], capture_output=True, text=True)
+    if done.returncode:
+        pytest.skip("no right to mount a small disk")
+    yield folder
+    subprocess.run(["umount", "-l", str(folder / "away")], check=True)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_full_disk_ends_the_run_and_leaves_the_checkpoint_before(small_disk, petsam, ranks):
+    case = dict(CASE, grid_n=128)
+    done = petsam(case, dict(checkpoint="away/state.h5", checkpoint_every=2), ranks=ranks, check=3)
+    assert len(done.complaint) == 1 and "-checkpoint away/state.h5" in done.complaint[0] and "No space left" in done.complaint[0]
+    assert [path.name for path in (small_disk / "away").iterdir()] == ["state.h5"]
+    assert complete_steps(small_disk / "out.h5") == 4
+    petsam(case, dict(restart="away/state.h5"), ranks=ranks)
+    assert complete_steps(small_disk / "out.h5") == STEPS
+
+
+# ---------------------------------------------------------------- another run's
+
+OTHERS = dict(friction=0.2, grid_n=33, grid_size=2.7e-3, grid_center=1e-5, body1_young=200e9, body2_poisson=0.29, gap_radius1=0.21,
+              coupling="none", steps=2)
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_checkpoint_of_other_physics_is_refused_by_name(stopped, petsam, name):
+    before = (stopped / "out.h5").read_bytes()
+    done = petsam(CASE, ON, {name: OTHERS[name]}, check=2)
+    assert "-restart state.h5" in done.complaint[0] and f"-{name} is" in done.complaint[0]
+    assert (stopped / "out.h5").read_bytes() == before
+
+
+def test_checkpoint_of_another_gap_is_refused_by_name(stopped, petsam):
+    case = dict(CASE, gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=0.1, gap_radius_y=0.1)
+    assert "-gap_type is sphere there, not ellipsoid" in petsam(case, ON, check=2).complaint[0]
+
+
+def test_gap_file_that_has_changed_is_refused(folder, petsam):
+    rough = 1e-9 * np.random.default_rng(1).standard_normal((32, 32))
+    with h5py.File(folder / "rough.h5", "w") as f:
+        f["height"] = rough
+    case = dict(CASE, gap_rough_file="rough.h5")
+    petsam(case, KEPT)
+    petsam(case, ON, ranks=2)
+    with h5py.File(folder / "rough.h5", "a") as f:
+        f["height"][3, 4] += 1e-12
+    assert "-gap_rough_file is" in petsam(case, ON, check=2).complaint[0]
+    assert "-gap_rough_file is" in petsam(CASE, ON, check=2).complaint[0]
+
+
+@pytest.mark.parametrize("change, word", [
+    (lambda rows: re.sub(r"^5, \S+,", "5, 1000,", rows, flags=re.M), "-load_n"),
+    (lambda rows: re.sub(r"^(5, \S+), .*", r"\1, 1", rows, flags=re.M), "-load_tx"),
+    (lambda rows: rows.replace("load_tx", "disp_x"), "-disp_x"),
+    (lambda rows: re.sub(r"^5,", "5.5,", rows, flags=re.M), "times"),
+    (lambda rows: "\n".join(rows.splitlines()[:11]) + "\n", "-history"),
+], ids=["load_n", "load_tx", "control", "times", "short"])
+def test_checkpoint_of_another_history_is_refused_by_name(stopped, petsam, change, word):
+    history = stopped / "history.csv"
+    history.write_text(change(history.read_text()))
+    done = petsam(CASE, ON, check=2)
+    assert "-restart state.h5" in done.complaint[0] and word in done.complaint[0]
+
+
+@pytest.mark.parametrize("name, value", [("petsam_version", "0.0.9"), ("checkpoint_format", 99)])
+def test_checkpoint_of_another_version_is_refused(stopped, petsam, name, value):
+    with h5py.File(stopped / "state.h5", "a") as f:
+        f.attrs[name] = value
+    done = petsam(CASE, ON, check=2)
+    assert "petsam" in done.complaint[0] and "written by" in done.complaint[0]
+
+
+# ---------------------------------------------------------------- damage
+
+def flip(path, where):
+    data = bytearray(path.read_bytes())
+    data[where] ^= 4
+    path.write_bytes(data)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("damage", [
+    lambda f: f.unlink(), lambda f: f.write_text("no"), lambda f: os.truncate(f, f.stat().st_size // 2), lambda f: os.truncate(f, 0),
+    lambda f: flip(f, f.stat().st_size // 2), lambda f: shutil.copy(f.with_name("out.h5"), f),
+], ids=["missing", "text", "half", "empty", "one bit", "results"])
+def test_damaged_checkpoint_is_an_error_that_names_the_one_before(stopped, petsam, damage, ranks):
+    damage(stopped / "state.h5")
+    done = petsam(CASE, ON, ranks=ranks, check=3)
+    assert len(done.complaint) == 1 and "-restart state.h5:" in done.complaint[0] and "-restart state.h5.1" in done.complaint[0]
+    shutil.copy(stopped / "state.h5.1", stopped / "state.h5.0")
+    flip(stopped / "state.h5.1", (stopped / "state.h5.1").stat().st_size // 2)
+    assert "state.h5.1" not in petsam(CASE, ON, ranks=ranks, check=3).complaint[0]
+    petsam(CASE, dict(restart="state.h5.0"), ranks=ranks)
+
+
+def test_no_damaged_bit_is_taken_for_good(stopped, petsam):
+    """Anywhere in the file: the run is refused, or goes on as if nothing had been, where the bit means nothing."""
+    whole = (stopped / "state.h5").read_bytes()
+    shutil.copy(stopped / "out.h5", stopped / "whole.h5")
+    refused = 0
+    for where in [*range(8, 4096, 131), *np.random.default_rng(2).integers(0, len(whole), 20)]:
+        (stopped / "state.h5").write_bytes(whole)
+        flip(stopped / "state.h5", where)
+        done = petsam(CASE, ON, check=None)
+        assert done.code in (0, 2, 3), (where, done)
+        refused += done.code != 0
+        if done.code == 0:
+            assert not differences(stopped / "out.h5", stopped / "whole.h5"), where
+    assert refused >= 20
+
+
+# ---------------------------------------------------------------- killed
+
+@pytest.mark.parametrize("ranks, kills", [(1, 12), (2, 4), (3, 3)])
+def test_run_that_is_killed_again_and_again_gets_to_the_same_end(launcher, folder, ranks, kills):
+    """More of them: tests/program/kill_at_random.py --kills 50"""
+    assert kill_at_random.torture(launcher, folder, kills, ranks, seed=ranks) >= 1
+
+
+# ---------------------------------------------------------------- no equilibrium
+
+BALL = dict(ball(32), output="out.h5")
+SLIDES = "time, load_tx\n1, 10\n2, 20\n3, 30\n4, 25\n5, 90\n"  # the limit is 48.6 N
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+@pytest.mark.parametrize("case", [BALL, dict(BALL, body2_young=9e9, grid_size=1.5e-3)], ids=["similar", "dissimilar"])
+def test_fields_of_the_last_solution_are_in_the_file(folder, petsam, case, ranks):
+    """When the run ends for want of equilibrium, at a step after fields that were not due."""
+    (folder / "history.csv").write_text(SLIDES)
+    case = dict(case, history="history.csv")
+    petsam(case, dict(output="all.h5"), ranks=ranks, check=11)
+    petsam(case, dict(output_every=3), ranks=ranks, check=11)
+    with h5py.File(folder / "out.h5", "r") as f:
+        assert list(f["time"]) == [3, 4] and list(f["history/time"]) == [1, 2, 3, 4, 5]
+    some, every = Results(folder / "out.h5"), Results(folder / "all.h5")
+    assert every.saved == 4
+    # displacements are computed anew from the same tractions
+    assert_same(some, every, 1e-14)
+    for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y"):
+        assert np.array_equal(getattr(some, name), getattr(every, name)), name
+
+
+def test_fields_of_the_last_solution_are_written_once(folder, petsam):
+    """Also when the step that has none is the first after a restart, once or twice."""
+    (folder / "history.csv").write_text(SLIDES)
+    case = dict(BALL, history="history.csv", output_every=3)
+    petsam(case, dict(checkpoint="state.h5", checkpoint_every=4), check=11)
+    whole = Results(shutil.copy(folder / "out.h5", folder / "whole.h5"))
+    for _ in range(2):
+        petsam(case, ON, check=11)
+        with h5py.File(folder / "out.h5", "r") as f:
+            assert list(f["time"]) == [3, 4] and list(f["history/time"]) == [1, 2, 3, 4, 5]
+        assert_same(Results(folder / "out.h5"), whole, 1e-14)
+
+
+def test_first_step_without_equilibrium_has_no_fields(folder, petsam):
+    petsam(BALL, dict(load_tx=90.0), check=11)
+    with h5py.File(folder / "out.h5", "r") as f:
+        assert len(f["time"]) == 0 and list(f["history/status"]) == [11]
