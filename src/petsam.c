@@ -7,6 +7,7 @@
 */
 #include "run/runimpl.h"
 #include <errno.h>
+#include <malloc.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -188,6 +189,18 @@ static PetscErrorCode RunProgram(SamRun *run, int argc, char **argv, PetscBool h
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Large fields come from the system and go back to it. SuperLU_DIST, which PETSc may link, turns that off for the whole
+  program when it is loaded; half of the memory would be holes then.
+*/
+static void ReturnLargeFields(void)
+{
+#if defined(__GLIBC__)
+  (void)mallopt(M_MMAP_MAX, 65536);
+  (void)mallopt(M_MMAP_THRESHOLD, 16 << 20); /* smaller ones come and go each step */
+#endif
+}
+
 int main(int argc, char **argv)
 {
   PetscBool      help = PETSC_FALSE, version = PETSC_FALSE;
@@ -196,6 +209,7 @@ int main(int argc, char **argv)
   SamRun         run;
   int            status;
 
+  ReturnLargeFields();
   TakeWords(&argc, argv, &help, &version);
   bad_file = TakeBadOptionsFiles(&argc, argv, message, sizeof(message));
   memset(&run, 0, sizeof(run));

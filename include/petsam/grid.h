@@ -35,9 +35,12 @@ PETSC_EXTERN PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse);
 
 /*
   SamGridCreateVec - a field with `components` values a cell. On each rank the local part holds one component after
-  the other, each as (rows, nx). Collective.
+  the other, each as (rows, nx). It is zero, and takes memory only as it is written to: a field that stays zero, as the
+  shear without friction, costs nothing. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
+/* SamVecZero - sets a field to zero without writing to what is. Collective. */
+PETSC_EXTERN PetscErrorCode SamVecZero(Vec field);
 
 /* Coordinates of the centre of column i and of row j (both global), m. */
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)

@@ -13,7 +13,7 @@ static PetscErrorCode ComputeDisplacements(SamCompliance C, PetscBool coupling, 
   if (!same_pressure) PetscCall(SamComplianceApplyNormal(C, f->pressure, f->displacement_z));
   PetscCall(VecNorm(f->shear, NORM_INFINITY, &shear));
   if (shear != 0) PetscCall(SamComplianceApplyTangential(C, f->shear, f->displacement_t));
-  else PetscCall(VecSet(f->displacement_t, 0));
+  else PetscCall(SamVecZero(f->displacement_t));
   PetscCall(SamComplianceIsCoupled(C, &coupled));
   if (!coupled || !coupling) PetscFunctionReturn(PETSC_SUCCESS);
   /* gap and slip are not yet in use: room for the two other products */
@@ -40,7 +40,7 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
   PetscCall(VecGetArrayRead(f->displacement_t, &ut));
   PetscCall(VecGetArrayRead(separation, &h));
   PetscCall(VecGetArrayWrite(f->gap, &gap));
-  PetscCall(VecGetArrayWrite(f->slip, &slip));
+  PetscCall(VecGetArray(f->slip, &slip));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const double eta = normal.eta0 + (double)j * normal.deta;
 
@@ -48,12 +48,14 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
       const PetscInt k = j * grid->nx + i, l = k + grid->cells;
       const double   xi = normal.xi0 + (double)i * normal.dxi;
 
-      gap[k]  = uz[k] + h[k] - SamFrameNormal(normal.fixed, xi, eta);
-      slip[k] = ut[k] - SamFrameX(tangential.fixed, eta);
-      slip[l] = ut[l] - SamFrameY(tangential.fixed, xi);
+      const double   sx = ut[k] - SamFrameX(tangential.fixed, eta), sy = ut[l] - SamFrameY(tangential.fixed, xi);
+
+      gap[k] = uz[k] + h[k] - SamFrameNormal(normal.fixed, xi, eta);
+      if (slip[k] != sx) slip[k] = sx; /* zero stays unwritten, and takes no memory */
+      if (slip[l] != sy) slip[l] = sy;
     }
   }
-  PetscCall(VecRestoreArrayWrite(f->slip, &slip));
+  PetscCall(VecRestoreArray(f->slip, &slip));
   PetscCall(VecRestoreArrayWrite(f->gap, &gap));
   PetscCall(VecRestoreArrayRead(separation, &h));
   PetscCall(VecRestoreArrayRead(f->displacement_t, &ut));

@@ -54,8 +54,8 @@ PetscErrorCode SamContactCreateDerived(SamContact c)
   PetscFunctionBegin;
   PetscCall(VecDuplicate(c->separation, &c->fields.gap));
   if (!c->fields.displacement_z) PetscCall(VecDuplicate(c->separation, &c->fields.displacement_z));
-  PetscCall(VecDuplicate(c->fields.shear, &c->fields.slip));
-  PetscCall(VecDuplicate(c->fields.shear, &c->fields.displacement_t));
+  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.slip));
+  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,6 +1,7 @@
 /* The grid and its slab distribution. */
 #include "../base/baseimpl.h"
 #include <petsam/grid.h>
+#include <stdlib.h>
 #include <math.h>
 
 PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2], SamGrid *grid)
@@ -91,11 +92,43 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode FreeArray(void *array)
+{
+  free(array);
+  return PETSC_SUCCESS;
+}
+
 PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
 {
+  const PetscInt n = components * grid->cells, all = components * grid->nx * grid->ny;
+  PetscContainer owner;
+  PetscScalar   *array;
+  PetscMPIInt    ranks;
+
   PetscFunctionBegin;
-  PetscCall(VecCreate(grid->comm, field));
-  PetscCall(VecSetSizes(*field, components * grid->cells, components * grid->nx * grid->ny));
-  PetscCall(VecSetType(*field, VECSTANDARD));
+  array = (PetscScalar *)calloc((size_t)PetscMax(n, 1), sizeof(*array)); /* large ones come untouched from the system */
+  PetscCheck(array, PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for a field of %" PetscInt_FMT " values", n);
+  PetscCallMPI(MPI_Comm_size(grid->comm, &ranks));
+  if (ranks > 1) PetscCall(VecCreateMPIWithArray(grid->comm, 1, n, all, array, field));
+  else PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, array, field));
+  PetscCall(PetscContainerCreate(PETSC_COMM_SELF, &owner));
+  PetscCall(PetscContainerSetPointer(owner, array));
+  PetscCall(PetscContainerSetUserDestroy(owner, FreeArray));
+  PetscCall(PetscObjectCompose((PetscObject)*field, "sam_array", (PetscObject)owner));
+  PetscCall(PetscContainerDestroy(&owner));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamVecZero(Vec v)
+{
+  double  *x;
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArray(v, &x));
+  for (PetscInt k = 0; k < n; k++)
+    if (x[k] != 0) x[k] = 0;
+  PetscCall(VecRestoreArray(v, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,9 +1,9 @@
 /* What a run needs, and whether a node has it. */
 #include "runimpl.h"
 
-/* Bytes a cell at the peak: 225 to 280 and 165 were measured at 1024 to 4096 cells; and the program with its libraries. */
-#define BYTES_PER_CELL             300
-#define BYTES_PER_CELL_NO_FRICTION 200
+/* Bytes a cell at the peak: 212 to 240 and 76 to 92 were measured at 4096 to 1024 cells; and the program with its libraries. */
+#define BYTES_PER_CELL             250
+#define BYTES_PER_CELL_NO_FRICTION 110
 #define BYTES_PROGRAM              50e6
 
 double SamRunMemory(SamGrid grid, PetscReal friction)

@@ -334,7 +334,7 @@ static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, Pet
   PetscCall(SamFrameSet(&level->frame, level->grid, balance));
   if (depth > 1 && !guess) PetscCall(SamComplianceGetCoarse(level->compliance, &coarse, &transfer));
   if (coarse) PetscCall(StartFromCoarse(t, level, coarse, transfer, depth - 1, balance));
-  else if (!level->finest) PetscCall(VecSet(level->q, 0));
+  else if (!level->finest) PetscCall(SamVecZero(level->q));
   if (coarse || !level->finest) { /* otherwise the start is what IsPossible() left */
     PetscCall(VecGetArrayRead(level->bound, &bound));
     PetscCall(VecGetArray(level->q, &q));
@@ -362,7 +362,7 @@ static PetscErrorCode SolveFree(SamTangential t, SamBalance *balance, Vec q)
   PetscBool loaded = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(q, 0));
+  PetscCall(SamVecZero(q));
   for (PetscInt k = 0; k < 3; k++) {
     if (balance->force[k] && balance->load[k] != 0) loaded = PETSC_TRUE;
     if (balance->force[k]) balance->rigid[k] = 0; /* not determined by anything */
@@ -382,7 +382,7 @@ static PetscErrorCode IsPossible(const SamTangentialLevel *level, const SamBalan
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&frame, level->grid, balance));
-  if (!guess) PetscCall(VecSet(level->q, 0));
+  if (!guess) PetscCall(SamVecZero(level->q));
   PetscCall(VecGetArrayRead(level->bound, &bound));
   PetscCall(VecGetArray(level->q, &q));
   PetscCall(SamFrameProjectTangential(&frame, bound, q, possible));
@@ -421,7 +421,7 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
     PetscCall(SolveLevel(t, level, SamSolverLevels(&t->solver), balance, guess));
     PetscCall(CheckLimit(t, level, balance));
   } else {
-    PetscCall(VecSet(level->q, 0));
+    PetscCall(SamVecZero(level->q));
     PetscCall(SamBalanceSlideLimit(level->grid, balance, level->bound, &t->limit, NULL));
     /* the limit says so independently, or the projection failed for another reason */
     t->reason = t->limit <= 1 + 1e-7 ? SAM_TANGENTIAL_DIVERGED_GROSS_SLIP : SAM_TANGENTIAL_DIVERGED_STAGNATED;
