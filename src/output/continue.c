@@ -8,6 +8,8 @@
 #include "hdf5impl.h"
 #include <string.h>
 
+#define STEP_BYTES 4096 /* more than the numbers of a step take, and its part of HDF5's indices */
+
 /* What is found in the file. */
 typedef struct {
   hsize_t   steps, saved; /* complete ones */
@@ -211,10 +213,15 @@ static PetscErrorCode CopyAll(SamOutput from, const SamParameters *parameters, h
   PetscFunctionBegin;
   PetscCall(SamOutputSetParameters(to, parameters));
   PetscCall(CopyOptions(from, to));
+  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to) + (off_t)steps * STEP_BYTES));
+  to->copying = PETSC_TRUE;
   PetscCall(CreateFields(from->f->grid, &fields));
   ierr = CopySteps(from, parameters, steps, keep, to, &fields);
   PetscCall(DestroyFields(&fields));
   PetscCall(ierr);
+  PetscCall(SamFileBegin(to->f));
+  (void)SamFileNote(to->f, H5Fflush(to->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(to->f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -301,7 +301,7 @@ static PetscErrorCode Append(SamOutput o, const SamStep *step, PetscReal time, c
 
   PetscFunctionBegin;
   PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename, o->f->reason);
-  PetscCall(SamFileReserve(o->f, fields ? SamOutputFieldBytes(o) : 0));
+  if (!o->copying) PetscCall(SamFileReserve(o->f, fields ? SamOutputFieldBytes(o) : 0));
   PetscCall(SamFileBegin(o->f));
   if (step) AppendHistory(o, step);
   if (fields) {
@@ -312,7 +312,7 @@ static PetscErrorCode Append(SamOutput o, const SamStep *step, PetscReal time, c
     SamOutputCountVTK(o, o->saved + 1);
     o->saved_time = time;
   }
-  PetscCall(Flush(o));
+  if (!o->copying) PetscCall(Flush(o));
   o->steps += step ? 1 : 0;
   o->saved += fields ? 1 : 0;
   ierr = SamFileEnd(o->f);

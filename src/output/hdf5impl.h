@@ -123,6 +123,7 @@ struct _n_SamOutput {
   hsize_t   steps, saved; /* load steps in the history, steps with fields */
   PetscReal saved_time;   /* of the last step with fields */
   PetscBool unchanged;    /* only looked at */
+  PetscBool copying;      /* all steps are reserved and brought to the disk together */
   PetscBool broken;       /* a step could not be written: no collective call on the file may follow */
 };
 
