@@ -109,6 +109,13 @@ def test_five_commands_lead_from_a_clone_to_a_plotted_loop(tree):
     assert (tree / "loop.png").stat().st_size > 10000
 
 
+def test_run_with_a_time_limit_goes_on_from_its_checkpoint(tree):
+    first, again = block("Checkpoints")
+    assert again.startswith(first) and first.endswith("-max_walltime 0:01") and again.endswith("-restart state.h5")
+    shell(first.replace(" -grid_n 256", " -grid_n 64").replace("0:01", "0.1"), tree, check=75)
+    shell(again.replace(" -grid_n 256", " -grid_n 64").replace("0:01", "1:00:00"), tree)
+
+
 def test_the_example_study_runs_to_its_figure(tree, tmp_path):
     """A part of its cases, on a coarse grid."""
     table = tree / "examples" / "study" / "study.yaml"
