@@ -22,7 +22,7 @@ typedef struct {
   double         lower[3][3];  /* rows of the components in the phi = lower * basis */
   double         target[3];    /* what sum phi traction must be along the basis: loads/(dx dy) in the basis */
   double         fixed[3];     /* given rigid displacement */
-  double         xi0, eta0;    /* of the cell (0, 0) of this rank */
+  double         xi0;          /* of the first column */
   double         dxi, deta;
 } SamFrame;
 
@@ -31,6 +31,12 @@ PETSC_INTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const Sam
 PETSC_INTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
 /* Loads of all three components from sum phi traction (not times the cell's area). */
 PETSC_INTERN void SamFrameGetLoads(const SamFrame *frame, const double sums[3], PetscReal loads[3]);
+
+/* eta of this rank's row j, the same to the last digit wherever the row is. */
+static inline double SamFrameEta(const SamFrame *f, PetscInt j)
+{
+  return ((double)(f->grid->row_start + j) + 0.5 - 0.5 * (double)f->grid->ny) * f->deta;
+}
 
 /* Normal rigid displacement and the two parts of the tangential one at (xi, eta). */
 static inline double SamFrameNormal(const double a[3], double xi, double eta)

@@ -42,7 +42,6 @@ PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
   f->dxi  = grid->dx / grid->length;
   f->deta = grid->dy / grid->length;
   f->xi0  = (0.5 - 0.5 * (double)grid->nx) * f->dxi;
-  f->eta0 = ((double)grid->row_start + 0.5 - 0.5 * (double)grid->ny) * f->deta;
   for (PetscInt k = 0; k < 3; k++) {
     double row[3];
 

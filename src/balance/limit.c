@@ -19,7 +19,7 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
   PetscCall(SamFrameSet(&f, grid, &none));
   PetscCall(VecGetArrayRead(traction, &t));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const double eta    = f.eta0 + (double)j * f.deta;
+    const double eta    = SamFrameEta(&f, j);
     double       row[3] = {0, 0, 0}; /* row by row, for less rounding */
 
     for (PetscInt i = 0; i < grid->nx; i++) {
@@ -79,7 +79,7 @@ static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], con
   PetscFunctionBegin;
   PetscCall(PetscMemzero(power, sizeof(*power)));
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = 0; i < f->grid->nx; i++) {
       const double xi = f->xi0 + (double)i * f->dxi, b = bound[j * f->grid->nx + i];

@@ -21,14 +21,17 @@ typedef struct {
   double value, sums[3], gram[SAM_GRAM], scale;
 } Dual;
 
-typedef void (*DualPass)(const SamFrame *f, const void *context, const double a[3], Dual *dual);
+#define DUAL ((PetscInt)(sizeof(Dual) / sizeof(double)))
+
+typedef void (*DualPass)(const SamFrame *f, const void *context, const double a[3], SamTotal dual[]);
 
 static PetscErrorCode Evaluate(const SamFrame *f, DualPass pass, const void *context, const double a[3], Dual *dual)
 {
+  SamTotal totals[sizeof(Dual) / sizeof(double)] = {{0, 0}};
+
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(dual, sizeof(*dual)));
-  pass(f, context, a, dual);
-  PetscCall(SamSum(f->grid->comm, (PetscInt)(sizeof(*dual) / sizeof(double)), (double *)dual));
+  pass(f, context, a, totals);
+  PetscCall(SamSumTotals(f->grid->comm, DUAL, totals, (double *)dual));
   /* subtract a.F and F along the free subspace */
   for (PetscInt k = 0; k < f->count; k++)
     for (PetscInt i = 0; i < 3; i++) dual->value -= a[i] * f->basis[k][i] * f->target[k];
@@ -51,18 +54,6 @@ static double Imbalance(const SamFrame *f, const Dual *dual, double error[3])
   }
   load = PetscMax(load, dual->scale);
   return load > 0 ? size / load : 0;
-}
-
-/*
-  The passes sum row by row: one running sum over all cells of nearly equal terms would be wrong by up to the number of
-  cells in units of rounding, which on large grids exceeds what equilibrium is asked for.
-*/
-static void AddDual(Dual *total, const Dual *row)
-{
-  double       *t = (double *)total;
-  const double *r = (const double *)row;
-
-  for (size_t k = 0; k < sizeof(Dual) / sizeof(double); k++) t[k] += r[k];
 }
 
 /* Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer improve it; `near`: it
@@ -128,13 +119,13 @@ static inline void AddNormal(Dual *d, double x, double xi, double eta)
   SamGramAddNormal(d->gram, xi, eta);
 }
 
-static void PassNormal(const SamFrame *f, const void *context, const double a[3], Dual *dual)
+static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
 {
   const Cells   *c  = (const Cells *)context;
   const PetscInt nx = f->grid->nx;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
     Dual         row = {0};
 
     for (PetscInt i = 0; i < nx; i++) {
@@ -145,7 +136,7 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
       x = c->field[j * nx + i] + SamFrameNormal(a, xi, eta);
       if (x > 0) AddNormal(&row, x, xi, eta);
     }
-    AddDual(dual, &row);
+    SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
 
@@ -154,7 +145,7 @@ static void ApplyNormal(const SamFrame *f, const char mask[], const double a[3],
   const PetscInt nx = f->grid->nx;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k = j * nx + i;
@@ -257,7 +248,7 @@ SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, cons
   SamGramTangentialRow(row->gram, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, eta);
 }
 
-static void PassTangential(const SamFrame *f, const void *context, const double a[3], Dual *dual)
+static void PassTangential(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
 {
   const Cells   *c  = (const Cells *)context;
   const PetscInt nx = f->grid->nx;
@@ -269,8 +260,8 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
 
     while (first < nx && b[first] <= 0) first++;
     while (last > first && b[last - 1] <= 0) last--;
-    for (PetscInt i = first; i < last; i += CHUNK) AddShears(PetscMin(CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, a, &row);
-    AddDual(dual, &row);
+    for (PetscInt i = first; i < last; i += CHUNK) AddShears(PetscMin(CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
+    SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
 
@@ -302,7 +293,7 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * nx;
 
-    ApplyShearRow(nx, q + k, q + ncells + k, bound + k, f->xi0, f->dxi, f->eta0 + (double)j * f->deta, a);
+    ApplyShearRow(nx, q + k, q + ncells + k, bound + k, f->xi0, f->dxi, SamFrameEta(f, j), a);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -5,7 +5,21 @@
 PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 PetscClassId  SAM_CLASSID;
 
-static PetscBool initialized = PETSC_FALSE;
+static PetscBool    initialized = PETSC_FALSE;
+static MPI_Datatype total_type  = MPI_DATATYPE_NULL;
+static MPI_Op       add_totals  = MPI_OP_NULL;
+
+static void MPIAPI AddTotals(void *in, void *inout, int *n, MPI_Datatype *type)
+{
+  const SamTotal *a = (const SamTotal *)in;
+  SamTotal       *b = (SamTotal *)inout;
+
+  (void)type;
+  for (int k = 0; k < *n; k++) {
+    SamAdd(&b[k], a[k].sum);
+    b[k].rest += a[k].rest;
+  }
+}
 
 PetscErrorCode SamInitialize(void)
 {
@@ -15,6 +29,9 @@ PetscErrorCode SamInitialize(void)
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(PETSC_SUCCESS);
   initialized = PETSC_TRUE;
+  PetscCallMPI(MPI_Type_contiguous(2, MPI_DOUBLE, &total_type));
+  PetscCallMPI(MPI_Type_commit(&total_type));
+  PetscCallMPI(MPI_Op_create(AddTotals, 1, &add_totals));
   fftw_mpi_init();
   fftwf_mpi_init();
   PetscCall(PetscClassIdRegister("petsam", &SAM_CLASSID));
@@ -27,6 +44,8 @@ PetscErrorCode SamFinalize(void)
   PetscFunctionBegin;
   if (!initialized) PetscFunctionReturn(PETSC_SUCCESS);
   initialized = PETSC_FALSE;
+  PetscCallMPI(MPI_Op_free(&add_totals));
+  PetscCallMPI(MPI_Type_free(&total_type));
   fftw_mpi_cleanup();
   fftwf_mpi_cleanup();
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -36,6 +55,17 @@ PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[])
 {
   PetscFunctionBegin;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)n, MPI_DOUBLE, MPI_SUM, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[])
+{
+  SamTotal all[SAM_TOTALS];
+
+  PetscFunctionBegin;
+  PetscCheck(n <= SAM_TOTALS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "At most %d totals", SAM_TOTALS);
+  PetscCallMPI(MPI_Allreduce(totals, all, (PetscMPIInt)n, total_type, add_totals, comm));
+  for (PetscInt k = 0; k < n; k++) sums[k] = all[k].sum + all[k].rest;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -53,6 +53,30 @@ PETSC_INTERN PetscClassId  SAM_CLASSID;
 PETSC_INTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_INTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
 
+/*
+  SamTotal - a sum kept in twice the digits of a double. Solvers add up a grid row by row, and a row is on one rank whole:
+  summed like this the result does not depend on which rows are where, and what follows from it is the same on any number
+  of ranks. Source: Knuth's exact addition; Hida, Li and Bailey 2001.
+*/
+typedef struct {
+  double sum, rest;
+} SamTotal;
+
+static inline void SamAdd(SamTotal *total, double value)
+{
+  const double sum = total->sum + value, part = sum - total->sum;
+
+  total->rest += (total->sum - (sum - part)) + (value - part);
+  total->sum = sum;
+}
+static inline void SamAddAll(PetscInt n, SamTotal totals[], const double values[])
+{
+  for (PetscInt k = 0; k < n; k++) SamAdd(&totals[k], values[k]);
+}
+#define SAM_TOTALS 16 /* most at a time */
+/* SamSumTotals - the totals over the ranks, as doubles. Collective. */
+PETSC_INTERN PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[]);
+
 /* The larger of the two; infinite when the second is not a number, which a plain comparison would pass over. */
 static inline double SamLarger(double most, double value)
 {

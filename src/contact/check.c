@@ -42,7 +42,7 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
   PetscCall(VecGetArrayWrite(f->gap, &gap));
   PetscCall(VecGetArray(f->slip, &slip));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const double eta = normal.eta0 + (double)j * normal.deta;
+    const double eta = SamFrameEta(&normal, j);
 
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt k = j * grid->nx + i, l = k + grid->cells;

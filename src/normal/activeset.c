@@ -119,7 +119,7 @@ static PetscErrorCode ComputeGap(Work *w)
   PetscCall(VecGetArray(w->vg, &w->g));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k    = (ptrdiff_t)j * w->nx;
-    const double    size = GapRow(w->nx, w->g + k, w->h + k, f->xi0, f->dxi, f->eta0 + (double)j * f->deta, w->motion);
+    const double    size = GapRow(w->nx, w->g + k, w->h + k, f->xi0, f->dxi, SamFrameEta(f, j), w->motion);
 
     max = SamLarger(max, size);
   }
@@ -132,15 +132,18 @@ static PetscErrorCode ComputeGram(Work *w)
 {
   const SamFrame *f = w->frame;
 
+  SamTotal totals[SAM_GRAM] = {{0, 0}};
+
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(w->gram, SAM_GRAM));
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta           = SamFrameEta(f, j);
+    double       row[SAM_GRAM] = {0};
 
     for (PetscInt i = 0; i < w->nx; i++)
-      if (w->active[j * w->nx + i]) SamGramAddNormal(w->gram, f->xi0 + (double)i * f->dxi, eta);
+      if (w->active[j * w->nx + i]) SamGramAddNormal(row, f->xi0 + (double)i * f->dxi, eta);
+    SamAddAll(SAM_GRAM, totals, row);
   }
-  PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, w->gram));
+  PetscCall(SamSumTotals(w->level->grid->comm, SAM_GRAM, totals, w->gram));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -195,35 +198,37 @@ SAM_VECTORIZED static void MoveRow(PetscInt n, double *restrict g, const double 
 /* Moves g by the rigid displacement that fits it best on A, and measures it. */
 static PetscErrorCode FitMotion(Work *w)
 {
-  const SamFrame *f       = w->frame;
-  double          sums[3] = {0, 0, 0}, a[3];
-  Measures        m       = {0};
+  const SamFrame *f         = w->frame;
+  SamTotal        totals[3] = {{0, 0}}, squares[3] = {{0, 0}};
+  double          sums[3], a[3], error = 0;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
+    const ptrdiff_t k      = (ptrdiff_t)j * w->nx;
+    double          row[3] = {0, 0, 0};
 
-    AddMoments(w->nx, w->g + k, w->active + k, f->xi0, f->dxi, f->eta0 + (double)j * f->deta, sums);
+    AddMoments(w->nx, w->g + k, w->active + k, f->xi0, f->dxi, SamFrameEta(f, j), row);
+    SamAddAll(3, totals, row);
   }
-  PetscCall(SamSum(w->level->grid->comm, 3, sums));
+  PetscCall(SamSumTotals(w->level->grid->comm, 3, totals, sums));
   SamFrameSolve(f, w->gram, sums, a);
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
     Measures        row = {0};
 
-    MoveRow(w->nx, w->g + k, w->p + k, w->active + k, w->self, f->xi0, f->dxi, f->eta0 + (double)j * f->deta, a, &row);
-    m.residual += row.residual;
-    m.pulling += row.pulling;
-    m.outside += row.outside;
-    m.error = SamLarger(m.error, row.error);
+    MoveRow(w->nx, w->g + k, w->p + k, w->active + k, w->self, f->xi0, f->dxi, SamFrameEta(f, j), a, &row);
+    SamAdd(&squares[0], row.residual);
+    SamAdd(&squares[1], row.pulling);
+    SamAdd(&squares[2], row.outside);
+    error = SamLarger(error, row.error);
   }
-  PetscCall(SamSum(w->level->grid->comm, 3, &m.residual));
-  PetscCall(SamMax(w->level->grid->comm, 1, &m.error));
-  w->residual  = m.residual;
-  w->pulling   = m.pulling;
-  w->violation = m.pulling + m.outside;
-  w->error     = m.error;
+  PetscCall(SamSumTotals(w->level->grid->comm, 3, squares, sums));
+  PetscCall(SamMax(w->level->grid->comm, 1, &error));
+  w->residual  = sums[0];
+  w->pulling   = sums[1];
+  w->violation = sums[1] + sums[2];
+  w->error     = error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -267,7 +272,8 @@ static PetscErrorCode NewDirection(Work *w, PetscBool first)
 {
   const SamFrame *f       = w->frame;
   const double    inverse = 1 / w->unit;
-  double          sums[4] = {0, 0, 0, 0}, a[3], beta;
+  SamTotal        totals[4] = {{0, 0}};
+  double          sums[4], a[3], beta;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -277,18 +283,20 @@ static PetscErrorCode NewDirection(Work *w, PetscBool first)
   }
   PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->s, w->s));
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
+    const ptrdiff_t k      = (ptrdiff_t)j * w->nx;
+    double          row[4] = {0, 0, 0, 0};
 
-    PreconditionedRow(w->nx, w->g + k, w->s + k, w->active + k, w->xi, inverse, f->eta0 + (double)j * f->deta, sums);
+    PreconditionedRow(w->nx, w->g + k, w->s + k, w->active + k, w->xi, inverse, SamFrameEta(f, j), row);
+    SamAddAll(4, totals, row);
   }
-  PetscCall(SamSum(w->level->grid->comm, 4, sums));
+  PetscCall(SamSumTotals(w->level->grid->comm, 4, totals, sums));
   SamFrameSolve(f, w->gram, sums, a);
   beta  = first ? 0 : sums[3] / w->rz;
   w->rz = sums[3];
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    DirectionRow(w->nx, w->s + k, w->active + k, w->xi, f->eta0 + (double)j * f->deta, a, (float)beta, w->d + k);
+    DirectionRow(w->nx, w->s + k, w->active + k, w->xi, SamFrameEta(f, j), a, (float)beta, w->d + k);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -314,12 +322,13 @@ SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict d, const fl
 /* p += alpha d, g += alpha S d with the exact step; `good` is false when there is no direction left. */
 static PetscErrorCode Step(Work *w, PetscBool *good)
 {
-  double curvature = 0, alpha;
+  SamTotal total = {0, 0};
+  double   curvature, alpha;
 
   PetscFunctionBegin;
   PetscCall(SamNormalApplySingle(w->normal, w->level, 1 / w->self, w->d, w->s));
-  for (PetscInt j = 0; j < w->rows; j++) curvature += CurvatureRow(w->nx, w->d + (ptrdiff_t)j * w->nx, w->s + (ptrdiff_t)j * w->nx);
-  PetscCall(SamSum(w->level->grid->comm, 1, &curvature));
+  for (PetscInt j = 0; j < w->rows; j++) SamAdd(&total, CurvatureRow(w->nx, w->d + (ptrdiff_t)j * w->nx, w->s + (ptrdiff_t)j * w->nx));
+  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &curvature));
   *good = (curvature > 0 && w->rz > 0) ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   alpha = w->rz / curvature;
@@ -380,7 +389,7 @@ static PetscErrorCode ComputeEnergy(const Work *w, double *energy)
   for (PetscInt c = 0; c < 3; c++) a[c] = w->motion[c] - 2 * f->fixed[c];
   *energy = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = 0; i < w->nx; i++) {
       const PetscInt k = j * w->nx + i;

@@ -234,7 +234,7 @@ static PetscErrorCode StartAsFoundation(SamNormalLevel *level, PetscBool *found)
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt k = j * grid->nx + i;
 
-      p[k] = stiffness * (SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, f->eta0 + (double)j * f->deta) - (h[k] - least));
+      p[k] = stiffness * (SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) - (h[k] - least));
     }
   PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscCall(VecRestoreArrayWrite(level->p, &p));
@@ -333,7 +333,7 @@ static PetscErrorCode Clearance(SamGrid grid, Vec h, const SamFrame *f, double *
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(h, &array));
   for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) overlap = PetscMax(overlap, SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, f->eta0 + (double)j * f->deta) - array[j * grid->nx + i]);
+    for (PetscInt i = 0; i < grid->nx; i++) overlap = PetscMax(overlap, SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) - array[j * grid->nx + i]);
   PetscCall(VecRestoreArrayRead(h, &array));
   PetscCall(SamMax(grid->comm, 1, &overlap));
   *clearance = -overlap;

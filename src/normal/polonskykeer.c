@@ -34,7 +34,7 @@ static PetscErrorCode ComputeGap(Work *w)
   PetscCall(VecGetArrayRead(w->level->h, &h));
   PetscCall(VecGetArray(w->g, &g));
   for (PetscInt j = 0; j < w->level->grid->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k  = j * nx + i;
@@ -54,7 +54,7 @@ static PetscErrorCode ComputeGap(Work *w)
   SamFrameSolve(f, gram, sums, a);
   w->norm = 0;
   for (PetscInt j = 0; j < w->level->grid->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k = j * nx + i;
@@ -99,7 +99,7 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
 
     /* S d less its rigid part, so that the step is the exact one among pressures in equilibrium */
     for (PetscInt k = 0; k < cells; k++) {
-      const double eta = f->eta0 + (double)(k / nx) * f->deta, xi = f->xi0 + (double)(k % nx) * f->dxi;
+      const double eta = SamFrameEta(f, k / nx), xi = f->xi0 + (double)(k % nx) * f->dxi;
 
       if (p[k] <= 0) continue;
       mean[0] += s[k];
@@ -111,7 +111,7 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
     PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, gram));
     SamFrameSolve(f, gram, mean, a);
     for (PetscInt k = 0; k < cells; k++) {
-      const double r = s[k] - SamFrameNormal(a, f->xi0 + (double)(k % nx) * f->dxi, f->eta0 + (double)(k / nx) * f->deta);
+      const double r = s[k] - SamFrameNormal(a, f->xi0 + (double)(k % nx) * f->dxi, SamFrameEta(f, k / nx));
 
       sums[0] += p[k] > 0 ? g[k] * d[k] : 0;
       sums[1] += p[k] > 0 ? r * d[k] : 0;

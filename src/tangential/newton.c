@@ -74,7 +74,7 @@ static Row GetRow(const Work *w, PetscInt j)
 {
   const SamStickSlip *u = &w->base;
 
-  return (Row){.first = (ptrdiff_t)j * u->nx + u->first[j], .count = u->last[j] - u->first[j], .cells = u->cells, .xi = w->xi + u->first[j], .xi0 = u->frame->xi0 + (double)u->first[j] * u->frame->dxi, .dxi = u->frame->dxi, .eta = u->frame->eta0 + (double)j * u->frame->deta};
+  return (Row){.first = (ptrdiff_t)j * u->nx + u->first[j], .count = u->last[j] - u->first[j], .cells = u->cells, .xi = w->xi + u->first[j], .xi0 = u->frame->xi0 + (double)u->first[j] * u->frame->dxi, .dxi = u->frame->dxi, .eta = SamFrameEta(u->frame, j)};
 }
 
 static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level, Work *w)
@@ -106,11 +106,13 @@ static PetscErrorCode DestroyWork(Work *w)
 
 /* Sums over the cells in the tangent space: the slip with the phi, the Gram matrix there, its parts as in SamGramTangentialRow. */
 typedef struct {
-  double changed, most, sums[3], gram[SAM_GRAM];
+  double changed, sums[3], gram[SAM_GRAM];
 } Space;
 
-/* Step 1 for a row, and the sums of the tangent space that it makes. */
-SAM_VECTORIZED static void RowClassify(const Work *w, Row row, Space *space)
+#define SPACE ((PetscInt)(sizeof(Space) / sizeof(double)))
+
+/* Step 1 for a row, and the sums of the tangent space that it makes; returns the largest slip there. */
+SAM_VECTORIZED static double RowClassify(const Work *w, Row row, Space *space)
 {
   const SamStickSlip *u       = &w->base;
   const double        inverse = 1 / u->self;
@@ -143,11 +145,11 @@ SAM_VECTORIZED static void RowClassify(const Work *w, Row row, Space *space)
     xi2_hyy += xi * xi * gyy;
   }
   space->changed += changed;
-  space->most = PetscMax(space->most, most);
   space->sums[0] += x;
   space->sums[1] += y;
   space->sums[2] += turn - row.eta * x;
   SamGramTangentialRow(space->gram, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, row.eta);
+  return most;
 }
 
 /* r = P(a - s), in units. */
@@ -172,16 +174,22 @@ SAM_VECTORIZED static void RowFirstResidual(const Work *w, Row row, double inver
 /* Step 1, the Gram matrix of the tangent space, the unit, the motion that fits best, and the first residual. */
 static PetscErrorCode Classify(Work *w)
 {
-  SamStickSlip *u     = &w->base;
-  Space         space = {0};
-  double        a[3], inverse;
+  SamStickSlip *u      = &w->base;
+  SamTotal      totals[sizeof(Space) / sizeof(double)] = {{0, 0}};
+  Space         space;
+  double        most   = 0, a[3], inverse;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) RowClassify(w, GetRow(w, j), &space);
-  PetscCall(SamMax(u->level->grid->comm, 1, &space.most));
-  w->unit       = space.most;
-  space.most    = 0;
-  PetscCall(SamSum(u->level->grid->comm, (PetscInt)(sizeof(space) / sizeof(double)), (double *)&space));
+  for (PetscInt j = 0; j < u->rows; j++) {
+    Space        row     = {0};
+    const double largest = RowClassify(w, GetRow(w, j), &row);
+
+    most = PetscMax(most, largest);
+    SamAddAll(SPACE, totals, (const double *)&row);
+  }
+  PetscCall(SamMax(u->level->grid->comm, 1, &most));
+  PetscCall(SamSumTotals(u->level->grid->comm, SPACE, totals, (double *)&space));
+  w->unit    = most;
   w->changed = (PetscInt)space.changed;
   PetscCall(PetscArraycpy(w->gram, space.gram, SAM_GRAM));
   SamFrameSolve(u->frame, w->gram, space.sums, a);
@@ -255,18 +263,19 @@ static PetscErrorCode ClearMargins(Work *w)
 /* Prepares the preconditioner's input, and measures the residual. */
 static PetscErrorCode Scale(Work *w, double *cut)
 {
-  SamStickSlip *u       = &w->base;
-  double        sums[2] = {0, 0};
+  SamStickSlip *u         = &w->base;
+  SamTotal      totals[2] = {{0, 0}};
+  double        sums[2];
 
   PetscFunctionBegin;
   PetscCall(ClearMargins(w));
   for (PetscInt j = 0; j < u->rows; j++) {
     const Row row = GetRow(w, j);
 
-    sums[0] += RowScale(w, row);
-    sums[1] += RowCut(w, row);
+    SamAdd(&totals[0], RowScale(w, row));
+    SamAdd(&totals[1], RowCut(w, row));
   }
-  PetscCall(SamSum(u->level->grid->comm, 2, sums));
+  PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
   w->residual = sums[0];
   *cut        = sums[1];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -318,13 +327,19 @@ SAM_VECTORIZED static void RowDirection(const Work *w, Row row, const double a[3
 /* d = P M r + beta d. */
 static PetscErrorCode NewDirection(Work *w, PetscBool first)
 {
-  SamStickSlip *u       = &w->base;
-  double        sums[4] = {0, 0, 0, 0}, a[3], beta;
+  SamStickSlip *u         = &w->base;
+  SamTotal      totals[4] = {{0, 0}};
+  double        sums[4], a[3], beta;
 
   PetscFunctionBegin;
   PetscCall(SamTangentialPreconditionSingle(u->solver, u->level, u->self, w->z, w->z));
-  for (PetscInt j = 0; j < u->rows; j++) RowPreconditioned(w, GetRow(w, j), sums);
-  PetscCall(SamSum(u->level->grid->comm, 4, sums));
+  for (PetscInt j = 0; j < u->rows; j++) {
+    double row[4] = {0, 0, 0, 0};
+
+    RowPreconditioned(w, GetRow(w, j), row);
+    SamAddAll(4, totals, row);
+  }
+  PetscCall(SamSumTotals(u->level->grid->comm, 4, totals, sums));
   SamFrameSolve(u->frame, w->gram, sums, a);
   beta  = first ? 0 : sums[3] / w->rz;
   w->rz = sums[3];
@@ -394,17 +409,23 @@ SAM_VECTORIZED static void RowBalance(const Work *w, Row row, const double a[3])
 static PetscErrorCode Step(Work *w, PetscBool *good)
 {
   SamStickSlip *u         = &w->base;
-  double        curvature = 0, alpha, sums[3] = {0, 0, 0}, a[3];
+  SamTotal      total = {0, 0}, totals[3] = {{0, 0}};
+  double        curvature, alpha, sums[3], a[3];
 
   PetscFunctionBegin;
   PetscCall(SamTangentialApplySingle(u->solver, u->level, 1 / u->self, w->d, w->z));
-  for (PetscInt j = 0; j < u->rows; j++) curvature += RowCurvature(w, GetRow(w, j));
-  PetscCall(SamSum(u->level->grid->comm, 1, &curvature));
+  for (PetscInt j = 0; j < u->rows; j++) SamAdd(&total, RowCurvature(w, GetRow(w, j)));
+  PetscCall(SamSumTotals(u->level->grid->comm, 1, &total, &curvature));
   *good = (curvature > 0 && w->rz > 0) ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   alpha = w->rz / curvature;
-  for (PetscInt j = 0; j < u->rows; j++) RowStep(w, GetRow(w, j), (float)alpha, sums);
-  PetscCall(SamSum(u->level->grid->comm, 3, sums));
+  for (PetscInt j = 0; j < u->rows; j++) {
+    double row[3] = {0, 0, 0};
+
+    RowStep(w, GetRow(w, j), (float)alpha, row);
+    SamAddAll(3, totals, row);
+  }
+  PetscCall(SamSumTotals(u->level->grid->comm, 3, totals, sums));
   SamFrameSolve(u->frame, w->gram, sums, a);
   for (PetscInt j = 0; j < u->rows; j++) RowBalance(w, GetRow(w, j), a);
   for (PetscInt c = 0; c < 3; c++) w->shift[c] -= a[c];
@@ -497,8 +518,9 @@ SAM_VECTORIZED static double RowUpdateSlip(const Work *w, Row row)
 /* s and the motion after the step from `old` to q; how much the rounding may be. */
 static PetscErrorCode UpdateSlip(Work *w)
 {
-  SamStickSlip *u    = &w->base;
-  double        norm = 0;
+  SamStickSlip *u     = &w->base;
+  SamTotal      total = {0, 0};
+  double        norm;
 
   PetscFunctionBegin;
   if (w->unit == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -506,9 +528,9 @@ static PetscErrorCode UpdateSlip(Work *w)
   for (PetscInt j = 0; j < u->rows; j++) RowChange(w, GetRow(w, j));
   PetscCall(SamTangentialApplySingle(u->solver, u->level, 1 / u->self, w->z, w->z));
   for (PetscInt c = 0; c < 3; c++) w->shift[c] *= w->unit;
-  for (PetscInt j = 0; j < u->rows; j++) norm += RowUpdateSlip(w, GetRow(w, j));
+  for (PetscInt j = 0; j < u->rows; j++) SamAdd(&total, RowUpdateSlip(w, GetRow(w, j)));
   for (PetscInt c = 0; c < 3; c++) u->motion[c] += w->shift[c];
-  PetscCall(SamSum(u->level->grid->comm, 1, &norm));
+  PetscCall(SamSumTotals(u->level->grid->comm, 1, &total, &norm));
   w->doubt += SINGLE_ROUNDING * sqrt(norm) * w->unit / u->self;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -66,7 +66,7 @@ PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
   PetscCall(VecGetArray(w->level->q, &w->q));
   PetscCall(VecGetArray(w->vs, &w->s));
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
@@ -87,7 +87,7 @@ PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy)
   for (PetscInt c = 0; c < 3; c++) a[c] = w->motion[c] - 2 * f->fixed[c];
   *energy = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = f->eta0 + (double)j * f->deta;
+    const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
@@ -168,7 +168,8 @@ SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *
 static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
 {
   const SamFrame *f                  = w->frame;
-  double          sums[3 + SAM_GRAM] = {0}, a[3];
+  SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
+  double          sums[3 + SAM_GRAM], a[3];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -177,17 +178,17 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
     for (PetscInt i = w->first[j]; i < w->last[j]; i += CHUNK) {
       const ptrdiff_t k = (ptrdiff_t)j * w->nx + i, l = k + w->cells;
 
-      FitCells(PetscMin(CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + i * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, row);
+      FitCells(PetscMin(CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
     }
-    for (PetscInt c = 0; c < 3 + SAM_GRAM; c++) sums[c] += row[c];
+    SamAddAll(3 + SAM_GRAM, totals, row);
   }
-  PetscCall(SamSum(w->level->grid->comm, 3 + SAM_GRAM, sums));
+  PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
   SamFrameSolve(f, sums + 3, sums, a);
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
 
-    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, f->eta0 + (double)j * f->deta, a);
+    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, SamFrameEta(f, j), a);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -231,16 +232,19 @@ SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, con
 
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
-  double sums[4] = {0, 0, 0, 0};
+  SamTotal totals[4] = {{0, 0}};
+  double   sums[4];
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
+    double          row[4] = {0, 0, 0, 0};
 
-    MeasureRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, sums);
+    MeasureRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, row);
+    SamAddAll(4, totals, row);
   }
-  PetscCall(SamSum(w->level->grid->comm, 4, sums));
+  PetscCall(SamSumTotals(w->level->grid->comm, 4, totals, sums));
   w->scale = sqrt(PetscMax(sums[3], PetscMax(sums[1], sums[2])));
   w->error = sums[0] != 0 ? sqrt(sums[0]) / w->scale : 0;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -78,13 +78,12 @@ def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
 
 @pytest.mark.parametrize("before, after", [(1, 2), (2, 3), (3, 1), (1, 5)])
 def test_run_goes_on_with_other_ranks(folder, petsam, before, after):
-    """At tolerances below what is asked: ranks change rounding, and with it the solvers' path, with or without a restart."""
-    sharp = dict(normal_rtol=1e-11, tangential_rtol=1e-10)
-    petsam(CASE, sharp, KEPT, ranks=before)
+    """To the last bit, since what the solvers sum does not depend on which rank has which rows."""
+    petsam(CASE, KEPT, ranks=before)
     whole = Results(shutil.copy(folder / "out.h5", folder / "whole.h5"))
-    petsam(CASE, sharp, dict(restart="state.h5.1"), ranks=after)
+    petsam(CASE, dict(restart="state.h5.1"), ranks=after)
     assert steps(folder / "out.h5") == STEPS
-    assert_same(Results(folder / "out.h5"), whole, 1e-10)
+    assert_same(Results(folder / "out.h5"), whole, 0)
 
 
 def test_longer_history_goes_on(folder, petsam):
