@@ -131,7 +131,7 @@ static PetscErrorCode PrintResources(SamReport r)
   numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec + 1e-6 * (double)used.ru_stime.tv_usec;
   numbers[2] = 1e-6 * LargestMemory();
   PetscCall(SamMax(r->comm, 3, numbers));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %.2f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used", numbers[0], numbers[1], numbers[2]));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %.3f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used", numbers[0], numbers[1], numbers[2]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

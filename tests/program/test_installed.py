@@ -31,6 +31,7 @@ def tree(tmp_path):
     tree = tmp_path / "petsam"
     for name in ("scripts", "examples"):
         shutil.copytree(ROOT / name, tree / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "Makefile", tree)  # by which the examples know the sources
     (tree / "build" / "bin").mkdir(parents=True)
     (tree / "build" / "bin" / "petsam").symlink_to(PROGRAM)
     python = tree / "build" / "venv" / "bin" / "python"

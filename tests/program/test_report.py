@@ -157,8 +157,8 @@ def test_quiet_leaves_warnings_and_errors(petsam, ranks):
 
 # ---- progress
 
-# a second at least: the slow method on a fine grid
-LONG = dict(ball(600), normal_type="polonskykeer", normal_levels=1, load_tx=20.0)
+# several seconds: the slow method on a fine grid
+LONG = dict(ball(1200), normal_type="polonskykeer", normal_levels=1, load_tx=20.0)
 
 
 def on_terminal(words, folder):
