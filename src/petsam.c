@@ -80,6 +80,19 @@ static void TakeWords(int *argc, char **argv, PetscBool *help, PetscBool *versio
   argv[kept] = NULL;
 }
 
+/* Whether a line holds more than an option and its value, which PETSc ends the program for; quotes are left to it. */
+static int HasMoreWords(const char text[])
+{
+  int words = 0;
+
+  if (strpbrk(text, "\"'")) return 0;
+  for (text += strspn(text, " \t\r\n"); *text && !strchr("#!%", *text); text += strspn(text, " \t\r\n")) {
+    words++;
+    text += strcspn(text, " \t\r\n");
+  }
+  return words > 2;
+}
+
 /* What is wrong with an options file, before PETSc stumbles over it: a code of the two errors, or 0. */
 static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size_t size)
 {
@@ -102,6 +115,9 @@ static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size
     number += begins;
     if (begins && *text && !strchr("#!%", *text) && !IsOption(text) && strncmp(text, "alias ", 6)) {
       snprintf(message, size, "-options_file %s, line %d: expected an option, that is a word that begins with a dash", name, number);
+      code = SAM_ERR_USER;
+    } else if (begins && IsOption(text) && HasMoreWords(text)) {
+      snprintf(message, size, "-options_file %s, line %d: expected one option and its value a line", name, number);
       code = SAM_ERR_USER;
     }
     begins = strchr(line, '\n') != NULL;

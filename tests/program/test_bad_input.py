@@ -110,6 +110,7 @@ CASES = [
     case("options file is HDF5", {}, "-options_file", "good.h5", says="good.h5"),
     case("options file without dashes", {}, "-options_file", "text.h5", says="text.h5"),
     case("options file without a name", {}, "-options_file"),
+    case("options file with two options a line", {}, "-options_file", "crowded.opts", says="crowded.opts, line 2"),
     # solvers
     case("normal type unknown", dict(normal_type="foo"), says=["-normal_type", "foo", "activeset"]),
     case("tangential type unknown", dict(tangential_type="foo"), says=["-tangential_type", "foo", "newton"]),
@@ -128,6 +129,7 @@ def folder(tmp_path):
     """Files to stumble over, and results of an earlier run."""
     (tmp_path / "results.h5").write_bytes(b"results of an earlier run")
     (tmp_path / "text.h5").write_text("height 1 2 3\n")
+    (tmp_path / "crowded.opts").write_text("-load_tx 1  # newtons\n-grid_n 64 -load_ty 2\n")
     (tmp_path / "empty.h5").write_bytes(b"")
     (tmp_path / "folder").mkdir()
     bowl = np.add.outer((np.arange(8) - 3.5)**2, (np.arange(8) - 3.5)**2) * 1e-8
