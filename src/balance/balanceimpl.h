@@ -77,6 +77,13 @@ static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, doubl
   gram[5] += eta * eta * hxx - 2 * xi * eta * hxy + xi * xi * hyy;
 }
 
+/*
+  Adds a cell to the sums of a vectorised row, which are variables of these names: a projected vector (px, py) with the phi,
+  and the parts of the weighted Gram matrix for SamGramTangentialRow().
+*/
+#define SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi) \
+  x += (px), y += (py), turn += (xi) * (py), hxx += (gxx), hxy += (gxy), hyy += (gyy), xi_hxy += (xi) * (gxy), xi_hyy += (xi) * (gyy), xi2_hyy += (xi) * (xi) * (gyy)
+
 /* The same for the cells of a row, from their sums of hxx, hxy, hyy, xi hxy, xi hyy and xi^2 hyy. */
 static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi_hxy, double xi_hyy, double xi2_hyy, double eta)
 {

@@ -229,15 +229,7 @@ SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, cons
 
       value += n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2;
       scale += fabs(px) + fabs(py);
-      x += px;
-      y += py;
-      turn += xi * py;
-      hxx += gxx;
-      hxy += gxy;
-      hyy += gyy;
-      xi_hxy += xi * gxy;
-      xi_hyy += xi * gyy;
-      xi2_hyy += xi * xi * gyy;
+      SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
     }
   } else hyy = hxx;
   row->value += value;

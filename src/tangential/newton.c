@@ -134,15 +134,7 @@ SAM_VECTORIZED static double RowClassify(const Work *w, Row row, Space *space)
     ny[i]     = (float)vy;
     weight[i] = (float)(slips > 0 ? 1 / sqrt(1 - inverse * power * scale * scale) : in);
     most = largest > most ? largest : most;
-    x += px;
-    y += py;
-    turn += xi * py;
-    hxx += gxx;
-    hxy += gxy;
-    hyy += gyy;
-    xi_hxy += xi * gxy;
-    xi_hyy += xi * gyy;
-    xi2_hyy += xi * xi * gyy;
+    SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
   }
   space->changed += changed;
   space->sums[0] += x;

@@ -135,15 +135,7 @@ SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const
       const double gxx = s - g * yx * yx, gxy = -g * yx * yy, gyy = s - g * yy * yy;
       const double px = gxx * tx[i] + gxy * ty[i], py = gxy * tx[i] + gyy * ty[i];
 
-      x += px;
-      y += py;
-      turn += xi * py;
-      hxx += gxx;
-      hxy += gxy;
-      hyy += gyy;
-      xi_hxy += xi * gxy;
-      xi_hyy += xi * gyy;
-      xi2_hyy += xi * xi * gyy;
+      SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
     }
   }
   sums[0] += x;
