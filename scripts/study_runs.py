@@ -141,7 +141,7 @@ class Run:
     def tell(self):
         """Ask for a checkpoint and an early end; it does not get to go on for long."""
         self.told = time.monotonic()
-        self.signal(signal.SIGUSR2)
+        self.signal(signal.SIGUSR1)
 
     def signal(self, number):
         """Send a signal to the launcher, which passes it on."""

@@ -23,8 +23,8 @@ PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact 
 PETSC_EXTERN PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 
 /*
-  SamCheckpoints - when a run writes checkpoints, and when it stops: every so many steps, on the signals USR1 (write, go on) and
-  USR2 (write, stop) to any rank, and before a time limit.
+  SamCheckpoints - when a run writes checkpoints, and when it stops: every so many steps, on the signals USR2 (write, go on) and
+  USR1 (write, stop) to any rank, and before a time limit.
 */
 typedef struct _n_SamCheckpoints *SamCheckpoints;
 

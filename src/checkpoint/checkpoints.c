@@ -27,7 +27,7 @@ static volatile sig_atomic_t wanted[2] = {0, 0}; /* to write; to write and stop 
 
 static void Note(int number)
 {
-  wanted[number == SIGUSR2] = 1;
+  wanted[number == SIGUSR1] = 1;
 }
 
 static void CatchSignals(void)

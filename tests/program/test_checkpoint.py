@@ -194,10 +194,10 @@ def send(run, ranks, number, rank=-1):
 
 
 @pytest.mark.parametrize("ranks", [1, 2, 3])
-def test_USR1_writes_a_checkpoint_and_the_run_goes_on(launcher, folder, petsam, ranks):
+def test_USR2_writes_a_checkpoint_and_the_run_goes_on(launcher, folder, petsam, ranks):
     run = start(launcher, folder, [CASE, dict(checkpoint="state.h5", output="whole.h5")], ranks)
     wait_for(run, 2)
-    send(run, ranks, signal.SIGUSR1)
+    send(run, ranks, signal.SIGUSR2)
     out, err = run.communicate(timeout=60)
     assert run.returncode == 0 and steps(folder / "whole.h5") == STEPS, err
     last = progress(folder / "state.h5")
@@ -212,16 +212,16 @@ def stop_by_signal(launcher, folder, ranks):
     run = start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
     wait_for(run, 2)
     if ranks == 2:
-        run.send_signal(signal.SIGUSR2)  # to the launcher, which passes it on
+        run.send_signal(signal.SIGUSR1)  # to the launcher, which passes it on
     else:
-        send(run, ranks, signal.SIGUSR2)
+        send(run, ranks, signal.SIGUSR1)
     _, err = run.communicate(timeout=60)
     assert run.returncode == 75, err
     return err
 
 
 @pytest.mark.parametrize("ranks", [1, 2, 3])
-def test_USR2_writes_a_checkpoint_and_stops(launcher, folder, petsam, ranks):
+def test_USR1_writes_a_checkpoint_and_stops(launcher, folder, petsam, ranks):
     err = stop_by_signal(launcher, folder, ranks)
     last = progress(folder / "state.h5")
     assert 2 <= last < STEPS and steps(folder / "out.h5") == last and is_closed(folder / "out.h5")
@@ -234,7 +234,7 @@ def test_USR2_writes_a_checkpoint_and_stops(launcher, folder, petsam, ranks):
 def test_signal_without_a_checkpoint_is_a_warning(launcher, folder):
     run = start(launcher, folder, [CASE], 1)
     wait_for(run, 2)
-    send(run, 1, signal.SIGUSR2)
+    send(run, 1, signal.SIGUSR1)
     _, err = run.communicate(timeout=60)
     assert run.returncode == 0 and "warning" in err and "-checkpoint" in err and steps(folder / "out.h5") == STEPS
 

@@ -54,7 +54,7 @@ def run(study):
 def fake(tmp_path):
     """Variables of an mpirun and a petsam that take no time: `ranks case-folder arguments` of each run go to runs.txt.
 
-    -wait SECONDS waits, -code N ends with N; -stoppable ends with 75 and a checkpoint on USR2.
+    -wait SECONDS waits, -code N ends with N; -stoppable ends with 75 and a checkpoint on USR1.
     """
     mpirun = executable(tmp_path / "bin" / "mpirun", '#!/bin/sh\n[ "$1" = -n ] || exit 0\n'
                         'RANKS=$2; export RANKS; shift 2; exec "$@"\n')
@@ -66,7 +66,7 @@ trap 'exit 143' TERM
 stop() { echo state >checkpoint.h5; exit 75; }
 while [ $# -gt 0 ]; do
     case $1 in
-    -stoppable) trap stop USR2 ;;
+    -stoppable) trap stop USR1 ;;
     -wait) wait=$2 ;;
     -code) code=$2 ;;
     esac
@@ -381,7 +381,7 @@ def test_without_sbatch_slurm_is_refused(run, tmp_path, fake):
 LARGE = r'''#!/bin/bash
 echo "$*" >>{0}/runs.txt
 while [ $# -gt 0 ]; do [ "$1" != -checkpoint ] || file=$2; shift; done
-trap 'echo "$$ $RANDOM" >"$file"; exit 75' USR2
+trap 'echo "$$ $RANDOM" >"$file"; exit 75' USR1
 : >{0}/started.txt
 {1}
 '''
