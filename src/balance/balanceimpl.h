@@ -52,6 +52,20 @@ static inline double SamFrameY(const double a[3], double xi)
   return a[1] + a[2] * xi;
 }
 
+/* The cells first ... last - 1 of a row of n between which there is a bound: loops run over these only. */
+static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *first, PetscInt *last)
+{
+  PetscInt i = 0, j = n;
+
+  while (i < n && bound[i] <= 0) i++;
+  while (j > i && bound[j - 1] <= 0) j--;
+  *first = i;
+  *last  = j;
+}
+
+/* Cells of a row looked at together: where all of them are within their discs, roots and divisions are spared. */
+#define SAM_CHUNK 64
+
 /* Gram matrices sum phi phi' are kept as their six upper entries 00, 01, 02, 11, 12, 22. */
 #define SAM_GRAM 6
 

@@ -194,10 +194,7 @@ PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Cells looked at together: where all of them are within their discs, roots and divisions are spared. */
-#define CHUNK 64
-
-/* Part of a row of shears, n <= CHUNK: v = field + phi a, projected on its disc, x = D(v), and the derivative h of D. */
+/* Part of a row of shears, n <= SAM_CHUNK: v = field + phi a, projected on its disc, x = D(v), and the derivative h of D. */
 SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict bound, double xi0, double dxi, double eta, const double a[3], Dual *row)
 {
   const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
@@ -247,12 +244,11 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const double *qx = c->field + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells, *b = c->bound + (ptrdiff_t)j * nx;
-    PetscInt      first = 0, last = nx;
+    PetscInt      first, last;
     Dual          row = {0};
 
-    while (first < nx && b[first] <= 0) first++;
-    while (last > first && b[last - 1] <= 0) last--;
-    for (PetscInt i = first; i < last; i += CHUNK) AddShears(PetscMin(CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
+    SamBoundRange(nx, b, &first, &last);
+    for (PetscInt i = first; i < last; i += SAM_CHUNK) AddShears(PetscMin(SAM_CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
     SamAddAll(DUAL, dual, (const double *)&row);
   }
 }

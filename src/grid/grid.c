@@ -1,6 +1,5 @@
 /* The grid and its slab distribution. */
-#include "../base/baseimpl.h"
-#include <petsam/grid.h>
+#include "gridimpl.h"
 #include <stdlib.h>
 #include <math.h>
 
@@ -130,5 +129,17 @@ PetscErrorCode SamVecZero(Vec v)
   for (PetscInt k = 0; k < n; k++)
     if (x[k] != 0) x[k] = 0;
   PetscCall(VecRestoreArray(v, &x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[], PetscInt *components)
+{
+  PetscInt n, m;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(field, &n));
+  PetscCall(VecGetSize(other_field, &m));
+  *components = n / (grid->nx * grid->ny);
+  PetscCheck(m == *components * other->nx * other->ny, grid->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to %s", words);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

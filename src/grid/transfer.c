@@ -5,8 +5,7 @@
   integral of the field is kept. Prolongation is linear interpolation between cell centres. Both are separable: x is
   done where the data lie, y after the rows that a rank needs have been fetched (a VecScatter of contiguous rows).
 */
-#include "../base/baseimpl.h"
-#include <petsam/grid.h>
+#include "gridimpl.h"
 #include <math.h>
 
 struct _n_SamTransfer {
@@ -172,18 +171,6 @@ static void AverageRows(SamTransfer t, const double averaged[], double coarse[])
   }
 }
 
-static PetscErrorCode GetComponents(SamTransfer t, Vec fine, Vec coarse, PetscInt *components)
-{
-  PetscInt m, M;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetSize(fine, &m));
-  PetscCall(VecGetSize(coarse, &M));
-  *components = m / (t->fine->nx * t->fine->ny);
-  PetscCheck(M == *components * t->coarse->nx * t->coarse->ny, t->fine->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to the two grids of this transfer");
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
 {
   PetscInt      components;
@@ -192,7 +179,7 @@ PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
   double       *a, *c;
 
   PetscFunctionBegin;
-  PetscCall(GetComponents(t, fine, coarse, &components));
+  PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "the two grids of this transfer", &components));
   PetscCall(VecCreateMPI(t->fine->comm, t->fine->rows * t->coarse->nx, t->fine->ny * t->coarse->nx, &averaged));
   PetscCall(VecGetArrayRead(fine, &f));
   PetscCall(VecGetArrayWrite(coarse, &c));
@@ -241,7 +228,7 @@ PetscErrorCode SamTransferProlong(SamTransfer t, Vec coarse, Vec fine)
   double       *f;
 
   PetscFunctionBegin;
-  PetscCall(GetComponents(t, fine, coarse, &components));
+  PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "the two grids of this transfer", &components));
   PetscCall(VecCreateMPIWithArray(t->fine->comm, 1, t->coarse->cells, t->coarse->nx * t->coarse->ny, NULL, &component));
   PetscCall(VecGetArrayRead(coarse, &c));
   PetscCall(VecGetArrayWrite(fine, &f));

@@ -4,8 +4,7 @@
   Both grids have their rows in slabs, so what one rank owes another are whole rows of the window: an exchange of all
   with all, in which each rank counts what is whose.
 */
-#include "../base/baseimpl.h"
-#include <petsam/grid.h>
+#include "gridimpl.h"
 #include <string.h>
 
 struct _n_SamWindow {
@@ -126,18 +125,6 @@ static void Unpack(SamWindow w, const double packed[], double whole[])
   for (PetscInt j = begin; j < end; j++) memcpy(whole + (j - w->grid->row_start) * w->grid->nx + w->first[0], packed + (j - begin) * w->part->nx, sizeof(double) * (size_t)w->part->nx);
 }
 
-static PetscErrorCode GetComponents(SamWindow w, Vec whole, Vec part, PetscInt *components)
-{
-  PetscInt m, M;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetSize(part, &m));
-  PetscCall(VecGetSize(whole, &M));
-  *components = M / (w->grid->nx * w->grid->ny);
-  PetscCheck(m == *components * w->part->nx * w->part->ny, w->grid->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to this window");
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
 {
   PetscInt      components;
@@ -145,7 +132,7 @@ PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
   double       *to, *packed;
 
   PetscFunctionBegin;
-  PetscCall(GetComponents(w, whole, part, &components));
+  PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
   PetscCall(PetscMalloc1((size_t)PetscMin(w->grid->rows, w->part->ny) * (size_t)w->part->nx, &packed));
   PetscCall(VecGetArrayRead(whole, &from));
   PetscCall(VecGetArrayWrite(part, &to));
@@ -166,7 +153,7 @@ PetscErrorCode SamWindowPut(SamWindow w, Vec part, Vec whole)
   double       *to, *packed;
 
   PetscFunctionBegin;
-  PetscCall(GetComponents(w, whole, part, &components));
+  PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
   PetscCall(PetscMalloc1((size_t)PetscMin(w->grid->rows, w->part->ny) * (size_t)w->part->nx, &packed));
   PetscCall(VecGetArrayRead(part, &from));
   PetscCall(VecGetArrayWrite(whole, &to));

@@ -48,7 +48,6 @@
 /* Floats are in units of the step's first residual: slip in unit, shear in unit/c. */
 typedef struct {
   SamStickSlip base;
-  Vec          vold;
   double      *old;            /* q at the start of the step */
   float       *normal;         /* q/|q| where a cell slips, 0 where it sticks */
   float       *weight;         /* w; 0 outside the contact */
@@ -59,7 +58,7 @@ typedef struct {
   double       gram[SAM_GRAM]; /* of the tangent space */
   double       shift[3];       /* change of the motion in this step, in units */
   double       residual, rz;
-  double       doubt;          /* rounding in s since the last product in double precision, as part of the error */
+  double       doubt;          /* norm of what rounding may be in s/c since the last product in double precision, Pa */
   PetscInt     changed;        /* cells that began or ceased to slip */
 } Work;
 
@@ -85,10 +84,8 @@ static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level
   PetscFunctionBegin;
   PetscCall(SamStickSlipCreate(solver, level, &w->base));
   n = 2 * w->base.cells;
-  PetscCall(VecDuplicate(level->q, &w->vold));
-  PetscCall(VecGetArray(w->vold, &w->old));
   PetscCall(PetscCalloc6(n, &w->normal, n / 2, &w->weight, n, &w->r, n, &w->d, n, &w->z, n, &w->delta));
-  PetscCall(PetscMalloc1(w->base.nx, &w->xi));
+  PetscCall(PetscMalloc2(n, &w->old, w->base.nx, &w->xi));
   for (PetscInt i = 0; i < w->base.nx; i++) w->xi[i] = (float)(f->xi0 + (double)i * f->dxi);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -96,15 +93,13 @@ static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level
 static PetscErrorCode DestroyWork(Work *w)
 {
   PetscFunctionBegin;
-  PetscCall(VecRestoreArray(w->vold, &w->old));
-  PetscCall(VecDestroy(&w->vold));
   PetscCall(PetscFree6(w->normal, w->weight, w->r, w->d, w->z, w->delta));
-  PetscCall(PetscFree(w->xi));
+  PetscCall(PetscFree2(w->old, w->xi));
   PetscCall(SamStickSlipDestroy(&w->base));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sums over the cells in the tangent space: the slip with the phi, the Gram matrix there, its parts as in SamGramTangentialRow. */
+/* Sums over cells: those that began or ceased to slip; in the tangent space the slip with the phi, and the Gram matrix. */
 typedef struct {
   double changed, sums[3], gram[SAM_GRAM];
 } Space;

@@ -2,21 +2,14 @@
 #include "tangentialimpl.h"
 #include <math.h>
 
-/* The columns between which each row has contact: loops run over these only. */
+/* The columns between which each row has contact. */
 static PetscErrorCode FindRows(SamStickSlip *w)
 {
   PetscInt *first, *last;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(w->rows, &first, w->rows, &last));
-  for (PetscInt j = 0; j < w->rows; j++) {
-    const double *b = w->bound + j * w->nx;
-
-    first[j] = 0;
-    last[j]  = w->nx;
-    while (first[j] < w->nx && b[first[j]] <= 0) first[j]++;
-    while (last[j] > first[j] && b[last[j] - 1] <= 0) last[j]--;
-  }
+  for (PetscInt j = 0; j < w->rows; j++) SamBoundRange(w->nx, w->bound + (ptrdiff_t)j * w->nx, &first[j], &last[j]);
   w->first = first;
   w->last  = last;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -100,11 +93,8 @@ PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Cells looked at together: where all of them stick, roots and divisions are spared. */
-#define CHUNK 64
-
 /*
-  Part of a row, n <= CHUNK: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the
+  Part of a row, n <= SAM_CHUNK: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the
   derivative of the projection of y = q - s/c on the disc, or, with `stick`, the identity.
 */
 SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, PetscBool stick, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
@@ -167,10 +157,10 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
   for (PetscInt j = 0; j < w->rows; j++) {
     double row[3 + SAM_GRAM] = {0};
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i += CHUNK) {
+    for (PetscInt i = w->first[j]; i < w->last[j]; i += SAM_CHUNK) {
       const ptrdiff_t k = (ptrdiff_t)j * w->nx + i, l = k + w->cells;
 
-      FitCells(PetscMin(CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
+      FitCells(PetscMin(SAM_CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
     }
     SamAddAll(3 + SAM_GRAM, totals, row);
   }

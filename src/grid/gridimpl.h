@@ -1,0 +1,11 @@
+/* What the files of this room share. */
+#ifndef PETSAM_GRIDIMPL_H
+#define PETSAM_GRIDIMPL_H
+
+#include "../base/baseimpl.h"
+#include <petsam/grid.h>
+
+/* The components that two fields have, one on each grid; an error with these words when they do not fit. */
+PETSC_INTERN PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[], PetscInt *components);
+
+#endif
