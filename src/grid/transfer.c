@@ -3,15 +3,15 @@
 
   Restriction takes the average over each coarse cell, fine cells cut by its edge counting by their share, so that the
   integral of the field is kept. Prolongation is linear interpolation between cell centres. Both are separable: x is
-  done where the data lie, y after the rows that a rank needs have been fetched (a VecScatter of contiguous rows).
+  done where the data lie, y after the rows that a rank needs have been fetched.
 */
 #include "gridimpl.h"
 #include <math.h>
 
 struct _n_SamTransfer {
   SamGrid    fine, coarse;
-  PetscInt   averaged_start, averaged_count; /* fine rows that this rank's coarse rows need */
-  PetscInt   coarse_start, coarse_count;     /* coarse rows that its fine rows need */
+  SamRows    fine_rows;        /* those that this rank's coarse rows need */
+  SamRows    coarse_rows;      /* those that its fine rows need */
   PetscInt  *first, *count;    /* coarse column J covers the fine columns first[J] ... first[J] + count[J] - 1 */
   double    *share;            /* with these shares, COVER_MAX a column */
   PetscInt  *left;             /* fine column i lies between the coarse columns left[i] and left[i] + 1 */
@@ -55,26 +55,6 @@ static void Between(PetscInt k, PetscInt n, PetscInt N, PetscInt *left, double *
   }
 }
 
-/*
-  Brings rows start ... start + count - 1 of a vector with `columns` entries a row into a sequential vector. The scatter is
-  made for the occasion: kept, its indices would take as much memory as the fields.
-*/
-static PetscErrorCode FetchRows(Vec from, PetscInt columns, PetscInt start, PetscInt count, Vec *rows)
-{
-  VecScatter scatter;
-  IS         is;
-
-  PetscFunctionBegin;
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, count * columns, rows));
-  PetscCall(ISCreateStride(PETSC_COMM_SELF, count * columns, start * columns, 1, &is));
-  PetscCall(VecScatterCreate(from, is, *rows, NULL, &scatter));
-  PetscCall(VecScatterBegin(scatter, from, *rows, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(scatter, from, *rows, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterDestroy(&scatter));
-  PetscCall(ISDestroy(&is));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode TabulateColumns(SamTransfer t)
 {
   const PetscInt N = t->coarse->nx, n = t->fine->nx;
@@ -96,7 +76,7 @@ static PetscErrorCode TabulateColumns(SamTransfer t)
 PetscErrorCode SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *transfer)
 {
   SamTransfer t;
-  PetscInt    last;
+  PetscInt    fine_first = 0, fine_count = 0, coarse_first = 0, coarse_count = 0, ignored, last;
   double      weight;
 
   PetscFunctionBegin;
@@ -106,19 +86,18 @@ PetscErrorCode SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *tran
   t->fine   = fine;
   t->coarse = coarse;
   PetscCall(TabulateColumns(t));
-
   if (coarse->rows) {
-    PetscInt ignored;
-
-    Covered(coarse->row_start, coarse->ny, fine->ny, &t->averaged_start, &ignored);
+    Covered(coarse->row_start, coarse->ny, fine->ny, &fine_first, &ignored);
     Covered(coarse->row_start + coarse->rows - 1, coarse->ny, fine->ny, &ignored, &last);
-    t->averaged_count = last + 1 - t->averaged_start;
+    fine_count = last + 1 - fine_first;
   }
   if (fine->rows) {
-    Between(fine->row_start, fine->ny, coarse->ny, &t->coarse_start, &weight);
+    Between(fine->row_start, fine->ny, coarse->ny, &coarse_first, &weight);
     Between(fine->row_start + fine->rows - 1, fine->ny, coarse->ny, &last, &weight);
-    t->coarse_count = last + 2 - t->coarse_start;
+    coarse_count = last + 2 - coarse_first;
   }
+  PetscCall(SamRowsCreate(fine, fine_first, fine_count, &t->fine_rows));
+  PetscCall(SamRowsCreate(coarse, coarse_first, coarse_count, &t->coarse_rows));
   *transfer = t;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -130,6 +109,8 @@ PetscErrorCode SamTransferDestroy(SamTransfer *transfer)
   PetscFunctionBegin;
   if (!t) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFree5(t->first, t->count, t->share, t->left, t->position));
+  PetscCall(SamRowsDestroy(&t->fine_rows));
+  PetscCall(SamRowsDestroy(&t->coarse_rows));
   PetscCall(SamGridDestroy(&t->fine));
   PetscCall(SamGridDestroy(&t->coarse));
   PetscCall(PetscFree(*transfer));
@@ -164,7 +145,7 @@ static void AverageRows(SamTransfer t, const double averaged[], double coarse[])
     for (PetscInt i = 0; i < n; i++) coarse[j * n + i] = 0;
     for (PetscInt k = first; k <= last; k++) {
       const double  w   = Share(J, t->coarse->ny, t->fine->ny, k);
-      const double *row = averaged + (k - t->averaged_start) * n;
+      const double *row = averaged + (k - t->fine_rows.first) * n;
 
       for (PetscInt i = 0; i < n; i++) coarse[j * n + i] += w * row[i];
     }
@@ -174,28 +155,23 @@ static void AverageRows(SamTransfer t, const double averaged[], double coarse[])
 PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
 {
   PetscInt      components;
-  Vec           averaged, needed;
   const double *f, *rows;
-  double       *a, *c;
+  double       *averaged, *c;
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "the two grids of this transfer", &components));
-  PetscCall(VecCreateMPI(t->fine->comm, t->fine->rows * t->coarse->nx, t->fine->ny * t->coarse->nx, &averaged));
+  PetscCall(PetscMalloc1((size_t)t->fine->rows * (size_t)t->coarse->nx, &averaged));
   PetscCall(VecGetArrayRead(fine, &f));
   PetscCall(VecGetArrayWrite(coarse, &c));
   for (PetscInt k = 0; k < components; k++) {
-    PetscCall(VecGetArrayWrite(averaged, &a));
-    AverageColumns(t, f + k * t->fine->cells, a);
-    PetscCall(VecRestoreArrayWrite(averaged, &a));
-    PetscCall(FetchRows(averaged, t->coarse->nx, t->averaged_start, t->averaged_count, &needed));
-    PetscCall(VecGetArrayRead(needed, &rows));
+    AverageColumns(t, f + k * t->fine->cells, averaged);
+    PetscCall(SamRowsFetch(&t->fine_rows, t->coarse->nx, averaged, &rows));
     AverageRows(t, rows, c + k * t->coarse->cells);
-    PetscCall(VecRestoreArrayRead(needed, &rows));
-    PetscCall(VecDestroy(&needed));
+    PetscCall(SamRowsRestore(&t->fine_rows, &rows));
   }
-  PetscCall(VecDestroy(&averaged));
   PetscCall(VecRestoreArrayWrite(coarse, &c));
   PetscCall(VecRestoreArrayRead(fine, &f));
+  PetscCall(PetscFree(averaged));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,7 +185,7 @@ static void InterpolateComponent(SamTransfer t, const double rows[], double fine
     const double *below, *above;
 
     Between(t->fine->row_start + j, t->fine->ny, t->coarse->ny, &J, &ty);
-    below = rows + (J - t->coarse_start) * N;
+    below = rows + (J - t->coarse_rows.first) * N;
     above = below + N;
     for (PetscInt i = 0; i < n; i++) {
       const PetscInt l  = t->left[i];
@@ -223,25 +199,20 @@ static void InterpolateComponent(SamTransfer t, const double rows[], double fine
 PetscErrorCode SamTransferProlong(SamTransfer t, Vec coarse, Vec fine)
 {
   PetscInt      components;
-  Vec           component, needed;
   const double *c, *rows;
   double       *f;
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "the two grids of this transfer", &components));
-  PetscCall(VecCreateMPIWithArray(t->fine->comm, 1, t->coarse->cells, t->coarse->nx * t->coarse->ny, NULL, &component));
   PetscCall(VecGetArrayRead(coarse, &c));
   PetscCall(VecGetArrayWrite(fine, &f));
   for (PetscInt k = 0; k < components; k++) {
-    PetscCall(VecPlaceArray(component, c + k * t->coarse->cells));
-    PetscCall(FetchRows(component, t->coarse->nx, t->coarse_start, t->coarse_count, &needed));
-    PetscCall(VecResetArray(component));
-    PetscCall(VecGetArrayRead(needed, &rows));
+    const double *component = c + k * t->coarse->cells;
+
+    PetscCall(SamRowsFetch(&t->coarse_rows, t->coarse->nx, component, &rows));
     InterpolateComponent(t, rows, f + k * t->fine->cells);
-    PetscCall(VecRestoreArrayRead(needed, &rows));
-    PetscCall(VecDestroy(&needed));
+    PetscCall(SamRowsRestore(&t->coarse_rows, &rows));
   }
-  PetscCall(VecDestroy(&component));
   PetscCall(VecRestoreArrayWrite(fine, &f));
   PetscCall(VecRestoreArrayRead(coarse, &c));
   PetscFunctionReturn(PETSC_SUCCESS);

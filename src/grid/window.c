@@ -14,15 +14,6 @@ struct _n_SamWindow {
   PetscMPIInt *counts[2], *offsets[2]; /* doubles exchanged with each rank: 0 on the whole grid's side, 1 on the window's */
 };
 
-/* Rows of a grid that belong to a rank. */
-static void RowsOf(const SamGrid grid, PetscMPIInt ranks, PetscMPIInt rank, PetscInt *begin, PetscInt *end)
-{
-  const PetscInt block = (grid->ny + ranks - 1) / ranks;
-
-  *begin = PetscMin(rank * block, grid->ny);
-  *end   = PetscMin(*begin + block, grid->ny);
-}
-
 /* Doubles of one component to exchange with each rank: rows that are mine on one side and its on the other. */
 static PetscErrorCode CountRows(SamWindow w)
 {
@@ -35,7 +26,7 @@ static PetscErrorCode CountRows(SamWindow w)
     for (PetscMPIInt r = 0; r < w->ranks; r++) {
       PetscInt begin, end;
 
-      RowsOf(theirs, w->ranks, r, &begin, &end);
+      SamGridRowsOf(theirs, w->ranks, r, &begin, &end);
       begin               = PetscMax(begin + their_shift, mine->row_start + my_shift);
       end                 = PetscMin(end + their_shift, mine->row_start + mine->rows + my_shift);
       w->counts[side][r]  = (PetscMPIInt)(PetscMax(end - begin, 0) * w->part->nx);

@@ -1,0 +1,80 @@
+/*
+  Rows of a grid that a rank wants to see, wherever they are: an exchange of all with all, in which whole rows are the
+  unit of the messages, so that their numbers stay small.
+*/
+#include "gridimpl.h"
+
+void SamGridRowsOf(SamGrid grid, PetscMPIInt ranks, PetscMPIInt rank, PetscInt *begin, PetscInt *end)
+{
+  const PetscInt block = (grid->ny + ranks - 1) / ranks;
+
+  *begin = PetscMin(rank * block, grid->ny);
+  *end   = PetscMin(*begin + block, grid->ny);
+}
+
+PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRows *rows)
+{
+  const PetscInt64 mine[2] = {first, count};
+  const PetscInt   end     = grid->row_start + grid->rows;
+  PetscInt64      *wanted;
+  PetscMPIInt      offset = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(rows, sizeof(*rows)));
+  PetscCall(SamGridReference(grid));
+  PetscCallMPI(MPI_Comm_size(grid->comm, &rows->ranks));
+  rows->grid  = grid;
+  rows->first = first;
+  rows->count = count;
+  PetscCall(PetscMalloc4(rows->ranks, &rows->counts[0], rows->ranks, &rows->counts[1], rows->ranks, &rows->offsets[0], rows->ranks, &rows->offsets[1]));
+  PetscCall(PetscMalloc1(2 * rows->ranks, &wanted));
+  PetscCallMPI(MPI_Allgather(mine, 2, MPIU_INT64, wanted, 2, MPIU_INT64, grid->comm));
+  for (PetscMPIInt r = 0; r < rows->ranks; r++) {
+    const PetscInt from = PetscMax((PetscInt)wanted[2 * r], grid->row_start);
+    PetscInt       begin, stop;
+
+    rows->counts[0][r]  = (PetscMPIInt)PetscMax(PetscMin((PetscInt)(wanted[2 * r] + wanted[2 * r + 1]), end) - from, 0);
+    rows->offsets[0][r] = rows->counts[0][r] ? (PetscMPIInt)(from - grid->row_start) : 0;
+    SamGridRowsOf(grid, rows->ranks, r, &begin, &stop);
+    rows->counts[1][r]  = (PetscMPIInt)PetscMax(PetscMin(first + count, stop) - PetscMax(first, begin), 0);
+    rows->offsets[1][r] = offset;
+    offset += rows->counts[1][r];
+  }
+  PetscCall(PetscFree(wanted));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRowsDestroy(SamRows *rows)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree4(rows->counts[0], rows->counts[1], rows->offsets[0], rows->offsets[1]));
+  PetscCall(SamGridDestroy(&rows->grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double own[], const double **wanted)
+{
+  MPI_Datatype row;
+  double      *array;
+
+  PetscFunctionBegin;
+  if (rows->ranks == 1) {
+    *wanted = own + (size_t)rows->first * (size_t)columns;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscMalloc1((size_t)rows->count * (size_t)columns, &array));
+  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)columns, MPI_DOUBLE, &row));
+  PetscCallMPI(MPI_Type_commit(&row));
+  PetscCallMPI(MPI_Alltoallv(own, rows->counts[0], rows->offsets[0], row, array, rows->counts[1], rows->offsets[1], row, rows->grid->comm));
+  PetscCallMPI(MPI_Type_free(&row));
+  *wanted = array;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted)
+{
+  PetscFunctionBegin;
+  if (rows->ranks > 1) PetscCall(PetscFree(*wanted));
+  *wanted = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
