@@ -28,6 +28,21 @@ PETSC_EXTERN PetscErrorCode SamComplianceGetPair(SamCompliance compliance, const
 */
 PETSC_EXTERN PetscErrorCode SamComplianceGetCoarse(SamCompliance compliance, SamCompliance *coarse, SamTransfer *transfer);
 
+/*
+  The operator on a part of the grid, one at a time, which stays until another is chosen; all collective, the window and the
+  operator borrowed, NULL when there is none.
+  SamComplianceChoosePart - a part that holds the n[0] * n[1] cells from first[0], first[1] on and some more about them; none
+  where it would be hardly smaller than the grid. `keep`: one that holds these cells and is not much too large stays.
+  SamComplianceSetPart - just those cells; n = 0: none. GetPartPlace tells them.
+*/
+PETSC_EXTERN PetscErrorCode SamComplianceChoosePart(SamCompliance compliance, const PetscInt first[2], const PetscInt n[2], PetscBool keep, SamWindow *window, SamCompliance *part);
+PETSC_EXTERN PetscErrorCode SamComplianceSetPart(SamCompliance compliance, const PetscInt first[2], const PetscInt n[2]);
+PETSC_EXTERN PetscErrorCode SamComplianceGetPart(SamCompliance compliance, SamWindow *window, SamCompliance *part);
+PETSC_EXTERN PetscErrorCode SamComplianceGetPartPlace(SamCompliance compliance, PetscInt first[2], PetscInt n[2]);
+
+/* SamComplianceReleaseSmaller - gives back the work space of the part and of the coarser grids, until they are used again. Collective. */
+PETSC_EXTERN PetscErrorCode SamComplianceReleaseSmaller(SamCompliance compliance);
+
 /* Products, all collective. One-component fields p, u_z; two-component fields q, u_t. Input and output may be the same. */
 PETSC_EXTERN PetscErrorCode SamComplianceApplyNormal(SamCompliance compliance, Vec p, Vec u_z);      /* u_z from p */
 PETSC_EXTERN PetscErrorCode SamComplianceApplyTangential(SamCompliance compliance, Vec q, Vec u_t);  /* u_t from q */

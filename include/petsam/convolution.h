@@ -42,6 +42,8 @@ typedef void (*SamFourierFilter)(const SamFourierBlock *block, const void *conte
 /* SamFourierCreate - makes the plans of one dimension. Reads -fft_effort. Collective. Errors: PETSC_ERR_MEM. */
 PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier);
 PETSC_EXTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
+/* SamFourierRelease - gives back the work space of large grids; the next use makes it again. Collective. */
+PETSC_EXTERN PetscErrorCode SamFourierRelease(SamFourier fourier);
 /* The periods hx, hy, without the doubling of padded mode. */
 PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
 

@@ -62,13 +62,6 @@ PETSC_EXTERN PetscErrorCode SamTangentialView(SamTangential tangential, PetscVie
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q);
 
-/*
-  SamTangentialGetWindow, SamTangentialSetWindow - the rectangle of cells, first column and row and their numbers, on which
-  the problem is solved; n = 0: there is none yet, or the whole grid. It depends on earlier solves and stays as long as it suits.
-  Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamTangentialGetWindow(SamTangential tangential, PetscInt first[2], PetscInt n[2]);
-PETSC_EXTERN PetscErrorCode SamTangentialSetWindow(SamTangential tangential, const PetscInt first[2], const PetscInt n[2]);
 PETSC_EXTERN PetscErrorCode SamTangentialGetReason(SamTangential tangential, SamTangentialReason *reason);
 PETSC_EXTERN PetscErrorCode SamTangentialGetStatistics(SamTangential tangential, PetscReal *error, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions);
 /* SamTangentialGetLimit - after DIVERGED_GROSS_SLIP: the factor on the given loads at which sliding begins. */

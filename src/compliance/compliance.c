@@ -39,6 +39,8 @@ PetscErrorCode SamComplianceDestroy(SamCompliance *compliance)
   PetscCall(SamFourierDestroy(&C->fourier));
   PetscCall(SamTransferDestroy(&C->transfer));
   PetscCall(SamComplianceDestroy(&C->coarse));
+  PetscCall(SamWindowDestroy(&C->window));
+  PetscCall(SamComplianceDestroy(&C->part));
   PetscCall(SamGridDestroy(&C->grid));
   PetscCall(PetscFree(C));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -71,6 +73,19 @@ PetscErrorCode SamComplianceGetCoarse(SamCompliance C, SamCompliance *coarse, Sa
   }
   *coarse   = C->coarse;
   *transfer = C->transfer;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceReleaseSmaller(SamCompliance C)
+{
+  const SamCompliance smaller[2] = {C->coarse, C->part};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; k++) {
+    if (!smaller[k]) continue;
+    PetscCall(SamFourierRelease(smaller[k]->fourier));
+    PetscCall(SamComplianceReleaseSmaller(smaller[k]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -17,6 +17,8 @@ struct _n_SamCompliance {
   SamKernel     kernel[SAM_KERNELS]; /* NULL until needed */
   SamCompliance coarse;
   SamTransfer   transfer;
+  SamWindow     window; /* of the part; NULL: none */
+  SamCompliance part;
 };
 
 PETSC_INTERN PetscErrorCode SamComplianceGetKernel(SamCompliance compliance, SamKernelKind kind, SamKernel *kernel);

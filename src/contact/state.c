@@ -40,7 +40,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   s->previous_pressure = c->previous[0];
   s->previous_shear    = c->previous[1];
   PetscCall(PetscMemcpy(s->values, c->values, sizeof(s->values)));
-  PetscCall(SamTangentialGetWindow(c->tangential, s->window_first, s->window_n));
+  PetscCall(SamComplianceGetPartPlace(c->compliance, s->window_first, s->window_n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -72,7 +72,7 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
   PetscCall(Take(s->displacement_z, &c->fields.displacement_z));
   PetscCall(Take(s->previous_pressure, &c->previous[0]));
   PetscCall(Take(s->previous_shear, &c->previous[1]));
-  PetscCall(SamTangentialSetWindow(c->tangential, s->window_first, s->window_n));
+  PetscCall(SamComplianceSetPart(c->compliance, s->window_first, s->window_n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

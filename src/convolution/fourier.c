@@ -26,6 +26,8 @@ static const char *const efforts[] = {"auto", "estimate", "measure", "patient", 
 #define MEASURE_FROM 4096
 /* Below this, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300
+/* Cells from which on giving back the work space is worth making it again. */
+#define RELEASE_FROM 1e6
 
 PetscErrorCode SamFourierAllocate(size_t bytes, void *pointer)
 {
@@ -126,15 +128,30 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static void FreeWork(SamFourier F)
+{
+  SamTransformDestroyDouble(F);
+  SamTransformDestroySingle(F);
+  for (PetscInt k = 0; k <= SAM_FOURIER_FIELDS; k++) {
+    free(F->slab[k]);
+    F->slab[k] = NULL;
+  }
+}
+
+PetscErrorCode SamFourierRelease(SamFourier F)
+{
+  PetscFunctionBegin;
+  if ((double)F->grid->nx * (double)F->grid->ny >= RELEASE_FROM) FreeWork(F);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamFourierDestroy(SamFourier *fourier)
 {
   SamFourier F = *fourier;
 
   PetscFunctionBegin;
   if (!F) PetscFunctionReturn(PETSC_SUCCESS);
-  SamTransformDestroyDouble(F);
-  SamTransformDestroySingle(F);
-  for (PetscInt k = 0; k <= SAM_FOURIER_FIELDS; k++) free(F->slab[k]);
+  FreeWork(F);
   PetscCall(SamGridDestroy(&F->grid));
   PetscCall(PetscFree(*fourier));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -98,6 +98,7 @@ void DESTROY(SamFourier F)
   free(t->staging);
   free(t->row);
   free(t->line);
+  memset(t, 0, sizeof(*t));
 }
 
 /*

@@ -1,4 +1,4 @@
-/* The normal solver's class: types, tolerances, monitors, nested grids. The methods are in files of their own. */
+/* The normal solver's class: types, tolerances, monitors, nested grids, windows. The methods are in files of their own. */
 #include "normalimpl.h"
 #include <string.h>
 
@@ -6,6 +6,8 @@
   Coarse grids need to be solved only as well as they approximate the fine one; beyond that their iterations are wasted.
 */
 #define COARSE_RTOL 1e-4
+/* Gaps outside a window, relative to the largest displacement, that rounding in single precision cannot be blamed for. */
+#define CLEARANCE 1e-5
 
 static PetscFunctionList SamNormalList  = NULL;
 static PetscBool         registered = PETSC_FALSE;
@@ -289,38 +291,196 @@ static PetscErrorCode Prolong(SamTransfer transfer, Vec coarse, Vec fine)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves on this grid, after the coarser ones when depth > 1. */
-static PetscErrorCode SolveLevel(SamNormal n, SamCompliance compliance, PetscInt depth, PetscBool finest, Vec h, const SamBalance *balance, PetscBool guess, Vec p, double rigid[3], SamFrame *frame)
+/* The method on this grid from the start in p. */
+static PetscErrorCode SolveHere(SamNormal n, SamNormalLevel *level, const SamBalance *balance, PetscErrorCode (*start)(SamNormalLevel *, PetscBool *))
 {
-  SamNormalLevel level = {.compliance = compliance, .finest = finest, .h = h, .p = p, .rtol = finest ? n->solver.rtol : PetscMax(n->solver.rtol, COARSE_RTOL)};
-  SamCompliance  coarse   = NULL;
-  SamTransfer    transfer = NULL;
-  PetscBool      found;
+  PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(SamComplianceGetGrid(compliance, &level.grid));
-  PetscCall(SamFrameSet(&level.frame, level.grid, balance));
-  if (depth > 1 && !guess) PetscCall(SamComplianceGetCoarse(compliance, &coarse, &transfer));
-  if (coarse) {
-    SamGrid  grid;
-    SamFrame ignored;
-    Vec      hc, pc;
-
-    PetscCall(SamComplianceGetGrid(coarse, &grid));
-    PetscCall(SamGridCreateVec(grid, 1, &hc));
-    PetscCall(SamGridCreateVec(grid, 1, &pc));
-    PetscCall(SamTransferRestrict(transfer, h, hc));
-    PetscCall(SolveLevel(n, coarse, depth - 1, PETSC_FALSE, hc, balance, PETSC_FALSE, pc, rigid, &ignored));
-    PetscCall(Prolong(transfer, pc, p));
-    PetscCall(VecDestroy(&hc));
-    PetscCall(VecDestroy(&pc));
-  }
-  if (coarse || guess) PetscCall(MakeAdmissible(&level, &found));
-  else PetscCall(StartAsFoundation(&level, &found));
-  if (found) PetscCall(n->solve(n, &level));
+  PetscCall(SamFrameSet(&level->frame, level->grid, balance));
+  PetscCall(start(level, &found));
+  if (found) PetscCall(n->solve(n, level));
   else n->reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
-  for (PetscInt k = 0; k < 3; k++) rigid[k] = level.rigid[k];
-  *frame = level.frame;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same on a window: fields taken out, the pressure put back. */
+static PetscErrorCode SolveInWindow(SamNormal n, SamNormalLevel *whole, const SamBalance *balance, SamWindow window, SamCompliance part)
+{
+  SamNormalLevel level = {.compliance = part, .rtol = whole->rtol, .finest = whole->finest};
+
+  PetscFunctionBegin;
+  PetscCall(SamWindowGetGrid(window, &level.grid));
+  PetscCall(SamGridCreateVec(level.grid, 1, &level.h));
+  PetscCall(SamGridCreateVec(level.grid, 1, &level.p));
+  PetscCall(SamWindowTake(window, whole->h, level.h));
+  PetscCall(SamWindowTake(window, whole->p, level.p));
+  PetscCall(SolveHere(n, &level, balance, MakeAdmissible));
+  PetscCall(SamWindowPut(window, level.p, whole->p));
+  whole->frame = level.frame;
+  for (PetscInt k = 0; k < 3; k++) whole->rigid[k] = level.rigid[k];
+  PetscCall(VecDestroy(&level.h));
+  PetscCall(VecDestroy(&level.p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The rigid displacements of a level's solution. */
+static void GetRigid(const SamNormalLevel *level, SamBalance *balance)
+{
+  double a[3];
+
+  for (PetscInt k = 0; k < 3; k++) a[k] = level->rigid[k] - level->frame.fixed[k];
+  SamFrameGetRigid(&level->frame, a, balance);
+}
+
+/* The frame of the whole grid in which the rigid displacements found are all given. */
+static PetscErrorCode FixFrame(const SamNormalLevel *level, const SamBalance *balance, SamFrame *frame)
+{
+  SamBalance found = *balance;
+
+  PetscFunctionBegin;
+  GetRigid(level, &found);
+  for (PetscInt k = 0; k < 3; k++) found.force[k] = PETSC_FALSE;
+  PetscCall(SamFrameSet(frame, level->grid, &found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether in single precision no cell outside the window comes near to touching. */
+static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame *frame, const PetscInt first[2], const PetscInt size[2], PetscBool *clear)
+{
+  const SamGrid grid = level->grid;
+  PetscReal     self, most;
+  double        scale, max[2] = {0, -PETSC_MAX_REAL}; /* largest displacement, and nearest to touching */
+  const double *p, *h;
+  float        *u;
+
+  PetscFunctionBegin;
+  PetscCall(SamComplianceGetSelfInfluence(level->compliance, &self, NULL));
+  PetscCall(VecMax(level->p, NULL, &most));
+  scale = self * most;
+  PetscCall(PetscMalloc1(grid->cells, &u));
+  PetscCall(VecGetArrayRead(level->p, &p));
+  for (PetscInt k = 0; k < grid->cells; k++) u[k] = (float)(p[k] / most);
+  PetscCall(VecRestoreArrayRead(level->p, &p));
+  PetscCall(SamNormalApplySingle(n, level, 1 / self, u, u));
+  PetscCall(VecGetArrayRead(level->h, &h));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const PetscBool inside = (grid->row_start + j >= first[1] && grid->row_start + j < first[1] + size[1]) ? PETSC_TRUE : PETSC_FALSE;
+    const double    eta    = SamFrameEta(frame, j);
+
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const ptrdiff_t k = (ptrdiff_t)j * grid->nx + i;
+      const double    v = scale * (double)u[k];
+
+      max[0] = PetscMax(max[0], v);
+      if (inside && i >= first[0] && i < first[0] + size[0]) continue;
+      max[1] = PetscMax(max[1], SamFrameNormal(frame->fixed, frame->xi0 + (double)i * frame->dxi, eta) - h[k] - v);
+    }
+  }
+  PetscCall(VecRestoreArrayRead(level->h, &h));
+  PetscCall(PetscFree(u));
+  PetscCall(SamMax(grid->comm, 2, max));
+  *clear = max[1] < -CLEARANCE * max[0] ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The smallest rectangle that holds the contact and all cells that penetrate outside the window. */
+static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window, PetscInt first[2], PetscInt size[2])
+{
+  const SamGrid grid = level->grid;
+  PetscInt      from[2], part[2];
+  PetscReal     most;
+  const double *p, *h;
+  double       *u;
+  Vec           touching;
+
+  PetscFunctionBegin;
+  PetscCall(SamWindowGetPlace(window, from, part));
+  PetscCall(SamGridCreateVec(grid, 1, &touching));
+  PetscCall(SamNormalApply(n, level, level->p, touching));
+  PetscCall(VecNorm(touching, NORM_INFINITY, &most));
+  PetscCall(VecGetArray(touching, &u));
+  PetscCall(VecGetArrayRead(level->p, &p));
+  PetscCall(VecGetArrayRead(level->h, &h));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const ptrdiff_t k      = (ptrdiff_t)j * grid->nx + i;
+      const PetscInt  row    = grid->row_start + j;
+      const PetscBool inside = (row >= from[1] && row < from[1] + part[1] && i >= from[0] && i < from[0] + part[0]) ? PETSC_TRUE : PETSC_FALSE;
+      const double    gap    = u[k] + h[k] - SamFrameNormal(frame->fixed, frame->xi0 + (double)i * frame->dxi, SamFrameEta(frame, j));
+
+      u[k] = p[k] > 0 || (!inside && gap < -level->rtol * most);
+    }
+  PetscCall(VecRestoreArrayRead(level->h, &h));
+  PetscCall(VecRestoreArrayRead(level->p, &p));
+  PetscCall(VecRestoreArray(touching, &u));
+  PetscCall(SamGridGetSupport(grid, touching, first, size));
+  PetscCall(VecDestroy(&touching));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the bodies are apart outside the window; if not, the rectangle that holds all contact. */
+static PetscErrorCode LookOutside(SamNormal n, SamNormalLevel *level, const SamBalance *balance, SamWindow window, PetscInt first[2], PetscInt size[2], PetscBool *apart)
+{
+  PetscInt from[2], part[2];
+  SamFrame frame;
+
+  PetscFunctionBegin;
+  PetscCall(FixFrame(level, balance, &frame));
+  PetscCall(SamWindowGetPlace(window, from, part));
+  PetscCall(IsClear(n, level, &frame, from, part, apart));
+  if (*apart) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(FindTouching(n, level, &frame, window, first, size));
+  *apart = SamWindowCovers(window, first, size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  On this grid from the start in p, on a window about the contact while that is small. On the finest grid what lies outside
+  is looked at in the end, and the window widened until nothing touches there.
+*/
+static PetscErrorCode SolveNear(SamNormal n, SamNormalLevel *level, const SamBalance *balance)
+{
+  PetscInt      first[2], size[2];
+  SamWindow     window;
+  SamCompliance part;
+  PetscBool     done;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridGetSupport(level->grid, level->p, first, size));
+  while (size[0]) {
+    PetscCall(SamComplianceChoosePart(level->compliance, first, size, level->finest, &window, &part));
+    if (!window) break;
+    PetscCall(SolveInWindow(n, level, balance, window, part));
+    if (n->reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
+    done = (!level->finest || n->reason < 0) ? PETSC_TRUE : PETSC_FALSE;
+    if (!done) PetscCall(LookOutside(n, level, balance, window, first, size, &done));
+    if (done) PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SolveHere(n, level, balance, MakeAdmissible));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves on this grid, after the coarser ones when depth > 1; with guess from p. */
+static PetscErrorCode SolveLevel(SamNormal n, SamNormalLevel *level, PetscInt depth, const SamBalance *balance, PetscBool guess)
+{
+  SamNormalLevel lower = {.rtol = PetscMax(n->solver.rtol, COARSE_RTOL)};
+  SamTransfer    transfer;
+
+  PetscFunctionBegin;
+  if (depth > 1 && !guess) PetscCall(SamComplianceGetCoarse(level->compliance, &lower.compliance, &transfer));
+  if (lower.compliance) {
+    PetscCall(SamComplianceGetGrid(lower.compliance, &lower.grid));
+    PetscCall(SamGridCreateVec(lower.grid, 1, &lower.h));
+    PetscCall(SamGridCreateVec(lower.grid, 1, &lower.p));
+    PetscCall(SamTransferRestrict(transfer, level->h, lower.h));
+    PetscCall(SolveLevel(n, &lower, depth - 1, balance, PETSC_FALSE));
+    PetscCall(Prolong(transfer, lower.p, level->p));
+    PetscCall(VecDestroy(&lower.h));
+    PetscCall(VecDestroy(&lower.p));
+  }
+  if (lower.compliance || guess) PetscCall(SolveNear(n, level, balance));
+  else PetscCall(SolveHere(n, level, balance, StartAsFoundation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -408,12 +568,10 @@ PetscErrorCode SamNormalSolve(SamNormal n, Vec h, SamBalance *balance, PetscBool
   } else if (separated) {
     PetscCall(SetSeparated(n, h, balance, p));
   } else {
-    double   rigid[3];
-    SamFrame frame;
+    SamNormalLevel level = {.compliance = n->compliance, .grid = grid, .h = h, .p = p, .rtol = n->solver.rtol, .finest = PETSC_TRUE};
 
-    PetscCall(SolveLevel(n, n->compliance, SamSolverLevels(&n->solver), PETSC_TRUE, h, balance, guess, p, rigid, &frame));
-    for (PetscInt k = 0; k < 3; k++) rigid[k] -= frame.fixed[k];
-    SamFrameGetRigid(&frame, rigid, balance);
+    PetscCall(SolveLevel(n, &level, SamSolverLevels(&n->solver), balance, guess));
+    GetRigid(&level, balance);
     PetscCall(SamBalanceGetLoads(grid, SAM_BALANCE_NORMAL, p, balance->load));
   }
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_NORMAL_SOLVE], 0, 0, 0, 0));

@@ -12,7 +12,8 @@
     3. q becomes the nearest admissible shear: discs and equilibrium at once (SamFrameProjectTangential), the slipping
        cells having been pushed outward before.
     4. The energy may rise in a step; if the error has not fallen for several, the best point between the old and the new
-       q is taken, or a projected gradient step.
+       q is taken, or a projected gradient step. If it still does not fall, every other step is one: a few cells that slip
+       and are to be released can hold up Newton's steps, which the discs cut off at once, but not the gradient's.
   Stops on the residual of q = D(q - s/c), which only the solution makes zero.
 
   Step 2 is done in single precision, at half the cost, in units of its residual; so is the slip that the whole step causes.
@@ -41,8 +42,9 @@
 */
 #define SINGLE_ROUNDING 3e-7
 #define DOUBT           1e-4
-/* Steps without progress before the energy is watched, and before giving up. */
+/* Steps without progress before the energy is watched, before every other step follows the gradient, and before giving up. */
 #define PATIENCE   4
+#define JAMMED     8
 #define STAGNATION 40
 
 /* Floats are in units of the step's first residual: slip in unit, shear in unit/c. */
@@ -608,6 +610,17 @@ static SamTangentialReason Reason(const SamStickSlip *u, PetscInt stagnant)
   return stagnant > STAGNATION ? SAM_TANGENTIAL_DIVERGED_STAGNATED : SAM_TANGENTIAL_CONVERGED_ITERATING;
 }
 
+/* A projected gradient step in place of a round. */
+static PetscErrorCode GradientRound(Work *w)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(w->old, w->base.q, 2 * w->base.cells));
+  PetscCall(GradientStep(w));
+  PetscCall(Measure(w));
+  SamTangentialIterated(w->base.solver, w->base.level);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Steps 1 to 4 once. */
 static PetscErrorCode Round(Work *w, PetscBool watch, PetscBool *found)
 {
@@ -640,9 +653,10 @@ static PetscErrorCode SamTangentialSolve_Newton(SamTangential solver, SamTangent
   best   = u->error;
   reason = Reason(u, stagnant);
   while (!reason) {
-    PetscBool found;
+    PetscBool found = PETSC_TRUE;
 
-    PetscCall(Round(&w, stagnant > PATIENCE ? PETSC_TRUE : PETSC_FALSE, &found));
+    if (stagnant > JAMMED && stagnant % 2) PetscCall(GradientRound(&w));
+    else PetscCall(Round(&w, stagnant > PATIENCE ? PETSC_TRUE : PETSC_FALSE, &found));
     if (!found) {
       reason = SAM_TANGENTIAL_DIVERGED_STAGNATED; /* the loads can be carried, that was found out before */
       break;

@@ -1,13 +1,9 @@
-/* The tangential solver's class: types, tolerances, monitors, the window, nested grids, the test for gross slip. */
+/* The tangential solver's class: types, tolerances, monitors, nested grids, the test for gross slip. */
 #include "tangentialimpl.h"
 #include <math.h>
 
 /* Coarse grids need to be solved only as well as they approximate the fine one. */
 #define COARSE_RTOL 1e-3
-
-/* A window is made where it has at most this part of the grid's cells, and replaced when it is this much too large. */
-#define WINDOW_WORTH 0.8
-#define WINDOW_SLACK 1.5
 
 static PetscFunctionList SamTangentialList  = NULL;
 static PetscBool         registered = PETSC_FALSE;
@@ -80,19 +76,10 @@ PetscErrorCode SamTangentialCreate(SamCompliance compliance, SamTangential *tang
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode DestroyWindow(SamTangential t)
-{
-  PetscFunctionBegin;
-  PetscCall(SamWindowDestroy(&t->window));
-  PetscCall(SamComplianceDestroy(&t->window_compliance));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamTangentialDestroy(SamTangential *tangential)
 {
   PetscFunctionBegin;
   if (!*tangential) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(DestroyWindow(*tangential));
   PetscCall(SamComplianceDestroy(&(*tangential)->compliance));
   PetscCall(PetscFree(*tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -433,75 +420,23 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialGetWindow(SamTangential t, PetscInt first[2], PetscInt n[2])
+/* The problem on a window around the contact: fields taken out, the solution put back. */
+static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamCompliance part, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
 {
-  PetscFunctionBegin;
-  first[0] = first[1] = n[0] = n[1] = 0;
-  if (t->window) PetscCall(SamWindowGetPlace(t->window, first, n));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamTangentialSetWindow(SamTangential t, const PetscInt first[2], const PetscInt n[2])
-{
-  SamGrid        grid, part;
-  const SamPair *pair;
+  SamTangentialLevel level = {.compliance = part, .finest = PETSC_TRUE, .rtol = t->solver.rtol};
 
   PetscFunctionBegin;
-  PetscCall(DestroyWindow(t));
-  if (!n[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamComplianceGetGrid(t->compliance, &grid));
-  PetscCall(SamWindowCreate(grid, first, n, &t->window));
-  PetscCall(SamWindowGetGrid(t->window, &part));
-  PetscCall(SamComplianceGetPair(t->compliance, &pair));
-  PetscCall(SamComplianceCreate(part, pair, &t->window_compliance));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Shear acts only where there is contact, and only there its displacement counts: the problem is solved on a window around
-  the contact, on transforms of its size. The window is kept as long as the contact stays in it and fills most of it.
-*/
-static PetscErrorCode ChooseWindow(SamTangential t, SamGrid grid, Vec bound)
-{
-  const PetscInt all[2] = {grid->nx, grid->ny};
-  PetscInt       first[2], n[2];
-  SamGrid        part;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridGetSupport(grid, bound, first, n));
-  if (t->window) {
-    PetscCall(SamWindowGetGrid(t->window, &part));
-    if (SamWindowCovers(t->window, first, n) && WINDOW_SLACK * (double)n[0] * (double)n[1] >= (double)part->nx * (double)part->ny) PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(DestroyWindow(t));
-  for (PetscInt k = 0; k < 2; k++) { /* a few cells more, for contacts that grow */
-    const PetscInt margin = 2 + n[k] / 50, last = PetscMin(first[k] + n[k] + margin, all[k]);
-
-    first[k] = PetscMax(first[k] - margin, 0);
-    n[k]     = PetscMax(last - first[k], 2);
-  }
-  if ((double)n[0] * (double)n[1] > WINDOW_WORTH * (double)all[0] * (double)all[1]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamTangentialSetWindow(t, first, n));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The problem on the window: fields taken out, the solution put back. */
-static PetscErrorCode SolveInWindow(SamTangential t, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
-{
-  SamTangentialLevel level = {.compliance = t->window_compliance, .finest = PETSC_TRUE, .rtol = t->solver.rtol};
-
-  PetscFunctionBegin;
-  PetscCall(SamWindowGetGrid(t->window, &level.grid));
+  PetscCall(SamWindowGetGrid(window, &level.grid));
   PetscCall(SamGridCreateVec(level.grid, 1, &level.bound));
   PetscCall(SamGridCreateVec(level.grid, 2, &level.q));
-  PetscCall(SamWindowTake(t->window, bound, level.bound));
+  PetscCall(SamWindowTake(window, bound, level.bound));
   if (offset) {
     PetscCall(SamGridCreateVec(level.grid, 2, &level.offset));
-    PetscCall(SamWindowTake(t->window, offset, level.offset));
+    PetscCall(SamWindowTake(window, offset, level.offset));
   }
-  if (guess) PetscCall(SamWindowTake(t->window, q, level.q));
+  if (guess) PetscCall(SamWindowTake(window, q, level.q));
   PetscCall(SolveLoaded(t, &level, balance, guess));
-  PetscCall(SamWindowPut(t->window, level.q, q));
+  PetscCall(SamWindowPut(window, level.q, q));
   PetscCall(VecDestroy(&level.bound));
   PetscCall(VecDestroy(&level.offset));
   PetscCall(VecDestroy(&level.q));
@@ -523,8 +458,14 @@ PetscErrorCode SamTangentialSolve(SamTangential t, Vec bound, Vec offset, SamBal
   PetscCall(VecMax(bound, NULL, &most));
   if (most <= 0 || IsUnloaded(balance, offset)) PetscCall(SolveFree(t, balance, q));
   else {
-    PetscCall(ChooseWindow(t, level.grid, bound));
-    if (t->window) PetscCall(SolveInWindow(t, bound, offset, balance, guess, q));
+    PetscInt      first[2], n[2];
+    SamWindow     window;
+    SamCompliance part;
+
+    /* shear acts only where there is contact, and only there its displacement counts */
+    PetscCall(SamGridGetSupport(level.grid, bound, first, n));
+    PetscCall(SamComplianceChoosePart(t->compliance, first, n, PETSC_TRUE, &window, &part));
+    if (window) PetscCall(SolveInWindow(t, window, part, bound, offset, balance, guess, q));
     else PetscCall(SolveLoaded(t, &level, balance, guess));
   }
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_TANGENTIAL_SOLVE], 0, 0, 0, 0));

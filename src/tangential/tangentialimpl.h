@@ -22,8 +22,6 @@ struct _n_SamTangential {
   SamSolver           solver;
   PetscErrorCode (*solve)(SamTangential, SamTangentialLevel *); /* the method: solves one level, sets reason and error */
   SamCompliance       compliance;
-  SamWindow           window;          /* around the contact; NULL: the whole grid */
-  SamCompliance       window_compliance;
   SamTangentialReason reason;
   PetscReal           limit; /* of the loads, in their multiples, after gross slip */
 };
