@@ -243,6 +243,58 @@ static void test_start_from_the_solution_ends_at_once(void **state)
   DestroySphere(&s);
 }
 
+/* ---- windows ---- */
+
+/* A needle far from the contact, one cell wide, is not seen by the coarser grids, whose heights are averages. */
+static void test_contact_outside_the_window_is_found(void **state)
+{
+  Sphere         s       = NewSphere(96, 3, 0.3);
+  const PetscInt i = 88, j = 47;
+  SamBalance     balance = Forced(s.N, 0, 0), other = balance;
+  Vec            p = NewField(s.grid, 1), q = NewField(s.grid, 1), alone = NewField(s.grid, 1);
+  PetscReal      needle;
+
+  (void)state;
+  AddAt(s.grid, 0, i, j, -4 * s.a * s.a / s.R, s.h); /* the gap of the sphere is about 2.5 a^2/R there */
+  SolveWell(s.compliance, s.h, SAM_NORMAL_ACTIVESET, 0, &balance, p);
+  SolveWell(s.compliance, s.h, SAM_NORMAL_POLONSKYKEER, 0, &other, q);
+  sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6);
+  AddAt(s.grid, 0, i, j, 1, alone);
+  sam_call(VecPointwiseMult(alone, alone, p));
+  sam_call(VecNorm(alone, NORM_INFINITY, &needle));
+  sam_assert(needle > 0);
+  sam_call(VecDestroy(&alone));
+  sam_call(VecDestroy(&q));
+  sam_call(VecDestroy(&p));
+  DestroySphere(&s);
+}
+
+/* From the solution of a sixtieth of the load, on a window of a sixteenth of the area. */
+static void test_contact_grows_beyond_the_window_of_its_start(void **state)
+{
+  Sphere     s     = NewSphere(96, 1.5, 0.3);
+  SamBalance small = Forced(s.N / 64, 0, 0), balance = Forced(s.N, 0, 0), again = balance;
+  Vec        p = NewField(s.grid, 1), q = NewField(s.grid, 1);
+  SamNormal  normal;
+  PetscInt   first[2], before[2], after[2];
+
+  (void)state;
+  sam_call(SamNormalCreate(s.compliance, &normal));
+  sam_call(SamNormalSolve(normal, s.h, &small, PETSC_FALSE, p));
+  sam_call(SamComplianceGetPartPlace(s.compliance, first, before));
+  sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_TRUE, p));
+  sam_call(SamComplianceGetPartPlace(s.compliance, first, after));
+  sam_assert(before[0] > 0 && (after[0] == 0 || after[0] > 2 * before[0]));
+  sam_call(SamNormalSolve(normal, s.h, &again, PETSC_FALSE, q));
+  sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6);
+  sam_call(SamNormalDestroy(&normal));
+  sam_call(VecDestroy(&p));
+  sam_call(VecDestroy(&q));
+  DestroySphere(&s);
+}
+
+/* ---- moments, places, units ---- */
+
 /*
   A paraboloid that is turned is a paraboloid that is shifted: a moment moves the pressure, by (My, -Mx)/N. A whole number
   of cells makes that exact on the grid.
@@ -503,6 +555,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_both_types_agree_under_displacement_and_mixed_control),
     cmocka_unit_test(test_force_and_displacement_control_agree),
     cmocka_unit_test(test_start_from_the_solution_ends_at_once),
+    cmocka_unit_test(test_contact_outside_the_window_is_found),
+    cmocka_unit_test(test_contact_grows_beyond_the_window_of_its_start),
     cmocka_unit_test(test_moments_shift_the_pressure_of_a_paraboloid),
     cmocka_unit_test(test_place_of_the_grid_does_not_matter),
     cmocka_unit_test(test_eight_times_the_load_doubles_sphere_contact_and_pressure),
