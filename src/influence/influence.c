@@ -4,30 +4,35 @@
  * Problem. Love's closed forms are sums of an antiderivative over the four corners. At a distance
  * of d cells they cancel to 1/d^2 of their terms or less (x^2/r^3 beside the y axis: 1/d^3), so in
  * double precision 4 to 8 digits are left at the far end of a grid of 16384 cells a side. Wanted is
- * nearly full precision, relative to each value, at every lag.
+ * nearly full precision, relative to each value, at every lag, and quickly.
  *
  * Algorithm.
- *   1. Mirror the cell into the first quadrant; a cell that an axis halves becomes twice its half.
- *      There no kernel changes sign, so that no sum of its values can cancel.
- *   2. The cell at the origin is Love's closed form, whose terms are positive there.
- *   3. Any other cell is integrated by a product of two Gauss-Legendre rules, each with just
- *      enough points for the bound below.
- *   4. A side that the longest rule cannot integrate (a cell near the origin or a slender one) is
- *      split in two, and each half is treated by 3 and 4.
- *   5. A row is worked off in blocks of lags that share the rules of their nearest cell.
+ *   1. A cell with half sides a and b, its centre at (x, y), is integrated by Taylor's series about
+ *      the centre, of which the even derivatives remain:
+ *        4 a b sum_mn a^2m b^2n / ((2m+1)! (2n+1)!) d_x^2m d_y^2n f.
+ *      The terms of one order k = m + n are f's odd powers of x and y, a power of r, and q^k times
+ *      a polynomial in w, where q = 1/r^2 and w = x^2 q. The polynomials depend on the cell's sides
+ *      alone; their coefficients follow from the derivatives of x^p y^q r^-s by a recurrence. Of
+ *      each cell in a row there remain one division, one root and two nested Horner schemes.
+ *   2. x^2/r^3 is small beside the y axis because its term of order 0 is w and that of order 1 is
+ *      q a^2/3 there: nothing cancels. So y^2/r^3 and y/r^2 go with w = y^2 q, x and y exchanged.
+ *   3. A row is worked off in blocks of lags that take the order of their nearest cell; where that
+ *      is too near, each of its cells takes its own order.
+ *   4. A cell for which no order suffices is quartered. All kernels are homogeneous of degree -1:
+ *      a quarter is half of what a whole cell gives at twice the quarter's distance, so that the
+ *      same coefficients serve the quarters, their quarters, and so on.
+ *   5. The cell at the origin is Love's closed form, whose terms are positive there.
  *
- * Bound. Along x at a given y the kernels are analytic but for x = +-i y, at the distance
- * D = sqrt(cx^2 + y^2) from the middle cx of a side of half length a. So they are analytic in every
- * ellipse about that side whose half axes add up to less than rho a, with
- *   rho = s + sqrt(s^2 - 1), s = D/a,
- * and the error of m points falls like rho^(-2m) (Trefethen 2008). Its factor follows far away,
- * where rho = 2D/a, from the error term f^(2m) (2a)^(2m+1) (m!)^4 / ((2m+1) (2m)!^3) and, for the
- * worst kernel, |d^n r^-3 / dx^n| <= (n+1)(n+2)/2 n! / r^(n+3):
- *   error / value <= pi (m+1/2) (m+1) rho^(-2m) < 3.2 (m+1)^2 rho^(-2m).
- * A numerator x^p is as large as D^p on the ellipse but at most x1^p on a side that ends at x1, so
- * the error relative to the value is larger by max(1, D/x1)^p. This is what asks for more points
- * beside the axes, where x^2/r^3 is small. The bound falls with the lag, which step 5 needs.
- * Two points a side suffice from about 2000 cells on, away from the axes.
+ * Bound. Let R be the distance of the centre, d the half diagonal, s = R/d. The terms of degree l
+ * in the expansion of r^-p about the centre are Gegenbauer polynomials, at most
+ * C_l^(p/2)(1) (|w|/R)^l / R^p at a distance |w|, and the mean of |w|^l over a cell is at most
+ * d^l/(l+1): it is convex in a^2 for a given d, thus largest for a cell without width. A numerator
+ * (x+u)^m adds the products of x^(m-i) u^i, |u| <= a, with terms of degrees less by i. Together,
+ * relative to the value, which is at least x^m (x^2 + a^2/3 for m = 2) times (R+d)^-p, the orders
+ * from k on come to at most
+ *   6 (2k+1)^(p-2) (1 + a s/max(x, a))^m (1 + b s/max(y, b))^n s^-2k,  s >= 5,
+ * for x^m y^n r^-p; 6 is 3 (1 + 1/s)^3 and what is left of the geometric series. The bound falls
+ * with the lag, which step 3 needs. From about 4000 cells on 1/r takes order 1, that is 3 terms.
  *
  * Lengths are measured in a power of two near the longer side: all six integrals scale as a length,
  * no power of r leaves the range of a double, and the scaling itself does not round.
@@ -38,239 +43,225 @@
  *   Johnson, K.L. (1985). Contact Mechanics, chapter 3. Cambridge University Press.
  *   Liu, S., Wang, Q., Liu, G. (2000). A versatile method of discrete convolution and FFT (DC-FFT)
  *     for contact analyses. Wear 243, 101-111.
- *   Trefethen, L.N. (2008). Is Gauss quadrature better than Clenshaw-Curtis? SIAM Rev. 50, 67-87.
+ *   Szegoe, G. (1975). Orthogonal Polynomials, section 4.7. American Mathematical Society.
  */
 #include "../base/baseimpl.h"
 #include <petsam/influence.h>
 
 #include <math.h>
 
-/* Points of the longest rule, and lags that share rules: short enough to stay in the first cache. */
-enum { MAX_POINTS = 12, BLOCK = 64 };
+/* Highest order of an expansion, and lags that share an order: short enough to stay in the first cache. */
+enum { MAX_ORDER = 10, BLOCK = 64 };
 
 /* What the bound may come to, relative to a value: of the order of what the summation rounds off. */
 static const double tolerance = 5e-15;
 
+/* A kernel is u^odd_u v^odd_v u^(2 square) r^-(root + 2 square), where u is x and v is y, or exchanged. */
 typedef struct {
-  int    points;
-  double node[MAX_POINTS], weight[MAX_POINTS]; /* on [-1, 1] */
-} Rule;
+  int exchanged, odd_u, odd_v, square, root;
+} Kernel;
 
-/* Gauss-Legendre; far cells use the short rules, and between the long ones gaps cost little. */
-static const Rule rules[] = {
-    {2,
-     {-0.57735026918962576451, 0.57735026918962576451},
-     {1.0000000000000000000, 1.0000000000000000000}},
-    {3,
-     {-0.77459666924148337704, 0., 0.77459666924148337704},
-     {0.55555555555555555556, 0.88888888888888888889, 0.55555555555555555556}},
-    {4,
-     {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480, 0.86113631159405257522},
-     {0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263, 0.34785484513745385737}},
-    {5,
-     {-0.90617984593866399280, -0.53846931010568309104, 0., 0.53846931010568309104,
-      0.90617984593866399280},
-     {0.23692688505618908751, 0.47862867049936646804, 0.56888888888888888889, 0.47862867049936646804,
-      0.23692688505618908751}},
-    {6,
-     {-0.93246951420315202781, -0.66120938646626451366, -0.23861918608319690863, 0.23861918608319690863,
-      0.66120938646626451366, 0.93246951420315202781},
-     {0.17132449237917034504, 0.36076157304813860757, 0.46791393457269104739, 0.46791393457269104739,
-      0.36076157304813860757, 0.17132449237917034504}},
-    {8,
-     {-0.96028985649753623168, -0.79666647741362673959, -0.52553240991632898582, -0.18343464249564980494,
-      0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168},
-     {0.10122853629037625915, 0.22238103445337447054, 0.31370664587788728734, 0.36268378337836198297,
-      0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915}},
-    {12,
-     {-0.98156063424671925069, -0.90411725637047485668, -0.76990267419430468704, -0.58731795428661744730,
-      -0.36783149899818019375, -0.12523340851146891547, 0.12523340851146891547, 0.36783149899818019375,
-      0.58731795428661744730, 0.76990267419430468704, 0.90411725637047485668, 0.98156063424671925069},
-     {0.047175336386511827195, 0.10693932599531843096, 0.16007832854334622633, 0.20316742672306592175,
-      0.23349253653835480876, 0.24914704581340278500, 0.24914704581340278500, 0.23349253653835480876,
-      0.20316742672306592175, 0.16007832854334622633, 0.10693932599531843096, 0.047175336386511827195}},
+static const Kernel kernels[] = {
+  [SAM_INTEGRAL_R]  = {0, 0, 0, 0, 1},
+  [SAM_INTEGRAL_XX] = {0, 0, 0, 1, 1},
+  [SAM_INTEGRAL_YY] = {1, 0, 0, 1, 1},
+  [SAM_INTEGRAL_XY] = {0, 1, 1, 0, 3},
+  [SAM_INTEGRAL_X]  = {0, 1, 0, 0, 2},
+  [SAM_INTEGRAL_Y]  = {1, 1, 0, 0, 2},
 };
-enum { NUM_RULES = sizeof(rules) / sizeof(rules[0]) };
 
-/* The numerators' powers of x and y, by SamIntegral; an odd power makes an odd integral. */
-static const int powers[][2] = {{0, 0}, {2, 0}, {0, 2}, {1, 1}, {1, 0}, {0, 1}};
-
-/* One direction of a rectangle: its side is [middle - half, middle + half], and never below 0. */
+/*
+ * The expansion for one cell: the term of order k is u^odd_u v^odd_v r^-root q^k times the polynomial
+ * in w = u^2 q whose coefficients are polynomial[k], of degree k + square.
+ */
 typedef struct {
-  double middle, half;
-} Side;
+  Kernel kernel;
+  double a, b;  /* half sides along x and y */
+  double scale; /* of the integrals */
+  int    order; /* up to which the polynomials are known */
+  double polynomial[MAX_ORDER + 1][MAX_ORDER + 2];
+} Expansion;
 
-/* Equal rectangles along x: the k-th one is shifted by (first + direction k) step. */
-typedef struct {
-  double    first, direction, step;
-  ptrdiff_t n;
-} Run;
-
-/* The part of cell `lag` (>= 0) on the positive side: its half for the cell that the axis halves. */
-static Side CellSide(double h, ptrdiff_t lag)
+/* The second derivative by u of a term of order k, times `factor`; f may be the result. */
+static void DeriveU(const Kernel *kernel, int k, double factor, double f[])
 {
-  Side side = {(double)lag * h, h / 2};
+  double below = 0; /* what the power before leaves to this one */
 
-  if (lag == 0) side.middle = side.half = h / 4;
-  return side;
+  f[k + kernel->square + 1] = 0;
+  for (int i = 0; i <= k + kernel->square + 1; i++) {
+    const double s = kernel->root + 2 * (k + i), p = 2 * i + kernel->odd_u;
+    const double from = f[i], above = i <= k + kernel->square ? f[i + 1] : 0;
+
+    f[i]  = factor * (below - s * (2 * p + 1) * from + (p + 2) * (p + 1) * above);
+    below = s * (s + 2) * from;
+  }
+}
+
+/* The same by v, where v^2 = r^2 - u^2. */
+static void DeriveV(const Kernel *kernel, int k, double factor, double f[])
+{
+  double below = 0;
+
+  f[k + kernel->square + 1] = 0;
+  for (int i = 0; i <= k + kernel->square + 1; i++) {
+    const double s = kernel->root + 2 * (k + i), from = f[i];
+
+    f[i]  = factor * (s * (s + 1 - 2 * kernel->odd_v) * from - below);
+    below = s * (s + 2) * from;
+  }
+}
+
+/* Makes the polynomials up to an order; they do not depend on how far it goes. */
+static void Expand(Expansion *e, int order)
+{
+  const Kernel *kernel = &e->kernel;
+  const double  u = kernel->exchanged ? e->b : e->a, v = kernel->exchanged ? e->a : e->b;
+  double        derived[MAX_ORDER + 3] = {0}; /* by v alone */
+
+  derived[kernel->square] = 4 * u * v * e->scale;
+  for (int k = 0; k <= order; k++)
+    for (int i = 0; i <= k + kernel->square; i++) e->polynomial[k][i] = 0;
+  for (int n = 0; n <= order; n++) {
+    double term[MAX_ORDER + 3];
+
+    for (int i = 0; i <= n + kernel->square; i++) term[i] = derived[i];
+    for (int k = n; k <= order; k++) {
+      const int m = k - n;
+
+      for (int i = 0; i <= k + kernel->square; i++) e->polynomial[k][i] += term[i];
+      DeriveU(kernel, k, u * u / ((2 * m + 2) * (2 * m + 3)), term);
+    }
+    DeriveV(kernel, n, v * v / ((2 * n + 2) * (2 * n + 3)), derived);
+  }
+  e->order = order;
 }
 
 /*
- * The shortest rule along `side` whose bound (top of this file) is within the tolerance, where the
- * rectangle's other direction is at least `beside` from the axis; NULL if there is none.
+ * The least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both
+ * >= 0; more than MAX_ORDER if there is none.
  */
-static const Rule *SelectRule(Side side, double beside, int power)
+static int SelectOrder(const Expansion *e, double x, double y)
 {
-  double distance = sqrt(side.middle * side.middle + beside * beside);
-  double s        = fmax(distance / side.half, 1);
-  double rho      = s + sqrt((s - 1) * (s + 1));
-  double growth   = fmax(distance / (side.middle + side.half), 1);
-  double bound    = 3.2 * (power == 0 ? 1 : power == 1 ? growth : growth * growth);
-  int    m        = 0;
+  const Kernel *kernel = &e->kernel;
+  const double  ss     = (x * x + y * y) / (e->a * e->a + e->b * e->b), s = sqrt(ss);
+  const double  beside_x = 1 + s * e->a / fmax(x, e->a), beside_y = 1 + s * e->b / fmax(y, e->b);
+  const double  u = kernel->exchanged ? beside_y : beside_x, v = kernel->exchanged ? beside_x : beside_y;
+  const int     power = kernel->root + 2 * kernel->square;
+  double        bound = 6 / ss;
+  int           k     = 1;
 
-  for (int k = 0; k < NUM_RULES; k++) {
-    for (; m < rules[k].points; m++) bound /= rho * rho;
-    if (bound * (m + 1) * (m + 1) <= tolerance) return &rules[k];
-  }
-  return NULL;
+  if (s < 5) return MAX_ORDER + 1;
+  if (kernel->odd_u) bound *= u;
+  if (kernel->odd_v) bound *= v;
+  if (kernel->square) bound *= u * u;
+  do {
+    k++;
+    bound /= ss;
+  } while (k <= MAX_ORDER + 1 && bound * (power == 1 ? 1. / (2 * k + 1) : power == 2 ? 1 : 2 * k + 1) > tolerance);
+  return k - 1;
 }
 
-/* Adds `weight` times the kernel at (x, y), and at the points shifted from it along the run. */
-SAM_VECTORIZED static void AddPoint(SamIntegral kind, const Run *run, double x, double y, double weight, double *restrict values)
+/* The integrals over the cells at (x + 2 a k, y), k < n <= BLOCK, by the expansion of that order. */
+SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, ptrdiff_t n, double *restrict values)
 {
-  const double    yy = y * y, first = run->first, direction = run->direction, step = run->step;
-  const ptrdiff_t n = run->n;
+  const double a = e->a, yy = y * y;
+  const int    square = e->kernel.square;
+  double       q[BLOCK], w[BLOCK], term[BLOCK];
 
-#define SUM(term) \
-  for (ptrdiff_t k = 0; k < n; k++) { \
-    const double xk = (first + direction * (double)k) * step + x, rr = xk * xk + yy; \
-\
-    values[k] += weight * (term); \
-  } \
-  break
+  for (ptrdiff_t k = 0; k < n; k++) {
+    const double x = (first + 2 * (double)k) * a, xx = x * x;
 
-  switch (kind) {
-  case SAM_INTEGRAL_R: SUM(1 / sqrt(rr));
-  case SAM_INTEGRAL_XX: SUM(xk * xk / (rr * sqrt(rr)));
-  case SAM_INTEGRAL_YY: SUM(yy / (rr * sqrt(rr)));
-  case SAM_INTEGRAL_XY: SUM(y * xk / (rr * sqrt(rr)));
-  case SAM_INTEGRAL_X: SUM(xk / rr);
-  case SAM_INTEGRAL_Y: SUM(y / rr);
+    q[k]      = 1 / (xx + yy);
+    w[k]      = (e->kernel.exchanged ? yy : xx) * q[k];
+    values[k] = 0;
   }
-#undef SUM
-}
+  for (int l = order; l >= 0; l--) {
+    const double *c = e->polynomial[l];
 
-/* Adds the integrals over the rectangles of a run, by the rules given. */
-static void AddProduct(SamIntegral kind, const Run *run, Side sx, Side sy, const Rule *rx, const Rule *ry,
-                       double *values)
-{
-  for (int b = 0; b < ry->points; b++) {
-    const double y = sy.middle + sy.half * ry->node[b];
-
-    for (int a = 0; a < rx->points; a++) {
-      const double weight = sx.half * sy.half * rx->weight[a] * ry->weight[b];
-
-      AddPoint(kind, run, sx.middle + sx.half * rx->node[a], y, weight, values);
-    }
+    for (ptrdiff_t k = 0; k < n; k++) term[k] = c[l + square];
+    for (int i = l + square - 1; i >= 0; i--)
+      for (ptrdiff_t k = 0; k < n; k++) term[k] = term[k] * w[k] + c[i];
+    for (ptrdiff_t k = 0; k < n; k++) values[k] = values[k] * q[k] + term[k];
+  }
+  switch (e->kernel.root) {
+  case 1:
+    for (ptrdiff_t k = 0; k < n; k++) values[k] *= sqrt(q[k]);
+    break;
+  case 2:
+    for (ptrdiff_t k = 0; k < n; k++) values[k] *= (e->kernel.exchanged ? y : (first + 2 * (double)k) * a) * q[k];
+    break;
+  default:
+    for (ptrdiff_t k = 0; k < n; k++) values[k] *= (first + 2 * (double)k) * a * y * q[k] * sqrt(q[k]);
   }
 }
 
-/* The integral over one rectangle that does not touch the origin, split until the rules fit. */
-static double RectangleIntegral(SamIntegral kind, Side sx, Side sy)
+/* The integral over a rectangle of the cell's size about (i a, j b), away from the origin; quartered until an order suffices. */
+static double Rectangle(Expansion *e, double i, double j)
 {
-  const Run    single   = {0, 0, 0, 1};
-  const Rule  *rx       = SelectRule(sx, sy.middle - sy.half, powers[kind][0]);
-  const Rule  *ry       = SelectRule(sy, sx.middle - sx.half, powers[kind][1]);
-  Side        *split    = !rx && (ry || sx.half >= sy.half) ? &sx : &sy;
-  const double middle   = split->middle;
-  double       integral = 0;
+  const int order = SelectOrder(e, fabs(i) * e->a, fabs(j) * e->b);
+  double    integral, below, above;
 
-  if (rx && ry) {
-    AddProduct(kind, &single, sx, sy, rx, ry, &integral);
+  if (order <= MAX_ORDER) {
+    if (order > e->order) Expand(e, order);
+    Evaluate(e, order, i, j * e->b, 1, &integral);
     return integral;
   }
-  split->half /= 2;
-  split->middle = middle - split->half;
-  integral      = RectangleIntegral(kind, sx, sy);
-  split->middle = middle + split->half;
-  return integral + RectangleIntegral(kind, sx, sy);
+  below = Rectangle(e, 2 * i - 1, 2 * j - 1) + Rectangle(e, 2 * i + 1, 2 * j - 1);
+  above = Rectangle(e, 2 * i - 1, 2 * j + 1) + Rectangle(e, 2 * i + 1, 2 * j + 1);
+  return (below + above) / 2;
 }
 
-/* The upper half of the cell at the origin: two quarters, each Love's closed form at its corner. */
+/* The cell at the origin: four quarters, each Love's closed form at its corner. */
 static double OriginIntegral(SamIntegral kind, double hx, double hy)
 {
   switch (kind) {
-  case SAM_INTEGRAL_R: return hx * asinh(hy / hx) + hy * asinh(hx / hy);
-  case SAM_INTEGRAL_XX: return hy * asinh(hx / hy);
-  case SAM_INTEGRAL_YY: return hx * asinh(hy / hx);
+  case SAM_INTEGRAL_R: return 2 * (hx * asinh(hy / hx) + hy * asinh(hx / hy));
+  case SAM_INTEGRAL_XX: return 2 * hy * asinh(hx / hy);
+  case SAM_INTEGRAL_YY: return 2 * hx * asinh(hy / hx);
   default: return 0; /* the odd kernels */
   }
 }
 
-/* The integral over the cell (0, row) for a kernel even in x; over its upper half if row is 0. */
-static double AxisIntegral(SamIntegral kind, double hx, double hy, ptrdiff_t row)
+/* How many of the n lags from i on lie in its block; blocks of negative lags mirror those of positive ones. */
+static ptrdiff_t BlockLength(ptrdiff_t i, ptrdiff_t n)
 {
-  if (row == 0) return OriginIntegral(kind, hx, hy);
-  return 2 * RectangleIntegral(kind, CellSide(hx, 0), CellSide(hy, row));
+  const ptrdiff_t length = i >= 0 ? BLOCK - i % BLOCK : -i % BLOCK + 1;
+
+  return length < n ? length : n;
 }
 
 /*
- * The integrals over n cells (lag + direction k, row), all in the block of `lag` >= 1; over their
- * upper halves if row is 0. The rules depend on the block alone, not on where the n cells begin or
- * end in it, so that a cell has one value however it is asked for.
+ * The integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not
+ * on where the n cells begin or end in it, so that a cell has one value however it is asked for.
  */
-static void BlockIntegrals(SamIntegral kind, double hx, double hy, ptrdiff_t row, ptrdiff_t lag, int direction,
-                           ptrdiff_t n, double *values)
+static void BlockIntegrals(Expansion *e, ptrdiff_t j, ptrdiff_t i, ptrdiff_t n, double *values)
 {
-  const Run       run   = {(double)lag, direction, hx, n};
-  const ptrdiff_t start = lag - lag % BLOCK;
-  const Side      sx = CellSide(hx, start > 0 ? start : 1), unshifted = {0, sx.half};
-  const Side      sy = CellSide(hy, row);
-  const Rule     *rx = SelectRule(sx, sy.middle - sy.half, powers[kind][0]);
-  const Rule     *ry = SelectRule(sy, sx.middle - sx.half, powers[kind][1]);
+  const ptrdiff_t lag = i < 0 ? -i : i, nearest = lag - lag % BLOCK;
+  const double    row   = 2 * (double)j;
+  const int       order = SelectOrder(e, 2 * (double)nearest * e->a, fabs(row) * e->b);
 
-  if (rx && ry) {
-    for (ptrdiff_t k = 0; k < n; k++) values[k] = 0;
-    AddProduct(kind, &run, unshifted, sy, rx, ry, values);
-  } else {
-    for (ptrdiff_t k = 0; k < n; k++) {
-      values[k] = RectangleIntegral(kind, CellSide(hx, lag + direction * k), sy);
-    }
+  if (order <= MAX_ORDER) {
+    if (order > e->order) Expand(e, order);
+    Evaluate(e, order, 2 * (double)i, row * e->b, n, values);
+    return;
   }
-}
-
-/* How many of the n lags from i != 0 on lie in its block and on its side of the origin. */
-static ptrdiff_t BlockLength(ptrdiff_t i, ptrdiff_t n)
-{
-  const ptrdiff_t length = i > 0 ? BLOCK - i % BLOCK : -i % BLOCK + (-i >= BLOCK);
-
-  return length < n ? length : n;
+  for (ptrdiff_t k = 0; k < n; k++) {
+    if (i + k != 0 || j != 0) values[k] = Rectangle(e, 2 * (double)(i + k), row);
+  }
 }
 
 void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n,
                     double *values)
 {
-  const int       unit  = ilogb(fmax(dx, dy));
-  const double    hx    = scalbn(dx, -unit), hy = scalbn(dy, -unit);
-  const ptrdiff_t row   = j < 0 ? -j : j;
-  const int       odd_x = powers[kind][0] % 2, odd_y = powers[kind][1] % 2;
-  const double    scale = scalbn(row == 0 ? 2 : odd_y && j < 0 ? -1 : 1, unit);
+  const int    unit = ilogb(fmax(dx, dy));
+  const double hx = scalbn(dx, -unit), hy = scalbn(dy, -unit);
+  Expansion    e = {.kernel = kernels[kind], .a = hx / 2, .b = hy / 2, .scale = scalbn(1, unit), .order = -1};
 
   for (ptrdiff_t k = 0, length; k < n; k += length) {
-    const ptrdiff_t i      = i0 + k;
-    double         *block  = values + k;
-    const double    factor = odd_x && i < 0 ? -scale : scale;
-
-    length = i == 0 ? 1 : BlockLength(i, n - k);
-    if ((odd_x && i == 0) || (odd_y && row == 0)) {
-      for (ptrdiff_t l = 0; l < length; l++) block[l] = 0;
-    } else if (i == 0) {
-      block[0] = AxisIntegral(kind, hx, hy, row) * factor;
-    } else {
-      BlockIntegrals(kind, hx, hy, row, i < 0 ? -i : i, i < 0 ? -1 : 1, length, block);
-      for (ptrdiff_t l = 0; l < length; l++) block[l] *= factor;
-    }
+    length = BlockLength(i0 + k, n - k);
+    BlockIntegrals(&e, j, i0 + k, length, values + k);
   }
+  if (j == 0 && i0 <= 0 && -i0 < n) values[-i0] = OriginIntegral(kind, hx, hy) * e.scale;
 }
 
 double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrdiff_t j)
