@@ -165,15 +165,24 @@ PetscErrorCode SamFourierGetPeriods(SamFourier F, PetscInt *hx, PetscInt *hy)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns)
+{
+  const ptrdiff_t size[2] = {F->hy + 1, F->hx + 1};
+  ptrdiff_t       column_start;
+
+  return fftw_mpi_local_size_many_transposed(2, size, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm, rows, row_start, columns, &column_start);
+}
+
 PetscErrorCode SamFourierReserveSlabs(SamFourier F, PetscInt fields)
 {
-  ptrdiff_t periodic, padded;
+  ptrdiff_t periodic, padded, quadrant, rows, row_start, columns;
 
   PetscFunctionBegin;
   PetscCheck(fields <= SAM_FOURIER_FIELDS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d fields in one pass", SAM_FOURIER_FIELDS);
   PetscCall(DivideColumns(F, SAM_FOURIER_PERIODIC, &periodic));
   PetscCall(DivideColumns(F, SAM_FOURIER_PADDED, &padded));
+  quadrant = SamFourierDivideQuadrant(F, &rows, &row_start, &columns);
   for (PetscInt k = 0; k < fields + (F->ranks > 1 ? 1 : 0); k++)
-    if (!F->slab[k]) PetscCall(SamFourierAllocate(sizeof(double) * (size_t)PetscMax(periodic, padded), &F->slab[k]));
+    if (!F->slab[k]) PetscCall(SamFourierAllocate(sizeof(double) * (size_t)PetscMax(quadrant, PetscMax(periodic, padded)), &F->slab[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

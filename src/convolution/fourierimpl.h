@@ -38,7 +38,7 @@ struct _n_SamFourier {
   SamColumns         columns[2]; /* by mode */
   SamTransformDouble in_double;
   SamTransformSingle in_single;
-  void              *slab[SAM_FOURIER_FIELDS + 1]; /* half spectra of the fields' rows and columns; room for doubles */
+  void              *slab[SAM_FOURIER_FIELDS + 1]; /* half spectra of the fields' rows and columns, or a kernel's on its way; room for doubles */
 };
 
 /* Memory for FFTW's arrays; PETSC_ERR_MEM with the size when there is none. */
@@ -49,7 +49,9 @@ static inline PetscInt SamFourierRowSlab(SamFourier F, PetscInt field)
 {
   return F->ranks > 1 ? field + 1 : field;
 }
-/* Makes the slabs for that many fields. Collective. */
+/* This rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns how many reals FFTW wants for them. */
+PETSC_INTERN ptrdiff_t SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns);
+/* Makes the slabs for that many fields, or for a kernel's quadrant. Collective. */
 PETSC_INTERN PetscErrorCode SamFourierReserveSlabs(SamFourier fourier, PetscInt fields);
 PETSC_INTERN PetscErrorCode SamFourierCheckPlan(const void *plan);
 

@@ -110,44 +110,39 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rows of (hy + 1, hx + 1) in slabs exchanged for own columns of all rows. */
-static PetscErrorCode ExchangeRows(SamFourier F, ptrdiff_t doubles, double **rows)
+/* The quadrant (hy + 1, hx + 1), of which each rank has rows, exchanged for own columns of all rows. */
+static PetscErrorCode ExchangeRows(SamFourier F, double rows[], double columns[])
 {
-  double   *columns;
   fftw_plan plan;
 
   PetscFunctionBegin;
-  if (F->ranks == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)doubles, &columns));
-  plan = fftw_mpi_plan_many_transpose(F->hy + 1, F->hx + 1, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, *rows, columns, F->grid->comm, FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_MPI_TRANSPOSED_OUT);
+  plan = fftw_mpi_plan_many_transpose(F->hy + 1, F->hx + 1, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, rows, columns, F->grid->comm, FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_MPI_TRANSPOSED_OUT);
   PetscCall(SamFourierCheckPlan(plan));
   fftw_execute(plan);
   fftw_destroy_plan(plan);
-  free(*rows);
-  *rows = columns;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, SamKernelRow row, const void *context, SamKernel *kernel)
 {
-  const ptrdiff_t size[2] = {F->hy + 1, F->hx + 1};
-  ptrdiff_t       doubles, count, start, columns, column_start;
-  double         *work;
-  SamKernel       k;
+  ptrdiff_t count, start, columns;
+  double   *rows, *by_column;
+  SamKernel k;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
   PetscCall(PetscNew(&k));
-  doubles    = fftw_mpi_local_size_many_transposed(2, size, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm, &count, &start, &columns, &column_start);
+  (void)SamFourierDivideQuadrant(F, &count, &start, &columns);
   k->odd_x   = odd_x;
   k->odd_y   = odd_y;
   k->columns = columns;
-  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)doubles, &work));
-  PetscCall(TransformRows(F, odd_x, row, context, start, count, work));
-  PetscCall(ExchangeRows(F, doubles, &work));
+  PetscCall(SamFourierReserveSlabs(F, 1));
+  rows      = (double *)F->slab[SamFourierRowSlab(F, 0)];
+  by_column = (double *)F->slab[0];
+  PetscCall(TransformRows(F, odd_x, row, context, start, count, rows));
+  if (rows != by_column) PetscCall(ExchangeRows(F, rows, by_column));
   PetscCall(SamFourierAllocate(sizeof(double) * (size_t)(columns * (F->hy + 1)), &k->values));
-  PetscCall(TransformColumns(F, k, work));
-  free(work);
+  PetscCall(TransformColumns(F, k, by_column));
   *kernel = k;
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
