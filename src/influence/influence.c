@@ -142,56 +142,54 @@ static void Expand(Expansion *e, int order)
  */
 static int SelectOrder(const Expansion *e, double x, double y)
 {
-  const Kernel *kernel = &e->kernel;
-  const double  ss     = (x * x + y * y) / (e->a * e->a + e->b * e->b), s = sqrt(ss);
+  const Kernel *kernel   = &e->kernel;
+  const double  decrease = (e->a * e->a + e->b * e->b) / (x * x + y * y), s = sqrt(1 / decrease);
   const double  beside_x = 1 + s * e->a / fmax(x, e->a), beside_y = 1 + s * e->b / fmax(y, e->b);
   const double  u = kernel->exchanged ? beside_y : beside_x, v = kernel->exchanged ? beside_x : beside_y;
   const int     power = kernel->root + 2 * kernel->square;
-  double        bound = 6 / ss;
-  int           k     = 1;
+  double        bound = 6 * (kernel->odd_u ? u : 1) * (kernel->odd_v ? v : 1) * (kernel->square ? u * u : 1);
 
   if (s < 5) return MAX_ORDER + 1;
-  if (kernel->odd_u) bound *= u;
-  if (kernel->odd_v) bound *= v;
-  if (kernel->square) bound *= u * u;
-  do {
-    k++;
-    bound /= ss;
-  } while (k <= MAX_ORDER + 1 && bound * (power == 1 ? 1. / (2 * k + 1) : power == 2 ? 1 : 2 * k + 1) > tolerance);
-  return k - 1;
+  bound *= decrease;
+  for (int k = 2; k <= MAX_ORDER + 1; k++) {
+    bound *= decrease;
+    if (bound * (power == 3 ? 2 * k + 1 : 1) <= tolerance * (power == 1 ? 2 * k + 1 : 1)) return k - 1;
+  }
+  return MAX_ORDER + 1;
 }
 
-/* The integrals over the cells at (x + 2 a k, y), k < n <= BLOCK, by the expansion of that order. */
-SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, ptrdiff_t n, double *restrict values)
+/*
+ * The integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order.
+ * The index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
+ */
+SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, int n, double *restrict values)
 {
-  const double a = e->a, yy = y * y;
-  const int    square = e->kernel.square;
-  double       q[BLOCK], w[BLOCK], term[BLOCK];
+  const int square = e->kernel.square;
+  double    x[BLOCK], q[BLOCK], w[BLOCK], term[BLOCK];
 
-  for (ptrdiff_t k = 0; k < n; k++) {
-    const double x = (first + 2 * (double)k) * a, xx = x * x;
-
-    q[k]      = 1 / (xx + yy);
-    w[k]      = (e->kernel.exchanged ? yy : xx) * q[k];
+  for (int k = 0; k < n; k++) {
+    x[k]      = (first + 2 * (double)k) * e->a;
+    q[k]      = 1 / (x[k] * x[k] + y * y);
+    w[k]      = (e->kernel.exchanged ? y * y : x[k] * x[k]) * q[k];
     values[k] = 0;
   }
   for (int l = order; l >= 0; l--) {
     const double *c = e->polynomial[l];
 
-    for (ptrdiff_t k = 0; k < n; k++) term[k] = c[l + square];
+    for (int k = 0; k < n; k++) term[k] = c[l + square];
     for (int i = l + square - 1; i >= 0; i--)
-      for (ptrdiff_t k = 0; k < n; k++) term[k] = term[k] * w[k] + c[i];
-    for (ptrdiff_t k = 0; k < n; k++) values[k] = values[k] * q[k] + term[k];
+      for (int k = 0; k < n; k++) term[k] = term[k] * w[k] + c[i];
+    for (int k = 0; k < n; k++) values[k] = values[k] * q[k] + term[k];
   }
   switch (e->kernel.root) {
   case 1:
-    for (ptrdiff_t k = 0; k < n; k++) values[k] *= sqrt(q[k]);
+    for (int k = 0; k < n; k++) values[k] *= sqrt(q[k]);
     break;
   case 2:
-    for (ptrdiff_t k = 0; k < n; k++) values[k] *= (e->kernel.exchanged ? y : (first + 2 * (double)k) * a) * q[k];
+    for (int k = 0; k < n; k++) values[k] *= (e->kernel.exchanged ? y : x[k]) * q[k];
     break;
   default:
-    for (ptrdiff_t k = 0; k < n; k++) values[k] *= (first + 2 * (double)k) * a * y * q[k] * sqrt(q[k]);
+    for (int k = 0; k < n; k++) values[k] *= x[k] * y * q[k] * sqrt(q[k]);
   }
 }
 
@@ -242,7 +240,7 @@ static void BlockIntegrals(Expansion *e, ptrdiff_t j, ptrdiff_t i, ptrdiff_t n, 
 
   if (order <= MAX_ORDER) {
     if (order > e->order) Expand(e, order);
-    Evaluate(e, order, 2 * (double)i, row * e->b, n, values);
+    Evaluate(e, order, 2 * (double)i, row * e->b, (int)n, values);
     return;
   }
   for (ptrdiff_t k = 0; k < n; k++) {
