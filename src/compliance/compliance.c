@@ -126,7 +126,7 @@ static Coefficients GetCoefficients(SamCompliance C, SamKernelKind kind)
 
 static void CoefficientRow(PetscInt j, PetscInt n, double values[], const void *context)
 {
-  enum { CHUNK = 256 };
+  enum { CHUNK = 2048 };
   const Coefficients *c = (const Coefficients *)context;
   double              more[CHUNK];
 
