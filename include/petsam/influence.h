@@ -28,7 +28,7 @@ typedef enum {
  *   i, j   - the lag of the cell's centre, in cells
  *
  * Returns the integral, in m for every kind. For lags up to 16384 and sides whose ratio
- * is between 1/50 and 50 the relative error is below 2e-14. Nothing overflows or underflows for
+ * is between 1/50 and 50 the relative error is below 1e-14. Nothing overflows or underflows for
  * sides from 1e-9 m to 1e3 m. Signs under i -> -i and j -> -j and the zeros of the odd kernels are
  * exact, and so is scaling of both sides by a power of two.
  *

@@ -18,9 +18,10 @@
  *      q a^2/3 there: nothing cancels. So y^2/r^3 and y/r^2 go with w = y^2 q, x and y exchanged.
  *   3. A row is worked off in blocks of lags that take the order of their nearest cell; where that
  *      is too near, each of its cells takes its own order.
- *   4. A cell for which no order suffices is quartered. All kernels are homogeneous of degree -1:
- *      a quarter is half of what a whole cell gives at twice the quarter's distance, so that the
- *      same coefficients serve the quarters, their quarters, and so on.
+ *   4. A cell for which no order suffices is halved across its longer side as long as it is slender,
+ *      and then quartered. All kernels are homogeneous of degree -1: a quarter is half of what the
+ *      whole gives at twice the quarter's distance, so that the same coefficients serve the
+ *      quarters, their quarters, and so on.
  *   5. The cell at the origin is Love's closed form, whose terms are positive there.
  *
  * Bound. Let R be the distance of the centre, d the half diagonal, s = R/d. The terms of degree l
@@ -50,8 +51,11 @@
 
 #include <math.h>
 
-/* Highest order of an expansion, and lags that share an order: short enough to stay in the first cache. */
-enum { MAX_ORDER = 10, BLOCK = 64 };
+/*
+ * Highest order of an expansion, lags that share an order (short enough to stay in the first cache), and
+ * shapes between a slender cell and a nearly square part of it.
+ */
+enum { MAX_ORDER = 10, BLOCK = 64, MAX_SHAPES = 16 };
 
 /* What the bound may come to, relative to a value: of the order of what the summation rounds off. */
 static const double tolerance = 5e-15;
@@ -71,14 +75,15 @@ static const Kernel kernels[] = {
 };
 
 /*
- * The expansion for one cell: the term of order k is u^odd_u v^odd_v r^-root q^k times the polynomial
+ * The expansion for one shape of cells: the term of order k is u^odd_u v^odd_v r^-root q^k times the polynomial
  * in w = u^2 q whose coefficients are polynomial[k], of degree k + square.
  */
 typedef struct {
   Kernel kernel;
-  double a, b;  /* half sides along x and y */
-  double scale; /* of the integrals */
-  int    order; /* up to which the polynomials are known */
+  double a, b;    /* half sides along x and y */
+  double scale;   /* of the integrals */
+  int    slender; /* the next expansion is for its halves across the longer side */
+  int    order;   /* up to which the polynomials are known */
   double polynomial[MAX_ORDER + 1][MAX_ORDER + 2];
 } Expansion;
 
@@ -193,7 +198,25 @@ SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first,
   }
 }
 
-/* The integral over a rectangle of the cell's size about (i a, j b), away from the origin; quartered until an order suffices. */
+/* A cell's expansion and those of its halves, none with polynomials yet. */
+static void MakeShapes(SamIntegral kind, double a, double b, double scale, Expansion shapes[])
+{
+  int slender = 1;
+
+  for (int k = 0; slender; k++) {
+    slender           = k + 1 < MAX_SHAPES && (a > 2 * b || b > 2 * a);
+    shapes[k].kernel  = kernels[kind];
+    shapes[k].a       = a;
+    shapes[k].b       = b;
+    shapes[k].scale   = scale;
+    shapes[k].slender = slender;
+    shapes[k].order   = -1;
+    if (a > b) a /= 2;
+    else b /= 2;
+  }
+}
+
+/* The integral over a rectangle about (i a, j b), away from the origin; divided until an order suffices. */
 static double Rectangle(Expansion *e, double i, double j)
 {
   const int order = SelectOrder(e, fabs(i) * e->a, fabs(j) * e->b);
@@ -204,6 +227,8 @@ static double Rectangle(Expansion *e, double i, double j)
     Evaluate(e, order, i, j * e->b, 1, &integral);
     return integral;
   }
+  if (e->slender && e->a > e->b) return Rectangle(e + 1, 2 * i - 1, j) + Rectangle(e + 1, 2 * i + 1, j);
+  if (e->slender) return Rectangle(e + 1, i, 2 * j - 1) + Rectangle(e + 1, i, 2 * j + 1);
   below = Rectangle(e, 2 * i - 1, 2 * j - 1) + Rectangle(e, 2 * i + 1, 2 * j - 1);
   above = Rectangle(e, 2 * i - 1, 2 * j + 1) + Rectangle(e, 2 * i + 1, 2 * j + 1);
   return (below + above) / 2;
@@ -253,13 +278,15 @@ void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff
 {
   const int    unit = ilogb(fmax(dx, dy));
   const double hx = scalbn(dx, -unit), hy = scalbn(dy, -unit);
-  Expansion    e = {.kernel = kernels[kind], .a = hx / 2, .b = hy / 2, .scale = scalbn(1, unit), .order = -1};
+  const double scale = scalbn(1, unit);
+  Expansion    shapes[MAX_SHAPES];
 
+  MakeShapes(kind, hx / 2, hy / 2, scale, shapes);
   for (ptrdiff_t k = 0, length; k < n; k += length) {
     length = BlockLength(i0 + k, n - k);
-    BlockIntegrals(&e, j, i0 + k, length, values + k);
+    BlockIntegrals(shapes, j, i0 + k, length, values + k);
   }
-  if (j == 0 && i0 <= 0 && -i0 < n) values[-i0] = OriginIntegral(kind, hx, hy) * e.scale;
+  if (j == 0 && i0 <= 0 && -i0 < n) values[-i0] = OriginIntegral(kind, hx, hy) * scale;
 }
 
 double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrdiff_t j)
