@@ -12,7 +12,7 @@
  *        4 a b sum_mn a^2m b^2n / ((2m+1)! (2n+1)!) d_x^2m d_y^2n f.
  *      The terms of one order k = m + n are f's odd powers of x and y, a power of r, and q^k times
  *      a polynomial in w, where q = 1/r^2 and w = x^2 q. The polynomials depend on the cell's sides
- *      alone; their coefficients follow from the derivatives of x^p y^q r^-s by a recurrence. Of
+ *      alone; their coefficients follow from the derivatives of x^i y^j r^-p by a recurrence. Of
  *      each cell in a row there remain one division, one root and two nested Horner schemes.
  *   2. x^2/r^3 is small beside the y axis because its term of order 0 is w and that of order 1 is
  *      q a^2/3 there: nothing cancels. So y^2/r^3 and y/r^2 go with w = y^2 q, x and y exchanged.
@@ -24,16 +24,16 @@
  *      quarters, their quarters, and so on.
  *   5. The cell at the origin is Love's closed form, whose terms are positive there.
  *
- * Bound. Let R be the distance of the centre, d the half diagonal, s = R/d. The terms of degree l
- * in the expansion of r^-p about the centre are Gegenbauer polynomials, at most
- * C_l^(p/2)(1) (|w|/R)^l / R^p at a distance |w|, and the mean of |w|^l over a cell is at most
- * d^l/(l+1): it is convex in a^2 for a given d, thus largest for a cell without width. A numerator
- * (x+u)^m adds the products of x^(m-i) u^i, |u| <= a, with terms of degrees less by i. Together,
- * relative to the value, which is at least x^m (x^2 + a^2/3 for m = 2) times (R+d)^-p, the orders
- * from k on come to at most
- *   6 (2k+1)^(p-2) (1 + a s/max(x, a))^m (1 + b s/max(y, b))^n s^-2k,  s >= 5,
- * for x^m y^n r^-p; 6 is 3 (1 + 1/s)^3 and what is left of the geometric series. The bound falls
- * with the lag, which step 3 needs. From about 4000 cells on 1/r takes order 1, that is 3 terms.
+ * Bound. Let R be the distance of the centre, d the half diagonal, s = R/d. At a distance t from the
+ * centre the terms of degree l of r^-p are a Gegenbauer polynomial times (t/R)^l R^-p, at most
+ * C_l^(p/2)(1) (t/R)^l R^-p (Szego 1975). The mean of t^l over a cell is at most d^l/(l+1): for a
+ * given d it is convex in a^2, thus largest for a cell without width. A numerator (x+u)^i adds
+ * products of x^(i-h) u^h, |u| <= a, and terms of degree l-h. The value itself is at least x^i (for
+ * i = 2: x^2 + a^2/3) times (R+d)^-p. So for x^i y^j r^-p the orders from k on, relative to the value,
+ * come to at most
+ *   6 (2k+1)^(p-2) (1 + a s/max(x, a))^i (1 + b s/max(y, b))^j s^-2k,  k >= 2, s >= 5,
+ * where 6 is 3 (for i = 2 at x = 0), (1 + 1/s)^3 and the geometric series. The bound falls with the
+ * lag, which step 3 needs. From 2800 square cells on 1/r takes order 1, that is three coefficients.
  *
  * Lengths are measured in a power of two near the longer side: all six integrals scale as a length,
  * no power of r leaves the range of a double, and the scaling itself does not round.
@@ -44,7 +44,7 @@
  *   Johnson, K.L. (1985). Contact Mechanics, chapter 3. Cambridge University Press.
  *   Liu, S., Wang, Q., Liu, G. (2000). A versatile method of discrete convolution and FFT (DC-FFT)
  *     for contact analyses. Wear 243, 101-111.
- *   Szegoe, G. (1975). Orthogonal Polynomials, section 4.7. American Mathematical Society.
+ *   Szego, G. (1975). Orthogonal Polynomials, section 4.7. American Mathematical Society.
  */
 #include "../base/baseimpl.h"
 #include <petsam/influence.h>
@@ -87,7 +87,7 @@ typedef struct {
   double polynomial[MAX_ORDER + 1][MAX_ORDER + 2];
 } Expansion;
 
-/* The second derivative by u of a term of order k, times `factor`; f may be the result. */
+/* The polynomial f of order k becomes that of its term's second derivative by u, times `factor`. */
 static void DeriveU(const Kernel *kernel, int k, double factor, double f[])
 {
   double below = 0; /* what the power before leaves to this one */
@@ -147,14 +147,15 @@ static void Expand(Expansion *e, int order)
  */
 static int SelectOrder(const Expansion *e, double x, double y)
 {
-  const Kernel *kernel   = &e->kernel;
-  const double  decrease = (e->a * e->a + e->b * e->b) / (x * x + y * y), s = sqrt(1 / decrease);
+  const Kernel *kernel = &e->kernel;
+  const double  ss     = (x * x + y * y) / (e->a * e->a + e->b * e->b), s = sqrt(ss);
   const double  beside_x = 1 + s * e->a / fmax(x, e->a), beside_y = 1 + s * e->b / fmax(y, e->b);
   const double  u = kernel->exchanged ? beside_y : beside_x, v = kernel->exchanged ? beside_x : beside_y;
   const int     power = kernel->root + 2 * kernel->square;
-  double        bound = 6 * (kernel->odd_u ? u : 1) * (kernel->odd_v ? v : 1) * (kernel->square ? u * u : 1);
+  double        bound = 6 * (kernel->odd_u ? u : 1) * (kernel->odd_v ? v : 1) * (kernel->square ? u * u : 1), decrease;
 
   if (s < 5) return MAX_ORDER + 1;
+  decrease = 1 / ss;
   bound *= decrease;
   for (int k = 2; k <= MAX_ORDER + 1; k++) {
     bound *= decrease;
