@@ -80,7 +80,7 @@ PETSC_EXTERN PetscErrorCode SamContactCheck(SamCompliance compliance, PetscBool 
 */
 typedef struct _n_SamContact *SamContact;
 
-/* SamContactCreate - references the compliance; copies the separation (m). friction >= 0. Collective. */
+/* SamContactCreate - references the compliance and the separation (m), which must not change any more. friction >= 0. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscReal friction, SamContact *contact);
 PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /*

@@ -37,9 +37,9 @@ PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscR
   PetscCheck(friction >= 0 && isfinite(friction), c->grid->comm, SAM_ERR_USER, "-friction %g: expected a number >= 0", (double)friction);
   PetscCall(SamNormalCreate(compliance, &c->normal));
   PetscCall(SamTangentialCreate(compliance, &c->tangential));
-  PetscCall(VecDuplicate(separation, &c->separation));
-  PetscCall(VecCopy(separation, c->separation));
-  PetscCall(VecDuplicate(separation, &c->fields.pressure));
+  PetscCall(PetscObjectReference((PetscObject)separation));
+  c->separation = separation;
+  PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.pressure));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.shear));
   *contact = c;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -52,8 +52,8 @@ PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscR
 PetscErrorCode SamContactCreateDerived(SamContact c)
 {
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(c->separation, &c->fields.gap));
-  if (!c->fields.displacement_z) PetscCall(VecDuplicate(c->separation, &c->fields.displacement_z));
+  PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.gap));
+  if (!c->fields.displacement_z) PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.displacement_z));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.slip));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -208,8 +208,8 @@ static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamB
   *predicted = alpha > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (*predicted) PetscCall(SamExtrapolate(c->grid, c->friction, alpha, c->fields.pressure, c->fields.shear, c->previous[0], c->previous[1], predicted));
   else if (c->steps) {
-    if (!c->previous[0]) PetscCall(VecDuplicate(c->fields.pressure, &c->previous[0]));
-    if (!c->previous[1]) PetscCall(VecDuplicate(c->fields.shear, &c->previous[1]));
+    if (!c->previous[0]) PetscCall(SamGridCreateVec(c->grid, 1, &c->previous[0]));
+    if (!c->previous[1]) PetscCall(SamGridCreateVec(c->grid, 2, &c->previous[1]));
     PetscCall(VecCopy(c->fields.pressure, c->previous[0]));
     PetscCall(VecCopy(c->fields.shear, c->previous[1]));
   }
@@ -240,7 +240,7 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (guess) {
-    PetscCall(VecDuplicate(c->fields.pressure, &predicted));
+    PetscCall(SamGridCreateVec(c->grid, 1, &predicted));
     PetscCall(VecCopy(c->fields.pressure, predicted));
   }
   PetscCall(SamNormalSolve(c->normal, h, &step->normal, guess, c->fields.pressure));
@@ -287,7 +287,7 @@ static PetscErrorCode CreateOffset(SamContact c, Vec *offset)
   PetscFunctionBegin;
   *offset = NULL;
   if (!c->coupled && !c->slip_before) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecDuplicate(c->fields.shear, offset));
+  PetscCall(SamGridCreateVec(c->grid, 2, offset));
   if (c->coupled) PetscCall(SamComplianceApplyNormalToTangential(c->compliance, c->fields.pressure, *offset));
   if (c->slip_before) PetscCall(VecAXPY(*offset, -1, c->slip_before));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -300,7 +300,7 @@ static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, Pet
   char                message[sizeof(step->message)];
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(c->fields.pressure, &bound));
+  PetscCall(SamGridCreateVec(c->grid, 1, &bound));
   PetscCall(VecAXPY(bound, c->friction, c->fields.pressure));
   PetscCall(CreateOffset(c, &offset));
   step->tangential = *given;
@@ -431,9 +431,9 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
   PetscCall(SamComplianceIsCoupled(c->compliance, &c->coupled));
   if (!c->coupling) c->coupled = PETSC_FALSE;
   if (c->coupled && !c->h) {
-    PetscCall(VecDuplicate(c->separation, &c->h));
-    PetscCall(VecDuplicate(c->separation, &c->last[0]));
-    PetscCall(VecDuplicate(c->fields.shear, &c->last[1]));
+    PetscCall(SamGridCreateVec(c->grid, 1, &c->h));
+    PetscCall(SamGridCreateVec(c->grid, 1, &c->last[0]));
+    PetscCall(SamGridCreateVec(c->grid, 2, &c->last[1]));
   }
   /* the slip at the end of the last step becomes the reference of this one */
   if (c->fields.slip) {

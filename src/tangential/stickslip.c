@@ -27,7 +27,7 @@ PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *leve
   w->cells  = level->grid->cells;
   for (PetscInt c = 0; c < 3; c++) w->motion[c] = level->has_motion ? level->rigid[c] : level->frame.fixed[c];
   PetscCall(SamComplianceGetSelfInfluence(level->compliance, NULL, &w->self));
-  PetscCall(VecDuplicate(level->q, &w->vs));
+  PetscCall(SamGridCreateVec(level->grid, 2, &w->vs));
   PetscCall(VecGetArrayRead(level->bound, &w->bound));
   if (level->offset) PetscCall(VecGetArrayRead(level->offset, &w->offset));
   PetscCall(VecGetArray(level->q, &w->q));

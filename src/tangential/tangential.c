@@ -269,8 +269,8 @@ static PetscErrorCode Prolong(SamTransfer transfer, SamTangentialLevel *coarse, 
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 4; c++) {
-    PetscCall(VecDuplicate(coarse->bound, &down[c]));
-    PetscCall(VecDuplicate(fine->bound, &up[c]));
+    PetscCall(SamGridCreateVec(coarse->grid, 1, &down[c]));
+    PetscCall(SamGridCreateVec(fine->grid, 1, &up[c]));
   }
   PetscCall(MakeRatios(coarse, down));
   for (PetscInt c = 0; c < 4; c++) PetscCall(SamTransferProlong(transfer, down[c], up[c]));
