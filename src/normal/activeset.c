@@ -1,36 +1,51 @@
 /*
-  Preconditioned projected conjugate gradients on an active set.
+  Projected preconditioned conjugate gradients on a changing active set.
 
-  Problem: minimise p.S p/2 + h.p over p >= 0 in equilibrium (or with given rigid displacements).
-    1. On the set A of contact cells, conjugate gradients in the null space of the equilibrium constraints: the residual
-       -g and the preconditioned residual are both projected on it (P M P, M of order |k|). The rigid displacements are
-       the multipliers that the projection finds.
-    2. This goes on while the residual is larger than what is wrong with A (proportioning): p < 0 on it, g < 0 outside.
-    3. Then cells with p < 0 leave A, cells with g < 0 enter it, the nearest admissible pressure is taken (p >= 0 on A
-       and in equilibrium), and g is computed anew. The energy may rise in a round; if the error has not fallen for
-       several, it is made to fall by the best point between the old and the new pressure, which are both admissible.
-  Stops when |g| on A and -g outside it are below the tolerance, relative to the largest displacement.
+  Problem: minimise p.S p/2 + h.p over the admissible p: p >= 0, in equilibrium (or with given rigid displacements).
+  An iteration, with one product:
+    1. A: the cells where pressure is, or is to be: those without that penetrate are in A, those with little that are to part
+       are not. The rigid displacements (the multipliers of equilibrium) make the gap g on A smallest. The residual is -g on A.
+    2. Direction: the preconditioned residual, with the part of the last step that makes the two conjugate. Both stay
+       meaningful when A changes, as the last step is the difference of two pressures, whose product is known.
+    3. Trial: the pressure on A, 0 outside, admissible and nearest to p + alpha times the direction, alpha as last was best.
+    4. The product of trial - p gives the best point between p and the trial, or beyond as long as p >= 0. When no cell meets
+       its bound that is the step of linear conjugate gradients.
+  So p is admissible and the energy falls throughout, cells enter and leave by the thousand without a product of their own, and
+  conjugacy is kept. If the trial is uphill, or the error has not fallen for several iterations, the direction is the residual
+  itself: projected gradient steps with the best length converge whatever is between them.
+  Stops when |g| under pressure and -g elsewhere are below the tolerance, relative to the largest displacement.
 
-  The directions of step 1 and their products are in single precision, at half the cost, in units of the round's first
-  residual; p and g are not. The rounding that g collects in a round is a part of about 1e-7 of what the round began with, so
-  a round ends when the residual has fallen by more than a little; the next begins with a product in double precision.
+  Preconditioner: |k| on A, less half its loss. |k| = |k|' + loss on A: |k|' is what the differences of a field within A
+  cost, loss = |k| 1_A what it costs that the field ends at the edge of A. The inverse of S on A lies between the two:
+  the field outside is free, not zero. The loss grows at edges like 1/distance, which |k| alone has too much.
+
+  Steps and their products are in single precision, at half the cost; p and g are not. What rounding g collects is a part of
+  about 1e-7 of the largest error since the last product in double precision; before it matters there is another one.
   References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
-  Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum).
+  Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum);
+  Bogdan, Burdzy and Chen 2003, Probab. Theory Relat. Fields 127, 89-152 (|k| on a part of the plane, with and without loss).
 */
 #include "normalimpl.h"
+#include <float.h>
 #include <math.h>
-#include <string.h>
 
-/* The set is changed when what is wrong with it exceeds this part of the residual (both squared). */
-#define PROPORTION 0.01
-/* A round ends at this part of its first residual, so that rounding stays small. */
-#define ROUND_FALL 3e-3
-/* Rounding of g in a round, as a part of its first error, and the part of the tolerance that it may be at the end. */
+/* A cell parts when the gap is more than its own pressure and that of its neighbours displace it, in units of the former. */
+#define PATCH 5.0
+/* The part of the loss that is taken off, and that of A that may change before the loss is computed anew. */
+#define LOSS_OFF 0.5
+#define LOSS_OLD 0.03
+/* A direction's least descent, as a part of that of the preconditioned residual. */
+#define DESCENT 0.1
+/* The trial's length follows the best one by at most this factor's root. */
+#define FOLLOW 2.0
+/* Rounding of g as a part of the largest error since it was computed in double precision, the part of the tolerance that it
+   may be at the end, and the fall of the error after which g is computed anew in any case. */
 #define SINGLE_ROUNDING 3e-7
 #define DOUBT           0.03
-/* Rounds without progress before the energy is watched, and before giving up: then it is rounding that stands in the way. */
-#define PATIENCE 5
-#define STAGNATION 50
+#define FALL            1e-3
+/* Iterations without progress before a gradient step, and before giving up: then it is rounding that stands in the way. */
+#define PATIENCE 10
+#define STAGNATION 100
 
 typedef struct {
   SamNormal       normal;
@@ -38,19 +53,22 @@ typedef struct {
   const SamFrame *frame;
   PetscInt        nx, rows, cells;
   Vec             vg;
-  double         *p, *g, *old;         /* pressure; gap; pressure before the round, while the energy is watched */
-  float          *d, *s;               /* direction; S d, or the residual, preconditioned or not */
-  float          *xi;                  /* of the columns */
-  double          unit;                /* of s, m; d is in units of unit/self */
+  double         *p, *g, *old;   /* pressure; gap; pressure before the step */
+  float          *z, *s, *u;     /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
+  float          *loss;          /* what is taken off the preconditioner; 0 on cells that were not in A then */
+  float          *xi;            /* of the columns */
+  double          unit;          /* m, of the iteration */
   const double   *h;
-  char           *active;              /* cells of A */
-  double          gram[SAM_GRAM];      /* of A */
-  double          motion[3];           /* rigid displacement in g, fixed part included */
-  double          displacement;        /* largest |S p| */
-  double          self;                /* influence of a cell on itself, m/Pa */
-  double          error;               /* largest complementarity error, m */
-  double          residual, rz;        /* |P g| on A, squared; r.z, in units */
-  double          pulling, violation;  /* how wrong A is, squared: cells of A that pull; those and the penetrating outside */
+  char           *active;        /* cells of A */
+  double          size;          /* of A */
+  double          gram[SAM_GRAM];
+  double          motion[3];     /* rigid displacement in g, fixed part included */
+  double          displacement;  /* largest |S p| */
+  double          self;          /* influence of a cell on itself, m/Pa */
+  double          error, worst;  /* largest complementarity error, m: now, and since g was computed in double precision */
+  double          slope, shrink; /* of the step: s.g; largest part of its pressure that a cell loses */
+  double          curvature;     /* s.u; 0: no step yet */
+  double          alpha;         /* length of the trial */
 } Work;
 
 static PetscErrorCode CreateWork(SamNormal normal, SamNormalLevel *level, Work *w)
@@ -63,13 +81,14 @@ static PetscErrorCode CreateWork(SamNormal normal, SamNormalLevel *level, Work *
   w->nx     = level->grid->nx;
   w->rows   = level->grid->rows;
   w->cells  = level->grid->cells;
+  w->alpha  = 1;
   PetscCall(SamComplianceGetSelfInfluence(level->compliance, &w->self, NULL));
   PetscCall(VecDuplicate(level->p, &w->vg));
   PetscCall(VecGetArray(level->p, &w->p));
   PetscCall(VecGetArrayRead(level->h, &w->h));
   PetscCall(VecGetArray(w->vg, &w->g));
-  PetscCall(PetscCalloc1(w->cells, &w->active));
-  PetscCall(PetscCalloc2(w->cells, &w->d, w->cells, &w->s));
+  PetscCall(PetscCalloc2(w->cells, &w->active, w->cells, &w->old));
+  PetscCall(PetscCalloc4(w->cells, &w->z, w->cells, &w->s, w->cells, &w->u, w->cells, &w->loss));
   PetscCall(PetscMalloc1(w->nx, &w->xi));
   for (PetscInt i = 0; i < w->nx; i++) w->xi[i] = (float)(w->frame->xi0 + (double)i * w->frame->dxi);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -82,10 +101,9 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArrayRead(w->level->h, &w->h));
   PetscCall(VecRestoreArray(w->vg, &w->g));
   PetscCall(VecDestroy(&w->vg));
-  PetscCall(PetscFree2(w->d, w->s));
+  PetscCall(PetscFree2(w->active, w->old));
+  PetscCall(PetscFree4(w->z, w->s, w->u, w->loss));
   PetscCall(PetscFree(w->xi));
-  PetscCall(PetscFree(w->old));
-  PetscCall(PetscFree(w->active));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -128,6 +146,7 @@ static PetscErrorCode ComputeGap(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of A, with its size. */
 static PetscErrorCode ComputeGram(Work *w)
 {
   const SamFrame *f = w->frame;
@@ -144,6 +163,7 @@ static PetscErrorCode ComputeGram(Work *w)
     SamAddAll(SAM_GRAM, totals, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, SAM_GRAM, totals, w->gram));
+  w->size = w->gram[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -164,45 +184,32 @@ SAM_VECTORIZED static void AddMoments(PetscInt n, const double *restrict g, cons
   sums[2] += turn;
 }
 
-/* What a pass over the cells measures: see Work. */
-typedef struct {
-  double residual, pulling, outside, error;
-} Measures;
-
-/*
-  A row of gaps moved by the rigid displacement -a, and measured: residual |g|^2 on A, complementarity error (|g| on A, -g
-  outside), the gap that letting pulling cells go would cause, and penetration outside A, squared.
-*/
-SAM_VECTORIZED static void MoveRow(PetscInt n, double *restrict g, const double *restrict p, const char *restrict active, double self, double xi0, double dxi, double eta, const double motion[3], Measures *m)
+/* A row of gaps moved by the rigid displacement -motion; returns the largest complementarity error: |g| under pressure, -g elsewhere. */
+SAM_VECTORIZED static double MoveRow(PetscInt n, double *restrict g, const double *restrict p, double xi0, double dxi, double eta, const double motion[3])
 {
   const double a = motion[0] - motion[1] * eta, b = motion[2];
-  double       residual = 0, pulling = 0, outside = 0, error = 0;
+  double       sum = 0, error = 0;
 
-#pragma omp simd reduction(+ : residual, pulling, outside) reduction(max : error)
+#pragma omp simd reduction(+ : sum) reduction(max : error)
   for (PetscInt i = 0; i < n; i++) {
-    const double v = g[i] - (a + b * (xi0 + (double)i * dxi)), in = active[i] ? v : 0, out = active[i] ? 0 : (v < 0 ? v : 0), pull = active[i] ? (p[i] < 0 ? self * p[i] : 0) : 0;
-    const double wrong = fabs(in) - out;
+    const double v = g[i] - (a + b * (xi0 + (double)i * dxi)), wrong = p[i] > 0 ? fabs(v) : -v;
 
     g[i] = v;
-    residual += in * in;
-    pulling += pull * pull;
-    outside += out * out;
+    sum += v;
     error = wrong > error ? wrong : error;
   }
-  m->residual += residual;
-  m->pulling += pulling;
-  m->outside += outside;
-  m->error = SamLarger(m->error, isfinite(residual + outside) ? error : NAN);
+  return isfinite(sum) ? error : NAN;
 }
 
 /* Moves g by the rigid displacement that fits it best on A, and measures it. */
 static PetscErrorCode FitMotion(Work *w)
 {
   const SamFrame *f         = w->frame;
-  SamTotal        totals[3] = {{0, 0}}, squares[3] = {{0, 0}};
+  SamTotal        totals[3] = {{0, 0}};
   double          sums[3], a[3], error = 0;
 
   PetscFunctionBegin;
+  PetscCall(ComputeGram(w));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k      = (ptrdiff_t)j * w->nx;
     double          row[3] = {0, 0, 0};
@@ -214,349 +221,357 @@ static PetscErrorCode FitMotion(Work *w)
   SamFrameSolve(f, w->gram, sums, a);
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
-    Measures        row = {0};
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    MoveRow(w->nx, w->g + k, w->p + k, w->active + k, w->self, f->xi0, f->dxi, SamFrameEta(f, j), a, &row);
-    SamAdd(&squares[0], row.residual);
-    SamAdd(&squares[1], row.pulling);
-    SamAdd(&squares[2], row.outside);
-    error = SamLarger(error, row.error);
+    error = SamLarger(error, MoveRow(w->nx, w->g + k, w->p + k, f->xi0, f->dxi, SamFrameEta(f, j), a));
   }
-  PetscCall(SamSumTotals(w->level->grid->comm, 3, squares, sums));
   PetscCall(SamMax(w->level->grid->comm, 1, &error));
-  w->residual  = sums[0];
-  w->pulling   = sums[1];
-  w->violation = sums[1] + sums[2];
-  w->error     = error;
+  w->error = error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The residual, in units, for the preconditioner. */
-SAM_VECTORIZED static void ResidualRow(PetscInt n, const double *restrict g, const char *restrict active, double inverse, float *restrict s)
+/* Chooses A with the motion fitted to the cells with pressure, and fits it to A. */
+static PetscErrorCode ChooseSet(Work *w)
+{
+  double changed = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->cells; k++) w->active[k] = w->p[k] > 0;
+  PetscCall(FitMotion(w));
+  for (PetscInt k = 0; k < w->cells; k++) {
+    const char in = PATCH * w->self * w->p[k] > w->g[k];
+
+    changed += in != w->active[k];
+    w->active[k] = in;
+  }
+  PetscCall(SamSum(w->level->grid->comm, 1, &changed));
+  if (changed > 0) PetscCall(FitMotion(w));
+  w->worst = SamLarger(w->worst, w->error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* g in double precision, and the set by it. */
+static PetscErrorCode Refresh(Work *w)
+{
+  PetscFunctionBegin;
+  PetscCall(ComputeGap(w));
+  w->worst = 0;
+  PetscCall(ChooseSet(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The part of |k| 1_A that is taken off the preconditioner, when A is no longer the one it was computed for. */
+static PetscErrorCode UpdateLoss(Work *w)
+{
+  double changed = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->cells; k++) changed += (w->loss[k] > 0) != (w->active[k] != 0);
+  PetscCall(SamSum(w->level->grid->comm, 1, &changed));
+  if (changed <= LOSS_OLD * w->size) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < w->cells; k++) w->loss[k] = w->active[k] ? 1.0f : 0.0f;
+  PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->loss, w->loss));
+  for (PetscInt k = 0; k < w->cells; k++) w->loss[k] = w->active[k] ? fmaxf((float)LOSS_OFF * w->loss[k], FLT_MIN) : 0.0f;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The residual, in units. */
+SAM_VECTORIZED static void ResidualRow(PetscInt n, const double *restrict g, const char *restrict active, double inverse, float *restrict z)
 {
 #pragma omp simd
-  for (PetscInt i = 0; i < n; i++) s[i] = active[i] ? (float)(-inverse * g[i]) : 0.0f;
+  for (PetscInt i = 0; i < n; i++) z[i] = active[i] ? (float)(-inverse * g[i]) : 0.0f;
 }
 
-/* Moments of z on A, and r.z in units. */
-SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict z, const char *restrict active, const float *restrict xi, double inverse, double eta, double sums[4])
+static void ComputeResidual(Work *w)
 {
-  float  sum = 0, turn = 0;
-  double product = 0;
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-#pragma omp simd reduction(+ : sum, turn, product)
-  for (PetscInt i = 0; i < n; i++) {
-    const float v = active[i] ? z[i] : 0.0f;
-
-    sum += v;
-    turn += xi[i] * v;
-    product -= (double)v * g[i];
+    ResidualRow(w->nx, w->g + k, w->active + k, 1 / w->unit, w->z + k);
   }
-  sums[0] += (double)sum;
-  sums[1] -= eta * (double)sum;
-  sums[2] += (double)turn;
-  sums[3] += inverse * product;
 }
 
-SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict z, const char *restrict active, const float *restrict xi, double eta, const double motion[3], float beta, float *restrict d)
+/* What a row adds to a direction's sums over A: moments of z and of u (without the factor of eta); z.r, z.u, s.r. */
+typedef struct {
+  double z, z_turn, u, u_turn, zr, zu, sr;
+} Products;
+
+/* z = |k| r less the loss of r, and its products. */
+SAM_VECTORIZED static Products PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict s, const float *restrict u, const float *restrict loss, const char *restrict active, const float *restrict xi, double inverse, float *restrict z)
+{
+  float  z_sum = 0, z_turn = 0, u_sum = 0, u_turn = 0, zu = 0;
+  double zr = 0, sr = 0;
+
+#pragma omp simd reduction(+ : z_sum, z_turn, u_sum, u_turn, zu, zr, sr)
+  for (PetscInt i = 0; i < n; i++) {
+    const float r = active[i] ? (float)(-inverse * g[i]) : 0.0f, v = active[i] ? z[i] - loss[i] * r : 0.0f, w = active[i] ? u[i] : 0.0f;
+
+    z[i] = v;
+    z_sum += v;
+    z_turn += xi[i] * v;
+    u_sum += w;
+    u_turn += xi[i] * w;
+    zu += v * w;
+    zr += (double)v * (double)r;
+    sr += (double)s[i] * (double)r;
+  }
+  return (Products){(double)z_sum, (double)z_turn, (double)u_sum, (double)u_turn, zr, (double)zu, sr};
+}
+
+SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict s, const char *restrict active, const float *restrict xi, double eta, const double motion[3], float beta, float *restrict z)
 {
   const float a = (float)(motion[0] - motion[1] * eta), b = (float)motion[2];
 
 #pragma omp simd
-  for (PetscInt i = 0; i < n; i++) d[i] = active[i] ? z[i] - a - b * xi[i] + beta * d[i] : 0.0f;
+  for (PetscInt i = 0; i < n; i++) z[i] = active[i] ? z[i] - a - b * xi[i] + beta * s[i] : 0.0f;
 }
 
-/* d = P M r + beta d on A. */
-static PetscErrorCode NewDirection(Work *w, PetscBool first)
+/* z = P M r + beta s on A, conjugate to the last step. */
+static PetscErrorCode NewDirection(Work *w)
 {
-  const SamFrame *f       = w->frame;
-  const double    inverse = 1 / w->unit;
-  SamTotal        totals[4] = {{0, 0}};
-  double          sums[4], a[3], beta;
+  const SamFrame *f = w->frame;
+  SamTotal        totals[9] = {{0, 0}};
+  double          sums[9], a[3], beta = 0;
 
   PetscFunctionBegin;
+  PetscCall(UpdateLoss(w));
+  ComputeResidual(w);
+  PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->z, w->z));
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
+    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
+    const double    eta = SamFrameEta(f, j);
+    const Products  row = PreconditionedRow(w->nx, w->g + k, w->s + k, w->u + k, w->loss + k, w->active + k, w->xi, 1 / w->unit, w->z + k);
 
-    ResidualRow(w->nx, w->g + k, w->active + k, inverse, w->s + k);
+    SamAddAll(9, totals, (const double[9]){row.z, -eta * row.z, row.z_turn, row.u, -eta * row.u, row.u_turn, row.zr, row.zu, row.sr});
   }
-  PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->s, w->s));
-  for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k      = (ptrdiff_t)j * w->nx;
-    double          row[4] = {0, 0, 0, 0};
-
-    PreconditionedRow(w->nx, w->g + k, w->s + k, w->active + k, w->xi, inverse, SamFrameEta(f, j), row);
-    SamAddAll(4, totals, row);
-  }
-  PetscCall(SamSumTotals(w->level->grid->comm, 4, totals, sums));
+  PetscCall(SamSumTotals(w->level->grid->comm, 9, totals, sums));
   SamFrameSolve(f, w->gram, sums, a);
-  beta  = first ? 0 : sums[3] / w->rz;
-  w->rz = sums[3];
+  if (w->curvature > 0) beta = -(sums[7] - (a[0] * sums[3] + a[1] * sums[4] + a[2] * sums[5])) / w->curvature;
+  if (!(beta > 0) || sums[6] + beta * sums[8] < DESCENT * sums[6]) beta = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    DirectionRow(w->nx, w->s + k, w->active + k, w->xi, SamFrameEta(f, j), a, (float)beta, w->d + k);
+    DirectionRow(w->nx, w->s + k, w->active + k, w->xi, SamFrameEta(f, j), a, (float)beta, w->z + k);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SAM_VECTORIZED static double CurvatureRow(PetscInt n, const float *restrict d, const float *restrict s)
+/* The step to the trial p from the old pressure; returns its slope, and raises `shrink`. */
+SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, const double *restrict old, const double *restrict g, double to_units, float *restrict s, double *shrink)
+{
+  double slope = 0, most = 0;
+
+#pragma omp simd reduction(+ : slope) reduction(max : most)
+  for (PetscInt i = 0; i < n; i++) {
+    const double step = p[i] - old[i], part = old[i] > 0 ? -step / old[i] : 0;
+
+    s[i] = (float)(to_units * step);
+    slope += (double)s[i] * g[i];
+    most = part > most ? part : most;
+  }
+  *shrink = PetscMax(*shrink, most);
+  return slope;
+}
+
+/* p = the admissible pressure on A nearest to old + alpha z, and the step there. */
+static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
+{
+  const double by = alpha * w->unit / w->self;
+  SamTotal     total = {0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->cells; k++) w->p[k] = w->old[k] + by * (double)w->z[k];
+  PetscCall(SamFrameProjectNormal(w->frame, w->active, w->p, found));
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
+  w->shrink = 0;
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
+
+    SamAdd(&total, TrialRow(w->nx, w->p + k, w->old + k, w->g + k, w->self / w->unit, w->s + k, &w->shrink));
+  }
+  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->slope));
+  PetscCall(SamMax(w->level->grid->comm, 1, &w->shrink));
+  w->slope /= w->unit;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Along the residual, with no cell made to part, as far as is downhill for modes like that of all the pressure. */
+static PetscErrorCode TryGradient(Work *w, PetscBool *found)
+{
+  double most = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->cells; k++) {
+    w->active[k] = w->old[k] > 0 || w->g[k] < 0;
+    most         = PetscMax(most, w->old[k]);
+  }
+  PetscCall(SamMax(w->level->grid->comm, 1, &most));
+  ComputeResidual(w);
+  PetscCall(Try(w, most / w->displacement * w->self, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SAM_VECTORIZED static double CurvatureRow(PetscInt n, const float *restrict s, const float *restrict u)
 {
   float sum = 0;
 
 #pragma omp simd reduction(+ : sum)
-  for (PetscInt i = 0; i < n; i++) sum += d[i] * s[i];
+  for (PetscInt i = 0; i < n; i++) sum += s[i] * u[i];
   return (double)sum;
 }
 
-SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict d, const float *restrict s, double by_d, double by_s, double *restrict p, double *restrict g)
+/* From the trial, where p has gone by s: what is left to rounding of a pressure is none. */
+SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s, double rounding, double by_u, double *restrict p, double *restrict g)
 {
 #pragma omp simd
   for (PetscInt i = 0; i < n; i++) {
-    p[i] += by_d * (double)d[i];
-    g[i] += by_s * (double)s[i];
+    const double v = p[i] + by_s * (double)s[i];
+
+    p[i] = v > rounding * fabs((double)s[i]) ? v : 0;
+    g[i] += by_u * (double)u[i];
   }
 }
 
-/* p += alpha d, g += alpha S d with the exact step; `good` is false when there is no direction left. */
-static PetscErrorCode Step(Work *w, PetscBool *good)
+/* p = old + t s, g += t S s, with the least energy between t = 0 and where a pressure vanishes. `best`: least without that bound. */
+static PetscErrorCode Step(Work *w, double *best)
 {
-  SamTotal total = {0, 0};
-  double   curvature, alpha;
+  const double pressure = w->unit / w->self;
+  SamTotal     total = {0, 0};
+  double       t;
 
   PetscFunctionBegin;
-  PetscCall(SamNormalApplySingle(w->normal, w->level, 1 / w->self, w->d, w->s));
-  for (PetscInt j = 0; j < w->rows; j++) SamAdd(&total, CurvatureRow(w->nx, w->d + (ptrdiff_t)j * w->nx, w->s + (ptrdiff_t)j * w->nx));
-  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &curvature));
-  *good = (curvature > 0 && w->rz > 0) ? PETSC_TRUE : PETSC_FALSE;
-  if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
-  alpha = w->rz / curvature;
-  StepRow(w->cells, w->d, w->s, alpha * w->unit / w->self, alpha * w->unit, w->p, w->g);
+  PetscCall(SamNormalApplySingle(w->normal, w->level, 1 / w->self, w->s, w->u));
+  for (PetscInt j = 0; j < w->rows; j++) SamAdd(&total, CurvatureRow(w->nx, w->s + (ptrdiff_t)j * w->nx, w->u + (ptrdiff_t)j * w->nx));
+  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->curvature));
+  *best = w->curvature > 0 ? -w->slope / w->curvature : 0;
+  if (!(*best > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  t = *best * w->shrink > 1 ? 1 / w->shrink : *best;
+  StepRow(w->cells, w->s, w->u, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, w->p, w->g);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Conjugate gradients on A until the set should be changed, the tolerance is met or max_it is. `solved`: it is met, and
-  no cell pulls. The residual and what is wrong with the set are both gaps, squared, which are compared.
-*/
-static PetscErrorCode Iterate(Work *w, PetscBool *solved)
+/* One iteration. `good`: there was a way down. */
+static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, PetscBool *found)
 {
-  const double goal = ROUND_FALL * ROUND_FALL * w->residual, tolerance = w->level->rtol * w->displacement;
-  /* after a round that began far from the solution the error is what a product in double precision says */
-  const PetscBool trusted = SINGLE_ROUNDING * w->error <= DOUBT * tolerance ? PETSC_TRUE : PETSC_FALSE;
-  PetscBool    good = PETSC_TRUE, done = w->residual == 0 ? PETSC_TRUE : PETSC_FALSE;
+  double best = 0;
+
+  PetscFunctionBegin;
+  w->unit = w->error;
+  PetscCall(PetscArraycpy(w->old, w->p, w->cells));
+  if (!gradient) {
+    PetscCall(NewDirection(w));
+    PetscCall(Try(w, w->alpha, found));
+    gradient = (!*found || w->slope >= 0) ? PETSC_TRUE : PETSC_FALSE;
+  }
+  if (gradient) PetscCall(TryGradient(w, found));
+  if (*found && w->slope < 0) PetscCall(Step(w, &best));
+  *good = best > 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (!*good) {
+    PetscCall(PetscArraycpy(w->p, w->old, w->cells));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
+  PetscCall(ChooseSet(w));
+  PetscCall(SamNormalIterated(w->normal, w->level, w->error / w->displacement));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static double Tolerance(const Work *w)
+{
+  return w->level->rtol * w->displacement;
+}
+
+/* Single precision has rounded g by no more than the tolerance has room for. */
+static PetscBool IsTrusted(const Work *w)
+{
+  return SINGLE_ROUNDING * w->worst <= DOUBT * Tolerance(w) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* g is to be computed anew: when that makes it trusted to the end, or is the least that can be done about its rounding. */
+static PetscBool IsStale(const Work *w)
+{
+  return (!IsTrusted(w) && (SINGLE_ROUNDING * w->error <= DOUBT * Tolerance(w) || w->error <= FALL * w->worst)) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* A row's largest |S p|. */
+SAM_VECTORIZED static double DisplacementRow(PetscInt n, const double *restrict g, const double *restrict h, double xi0, double dxi, double eta, const double motion[3])
+{
+  const double a = motion[0] - motion[1] * eta, b = motion[2];
+  double       max = 0;
+
+#pragma omp simd reduction(max : max)
+  for (PetscInt i = 0; i < n; i++) {
+    const double size = fabs(g[i] - h[i] + a + b * (xi0 + (double)i * dxi));
+
+    max = size > max ? size : max;
+  }
+  return max;
+}
+
+/* The error is below the tolerance, which the displacement decides that now is. */
+static PetscErrorCode IsSolved(Work *w, PetscBool *solved)
+{
+  const SamFrame *f   = w->frame;
+  double          max = 0;
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  w->unit = w->error;
-  PetscCall(PetscArrayzero(w->d, w->cells));
-  for (PetscInt it = 0; !done; it++) {
-    PetscCall(NewDirection(w, it == 0 ? PETSC_TRUE : PETSC_FALSE));
-    PetscCall(Step(w, &good));
-    if (!good) break;
-    PetscCall(FitMotion(w));
-    PetscCall(SamNormalIterated(w->normal, w->level, w->error / w->displacement));
-    *solved = (trusted && w->error <= tolerance && w->pulling == 0) ? PETSC_TRUE : PETSC_FALSE;
-    done    = (*solved || w->violation > PROPORTION * w->residual || w->residual <= goal || !isfinite(w->residual)) ? PETSC_TRUE : PETSC_FALSE;
-    if (w->error <= 0.5 * tolerance) done = PETSC_TRUE;
-    if (w->level->finest && w->normal->solver.iterations >= SamSolverMaxIterations(&w->normal->solver)) done = PETSC_TRUE;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Cells that pull leave A, cells that penetrate enter; p becomes the nearest admissible pressure. */
-static PetscErrorCode UpdateSet(Work *w, PetscBool *found)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) {
-    w->active[k] = w->active[k] ? w->p[k] > 0 : w->g[k] < 0;
-    if (!w->active[k]) w->p[k] = 0;
-  }
-  PetscCall(SamFrameProjectNormal(w->frame, w->active, w->p, found));
-  if (!*found) PetscCall(SamFrameProjectNormal(w->frame, NULL, w->p, found)); /* A alone cannot carry the loads */
-  for (PetscInt k = 0; k < w->cells; k++) w->active[k] = (w->p[k] > 0 || (w->active[k] && w->g[k] < 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Energy p.S p/2 + (h - fixed).p from p and g. */
-static PetscErrorCode ComputeEnergy(const Work *w, double *energy)
-{
-  const SamFrame *f = w->frame;
-  double          a[3];
-
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < 3; c++) a[c] = w->motion[c] - 2 * f->fixed[c];
-  *energy = 0;
+  if (!(w->error <= Tolerance(w)) || !IsTrusted(w)) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = SamFrameEta(f, j);
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    for (PetscInt i = 0; i < w->nx; i++) {
-      const PetscInt k = j * w->nx + i;
-
-      if (w->p[k] > 0) *energy += 0.5 * w->p[k] * (w->g[k] + w->h[k] + SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta));
-    }
+    max = PetscMax(max, DisplacementRow(w->nx, w->g + k, w->h + k, f->xi0, f->dxi, SamFrameEta(f, j), w->motion));
   }
-  PetscCall(SamSum(w->level->grid->comm, 1, energy));
+  PetscCall(SamMax(w->level->grid->comm, 1, &max));
+  w->displacement = max;
+  *solved         = w->error <= Tolerance(w) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* p = old + alpha (p - old), and its gap. */
-static PetscErrorCode StepBetween(Work *w, double alpha)
+/* The reason to stop, when there is one. */
+static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool good, PetscBool found, SamNormalReason *reason)
 {
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) {
-    w->p[k]      = w->old[k] + alpha * (w->p[k] - w->old[k]);
-    w->active[k] = w->p[k] > 0;
-  }
-  PetscCall(ComputeGap(w));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A projected gradient step from `old`, which always finds a lower energy unless `old` is the solution. */
-static PetscErrorCode GradientStep(Work *w)
-{
-  double    sums[1] = {0}, *gap, most = 0, before, after, slope, curvature;
-  PetscBool found;
+  const SamSolver *solver = &w->normal->solver;
+  PetscBool        solved;
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(w->p, w->old, w->cells));
-  PetscCall(ComputeGap(w));
-  PetscCall(ComputeEnergy(w, &before));
-  for (PetscInt k = 0; k < w->cells; k++) most = PetscMax(most, w->p[k]);
-  PetscCall(SamMax(w->level->grid->comm, 1, &most));
-  PetscCall(PetscMalloc1(w->cells, &gap));
-  PetscCall(PetscArraycpy(gap, w->g, w->cells));
-  for (PetscInt k = 0; k < w->cells; k++) w->p[k] -= most / w->displacement * w->g[k];
-  PetscCall(SamFrameProjectNormal(w->frame, NULL, w->p, &found));
-  for (PetscInt k = 0; k < w->cells; k++) sums[0] += gap[k] * (w->p[k] - w->old[k]);
-  PetscCall(PetscFree(gap));
-  PetscCall(StepBetween(w, 1));
-  PetscCall(ComputeEnergy(w, &after));
-  PetscCall(SamSum(w->level->grid->comm, 1, sums));
-  slope     = sums[0];
-  curvature = 2 * (after - before - slope);
-  if (slope < 0 && curvature > -slope) PetscCall(StepBetween(w, -slope / curvature));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* After a change of the set: if the energy has risen, the best point between the old and the new pressure. */
-static PetscErrorCode EnsureDescent(Work *w, double *energy)
-{
-  const double before = *energy;
-  double       after, sums[1] = {0}, slope, curvature;
-
-  PetscFunctionBegin;
-  PetscCall(ComputeEnergy(w, &after));
-  if (after <= before + 1e-12 * fabs(before)) {
-    *energy = after;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  /* along delta = p - old: after = before + slope + curvature/2, and delta.g = slope + curvature at the new pressure */
-  for (PetscInt k = 0; k < w->cells; k++) sums[0] += (w->p[k] - w->old[k]) * w->g[k];
-  PetscCall(SamSum(w->level->grid->comm, 1, sums));
-  curvature = 2 * (sums[0] - (after - before));
-  slope     = sums[0] - curvature;
-  if (slope < 0 && curvature > 0) PetscCall(StepBetween(w, -slope / curvature));
-  else PetscCall(GradientStep(w));
-  PetscCall(ComputeEnergy(w, energy));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The first set: where there is pressure, or, without any, where the undeformed bodies overlap. */
-static PetscErrorCode Start(Work *w, double *energy)
-{
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] = w->frame->fixed[c];
-  for (PetscInt k = 0; k < w->cells; k++) w->active[k] = w->p[k] > 0;
-  PetscCall(ComputeGap(w));
-  PetscCall(ComputeEnergy(w, energy));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Fits the motion on A and measures the error. */
-static PetscErrorCode LookAtSet(Work *w)
-{
-  PetscFunctionBegin;
-  PetscCall(ComputeGram(w));
-  PetscCall(FitMotion(w));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Cells that penetrate enter A, and the motion is fitted anew. */
-static PetscErrorCode AddPenetrating(Work *w)
-{
-  double added = 0;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) {
-    if (w->active[k] || w->g[k] >= 0) continue;
-    w->active[k] = 1;
-    added += 1;
-  }
-  PetscCall(SamSum(w->level->grid->comm, 1, &added));
-  if (added > 0) {
-    PetscCall(ComputeGram(w));
-    PetscCall(FitMotion(w));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The reason to stop, when there is one, with the set and the gap as they are. */
-static SamNormalReason Reason(const Work *w, PetscInt stagnant)
-{
-  if (!isfinite(w->error)) return SAM_NORMAL_DIVERGED_NAN;
-  if (w->error <= w->level->rtol * w->displacement) return SAM_NORMAL_CONVERGED_RTOL;
-  if (w->level->finest && w->normal->solver.iterations >= SamSolverMaxIterations(&w->normal->solver)) return SAM_NORMAL_DIVERGED_ITS;
-  return stagnant > STAGNATION ? SAM_NORMAL_DIVERGED_STAGNATED : SAM_NORMAL_CONVERGED_ITERATING;
-}
-
-/* One round: enter what penetrates, iterate, change the set. */
-static PetscErrorCode Round(Work *w, PetscBool watch, double *energy, PetscBool *solved, PetscBool *found)
-{
-  PetscFunctionBegin;
-  *found = PETSC_TRUE;
-  PetscCall(AddPenetrating(w));
-  if (watch) {
-    if (!w->old) PetscCall(PetscMalloc1(w->cells, &w->old));
-    PetscCall(PetscArraycpy(w->old, w->p, w->cells));
-  }
-  PetscCall(Iterate(w, solved));
-  if (*solved) { /* the directions balance to the rounding of single precision only */
-    PetscCall(SamFrameProjectNormal(w->frame, w->active, w->p, found));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(UpdateSet(w, found));
-  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ComputeGap(w));
-  if (watch) PetscCall(EnsureDescent(w, energy));
-  else PetscCall(ComputeEnergy(w, energy));
-  PetscCall(LookAtSet(w));
+  *reason = SAM_NORMAL_CONVERGED_ITERATING;
+  if (!found) *reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
+  else if (!isfinite(w->error)) *reason = SAM_NORMAL_DIVERGED_NAN;
+  if (*reason) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(IsSolved(w, &solved));
+  if (solved) *reason = SAM_NORMAL_CONVERGED_RTOL;
+  else if (w->level->finest && solver->iterations >= SamSolverMaxIterations(solver)) *reason = SAM_NORMAL_DIVERGED_ITS;
+  else if (stagnant > STAGNATION || !good) *reason = SAM_NORMAL_DIVERGED_STAGNATED;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode SamNormalSolve_ActiveSet(SamNormal normal, SamNormalLevel *level)
 {
   Work            w;
-  double          energy, best;
+  double          best;
   PetscInt        stagnant = 0;
+  PetscBool       good = PETSC_TRUE, found = PETSC_TRUE;
   SamNormalReason reason;
 
   PetscFunctionBegin;
   PetscCall(CreateWork(normal, level, &w));
-  PetscCall(Start(&w, &energy));
-  PetscCall(LookAtSet(&w));
-  best   = w.error;
-  reason = Reason(&w, stagnant);
+  for (PetscInt c = 0; c < 3; c++) w.motion[c] = w.frame->fixed[c];
+  PetscCall(Refresh(&w));
+  best = w.error;
+  PetscCall(GetReason(&w, stagnant, good, found, &reason));
   while (!reason) {
-    PetscBool solved, found;
+    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE;
 
-    PetscCall(Round(&w, stagnant > PATIENCE ? PETSC_TRUE : PETSC_FALSE, &energy, &solved, &found));
+    PetscCall(Iterate(&w, gradient, &good, &found));
+    if (good && (gradient || IsStale(&w))) PetscCall(Refresh(&w));
     stagnant = w.error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, w.error);
-    reason   = found ? Reason(&w, stagnant) : SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
+    PetscCall(GetReason(&w, stagnant, good, found, &reason));
   }
-  normal->reason = reason;
+  /* steps balance to the rounding of single precision only */
+  if (found) PetscCall(SamFrameProjectNormalOnContact(w.frame, w.p, &found));
+  normal->reason       = reason;
   normal->solver.error = w.error / w.displacement;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = w.motion[c];
   PetscCall(DestroyWork(&w));
