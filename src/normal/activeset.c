@@ -60,8 +60,7 @@ typedef struct {
   double          unit;          /* m, of the iteration */
   const double   *h;
   char           *active;        /* cells of A */
-  double          size;          /* of A */
-  double          gram[SAM_GRAM];
+  double          gram[SAM_GRAM]; /* of A */
   double          motion[3];     /* rigid displacement in g, fixed part included */
   double          displacement;  /* largest |S p| */
   double          self;          /* influence of a cell on itself, m/Pa */
@@ -146,42 +145,51 @@ static PetscErrorCode ComputeGap(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of A, with its size. */
-static PetscErrorCode ComputeGram(Work *w)
+/* Sums over a row's cells of A: their number, xi, xi^2, g and xi g. */
+typedef struct {
+  double count, xi, xi2, g, xi_g;
+} RowSums;
+
+/* A in a row: the cells with p > ease times the gap, which `motion` moves back first; and their sums. */
+SAM_VECTORIZED static RowSums ChooseRow(PetscInt n, const double *restrict p, const double *restrict g, double ease, double xi0, double dxi, double eta, const double motion[3], char *restrict active)
+{
+  const double a = motion[0] - motion[1] * eta, b = motion[2];
+  double       count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0;
+
+#pragma omp simd reduction(+ : count, xi, xi2, sum, turn)
+  for (PetscInt i = 0; i < n; i++) {
+    const double x = xi0 + (double)i * dxi, v = g[i] - (a + b * x), in = p[i] > ease * v ? 1 : 0;
+
+    active[i] = (char)in;
+    count += in;
+    xi += in * x;
+    xi2 += in * x * x;
+    sum += in * v;
+    turn += in * x * v;
+  }
+  return (RowSums){count, xi, xi2, sum, turn};
+}
+
+/* Chooses A by the gap that `motion` has moved back, and adds to it what fits it to A. */
+static PetscErrorCode Choose(Work *w, double ease, double motion[3])
 {
   const SamFrame *f = w->frame;
-
-  SamTotal totals[SAM_GRAM] = {{0, 0}};
+  SamTotal        totals[SAM_GRAM + 3] = {{0, 0}};
+  double          sums[SAM_GRAM + 3], a[3];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta           = SamFrameEta(f, j);
-    double       row[SAM_GRAM] = {0};
+    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
+    const double    eta = SamFrameEta(f, j);
+    const RowSums   row = ChooseRow(w->nx, w->p + k, w->g + k, ease, f->xi0, f->dxi, eta, motion, w->active + k);
 
-    for (PetscInt i = 0; i < w->nx; i++)
-      if (w->active[j * w->nx + i]) SamGramAddNormal(row, f->xi0 + (double)i * f->dxi, eta);
-    SamAddAll(SAM_GRAM, totals, row);
+    SamAddAll(SAM_GRAM + 3, totals, (const double[SAM_GRAM + 3]){row.count, -eta * row.count, row.xi, eta * eta * row.count, -eta * row.xi, row.xi2, row.g, -eta * row.g, row.xi_g});
   }
-  PetscCall(SamSumTotals(w->level->grid->comm, SAM_GRAM, totals, w->gram));
-  w->size = w->gram[0];
+  PetscCall(SamSumTotals(w->level->grid->comm, SAM_GRAM + 3, totals, sums));
+  PetscCall(PetscArraycpy(w->gram, sums, SAM_GRAM));
+  SamFrameSolve(f, w->gram, sums + SAM_GRAM, a);
+  for (PetscInt c = 0; c < 3; c++) motion[c] += a[c];
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* sum phi g over A of a row. */
-SAM_VECTORIZED static void AddMoments(PetscInt n, const double *restrict g, const char *restrict active, double xi0, double dxi, double eta, double sums[3])
-{
-  double sum = 0, turn = 0;
-
-#pragma omp simd reduction(+ : sum, turn)
-  for (PetscInt i = 0; i < n; i++) {
-    const double v = active[i] ? g[i] : 0;
-
-    sum += v;
-    turn += (xi0 + (double)i * dxi) * v;
-  }
-  sums[0] += sum;
-  sums[1] -= eta * sum;
-  sums[2] += turn;
 }
 
 /* A row of gaps moved by the rigid displacement -motion; returns the largest complementarity error: |g| under pressure, -g elsewhere. */
@@ -201,52 +209,24 @@ SAM_VECTORIZED static double MoveRow(PetscInt n, double *restrict g, const doubl
   return isfinite(sum) ? error : NAN;
 }
 
-/* Moves g by the rigid displacement that fits it best on A, and measures it. */
-static PetscErrorCode FitMotion(Work *w)
+/* Chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures it. */
+static PetscErrorCode ChooseSet(Work *w)
 {
   const SamFrame *f         = w->frame;
-  SamTotal        totals[3] = {{0, 0}};
-  double          sums[3], a[3], error = 0;
+  double          motion[3] = {0, 0, 0}, error = 0;
 
   PetscFunctionBegin;
-  PetscCall(ComputeGram(w));
-  for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k      = (ptrdiff_t)j * w->nx;
-    double          row[3] = {0, 0, 0};
-
-    AddMoments(w->nx, w->g + k, w->active + k, f->xi0, f->dxi, SamFrameEta(f, j), row);
-    SamAddAll(3, totals, row);
-  }
-  PetscCall(SamSumTotals(w->level->grid->comm, 3, totals, sums));
-  SamFrameSolve(f, w->gram, sums, a);
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
+  PetscCall(Choose(w, 0, motion));
+  PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    error = SamLarger(error, MoveRow(w->nx, w->g + k, w->p + k, f->xi0, f->dxi, SamFrameEta(f, j), a));
+    error = SamLarger(error, MoveRow(w->nx, w->g + k, w->p + k, f->xi0, f->dxi, SamFrameEta(f, j), motion));
   }
   PetscCall(SamMax(w->level->grid->comm, 1, &error));
   w->error = error;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Chooses A with the motion fitted to the cells with pressure, and fits it to A. */
-static PetscErrorCode ChooseSet(Work *w)
-{
-  double changed = 0;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) w->active[k] = w->p[k] > 0;
-  PetscCall(FitMotion(w));
-  for (PetscInt k = 0; k < w->cells; k++) {
-    const char in = PATCH * w->self * w->p[k] > w->g[k];
-
-    changed += in != w->active[k];
-    w->active[k] = in;
-  }
-  PetscCall(SamSum(w->level->grid->comm, 1, &changed));
-  if (changed > 0) PetscCall(FitMotion(w));
-  w->worst = SamLarger(w->worst, w->error);
+  w->worst = SamLarger(w->worst, error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -263,12 +243,14 @@ static PetscErrorCode Refresh(Work *w)
 /* The part of |k| 1_A that is taken off the preconditioner, when A is no longer the one it was computed for. */
 static PetscErrorCode UpdateLoss(Work *w)
 {
-  double changed = 0;
+  PetscInt changed = 0;
+  double   total;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) changed += (w->loss[k] > 0) != (w->active[k] != 0);
-  PetscCall(SamSum(w->level->grid->comm, 1, &changed));
-  if (changed <= LOSS_OLD * w->size) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < w->cells; k++) changed += (w->loss[k] > 0) != w->active[k];
+  total = (double)changed;
+  PetscCall(SamSum(w->level->grid->comm, 1, &total));
+  if (total <= LOSS_OLD * w->gram[0]) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < w->cells; k++) w->loss[k] = w->active[k] ? 1.0f : 0.0f;
   PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->loss, w->loss));
   for (PetscInt k = 0; k < w->cells; k++) w->loss[k] = w->active[k] ? fmaxf((float)LOSS_OFF * w->loss[k], FLT_MIN) : 0.0f;
@@ -373,6 +355,12 @@ SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, cons
   return slope;
 }
 
+SAM_VECTORIZED static void AddRow(PetscInt n, const double *restrict old, const float *restrict z, double by, double *restrict p)
+{
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) p[i] = old[i] + by * (double)z[i];
+}
+
 /* p = the admissible pressure on A nearest to old + alpha z, and the step there. */
 static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
 {
@@ -380,7 +368,7 @@ static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
   SamTotal     total = {0, 0};
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) w->p[k] = w->old[k] + by * (double)w->z[k];
+  AddRow(w->cells, w->old, w->z, by, w->p);
   PetscCall(SamFrameProjectNormal(w->frame, w->active, w->p, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   w->shrink = 0;
