@@ -123,6 +123,12 @@ PETSC_INTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRA
 PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const char mask[], double p[], PetscBool *found);
 
 /*
+  SamFrameProjectNormalStep - the same for p + by step: p becomes the nearest admissible pressure, and `made` is `scale` times
+  its change, in single precision like the step. Not found: p is as it was.
+*/
+PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const char mask[], double p[], double by, const float step[], double scale, float made[], PetscBool *found);
+
+/*
   SamFrameProjectNormalOnContact - the same on the cells that have pressure, if those can carry the loads, else on all.
   (The nearest pressure on all cells would spread a little over the whole grid.)
 */

@@ -11,6 +11,7 @@
 */
 #include "balanceimpl.h"
 #include <math.h>
+#include <string.h>
 
 #define NEWTON_MAX 60
 #define HALVINGS_MAX 40
@@ -104,68 +105,81 @@ static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void 
 }
 
 typedef struct {
-  const char   *mask;
+  const char   *mask;  /* normal: cells that count; a row of ones for all */
+  PetscInt      masked; /* from row to row of mask: nx or 0 */
   const double *field;
+  const float  *step;  /* normal: added to the field with the factor `by` */
+  double        by;
   const double *bound;
 } Cells;
 
-static inline void AddNormal(Dual *d, double x, double xi, double eta)
+/* A row of pressures x = max(0, field + by step + phi a) of the cells that count. */
+SAM_VECTORIZED static void PassNormalRow(PetscInt n, const double *restrict field, const float *restrict step, double by, const char *restrict mask, double xi0, double dxi, double eta, const double a[3], Dual *row)
 {
-  d->value += 0.5 * x * x;
-  d->scale += x;
-  d->sums[0] += x;
-  d->sums[1] -= x * eta;
-  d->sums[2] += x * xi;
-  SamGramAddNormal(d->gram, xi, eta);
+  const double ax = a[0] - a[1] * eta, a2 = a[2];
+  double       value = 0, x = 0, turn = 0, count = 0, sum_xi = 0, xi2 = 0;
+
+#pragma omp simd reduction(+ : value, x, turn, count, sum_xi, xi2)
+  for (PetscInt i = 0; i < n; i++) {
+    const double xi = xi0 + (double)i * dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi), in = (mask[i] && v > 0) ? 1 : 0, p = in * v;
+
+    value += 0.5 * p * p;
+    x += p;
+    turn += xi * p;
+    count += in;
+    sum_xi += in * xi;
+    xi2 += in * xi * xi;
+  }
+  *row = (Dual){.value = value, .scale = x, .sums = {x, -eta * x, turn}, .gram = {count, -eta * count, sum_xi, eta * eta * count, -eta * sum_xi, xi2}};
 }
 
 static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
 {
-  const Cells   *c  = (const Cells *)context;
-  const PetscInt nx = f->grid->nx;
+  const Cells *c = (const Cells *)context;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double eta = SamFrameEta(f, j);
-    Dual         row = {0};
+    const ptrdiff_t k   = (ptrdiff_t)j * f->grid->nx;
+    Dual            row = {0};
 
-    for (PetscInt i = 0; i < nx; i++) {
-      const double xi = f->xi0 + (double)i * f->dxi;
-      double       x;
-
-      if (c->mask && !c->mask[j * nx + i]) continue;
-      x = c->field[j * nx + i] + SamFrameNormal(a, xi, eta);
-      if (x > 0) AddNormal(&row, x, xi, eta);
-    }
+    PassNormalRow(f->grid->nx, c->field + k, c->step + (c->by != 0 ? k : 0), c->by, c->mask + (ptrdiff_t)j * c->masked, f->xi0, f->dxi, SamFrameEta(f, j), a, &row);
     SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
 
-static void ApplyNormal(const SamFrame *f, const char mask[], const double a[3], double p[])
+/* p = max(0, p + by step + phi a) on a row's cells that count, 0 elsewhere; the change times `scale` is added to made. */
+SAM_VECTORIZED static void ApplyNormalRow(PetscInt n, const float *restrict step, double by, const char *restrict mask, double xi0, double dxi, double eta, const double a[3], double scale, double *restrict p, float *restrict made)
 {
-  const PetscInt nx = f->grid->nx;
+  const double ax = a[0] - a[1] * eta, a2 = a[2];
 
-  for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double eta = SamFrameEta(f, j);
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) {
+    const double v = p[i] + by * (double)step[i] + (ax + a2 * (xi0 + (double)i * dxi)), x = (mask[i] && v > 0) ? v : 0;
 
-    for (PetscInt i = 0; i < nx; i++) {
-      const PetscInt k = j * nx + i;
-
-      p[k] = (mask && !mask[k]) ? 0 : PetscMax(0, p[k] + SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta));
-    }
+    made[i] += (float)(scale * (x - p[i]));
+    p[i] = x;
   }
 }
 
-PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const char mask[], double p[], PetscBool *found)
+/*
+  The projection of p + by step. One row of zeros stands for no step, and takes what nobody wants to know of the change.
+*/
+static PetscErrorCode ProjectNormal(const SamFrame *f, const char mask[], double p[], double by, const float step[], double scale, float made[], PetscBool *found)
 {
-  const Cells cells  = {mask, p, NULL};
-  double     *before = NULL;
-  PetscBool   near   = PETSC_TRUE;
+  const PetscInt nx = f->grid->nx;
+  double        *before = NULL;
+  char          *ones;
+  float         *zeros, *ignored;
+  PetscBool      near = PETSC_TRUE;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(nx, &ones));
+  PetscCall(PetscCalloc2(nx, &zeros, nx, &ignored));
+  (void)memset(ones, 1, (size_t)nx);
   *found = PETSC_FALSE;
   /* pressures far above the load leave it to rounding; once projected they are of its size, and a second time is exact */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
-    double a[3] = {0, 0, 0};
+    const Cells cells = {.mask = mask ? mask : ones, .masked = mask ? nx : 0, .field = p, .step = by != 0 ? step : zeros, .by = by};
+    double      a[3]  = {0, 0, 0};
 
     if (f->count) PetscCall(MinimizeDual(f, PassNormal, &cells, a, found, &near));
     else *found = PETSC_TRUE;
@@ -173,10 +187,32 @@ PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const char mask[], doubl
       PetscCall(PetscMalloc1(f->grid->cells, &before));
       PetscCall(PetscArraycpy(before, p, f->grid->cells));
     }
-    if (near) ApplyNormal(f, mask, a, p);
+    for (PetscInt j = 0; near && j < f->grid->rows; j++) {
+      const ptrdiff_t k = (ptrdiff_t)j * nx;
+
+      ApplyNormalRow(nx, cells.step + (by != 0 ? k : 0), by, cells.mask + (ptrdiff_t)j * cells.masked, f->xi0, f->dxi, SamFrameEta(f, j), a, scale, p + k, made ? made + k : ignored);
+    }
+    by = 0;
   }
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
   PetscCall(PetscFree(before));
+  PetscCall(PetscFree(ones));
+  PetscCall(PetscFree2(zeros, ignored));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const char mask[], double p[], PetscBool *found)
+{
+  PetscFunctionBegin;
+  PetscCall(ProjectNormal(f, mask, p, 0, NULL, 0, NULL, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const char mask[], double p[], double by, const float step[], double scale, float made[], PetscBool *found)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(made, f->grid->cells));
+  PetscCall(ProjectNormal(f, mask, p, by, step, scale, made, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -269,7 +305,7 @@ SAM_VECTORIZED static void ApplyShearRow(PetscInt n, double *restrict qx, double
 
 PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], double q[], PetscBool *found)
 {
-  const Cells    cells = {NULL, q, bound};
+  const Cells    cells = {.field = q, .bound = bound};
   const PetscInt nx = f->grid->nx, ncells = f->grid->cells;
   PetscBool      near;
   double         a[3] = {0, 0, 0};

@@ -53,7 +53,7 @@ typedef struct {
   const SamFrame *frame;
   PetscInt        nx, rows, cells;
   Vec             vg;
-  double         *p, *g, *old;   /* pressure; gap; pressure before the step */
+  double         *p, *g;         /* pressure; gap */
   float          *z, *s, *u;     /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
   float          *loss;          /* what is taken off the preconditioner; 0 on cells that were not in A then */
   float          *xi;            /* of the columns */
@@ -86,7 +86,7 @@ static PetscErrorCode CreateWork(SamNormal normal, SamNormalLevel *level, Work *
   PetscCall(VecGetArray(level->p, &w->p));
   PetscCall(VecGetArrayRead(level->h, &w->h));
   PetscCall(VecGetArray(w->vg, &w->g));
-  PetscCall(PetscCalloc2(w->cells, &w->active, w->cells, &w->old));
+  PetscCall(PetscCalloc1(w->cells, &w->active));
   PetscCall(PetscCalloc4(w->cells, &w->z, w->cells, &w->s, w->cells, &w->u, w->cells, &w->loss));
   PetscCall(PetscMalloc1(w->nx, &w->xi));
   for (PetscInt i = 0; i < w->nx; i++) w->xi[i] = (float)(w->frame->xi0 + (double)i * w->frame->dxi);
@@ -100,7 +100,7 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArrayRead(w->level->h, &w->h));
   PetscCall(VecRestoreArray(w->vg, &w->g));
   PetscCall(VecDestroy(&w->vg));
-  PetscCall(PetscFree2(w->active, w->old));
+  PetscCall(PetscFree(w->active));
   PetscCall(PetscFree4(w->z, w->s, w->u, w->loss));
   PetscCall(PetscFree(w->xi));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -338,16 +338,15 @@ static PetscErrorCode NewDirection(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The step to the trial p from the old pressure; returns its slope, and raises `shrink`. */
-SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, const double *restrict old, const double *restrict g, double to_units, float *restrict s, double *shrink)
+/* The slope of the step to the trial p; raises `shrink`. */
+SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, const double *restrict g, const float *restrict s, double pressure, double *shrink)
 {
   double slope = 0, most = 0;
 
 #pragma omp simd reduction(+ : slope) reduction(max : most)
   for (PetscInt i = 0; i < n; i++) {
-    const double step = p[i] - old[i], part = old[i] > 0 ? -step / old[i] : 0;
+    const double less = s[i] < 0 ? -pressure * (double)s[i] : 0, part = less > 0 ? less / (p[i] + less) : 0;
 
-    s[i] = (float)(to_units * step);
     slope += (double)s[i] * g[i];
     most = part > most ? part : most;
   }
@@ -355,27 +354,20 @@ SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, cons
   return slope;
 }
 
-SAM_VECTORIZED static void AddRow(PetscInt n, const double *restrict old, const float *restrict z, double by, double *restrict p)
-{
-#pragma omp simd
-  for (PetscInt i = 0; i < n; i++) p[i] = old[i] + by * (double)z[i];
-}
-
-/* p = the admissible pressure on A nearest to old + alpha z, and the step there. */
+/* p goes to the admissible pressure on A nearest to p + alpha z; s is the step there. */
 static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
 {
-  const double by = alpha * w->unit / w->self;
-  SamTotal     total = {0, 0};
+  const double pressure = w->unit / w->self;
+  SamTotal     total    = {0, 0};
 
   PetscFunctionBegin;
-  AddRow(w->cells, w->old, w->z, by, w->p);
-  PetscCall(SamFrameProjectNormal(w->frame, w->active, w->p, found));
+  PetscCall(SamFrameProjectNormalStep(w->frame, w->active, w->p, alpha * pressure, w->z, 1 / pressure, w->s, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   w->shrink = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    SamAdd(&total, TrialRow(w->nx, w->p + k, w->old + k, w->g + k, w->self / w->unit, w->s + k, &w->shrink));
+    SamAdd(&total, TrialRow(w->nx, w->p + k, w->g + k, w->s + k, pressure, &w->shrink));
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->slope));
   PetscCall(SamMax(w->level->grid->comm, 1, &w->shrink));
@@ -390,8 +382,8 @@ static PetscErrorCode TryGradient(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < w->cells; k++) {
-    w->active[k] = w->old[k] > 0 || w->g[k] < 0;
-    most         = PetscMax(most, w->old[k]);
+    w->active[k] = w->p[k] > 0 || w->g[k] < 0;
+    most         = PetscMax(most, w->p[k]);
   }
   PetscCall(SamMax(w->level->grid->comm, 1, &most));
   ComputeResidual(w);
@@ -408,7 +400,7 @@ SAM_VECTORIZED static double CurvatureRow(PetscInt n, const float *restrict s, c
   return (double)sum;
 }
 
-/* From the trial, where p has gone by s: what is left to rounding of a pressure is none. */
+/* From the trial, where p has gone by s, by so much more: what is left to rounding of a pressure is none. */
 SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s, double rounding, double by_u, double *restrict p, double *restrict g)
 {
 #pragma omp simd
@@ -420,21 +412,25 @@ SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict s, const fl
   }
 }
 
-/* p = old + t s, g += t S s, with the least energy between t = 0 and where a pressure vanishes. `best`: least without that bound. */
-static PetscErrorCode Step(Work *w, double *best)
+/* From the trial to where the step has the length t instead of 1. */
+static void SetLength(Work *w, double t)
 {
   const double pressure = w->unit / w->self;
-  SamTotal     total = {0, 0};
-  double       t;
+
+  StepRow(w->cells, w->s, w->u, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, w->p, w->g);
+}
+
+/* The least energy between where the step begins and where a pressure vanishes. `best`: its length without that bound. */
+static PetscErrorCode Step(Work *w, double *best)
+{
+  SamTotal total = {0, 0};
 
   PetscFunctionBegin;
   PetscCall(SamNormalApplySingle(w->normal, w->level, 1 / w->self, w->s, w->u));
   for (PetscInt j = 0; j < w->rows; j++) SamAdd(&total, CurvatureRow(w->nx, w->s + (ptrdiff_t)j * w->nx, w->u + (ptrdiff_t)j * w->nx));
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->curvature));
-  *best = w->curvature > 0 ? -w->slope / w->curvature : 0;
-  if (!(*best > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  t = *best * w->shrink > 1 ? 1 / w->shrink : *best;
-  StepRow(w->cells, w->s, w->u, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, w->p, w->g);
+  *best = w->curvature > 0 ? PetscMax(-w->slope / w->curvature, 0) : 0;
+  SetLength(w, *best * w->shrink > 1 ? 1 / w->shrink : *best);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -445,19 +441,17 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, Pets
 
   PetscFunctionBegin;
   w->unit = w->error;
-  PetscCall(PetscArraycpy(w->old, w->p, w->cells));
   if (!gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, found));
     gradient = (!*found || w->slope >= 0) ? PETSC_TRUE : PETSC_FALSE;
+    if (*found && gradient) SetLength(w, 0);
   }
   if (gradient) PetscCall(TryGradient(w, found));
   if (*found && w->slope < 0) PetscCall(Step(w, &best));
+  else if (*found) SetLength(w, 0);
   *good = best > 0 ? PETSC_TRUE : PETSC_FALSE;
-  if (!*good) {
-    PetscCall(PetscArraycpy(w->p, w->old, w->cells));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
+  if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
   PetscCall(ChooseSet(w));
   PetscCall(SamNormalIterated(w->normal, w->level, w->error / w->displacement));
