@@ -1,9 +1,9 @@
 /* What a run needs, and whether a node has it. */
 #include "runimpl.h"
 
-/* Bytes a cell at the peak: 212 to 240 and 76 to 92 were measured at 4096 to 1024 cells; and the program with its libraries. */
+/* Bytes a cell at the peak: 212 to 240 and 92 to 108 were measured at 4096 to 1024 cells; and the program with its libraries. */
 #define BYTES_PER_CELL             250
-#define BYTES_PER_CELL_NO_FRICTION 110
+#define BYTES_PER_CELL_NO_FRICTION 125
 #define BYTES_PROGRAM              50e6
 
 double SamRunMemory(SamGrid grid, PetscReal friction)
