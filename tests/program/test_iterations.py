@@ -1,6 +1,12 @@
 """Products with the influence operator: few, whatever the grid (the counts of method.md)."""
+import sys
+from pathlib import Path
+
+import h5py
 import pytest
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "bench"))
+from problem import rough_plane  # noqa: E402
 from support import PUNCH, ball, slide_limit, sliding_pair
 
 
@@ -15,6 +21,16 @@ def test_normal_products_at_most_20(solve, n):
 @pytest.mark.parametrize("n", [256, 512])
 def test_normal_products_of_a_punch_with_moment_at_most_20(solve, n):
     assert solve(PUNCH, dict(grid_n=n, load_my=1.0))["normal_applies"] <= 20
+
+
+@pytest.mark.parametrize("n", [512, 1024])
+def test_normal_products_of_a_rough_plane_at_most_30(solve, tmp_path, n):
+    """About 8 % of it in contact."""
+    case = {k: v for k, v in ball(n, friction=0).items() if not k.startswith("gap_")}
+    case.update(gap_type="file", gap_file=tmp_path / "gap.h5", grid_size=1e-3, load_n=146.0, rot_x=0.0, rot_y=0.0, allow_edge_contact=True)
+    with h5py.File(case["gap_file"], "w") as f:
+        f["height"] = rough_plane(n, 1e-3)
+    assert solve(case)["normal_applies"] <= 30
 
 
 @pytest.mark.parametrize("tx, mz", [(0.01, 0), (0.3, 0), (0.6, 0), (0.9, 0), (0.99, 0), (0, 0.1), (0, 0.7), (0, 0.95), (0, 0.99)])
