@@ -40,9 +40,6 @@ PETSC_EXTERN PetscErrorCode SamComplianceSetPart(SamCompliance compliance, const
 PETSC_EXTERN PetscErrorCode SamComplianceGetPart(SamCompliance compliance, SamWindow *window, SamCompliance *part);
 PETSC_EXTERN PetscErrorCode SamComplianceGetPartPlace(SamCompliance compliance, PetscInt first[2], PetscInt n[2]);
 
-/* SamComplianceReleaseSmaller - gives back the work space of the part and of the coarser grids, until they are used again. Collective. */
-PETSC_EXTERN PetscErrorCode SamComplianceReleaseSmaller(SamCompliance compliance);
-
 /* Products, all collective. One-component fields p, u_z; two-component fields q, u_t. Input and output may be the same. */
 PETSC_EXTERN PetscErrorCode SamComplianceApplyNormal(SamCompliance compliance, Vec p, Vec u_z);      /* u_z from p */
 PETSC_EXTERN PetscErrorCode SamComplianceApplyTangential(SamCompliance compliance, Vec q, Vec u_t);  /* u_t from q */

@@ -39,11 +39,9 @@ typedef struct {
 /* A filter changes the spectra in place, from the input fields' to the output fields'. It is called once a block. */
 typedef void (*SamFourierFilter)(const SamFourierBlock *block, const void *context);
 
-/* SamFourierCreate - makes the plans of one dimension. Reads -fft_effort. Collective. Errors: PETSC_ERR_MEM. */
+/* SamFourierCreate - reads -fft_effort and -fft_exchange; plans are made when they are first needed. Collective. */
 PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier);
 PETSC_EXTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
-/* SamFourierRelease - gives back the work space of large grids; the next use makes it again. Collective. */
-PETSC_EXTERN PetscErrorCode SamFourierRelease(SamFourier fourier);
 /* The periods hx, hy, without the doubling of padded mode. */
 PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
 

@@ -76,19 +76,6 @@ PetscErrorCode SamComplianceGetCoarse(SamCompliance C, SamCompliance *coarse, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceReleaseSmaller(SamCompliance C)
-{
-  const SamCompliance smaller[2] = {C->coarse, C->part};
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; k++) {
-    if (!smaller[k]) continue;
-    PetscCall(SamFourierRelease(smaller[k]->fourier));
-    PetscCall(SamComplianceReleaseSmaller(smaller[k]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* A kernel is a sum of at most two integrals over the cell. */
 typedef struct {
   double      dx, dy;

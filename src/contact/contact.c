@@ -449,7 +449,6 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
     PetscCall(SamContactStepBack(c, &given, &found, same_pressure));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamComplianceReleaseSmaller(c->compliance));
   PetscCall(SamContactCreateDerived(c));
   PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
   PetscCall(ComputeScalars(c, step));

@@ -26,8 +26,6 @@ static const char *const efforts[] = {"auto", "estimate", "measure", "patient", 
 #define MEASURE_FROM 4096
 /* Below this, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300
-/* Cells from which on giving back the work space is worth making it again. */
-#define RELEASE_FROM 1e6
 
 PetscErrorCode SamFourierAllocate(size_t bytes, void *pointer)
 {
@@ -104,10 +102,18 @@ static PetscErrorCode DivideColumns(SamFourier F, SamFourierMode mode, ptrdiff_t
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns, ptrdiff_t *column_start)
+{
+  const ptrdiff_t size[2] = {F->hy + 1, F->hx + 1};
+
+  return fftw_mpi_local_size_many_transposed(2, size, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm, rows, row_start, columns, column_start);
+}
+
 PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
 {
   SamFourier     F;
   PetscInt       effort  = 0;
+  ptrdiff_t      periodic, padded, quadrant, rows, row_start, columns, column_start;
   const unsigned flags[] = {FFTW_ESTIMATE, FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
 
   PetscFunctionBegin;
@@ -118,30 +124,16 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
   F->effort = flags[effort];
-  PetscCallMPI(MPI_Comm_size(grid->comm, &F->ranks));
   F->hx     = FastSize(grid->nx);
   F->hy     = FastSize(grid->ny);
   if (effort == 0 && PetscMax(F->hx, F->hy) >= MEASURE_FROM) F->effort = FFTW_MEASURE;
   if (effort == 2 && PetscMax(F->hx, F->hy) < ESTIMATE_BELOW) F->effort = FFTW_ESTIMATE;
   /* whole cache lines, and one more, so that the columns of a block do not compete for the same cache sets */
   F->stride = (PetscInt)(F->hy + 7) / 8 * 8 + 8;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static void FreeWork(SamFourier F)
-{
-  SamTransformDestroyDouble(F);
-  SamTransformDestroySingle(F);
-  for (PetscInt k = 0; k <= SAM_FOURIER_FIELDS; k++) {
-    free(F->slab[k]);
-    F->slab[k] = NULL;
-  }
-}
-
-PetscErrorCode SamFourierRelease(SamFourier F)
-{
-  PetscFunctionBegin;
-  if ((double)F->grid->nx * (double)F->grid->ny >= RELEASE_FROM) FreeWork(F);
+  PetscCall(DivideColumns(F, SAM_FOURIER_PERIODIC, &periodic));
+  PetscCall(DivideColumns(F, SAM_FOURIER_PADDED, &padded));
+  quadrant = SamFourierDivideQuadrant(F, &rows, &row_start, &columns, &column_start);
+  PetscCall(SamWorkspaceGet(grid->comm, sizeof(double) * (size_t)PetscMax(quadrant, PetscMax(periodic, padded)), &F->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -151,7 +143,9 @@ PetscErrorCode SamFourierDestroy(SamFourier *fourier)
 
   PetscFunctionBegin;
   if (!F) PetscFunctionReturn(PETSC_SUCCESS);
-  FreeWork(F);
+  SamTransformDestroyDouble(F);
+  SamTransformDestroySingle(F);
+  PetscCall(SamWorkspaceRelease(&F->work));
   PetscCall(SamGridDestroy(&F->grid));
   PetscCall(PetscFree(*fourier));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -162,27 +156,5 @@ PetscErrorCode SamFourierGetPeriods(SamFourier F, PetscInt *hx, PetscInt *hy)
   PetscFunctionBegin;
   *hx = (PetscInt)F->hx;
   *hy = (PetscInt)F->hy;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns)
-{
-  const ptrdiff_t size[2] = {F->hy + 1, F->hx + 1};
-  ptrdiff_t       column_start;
-
-  return fftw_mpi_local_size_many_transposed(2, size, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm, rows, row_start, columns, &column_start);
-}
-
-PetscErrorCode SamFourierReserveSlabs(SamFourier F, PetscInt fields)
-{
-  ptrdiff_t periodic, padded, quadrant, rows, row_start, columns;
-
-  PetscFunctionBegin;
-  PetscCheck(fields <= SAM_FOURIER_FIELDS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d fields in one pass", SAM_FOURIER_FIELDS);
-  PetscCall(DivideColumns(F, SAM_FOURIER_PERIODIC, &periodic));
-  PetscCall(DivideColumns(F, SAM_FOURIER_PADDED, &padded));
-  quadrant = SamFourierDivideQuadrant(F, &rows, &row_start, &columns);
-  for (PetscInt k = 0; k < fields + (F->ranks > 1 ? 1 : 0); k++)
-    if (!F->slab[k]) PetscCall(SamFourierAllocate(sizeof(double) * (size_t)PetscMax(quadrant, PetscMax(periodic, padded)), &F->slab[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,7 +14,7 @@ typedef struct {
 /* Plans and buffers of one precision; made when it is first used. */
 #define SAM_TRANSFORM(Name, Real, Plan) \
   typedef struct { \
-    PetscInt fields; /* for which buffers and transposes were made */ \
+    PetscInt fields, version; /* for which buffers and transposes were made, and slabs of the latter */ \
     Plan     forward[2][SAM_FOURIER_FIELDS], backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
     Plan     r2c[2], c2r[2]; /* one row, by mode */ \
     Plan     up, down;       /* one column of hy, forward and backward, out of place */ \
@@ -29,30 +29,91 @@ typedef struct {
 SAM_TRANSFORM(SamTransformDouble, double, fftw_plan);
 SAM_TRANSFORM(SamTransformSingle, float, fftwf_plan);
 
+/* Memory for a field's half spectrum. */
+typedef struct {
+  size_t  bytes; /* on each rank; 0: none yet */
+  void   *own;   /* this rank's */
+  MPI_Win window;
+  void  **of;    /* every rank's, in shared memory only */
+} SamSlab;
+
+/* SamWorkspace - the slabs of all transforms on a communicator; see workspace.c. */
+typedef struct {
+  MPI_Comm    user, comm; /* of the grids; of its own */
+  PetscMPIInt ranks, rank;
+  PetscInt    references;
+  PetscBool   shared;
+  size_t      bytes;      /* of a slab, the largest that anybody needs */
+  PetscInt    version;    /* of the slabs' addresses */
+  SamSlab     slab[SAM_FOURIER_FIELDS + 1];
+} *SamWorkspace;
+
+/* SamWorkspaceGet - a reference to that of a communicator, its slabs of at least so many bytes. Release gives it back. Collective. */
+PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, size_t bytes, SamWorkspace *workspace);
+PETSC_INTERN PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace);
+/* SamWorkspaceReserve - makes the slabs for so many fields. Collective. */
+PETSC_INTERN PetscErrorCode SamWorkspaceReserve(SamWorkspace workspace, PetscInt fields);
+/* SamWorkspaceSynchronize - what any rank has written to a shared slab before is seen by all after it. Collective. */
+PETSC_INTERN PetscErrorCode SamWorkspaceSynchronize(SamWorkspace workspace);
+/* Whether rows have to be sent to become columns. */
+static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
+{
+  return w->ranks > 1 && !w->shared ? PETSC_TRUE : PETSC_FALSE;
+}
+
 struct _n_SamFourier {
   SamGrid            grid;
-  PetscMPIInt        ranks;
   unsigned           effort;     /* FFTW's planning flag */
   ptrdiff_t          hx, hy;
   PetscInt           stride;     /* between columns in the buffers */
   SamColumns         columns[2]; /* by mode */
   SamTransformDouble in_double;
   SamTransformSingle in_single;
-  void              *slab[SAM_FOURIER_FIELDS + 1]; /* half spectra of the fields' rows and columns, or a kernel's on its way; room for doubles */
+  SamWorkspace       work;       /* half spectra of the fields' rows and columns, or a kernel's on its way; room for doubles */
 };
 
 /* Memory for FFTW's arrays; PETSC_ERR_MEM with the size when there is none. */
 PETSC_INTERN PetscErrorCode SamFourierAllocate(size_t bytes, void *pointer);
 
-/* On several ranks field k has its rows in slab k + 1 and its columns in slab k, on one both in slab k. */
-static inline PetscInt SamFourierRowSlab(SamFourier F, PetscInt field)
+/* With transposes field k has its rows in slab k + 1 and its columns in slab k, else both in slab k. */
+static inline void *SamFourierRows(SamFourier F, PetscInt field)
 {
-  return F->ranks > 1 ? field + 1 : field;
+  return F->work->slab[SamWorkspaceTransposes(F->work) ? field + 1 : field].own;
 }
+
+/*
+  SamPieces - a matrix in slabs as its columns see it: pieces of some rows each, one above the other. After a transpose, or on
+  one rank, there is one piece with this rank's columns; in shared memory one of every rank with all columns, of which
+  this rank's begin at `first`.
+*/
+typedef struct {
+  PetscMPIInt count;
+  ptrdiff_t   rows, block;       /* of the matrix, and of a piece but the last ones */
+  ptrdiff_t   row_length, first; /* in elements */
+  void      **data, *single;     /* of each piece; of the only one */
+} SamPieces;
+
+/* The columns start ... start + count - 1, this rank's, of n, of a matrix with so many rows that lies in a field's slabs. */
+static inline SamPieces SamFourierGetPieces(SamFourier F, PetscInt field, ptrdiff_t rows, ptrdiff_t n, ptrdiff_t start, ptrdiff_t count)
+{
+  const SamWorkspace w    = F->work;
+  const SamSlab     *slab = &w->slab[field];
+
+  if (!w->shared) return (SamPieces){.count = 1, .rows = rows, .block = rows, .row_length = count, .single = slab->own};
+  return (SamPieces){.count = w->ranks, .rows = rows, .block = (rows + w->ranks - 1) / w->ranks, .row_length = n, .first = start, .data = slab->of};
+}
+/* Piece r: its rows, and its first element of this rank's columns. */
+static inline ptrdiff_t SamPieceRows(const SamPieces *p, PetscMPIInt r)
+{
+  return PetscMax(PetscMin(p->block, p->rows - (ptrdiff_t)r * p->block), 0);
+}
+static inline void *SamPieceData(const SamPieces *p, PetscMPIInt r, size_t element)
+{
+  return (char *)(p->data ? p->data[r] : p->single) + (size_t)p->first * element;
+}
+
 /* This rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns how many reals FFTW wants for them. */
-PETSC_INTERN ptrdiff_t SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns);
-/* Makes the slabs for that many fields, or for a kernel's quadrant. Collective. */
-PETSC_INTERN PetscErrorCode SamFourierReserveSlabs(SamFourier fourier, PetscInt fields);
+PETSC_INTERN ptrdiff_t SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns, ptrdiff_t *column_start);
 PETSC_INTERN PetscErrorCode SamFourierCheckPlan(const void *plan);
 
 PETSC_INTERN void SamTransformDestroyDouble(SamFourier fourier);

@@ -76,15 +76,22 @@ static PetscErrorCode TransformRows(SamFourier F, PetscBool odd, SamKernelRow ro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Columns first ... first + count - 1 into the buffer, where each is contiguous. */
-static void Gather(ptrdiff_t n, ptrdiff_t row_length, ptrdiff_t first, ptrdiff_t count, ptrdiff_t stride, const double *restrict rows, double *restrict buffer)
+/* Columns k ... k + count - 1 of this rank into the buffer, where each is contiguous. */
+static void Gather(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, double *restrict buffer)
 {
-  for (ptrdiff_t j = 0; j < n; j++)
-    for (ptrdiff_t b = 0; b < count; b++) buffer[b * stride + j] = rows[j * row_length + first + b];
+  ptrdiff_t row = 0;
+
+  for (PetscMPIInt r = 0; r < pieces->count; r++) {
+    const ptrdiff_t        rows = SamPieceRows(pieces, r);
+    const double *restrict data = (const double *)SamPieceData(pieces, r, sizeof(*data)) + k;
+
+    for (ptrdiff_t j = 0; j < rows; j++, row++)
+      for (ptrdiff_t b = 0; b < count; b++) buffer[b * stride + row] = data[j * pieces->row_length + b];
+  }
 }
 
 /* Columns transformed along y, scaled and sorted into the kernel. */
-static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const double columns[])
+static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const SamPieces *pieces)
 {
   const ptrdiff_t n     = F->hy + 1, even = F->hy / 2 + 1;
   const double    sign  = (kernel->odd_x || kernel->odd_y) ? -1 : 1; /* odd in both: i^2; in one: Multiply's -i makes it 1 */
@@ -99,7 +106,7 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const dou
     double       *to = kernel->values + k * n;
     const double *from;
 
-    if (k % BLOCK == 0) Gather(n, kernel->columns, k, PetscMin(BLOCK, kernel->columns - k), F->stride, columns, buffer);
+    if (k % BLOCK == 0) Gather(pieces, k, PetscMin(BLOCK, kernel->columns - k), F->stride, buffer);
     PetscCall(PetscArraycpy(m.line, buffer + k % BLOCK * F->stride, (size_t)n));
     from = MirroredTransform(&m);
     for (ptrdiff_t j = 0; j < even; j++) to[j] = scale * from[4 * j];
@@ -125,24 +132,27 @@ static PetscErrorCode ExchangeRows(SamFourier F, double rows[], double columns[]
 
 PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, SamKernelRow row, const void *context, SamKernel *kernel)
 {
-  ptrdiff_t count, start, columns;
-  double   *rows, *by_column;
+  ptrdiff_t count, start, columns, column_start;
+  double   *rows;
+  SamPieces pieces;
   SamKernel k;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
   PetscCall(PetscNew(&k));
-  (void)SamFourierDivideQuadrant(F, &count, &start, &columns);
+  (void)SamFourierDivideQuadrant(F, &count, &start, &columns, &column_start);
   k->odd_x   = odd_x;
   k->odd_y   = odd_y;
   k->columns = columns;
-  PetscCall(SamFourierReserveSlabs(F, 1));
-  rows      = (double *)F->slab[SamFourierRowSlab(F, 0)];
-  by_column = (double *)F->slab[0];
+  PetscCall(SamWorkspaceReserve(F->work, 1));
+  rows   = (double *)SamFourierRows(F, 0);
+  pieces = SamFourierGetPieces(F, 0, F->hy + 1, F->hx + 1, column_start, columns);
   PetscCall(TransformRows(F, odd_x, row, context, start, count, rows));
-  if (rows != by_column) PetscCall(ExchangeRows(F, rows, by_column));
+  if (SamWorkspaceTransposes(F->work)) PetscCall(ExchangeRows(F, rows, (double *)pieces.single));
+  PetscCall(SamWorkspaceSynchronize(F->work));
   PetscCall(SamFourierAllocate(sizeof(double) * (size_t)(columns * (F->hy + 1)), &k->values));
-  PetscCall(TransformColumns(F, k, by_column));
+  PetscCall(TransformColumns(F, k, &pieces));
+  PetscCall(SamWorkspaceSynchronize(F->work));
   *kernel = k;
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);

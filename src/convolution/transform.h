@@ -102,7 +102,7 @@ void DESTROY(SamFourier F)
 }
 
 /*
-  On several ranks each transpose goes out of place into the slab that the one before has left: forward runs through the
+  Each transpose goes out of place into the slab that the one before has left: forward runs through the
   fields upwards, backward downwards.
 */
 static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt fields)
@@ -113,7 +113,7 @@ static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < fields; k++) {
-    Real *by_row = (Real *)F->slab[k + 1], *by_column = (Real *)F->slab[k];
+    Real *by_row = (Real *)F->work->slab[k + 1].own, *by_column = (Real *)F->work->slab[k].own;
 
     t->forward[mode][k]  = FFT(mpi_plan_many_transpose)(F->grid->ny, columns, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_row, by_column, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_OUT);
     t->backward[mode][k] = FFT(mpi_plan_many_transpose)(columns, F->grid->ny, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_column, by_row, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_IN);
@@ -126,20 +126,23 @@ static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt
 /* Makes room for that many fields. */
 static PetscErrorCode Reserve(SamFourier F, PetscInt fields)
 {
-  TRANSFORM *t = &F->PART;
+  TRANSFORM *t    = &F->PART;
+  PetscBool  more = fields > t->fields ? PETSC_TRUE : PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (fields <= t->fields) PetscFunctionReturn(PETSC_SUCCESS);
   if (!t->row) PetscCall(PlanLines(F));
-  PetscCall(SamFourierReserveSlabs(F, fields));
-  free(t->buffer);
-  PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
-  if (F->ranks > 1) {
-    DestroyTransposes(t);
-    PetscCall(PlanTransposes(F, SAM_FOURIER_PERIODIC, fields));
-    PetscCall(PlanTransposes(F, SAM_FOURIER_PADDED, fields));
+  PetscCall(SamWorkspaceReserve(F->work, fields));
+  if (more) {
+    free(t->buffer);
+    PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
+    t->fields = fields;
   }
-  t->fields = fields;
+  if (!SamWorkspaceTransposes(F->work) || (!more && t->version == F->work->version)) PetscFunctionReturn(PETSC_SUCCESS);
+  DestroyTransposes(t);
+  PetscCall(SamWorkspaceReserve(F->work, t->fields));
+  PetscCall(PlanTransposes(F, SAM_FOURIER_PERIODIC, t->fields));
+  PetscCall(PlanTransposes(F, SAM_FOURIER_PADDED, t->fields));
+  t->version = F->work->version;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -200,26 +203,38 @@ SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle,
   }
 }
 
-/* Columns of a slab into the buffer, where each is contiguous. */
-static void Gather(ptrdiff_t ny, ptrdiff_t row_length, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict slab, Complex *restrict buffer)
+/* Columns of a slab from the k-th of this rank's on into the buffer, where each is contiguous. */
+static void Gather(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, Complex *restrict buffer)
 {
-  for (ptrdiff_t j = 0; j < ny; j++)
-    for (ptrdiff_t b = 0; b < count; b++) memcpy(buffer[b * stride + j], slab[j * row_length + b], sizeof(*buffer));
+  for (PetscMPIInt r = 0; r < pieces->count; r++) {
+    const ptrdiff_t         rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
+    const Complex *restrict slab = (const Complex *)SamPieceData(pieces, r, sizeof(Complex)) + k;
+    Complex *restrict to         = buffer + r * pieces->block;
+
+    for (ptrdiff_t j = 0; j < rows; j++)
+      for (ptrdiff_t b = 0; b < count; b++) memcpy(to[b * stride + j], slab[j * row_length + b], sizeof(Complex));
+  }
 }
 
-static void Scatter(ptrdiff_t ny, ptrdiff_t row_length, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict buffer, Complex *restrict slab)
+static void Scatter(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict buffer)
 {
-  for (ptrdiff_t j = 0; j < ny; j++)
-    for (ptrdiff_t b = 0; b < count; b++) memcpy(slab[j * row_length + b], buffer[b * stride + j], sizeof(*buffer));
+  for (PetscMPIInt r = 0; r < pieces->count; r++) {
+    const ptrdiff_t         rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
+    Complex *restrict slab       = (Complex *)SamPieceData(pieces, r, sizeof(Complex)) + k;
+    const Complex *restrict from = buffer + r * pieces->block;
+
+    for (ptrdiff_t j = 0; j < rows; j++)
+      for (ptrdiff_t b = 0; b < count; b++) memcpy(slab[j * row_length + b], from[b * stride + j], sizeof(Complex));
+  }
 }
 
 /* Gathers columns, pads them and transforms them; then the way back. Out of place, which FFTW does faster. */
-static void ColumnsForward(SamFourier F, PetscInt phases, ptrdiff_t row_length, ptrdiff_t count, Complex *slab, Complex *buffer)
+static void ColumnsForward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, Complex *buffer)
 {
   TRANSFORM   *t  = &F->PART;
   const size_t ny = (size_t)F->grid->ny, padding = sizeof(*buffer) * ((size_t)F->hy - ny);
 
-  Gather((ptrdiff_t)ny, row_length, count, F->stride, (const Complex *)slab, t->staging);
+  Gather(pieces, k, count, F->stride, t->staging);
   for (ptrdiff_t b = 0; b < count; b++) {
     Complex *staged = t->staging + b * F->stride, *even = buffer + b * F->stride, *odd = even + BLOCK * F->stride;
 
@@ -232,7 +247,7 @@ static void ColumnsForward(SamFourier F, PetscInt phases, ptrdiff_t row_length, 
   }
 }
 
-static void ColumnsBackward(SamFourier F, PetscInt phases, ptrdiff_t row_length, ptrdiff_t count, Complex *buffer, Complex *slab)
+static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, Complex *buffer)
 {
   TRANSFORM *t = &F->PART;
 
@@ -244,7 +259,7 @@ static void ColumnsBackward(SamFourier F, PetscInt phases, ptrdiff_t row_length,
     FFT(execute_dft)(t->down, (FFT(complex) *)odd, (FFT(complex) *)t->twisted);
     Untwist(F->grid->ny, (const Complex *)t->twiddle, (const Complex *)t->twisted, staged);
   }
-  Scatter(F->grid->ny, row_length, count, F->stride, (const Complex *)t->staging, slab);
+  Scatter(pieces, k, count, F->stride, (const Complex *)t->staging);
 }
 
 static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n_out, SamFourierFilter filter, const void *context)
@@ -253,43 +268,50 @@ static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n
   const SamColumns *c     = &F->columns[mode];
   SamFourierBlock   block = {.mode = mode, .phases = mode == SAM_FOURIER_PADDED ? 2 : 1, .hx = (PetscInt)F->hx, .hy = (PetscInt)F->hy, .width = BLOCK, .stride = F->stride};
 
+  SamPieces         pieces[SAM_FOURIER_FIELDS];
+
+  for (PetscInt i = 0; i < PetscMax(n_in, n_out); i++) pieces[i] = SamFourierGetPieces(F, i, F->grid->ny, c->n, c->start, c->count);
   for (PetscInt k = 0; k < t->fields; k++) block.DATA[k] = t->buffer + k * 2 * BLOCK * (ptrdiff_t)F->stride;
   for (ptrdiff_t k = 0; k < c->count; k += BLOCK) {
     const ptrdiff_t count = PetscMin(BLOCK, c->count - k);
 
-    for (PetscInt i = 0; i < n_in; i++) ColumnsForward(F, block.phases, c->count, count, (Complex *)F->slab[i] + k, block.DATA[i]);
+    for (PetscInt i = 0; i < n_in; i++) ColumnsForward(F, block.phases, &pieces[i], k, count, block.DATA[i]);
     block.first   = (PetscInt)(c->start + k);
     block.local   = (PetscInt)k;
     block.columns = (PetscInt)count;
     filter(&block, context);
-    for (PetscInt o = 0; o < n_out; o++) ColumnsBackward(F, block.phases, c->count, count, block.DATA[o], (Complex *)F->slab[o] + k);
+    for (PetscInt o = 0; o < n_out; o++) ColumnsBackward(F, block.phases, &pieces[o], k, count, block.DATA[o]);
   }
 }
 
 PetscErrorCode APPLY(SamFourier F, SamFourierMode mode, PetscInt n_in, const Real *const in[], PetscInt n_out, Real *const out[], SamFourierFilter filter, const void *context)
 {
   TRANSFORM *t = &F->PART;
+  PetscBool  transposes;
 
   PetscFunctionBegin;
   PetscCall(Reserve(F, PetscMax(n_in, n_out)));
+  transposes = SamWorkspaceTransposes(F->work);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
-  for (PetscInt i = 0; i < n_in; i++) RowsForward(F, mode, in[i], (Complex *)F->slab[SamFourierRowSlab(F, i)]);
+  for (PetscInt i = 0; i < n_in; i++) RowsForward(F, mode, in[i], (Complex *)SamFourierRows(F, i));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
-  if (F->ranks > 1) {
+  if (F->work->ranks > 1) {
     PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
-    for (PetscInt i = 0; i < n_in; i++) FFT(execute)(t->forward[mode][i]);
+    for (PetscInt i = 0; i < n_in && transposes; i++) FFT(execute)(t->forward[mode][i]);
+    PetscCall(SamWorkspaceSynchronize(F->work));
     PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
   }
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
   Columns(F, mode, n_in, n_out, filter, context);
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
-  if (F->ranks > 1) {
+  if (F->work->ranks > 1) {
     PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
-    for (PetscInt o = n_out - 1; o >= 0; o--) FFT(execute)(t->backward[mode][o]);
+    for (PetscInt o = n_out - 1; o >= 0 && transposes; o--) FFT(execute)(t->backward[mode][o]);
+    PetscCall(SamWorkspaceSynchronize(F->work));
     PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
   }
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
-  for (PetscInt o = 0; o < n_out; o++) RowsBackward(F, mode, (Complex *)F->slab[SamFourierRowSlab(F, o)], out[o]);
+  for (PetscInt o = 0; o < n_out; o++) RowsBackward(F, mode, (Complex *)SamFourierRows(F, o), out[o]);
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

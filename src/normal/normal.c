@@ -478,7 +478,6 @@ static PetscErrorCode SolveLevel(SamNormal n, SamNormalLevel *level, PetscInt de
     PetscCall(Prolong(transfer, lower.p, level->p));
     PetscCall(VecDestroy(&lower.h));
     PetscCall(VecDestroy(&lower.p));
-    PetscCall(SamComplianceReleaseSmaller(level->compliance));
   }
   if (lower.compliance || guess) PetscCall(SolveNear(n, level, balance));
   else PetscCall(SolveHere(n, level, balance, StartAsFoundation));

@@ -305,7 +305,6 @@ static PetscErrorCode StartFromCoarse(SamTangential t, SamTangentialLevel *level
   PetscCall(VecDestroy(&coarse.bound));
   PetscCall(VecDestroy(&coarse.offset));
   PetscCall(VecDestroy(&coarse.q));
-  PetscCall(SamComplianceReleaseSmaller(level->compliance));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
