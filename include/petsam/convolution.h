@@ -7,7 +7,8 @@
 /*
   SamFourier - transforms of fields on a grid, for filters that act in the frequency domain. No array of the padded
   size exists: rows are transformed one by one, columns a few at a time in a buffer that stays in cache, and only the
-  ny rows of half spectra are stored. One rank works in place; several exchange rows for columns by FFTW's transposes.
+  ny rows of half spectra are stored. Ranks of one node have them in shared memory, others exchange rows for columns by
+  FFTW's transposes. All transforms on a communicator share this memory, so only one may be under way at a time.
 */
 typedef struct _n_SamFourier *SamFourier;
 

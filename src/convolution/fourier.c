@@ -4,15 +4,16 @@
   A filter in the frequency domain needs the two-dimensional transform of a field that is zero beyond its ny rows and nx
   columns, and of the result only those rows and columns. So:
     1. each of the ny rows is padded with zeros in a buffer and transformed (real to half complex);
-    2. rows are exchanged for columns (FFTW's distributed transpose; nothing to do on one rank);
+    2. ranks of one node see all rows, in shared memory (workspace.c); elsewhere rows are exchanged for columns by FFTW's
+       distributed transpose;
     3. a few columns at a time are gathered into a buffer that stays in cache. There the padding along y is done by
        splitting the 2 hy frequencies: the even ones are the transform of length hy of the column, the odd ones that of
        the column times exp(-i pi j/hy). No zero is ever transformed. The filter acts, the way back is the same;
-    4. columns are exchanged for rows, 5. rows are transformed back and cut.
+    4. as 2, columns becoming rows, 5. rows are transformed back and cut.
   In periodic mode rows are padded to hx instead of 2 hx only, and columns have the even frequencies only.
 
-  Both directions of the exchange leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT), which
-  is what one rank has from the start, so that one code serves any number of ranks.
+  Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT), which
+  is what one rank has from the start, and shared memory in pieces, so that one code serves any number of ranks.
 
   The steps stand in transform.h, which is compiled for double and for single precision. Here is what both share.
 */

@@ -31,10 +31,10 @@ SAM_TRANSFORM(SamTransformSingle, float, fftwf_plan);
 
 /* Memory for a field's half spectrum. */
 typedef struct {
-  size_t  bytes; /* on each rank; 0: none yet */
-  void   *own;   /* this rank's */
-  MPI_Win window;
-  void  **of;    /* every rank's, in shared memory only */
+  size_t bytes;  /* on each rank; 0: none yet */
+  void  *own;    /* this rank's */
+  void **of;     /* every rank's, in shared memory only */
+  size_t mapped; /* of all ranks, in shared memory only */
 } SamSlab;
 
 /* SamWorkspace - the slabs of all transforms on a communicator; see workspace.c. */

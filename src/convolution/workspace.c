@@ -7,8 +7,11 @@
   for columns by FFTW's transposes.
 */
 #include "fourierimpl.h"
+#include <fcntl.h>
+#include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 static const char *const exchanges[] = {"auto", "transpose", NULL};
 
@@ -54,7 +57,6 @@ PetscErrorCode SamWorkspaceGet(MPI_Comm comm, size_t bytes, SamWorkspace *worksp
     PetscCall(PetscNew(&w));
     w->user = comm;
     PetscCallMPI(MPI_Comm_dup(comm, &w->comm));
-    PetscCallMPI(MPI_Comm_set_errhandler(w->comm, MPI_ERRORS_RETURN)); /* without shared memory there is another way */
     PetscCallMPI(MPI_Comm_size(comm, &w->ranks));
     PetscCallMPI(MPI_Comm_rank(comm, &w->rank));
     PetscCall(CanShare(w));
@@ -70,13 +72,11 @@ PetscErrorCode SamWorkspaceGet(MPI_Comm comm, size_t bytes, SamWorkspace *worksp
 static PetscErrorCode FreeSlab(SamWorkspace w, SamSlab *slab)
 {
   PetscFunctionBegin;
-  if (slab->window != MPI_WIN_NULL && slab->bytes) {
-    PetscCallMPI(MPI_Win_unlock_all(slab->window));
-    PetscCallMPI(MPI_Win_free(&slab->window));
+  if (slab->mapped) {
+    (void)munmap(slab->of[0], slab->mapped);
     PetscCall(PetscFree(slab->of));
   } else free(slab->own);
-  slab->own   = NULL;
-  slab->bytes = 0;
+  *slab = (SamSlab){0};
   w->version++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -96,37 +96,66 @@ PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first whole cache line of a rank's part: the same place for all, since their views begin with whole pages. */
-static void *Align(void *pointer)
+/* A new shared memory object, seen by all ranks under a name that is gone again when this returns; -1 when there is none. */
+static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 {
-  return (void *)(((uintptr_t)pointer + 63) / 64 * 64);
-}
-
-/* A slab in shared memory, or none when there is no more of it. */
-static PetscErrorCode AllocateShared(SamWorkspace w, SamSlab *slab, PetscBool *done)
-{
-  MPI_Info    info;
-  void       *base = NULL;
-  PetscMPIInt good;
+  static unsigned count = 0;
+  char            name[64] = "";
+  PetscMPIInt     good;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Info_create(&info));
-  PetscCallMPI(MPI_Info_set(info, "alloc_shared_noncontig", "true"));
-  good = MPI_Win_allocate_shared((MPI_Aint)w->bytes + 64, 1, info, w->comm, &base, &slab->window) == MPI_SUCCESS;
-  PetscCallMPI(MPI_Info_free(&info));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, w->comm));
-  *done = good ? PETSC_TRUE : PETSC_FALSE;
-  if (!good) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(w->ranks, &slab->of));
-  for (PetscMPIInt r = 0; r < w->ranks; r++) {
-    MPI_Aint    size;
-    PetscMPIInt unit;
-
-    PetscCallMPI(MPI_Win_shared_query(slab->window, r, &size, &unit, &base));
-    slab->of[r] = Align(base);
+  *fd = -1;
+  if (w->rank == 0) {
+    PetscCall(PetscSNPrintf(name, sizeof(name), "/petsam-%ld-%u", (long)getpid(), count++));
+    *fd = shm_open(name, O_RDWR | O_CREAT | O_EXCL, 0600);
+    if (*fd >= 0 && ftruncate(*fd, (off_t)bytes)) {
+      (void)shm_unlink(name);
+      (void)close(*fd);
+      *fd = -1;
+    }
+    if (*fd < 0) name[0] = 0;
   }
-  slab->own = slab->of[w->rank];
-  PetscCallMPI(MPI_Win_lock_all(MPI_MODE_NOCHECK, slab->window));
+  PetscCallMPI(MPI_Bcast(name, sizeof(name), MPI_CHAR, 0, w->comm));
+  if (w->rank && name[0]) *fd = shm_open(name, O_RDWR, 0600);
+  good = *fd >= 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, w->comm));
+  if (w->rank == 0 && name[0]) (void)shm_unlink(name);
+  if (!good && *fd >= 0) {
+    (void)close(*fd);
+    *fd = -1;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  A slab in shared memory, or none when there is no more of it. Not by MPI_Win_allocate_shared: when memory is short, Open MPI
+  tells one rank so and lets the others wait.
+*/
+static PetscErrorCode AllocateShared(SamWorkspace w, SamSlab *slab, PetscBool *done)
+{
+  const size_t page = (size_t)sysconf(_SC_PAGESIZE), part = (w->bytes + page - 1) / page * page;
+  void        *base = MAP_FAILED;
+  PetscMPIInt  good;
+  int          fd;
+
+  PetscFunctionBegin;
+  PetscCall(OpenShared(w, part * (size_t)w->ranks, &fd));
+  *done = PETSC_FALSE;
+  if (fd < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  good = posix_fallocate(fd, (off_t)(part * (size_t)w->rank), (off_t)part) == 0; /* else the first write to a full node would kill */
+  if (good) base = mmap(NULL, part * (size_t)w->ranks, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  (void)close(fd);
+  good = base != MAP_FAILED;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, w->comm));
+  if (!good) {
+    if (base != MAP_FAILED) (void)munmap(base, part * (size_t)w->ranks);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscMalloc1(w->ranks, &slab->of));
+  for (PetscMPIInt r = 0; r < w->ranks; r++) slab->of[r] = (char *)base + part * (size_t)r;
+  slab->own    = slab->of[w->rank];
+  slab->mapped = part * (size_t)w->ranks;
+  *done        = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -140,7 +169,6 @@ PetscErrorCode SamWorkspaceReserve(SamWorkspace w, PetscInt fields)
 
     if (slab->bytes == w->bytes) continue;
     if (slab->bytes) PetscCall(FreeSlab(w, slab));
-    slab->window = MPI_WIN_NULL;
     if (w->shared) {
       PetscCall(AllocateShared(w, slab, &done));
       w->shared = done; /* what is shared by now stays so, and is used as if it were not */
@@ -156,10 +184,8 @@ PetscErrorCode SamWorkspaceSynchronize(SamWorkspace w)
 {
   PetscFunctionBegin;
   if (!w->shared) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k <= SAM_FOURIER_FIELDS; k++)
-    if (w->slab[k].bytes) PetscCallMPI(MPI_Win_sync(w->slab[k].window));
+  atomic_thread_fence(memory_order_seq_cst);
   PetscCallMPI(MPI_Barrier(w->comm));
-  for (PetscInt k = 0; k <= SAM_FOURIER_FIELDS; k++)
-    if (w->slab[k].bytes) PetscCallMPI(MPI_Win_sync(w->slab[k].window));
+  atomic_thread_fence(memory_order_seq_cst);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -24,6 +24,12 @@ def test_fields_do_not_depend_on_ranks(solve, case, ranks):
         assert many[name] == pytest.approx(one[name], rel=1e-9, abs=1e-9 * max(abs(one[k]) for k in pair)), name
 
 
+@pytest.mark.parametrize("case", [BALL, DISSIMILAR], ids=["ball", "dissimilar"])
+def test_fields_do_not_depend_on_how_rows_become_columns(solve, case):
+    """By messages, as between nodes, or in shared memory: the same numbers are transformed."""
+    assert_same(solve(dict(case, fft_exchange="transpose"), ranks=3), solve(case, ranks=3), 0)
+
+
 @pytest.mark.parametrize("n", [(2, 2), (3, 2), (2, 7), (5, 1000), (1000, 3)])
 def test_tiny_and_thin_grids_on_three_ranks(solve, n):
     case = dict(STRIP, grid_n=n, grid_size=(1e-4 * n[0], 1e-4 * n[1]), load_tx=3.0, load_ty=1.0, load_mz=0.0)

@@ -379,6 +379,23 @@ static void test_filter_sees_frequencies_by_their_numbers(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+/* The same by FFTW's transposes, which otherwise only ranks on several nodes need. */
+static int Transpose(void **state)
+{
+  (void)state;
+  sam_call(PetscOptionsSetValue(NULL, "-fft_exchange", "transpose"));
+  return 0;
+}
+
+static int NoTranspose(void **state)
+{
+  (void)state;
+  sam_call(PetscOptionsClearValue(NULL, "-fft_exchange"));
+  return 0;
+}
+
+#define TEST_TRANSPOSED(f) {#f "_transposed", f, Transpose, NoTranspose, NULL}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -397,6 +414,14 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_periodic_transform_and_back_is_the_identity),
     cmocka_unit_test(test_padded_transform_and_back_is_the_identity),
     cmocka_unit_test(test_filter_sees_frequencies_by_their_numbers),
+    TEST_TRANSPOSED(test_kernel_odd_in_x_and_y),
+    TEST_TRANSPOSED(test_two_fields_to_one),
+    TEST_TRANSPOSED(test_three_fields_to_three),
+    TEST_TRANSPOSED(test_output_may_be_the_input),
+    TEST_TRANSPOSED(test_one_transform_serves_any_number_of_fields),
+    TEST_TRANSPOSED(test_impulse_response_is_the_kernel),
+    TEST_TRANSPOSED(test_padded_transform_and_back_is_the_identity),
+    TEST_TRANSPOSED(test_filter_sees_frequencies_by_their_numbers),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
