@@ -1,14 +1,16 @@
 /* What a run needs, and whether a node has it. */
 #include "runimpl.h"
 
-/* Bytes a cell at the peak: 212 to 240 and 92 to 108 were measured at 4096 to 1024 cells; and the program with its libraries. */
-#define BYTES_PER_CELL             250
-#define BYTES_PER_CELL_NO_FRICTION 125
-#define BYTES_PROGRAM              50e6
+/*
+  Bytes a cell at the peak, shared memory counted once, and the program with its libraries. Measured at 512 to 4096 cells, from
+  more to less: without friction 80 to 65, with friction 200 to 175; 135 and 237 when pressure and shear are coupled.
+*/
+static const double bytes_per_cell[2][2] = {{90, 150}, {215, 255}}; /* by friction and coupling */
+#define BYTES_PROGRAM 50e6
 
-double SamRunMemory(SamGrid grid, PetscReal friction)
+double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction)
 {
-  return BYTES_PROGRAM + (friction > 0 ? BYTES_PER_CELL : BYTES_PER_CELL_NO_FRICTION) * (double)grid->cells;
+  return BYTES_PROGRAM + bytes_per_cell[friction > 0][pair->dundurs != 0] * (double)grid->cells;
 }
 
 /* Memory of this node that can be had, bytes; 0 when it cannot be told. */
@@ -25,7 +27,7 @@ static double AvailableMemory(void)
   return 1024 * kilobytes;
 }
 
-PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, PetscReal friction)
+PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction)
 {
   double       need, worst;
   MPI_Comm     node;
@@ -34,7 +36,7 @@ PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, PetscReal friction)
   PetscFunctionBegin;
   PetscCall(SamOptionsBool(NULL, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
   PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  need = SamRunMemory(grid, friction);
+  need = SamRunMemory(grid, pair, friction);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
   PetscCallMPI(MPI_Comm_free(&node));
   worst = AvailableMemory();
