@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The benchmark's problems, and one measure of accuracy for all programs that solve them.
 
-    python3 tests/bench/problem.py make CASE CELLS FOLDER      write problem.json, gap.npy and petsam's inputs
+    python3 tests/bench/problem.py make CASE CELLS FOLDER      write problem.json, gap.npy and petsam's inputs, petsam.opts
     python3 tests/bench/problem.py check FOLDER SOLUTION       print the accuracy of results.h5 or pressure.npy as JSON
 
 All are contacts of the steel spheres of examples/sphere, or of a rough plane of the same size and material, on an
@@ -27,7 +27,7 @@ ROUGH_LOADS = {"rough_1": 0.00425, "rough_8": 0.0359, "rough_40": 0.241}
 
 
 def rough_plane(n, width):
-    """Heights of the rough plane (n, n), m, of root mean square slope SLOPE; every mode's size and phase by its number alone."""
+    """Heights of the rough plane (n, n), m, of root mean square slope SLOPE: a sum of waves, each by its number alone."""
     modes = np.arange(-SHORTEST, SHORTEST + 1)
     kx, ky = np.meshgrid(modes, modes)
     k = np.hypot(kx, ky)
@@ -35,11 +35,13 @@ def rough_plane(n, width):
     size = np.exp(2j * np.pi * rng.random(k.shape)) * ((k >= LONGEST) & (k <= SHORTEST))
     size *= np.maximum(k, 1.0)**-(1 + HURST)
     size *= SLOPE / np.sqrt(0.5 * np.sum(np.abs(2 * np.pi * k / width * size)**2))
-    spectrum = np.zeros((n, n), dtype=complex)
-    seen = (2 * np.abs(kx) < n) & (2 * np.abs(ky) < n)
-    half = np.exp(1j * np.pi * (kx + ky) / n)  # to the cells' centres
-    spectrum[ky[seen] % n, kx[seen] % n] = (size * half)[seen]
-    return n * n * np.real(fft.ifft2(spectrum))
+    seen = 2 * np.abs(modes) < n
+    waves = np.exp(2j * np.pi * np.outer((np.arange(n) + 0.5) / n, modes[seen]))  # at the cells' centres
+    columns = size[np.ix_(seen, seen)] @ waves.T
+    heights = np.empty((n, n))
+    for rows in np.array_split(np.arange(n), max(1, n // 512)):  # large grids in parts
+        heights[rows] = waves[rows].real @ columns.real - waves[rows].imag @ columns.imag
+    return heights
 
 
 def base(n):
@@ -76,6 +78,7 @@ def make(name, n, folder):
         fretting_cycle.write_history(folder / "cycle.csv", int(name[len("cycle_"):]))
         case.update(history=folder / "cycle.csv")
     np.save(folder / "gap.npy", gap)
+    (folder / "petsam.opts").write_text(" ".join(words(case)).replace(" -", "\n-") + "\n")  # no value is negative
     (folder / "problem.json").write_text(json.dumps(dict(
         case=name, kind=kind, cells=n, width=case["grid_size"], e_star=e_star, poisson=case["body1_poisson"],
         friction=case["friction"], load_n=case["load_n"], load_tx=case.get("load_tx", 0.0),
