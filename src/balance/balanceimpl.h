@@ -66,6 +66,18 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
 /* Cells of a row looked at together: where all of them are within their discs, roots and divisions are spared. */
 #define SAM_CHUNK 64
 
+/* Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. */
+#define SAM_STRETCH 128
+
+static inline PetscBool SamAnyOf(const char mask[], PetscInt n)
+{
+  char any = 0;
+
+#pragma omp simd reduction(| : any)
+  for (PetscInt i = 0; i < n; i++) any |= mask[i];
+  return any ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Gram matrices sum phi phi' are kept as their six upper entries 00, 01, 02, 11, 12, 22. */
 #define SAM_GRAM 6
 

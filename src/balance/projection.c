@@ -113,8 +113,8 @@ typedef struct {
   const double *bound;
 } Cells;
 
-/* A row of pressures x = max(0, field + by step + phi a) of the cells that count. */
-SAM_VECTORIZED static void PassNormalRow(PetscInt n, const double *restrict field, const float *restrict step, double by, const char *restrict mask, double xi0, double dxi, double eta, const double a[3], Dual *row)
+/* A stretch of pressures x = max(0, field + by step + phi a) of the cells that count. */
+SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field, const float *restrict step, double by, const char *restrict mask, double xi0, double dxi, double eta, const double a[3], Dual *row)
 {
   const double ax = a[0] - a[1] * eta, a2 = a[2];
   double       value = 0, x = 0, turn = 0, count = 0, sum_xi = 0, xi2 = 0;
@@ -130,7 +130,17 @@ SAM_VECTORIZED static void PassNormalRow(PetscInt n, const double *restrict fiel
     sum_xi += in * xi;
     xi2 += in * xi * xi;
   }
-  *row = (Dual){.value = value, .scale = x, .sums = {x, -eta * x, turn}, .gram = {count, -eta * count, sum_xi, eta * eta * count, -eta * sum_xi, xi2}};
+  row->value += value;
+  row->scale += x;
+  row->sums[0] += x;
+  row->sums[1] -= eta * x;
+  row->sums[2] += turn;
+  row->gram[0] += count;
+  row->gram[1] -= eta * count;
+  row->gram[2] += sum_xi;
+  row->gram[3] += eta * eta * count;
+  row->gram[4] -= eta * sum_xi;
+  row->gram[5] += xi2;
 }
 
 static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
@@ -138,10 +148,16 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
   const Cells *c = (const Cells *)context;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const ptrdiff_t k   = (ptrdiff_t)j * f->grid->nx;
-    Dual            row = {0};
+    const ptrdiff_t k    = (ptrdiff_t)j * f->grid->nx;
+    const char     *mask = c->mask + (ptrdiff_t)j * c->masked;
+    const float    *step = c->step + (c->by != 0 ? k : 0);
+    Dual            row  = {0};
 
-    PassNormalRow(f->grid->nx, c->field + k, c->step + (c->by != 0 ? k : 0), c->by, c->mask + (ptrdiff_t)j * c->masked, f->xi0, f->dxi, SamFrameEta(f, j), a, &row);
+    for (PetscInt i = 0; i < f->grid->nx; i += SAM_STRETCH) {
+      const PetscInt n = PetscMin(SAM_STRETCH, f->grid->nx - i);
+
+      if (SamAnyOf(mask + i, n)) AddPressures(n, c->field + k + i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
+    }
     SamAddAll(DUAL, dual, (const double *)&row);
   }
 }

@@ -273,13 +273,13 @@ static void ComputeResidual(Work *w)
   }
 }
 
-/* What a row adds to a direction's sums over A: moments of z and of u (without the factor of eta); z.r, z.u, s.r. */
+/* What a stretch of a row adds to a direction's sums over A: moments of z and of u (without the factor of eta); z.r, z.u, s.r. */
 typedef struct {
   double z, z_turn, u, u_turn, zr, zu, sr;
 } Products;
 
-/* z = |k| r less the loss of r, and its products. */
-SAM_VECTORIZED static Products PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict s, const float *restrict u, const float *restrict loss, const char *restrict active, const float *restrict xi, double inverse, float *restrict z)
+/* z = |k| r less the loss of r, and its products, added to `sums`. */
+SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict s, const float *restrict u, const float *restrict loss, const char *restrict active, const float *restrict xi, double inverse, float *restrict z, Products *sums)
 {
   float  z_sum = 0, z_turn = 0, u_sum = 0, u_turn = 0, zu = 0;
   double zr = 0, sr = 0;
@@ -297,7 +297,13 @@ SAM_VECTORIZED static Products PreconditionedRow(PetscInt n, const double *restr
     zr += (double)v * (double)r;
     sr += (double)s[i] * (double)r;
   }
-  return (Products){(double)z_sum, (double)z_turn, (double)u_sum, (double)u_turn, zr, (double)zu, sr};
+  sums->z += (double)z_sum;
+  sums->z_turn += (double)z_turn;
+  sums->u += (double)u_sum;
+  sums->u_turn += (double)u_turn;
+  sums->zr += zr;
+  sums->zu += (double)zu;
+  sums->sr += sr;
 }
 
 SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict s, const char *restrict active, const float *restrict xi, double eta, const double motion[3], float beta, float *restrict z)
@@ -322,8 +328,14 @@ static PetscErrorCode NewDirection(Work *w)
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
     const double    eta = SamFrameEta(f, j);
-    const Products  row = PreconditionedRow(w->nx, w->g + k, w->s + k, w->u + k, w->loss + k, w->active + k, w->xi, 1 / w->unit, w->z + k);
+    Products        row = {0};
 
+    for (PetscInt i = 0; i < w->nx; i += SAM_STRETCH) {
+      const PetscInt  n = PetscMin(SAM_STRETCH, w->nx - i);
+      const ptrdiff_t m = k + i;
+
+      if (SamAnyOf(w->active + m, n)) PreconditionedRow(n, w->g + m, w->s + m, w->u + m, w->loss + m, w->active + m, w->xi + i, 1 / w->unit, w->z + m, &row);
+    }
     SamAddAll(9, totals, (const double[9]){row.z, -eta * row.z, row.z_turn, row.u, -eta * row.u, row.u_turn, row.zr, row.zu, row.sr});
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 9, totals, sums));
