@@ -170,12 +170,29 @@ SAM_VECTORIZED static RowSums ChooseRow(PetscInt n, const double *restrict p, co
   return (RowSums){count, xi, xi2, sum, turn};
 }
 
+static void AddRow(RowSums row, double eta, SamTotal totals[])
+{
+  SamAddAll(SAM_GRAM + 3, totals, (const double[SAM_GRAM + 3]){row.count, -eta * row.count, row.xi, eta * eta * row.count, -eta * row.xi, row.xi2, row.g, -eta * row.g, row.xi_g});
+}
+
+/* Adds to the motion what fits the gap to the cells that were summed, whose Gram matrix becomes w's. */
+static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
+{
+  double sums[SAM_GRAM + 3], a[3];
+
+  PetscFunctionBegin;
+  PetscCall(SamSumTotals(w->level->grid->comm, SAM_GRAM + 3, totals, sums));
+  PetscCall(PetscArraycpy(w->gram, sums, SAM_GRAM));
+  SamFrameSolve(w->frame, w->gram, sums + SAM_GRAM, a);
+  for (PetscInt c = 0; c < 3; c++) motion[c] += a[c];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Chooses A by the gap that `motion` has moved back, and adds to it what fits it to A. */
 static PetscErrorCode Choose(Work *w, double ease, double motion[3])
 {
   const SamFrame *f = w->frame;
   SamTotal        totals[SAM_GRAM + 3] = {{0, 0}};
-  double          sums[SAM_GRAM + 3], a[3];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -183,12 +200,9 @@ static PetscErrorCode Choose(Work *w, double ease, double motion[3])
     const double    eta = SamFrameEta(f, j);
     const RowSums   row = ChooseRow(w->nx, w->p + k, w->g + k, ease, f->xi0, f->dxi, eta, motion, w->active + k);
 
-    SamAddAll(SAM_GRAM + 3, totals, (const double[SAM_GRAM + 3]){row.count, -eta * row.count, row.xi, eta * eta * row.count, -eta * row.xi, row.xi2, row.g, -eta * row.g, row.xi_g});
+    AddRow(row, eta, totals);
   }
-  PetscCall(SamSumTotals(w->level->grid->comm, SAM_GRAM + 3, totals, sums));
-  PetscCall(PetscArraycpy(w->gram, sums, SAM_GRAM));
-  SamFrameSolve(f, w->gram, sums + SAM_GRAM, a);
-  for (PetscInt c = 0; c < 3; c++) motion[c] += a[c];
+  PetscCall(Fit(w, totals, motion));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,14 +223,18 @@ SAM_VECTORIZED static double MoveRow(PetscInt n, double *restrict g, const doubl
   return isfinite(sum) ? error : NAN;
 }
 
-/* Chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures it. */
-static PetscErrorCode ChooseSet(Work *w)
+/*
+  Chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures it. `contact`: the sums over the
+  cells with pressure, when they are known.
+*/
+static PetscErrorCode ChooseSet(Work *w, SamTotal contact[])
 {
   const SamFrame *f         = w->frame;
   double          motion[3] = {0, 0, 0}, error = 0;
 
   PetscFunctionBegin;
-  PetscCall(Choose(w, 0, motion));
+  if (contact) PetscCall(Fit(w, contact, motion));
+  else PetscCall(Choose(w, 0, motion));
   PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -236,7 +254,7 @@ static PetscErrorCode Refresh(Work *w)
   PetscFunctionBegin;
   PetscCall(ComputeGap(w));
   w->worst = 0;
-  PetscCall(ChooseSet(w));
+  PetscCall(ChooseSet(w, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -412,28 +430,43 @@ SAM_VECTORIZED static double CurvatureRow(PetscInt n, const float *restrict s, c
   return (double)sum;
 }
 
-/* From the trial, where p has gone by s, by so much more: what is left to rounding of a pressure is none. */
-SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s, double rounding, double by_u, double *restrict p, double *restrict g)
+/* From the trial, where p has gone by s, by so much more: what is left to rounding of a pressure is none. Sums over cells with pressure. */
+SAM_VECTORIZED static RowSums StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s, double rounding, double by_u, double xi0, double dxi, double *restrict p, double *restrict g)
 {
-#pragma omp simd
-  for (PetscInt i = 0; i < n; i++) {
-    const double v = p[i] + by_s * (double)s[i];
+  double count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0;
 
-    p[i] = v > rounding * fabs((double)s[i]) ? v : 0;
-    g[i] += by_u * (double)u[i];
+#pragma omp simd reduction(+ : count, xi, xi2, sum, turn)
+  for (PetscInt i = 0; i < n; i++) {
+    const double v = p[i] + by_s * (double)s[i], gap = g[i] + by_u * (double)u[i], x = xi0 + (double)i * dxi;
+    const double in = v > rounding * fabs((double)s[i]) ? 1 : 0;
+
+    p[i] = in * v;
+    g[i] = gap;
+    count += in;
+    xi += in * x;
+    xi2 += in * x * x;
+    sum += in * gap;
+    turn += in * x * gap;
+  }
+  return (RowSums){count, xi, xi2, sum, turn};
+}
+
+/* From the trial to where the step has the length t instead of 1; the sums over the cells with pressure there. */
+static void SetLength(Work *w, double t, SamTotal contact[])
+{
+  const SamFrame *f        = w->frame;
+  const double    pressure = w->unit / w->self;
+
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
+    const RowSums   row = StepRow(w->nx, w->s + k, w->u + k, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, f->xi0, f->dxi, w->p + k, w->g + k);
+
+    AddRow(row, SamFrameEta(f, j), contact);
   }
 }
 
-/* From the trial to where the step has the length t instead of 1. */
-static void SetLength(Work *w, double t)
-{
-  const double pressure = w->unit / w->self;
-
-  StepRow(w->cells, w->s, w->u, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, w->p, w->g);
-}
-
 /* The least energy between where the step begins and where a pressure vanishes. `best`: its length without that bound. */
-static PetscErrorCode Step(Work *w, double *best)
+static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {
   SamTotal total = {0, 0};
 
@@ -442,14 +475,15 @@ static PetscErrorCode Step(Work *w, double *best)
   for (PetscInt j = 0; j < w->rows; j++) SamAdd(&total, CurvatureRow(w->nx, w->s + (ptrdiff_t)j * w->nx, w->u + (ptrdiff_t)j * w->nx));
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->curvature));
   *best = w->curvature > 0 ? PetscMax(-w->slope / w->curvature, 0) : 0;
-  SetLength(w, *best * w->shrink > 1 ? 1 / w->shrink : *best);
+  SetLength(w, *best * w->shrink > 1 ? 1 / w->shrink : *best, contact);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* One iteration. `good`: there was a way down. */
 static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, PetscBool *found)
 {
-  double best = 0;
+  SamTotal contact[SAM_GRAM + 3] = {{0, 0}}, ignored[SAM_GRAM + 3] = {{0, 0}};
+  double   best = 0;
 
   PetscFunctionBegin;
   w->unit = w->error;
@@ -457,15 +491,15 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, Pets
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, found));
     gradient = (!*found || w->slope >= 0) ? PETSC_TRUE : PETSC_FALSE;
-    if (*found && gradient) SetLength(w, 0);
+    if (*found && gradient) SetLength(w, 0, ignored);
   }
   if (gradient) PetscCall(TryGradient(w, found));
-  if (*found && w->slope < 0) PetscCall(Step(w, &best));
-  else if (*found) SetLength(w, 0);
+  if (*found && w->slope < 0) PetscCall(Step(w, &best, contact));
+  else if (*found) SetLength(w, 0, ignored);
   *good = best > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
-  PetscCall(ChooseSet(w));
+  PetscCall(ChooseSet(w, contact));
   PetscCall(SamNormalIterated(w->normal, w->level, w->error / w->displacement));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
