@@ -32,7 +32,7 @@ static PetscErrorCode CanShare(SamWorkspace w)
   PetscMPIInt size;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(NULL, "fft_exchange", "how ranks of one node see each other's rows: auto (in shared memory) or transpose (by messages)", exchanges, &exchange, NULL));
+  PetscCall(SamOptionsEnum(NULL, "fft_exchange", "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges, &exchange, NULL));
   PetscCallMPI(MPI_Comm_split_type(w->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
   PetscCallMPI(MPI_Comm_size(node, &size));
   PetscCallMPI(MPI_Comm_free(&node));

@@ -242,8 +242,8 @@ def test_signal_without_a_checkpoint_is_a_warning(launcher, folder):
 @pytest.mark.parametrize("limit, seconds, ranks", [("1.5", 1.5, 1), ("0:03", 3, 2), ("0:0:2", 2, 1)])
 def test_run_stops_before_its_time_is_up(folder, petsam, limit, seconds, ranks):
     """Many steps in few seconds, over as many runs as it takes; each ends by itself and gets on."""
-    write_history(folder, 2000)
-    case = [dict(CASE, grid_n=96, output_every=2000), dict(checkpoint="state.h5", max_walltime=limit)]
+    write_history(folder, 20000)
+    case = [dict(CASE, grid_n=96, output_every=20000), dict(checkpoint="state.h5", max_walltime=limit)]
     begin = time.monotonic()
     done = petsam(*case, ranks=ranks, check=75)
     # the launcher's own time comes on top
