@@ -267,7 +267,6 @@ static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n
   TRANSFORM        *t     = &F->PART;
   const SamColumns *c     = &F->columns[mode];
   SamFourierBlock   block = {.mode = mode, .phases = mode == SAM_FOURIER_PADDED ? 2 : 1, .hx = (PetscInt)F->hx, .hy = (PetscInt)F->hy, .width = BLOCK, .stride = F->stride};
-
   SamPieces         pieces[SAM_FOURIER_FIELDS];
 
   for (PetscInt i = 0; i < PetscMax(n_in, n_out); i++) pieces[i] = SamFourierGetPieces(F, i, F->grid->ny, c->n, c->start, c->count);

@@ -120,13 +120,14 @@ class Bench:
         return found
 
     def convolutions(self, sizes):
-        """Seconds of FFTW's padded pair and of petsam's convolution: rows {ranks, cells, padded, petsam}."""
+        """Seconds of FFTW's padded pair and of petsam's convolution: rows {ranks, cells, padded, petsam, messages}, the last by messages."""
         program, rows = self.build / "bench" / "convolution", []
         for n in self.args.ranks:
-            text = Ran(launch(n, PATIENCE) + [program, "-sizes", ",".join(map(str, sizes))], PATIENCE).must("convolution")
-            for words in (line.split() for line in text.splitlines()[1:]):
-                rows.append(dict(ranks=n, cells=int(words[0]), padded=float(words[1]), petsam=float(words[2])))
-                say("convolution of {cells}^2 on {ranks} ranks: padded {padded:.4f} s, petsam {petsam:.4f} s".format(**rows[-1]))
+            command = launch(n, PATIENCE) + [program, "-sizes", ",".join(map(str, sizes))]
+            texts = [Ran(command + ["-fft_exchange", e], PATIENCE).must("convolution") for e in ("auto", "transpose")]
+            for words, other in zip(*[[line.split() for line in text.splitlines()[1:]] for text in texts]):
+                rows.append(dict(ranks=n, cells=int(words[0]), padded=float(words[1]), petsam=float(words[2]), messages=float(other[2])))
+                say("convolution of {cells}^2 on {ranks} ranks: padded {padded:.4f} s, petsam {petsam:.4f} s, by messages {messages:.4f} s".format(**rows[-1]))
         return rows
 
     # ---------------------------------------------------------------- problems

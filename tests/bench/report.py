@@ -72,9 +72,9 @@ class Report:
     def machine(self):
         self.write("## Memory and transforms\n", table(["ranks", "triad, GB/s"], [[n, f"{b:.1f}"] for n, b in self.data["bandwidth"].items()]))
         rows = [[f"{r['cells']}²", str(r["ranks"]), f"{r['padded']:.4f}", f"{r['petsam']:.4f}", f"{r['petsam'] / r['padded']:.2f}",
-                 self.gain(r)] for r in self.data["convolution"]]
+                 self.gain(r), f"{r['messages']:.4f}" if r["ranks"] > 1 else ""] for r in self.data["convolution"]]
         self.write("One convolution, seconds, against FFTW's padded pair (r2c, product, c2r) on as many ranks:\n",
-                   table(["cells", "ranks", "padded FFTW", "petsam", "ratio", "times one rank"], rows))
+                   table(["cells", "ranks", "padded FFTW", "petsam", "ratio", "times one rank", "by messages, as between nodes"], rows))
 
     def gain(self, row):
         one = [r for r in self.data["convolution"] if r["cells"] == row["cells"] and r["ranks"] == 1]
@@ -185,12 +185,12 @@ class Report:
     def model(self):
         """The convolution's model and the largest convolution it comes from; None when something is not measured."""
         bandwidth = {int(k): 1e9 * v for k, v in self.data["bandwidth"].items()}
-        times = {(r["cells"], r["ranks"]): r["petsam"] for r in self.data["convolution"]}
+        times = {(r["cells"], r["ranks"]): (r["petsam"], r["messages"]) for r in self.data["convolution"]}
         both = [n for n, ranks in times if ranks == 1 and (n, 2) in times]
-        if not both or not {1, 2} <= set(bandwidth):
+        if not both or 1 not in bandwidth:
             return None, 0
         n = max(both)
-        return scaling.fit(n, times[n, 1], times[n, 2], bandwidth[1], bandwidth[2], self.cluster), n
+        return scaling.fit(n, times[n, 1][0], *times[n, 2], bandwidth[1], self.cluster), n
 
     def solves(self, convolution):
         """Case: the model of its largest solve on one rank, and its seconds on one and two ranks."""

@@ -5,11 +5,12 @@ One convolution of n x n cells on P ranks takes
     t(n, P) = c n^2 log2(2n) / P + m n^2 / (P b) + exchange(n, P)
 
 c      arithmetic, from the time on one rank less its memory traffic
-m      bytes a cell that pass through memory: 88 on one rank (rows 8 + 16, columns 16 + 16 + 8 with the kernel, rows
-       16 + 8), 152 on more (the two transposes read and write 16 more each)
-b      bandwidth of a rank when all cores are busy, from the triad on all ranks
-exchange   two transposes, each of 16 n^2 / P bytes a rank: the share for ranks of the same node at the rate that the
-       time on two ranks implies, the rest at the rank's share of its node's network, and P - 1 messages of the latency
+m      bytes a cell that pass through memory: 88 on one node, whose ranks share it (rows 8 + 16, columns 16 + 16 + 8 with
+       the kernel, rows 16 + 8), 152 on more (the two transposes read and write 16 more each)
+b      bandwidth of a rank: alone that of the triad, beside others what the time on two ranks implies
+exchange   between nodes two transposes, each of 16 n^2 / P bytes a rank: the share for ranks of the same node at the rate
+       that the time on two ranks by messages implies, the rest at the rank's share of its node's network, and P - 1
+       messages of the latency
 
 A solve is its measured numbers of applications (two components: twice a convolution) and preconditionings (half of one)
 on the finest grid; as many on every coarser grid down to 64 cells, on all ranks that have rows; the rest of its time on
@@ -19,7 +20,7 @@ The numbers do not depend on n (the solvers' measured property).
 from math import log2
 from typing import NamedTuple
 
-BYTES_ALONE, BYTES_SHARED, BYTES_TRANSPOSED = 88, 152, 16
+BYTES_NODE, BYTES_NODES, BYTES_TRANSPOSED = 88, 152, 16
 REDUCTIONS, COARSEST = 6, 64
 
 
@@ -36,7 +37,7 @@ class Convolution(NamedTuple):
 
     compute: float    # c, s
     alone: float      # bandwidth of one rank alone, bytes/s
-    bandwidth: float  # b, bytes/s
+    bandwidth: float  # b beside others, bytes/s
     node: float       # rate of the exchange between ranks of a node, bytes/s
     cluster: Assumptions
 
@@ -45,8 +46,10 @@ class Convolution(NamedTuple):
         busy = min(ranks, n)
         arithmetic = self.compute * n * n * log2(2 * n) / busy
         if ranks == 1:
-            return arithmetic + BYTES_ALONE * n * n / self.alone
-        return arithmetic + BYTES_SHARED * n * n / (busy * self.bandwidth) + self.exchange(n, ranks)
+            return arithmetic + BYTES_NODE * n * n / self.alone
+        if ranks <= self.cluster.cores:
+            return arithmetic + BYTES_NODE * n * n / (busy * self.bandwidth)
+        return arithmetic + BYTES_NODES * n * n / (busy * self.bandwidth) + self.exchange(n, ranks)
 
     def exchange(self, n, ranks):
         busy = min(ranks, n)
@@ -57,13 +60,16 @@ class Convolution(NamedTuple):
                     + (busy - 1) * self.cluster.latency)
 
 
-def fit(n, alone, two, bandwidth_alone, bandwidth_two, cluster):
-    """The convolution's model from its seconds on one and on two ranks and both bandwidths (bytes/s)."""
-    compute = max(0.0, alone - BYTES_ALONE * n * n / bandwidth_alone) / (n * n * log2(2 * n))
-    left = two - compute * n * n * log2(2 * n) / 2 - BYTES_SHARED * n * n / bandwidth_two - 2 * cluster.latency
+def fit(n, alone, two, messages, bandwidth, cluster):
+    """The convolution's model from its seconds on one rank and on two, by shared memory and by messages, and one rank's bandwidth (bytes/s)."""
+    compute = max(0.0, alone - BYTES_NODE * n * n / bandwidth) / (n * n * log2(2 * n))
+    half = compute * n * n * log2(2 * n) / 2
+    # two ranks are never more than twice as fast as one
+    beside = min(bandwidth, BYTES_NODE * n * n / 2 / max(two - half, 1e-12))
+    left = messages - half - BYTES_NODES * n * n / 2 / beside - 2 * cluster.latency
     # two transposes of 16 n^2/2 bytes, half of which change the rank; never faster than a copy through memory
-    node = min(BYTES_TRANSPOSED * n * n / 2 / left if left > 0 else float("inf"), bandwidth_two / 4)
-    return Convolution(compute, bandwidth_alone, bandwidth_two / 2, node, cluster)
+    node = min(BYTES_TRANSPOSED * n * n / 2 / left if left > 0 else float("inf"), beside / 2)
+    return Convolution(compute, bandwidth, beside, node, cluster)
 
 
 class Solve(NamedTuple):

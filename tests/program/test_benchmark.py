@@ -16,7 +16,7 @@ import problem  # noqa: E402
 import scaling  # noqa: E402
 
 CASES = ("hertz", "rough_8", "slip_tx", "slip_tx_mz", "cycle_16")
-N, SECONDS = 2048, (0.06, 0.055)  # a convolution's on one and two ranks
+N, SECONDS = 2048, (0.06, 0.033, 0.057)  # a convolution's on one rank, and on two by shared memory and by messages
 
 
 def run(*words):
@@ -80,7 +80,7 @@ def test_rough_plane_is_the_same_on_every_grid():
 
 
 def convolution():
-    return scaling.fit(N, *SECONDS, 20e9, 25e9, scaling.Assumptions())
+    return scaling.fit(N, *SECONDS, 20e9, scaling.Assumptions())
 
 
 def test_model_meets_what_was_measured():
