@@ -25,7 +25,7 @@ PACKAGES := petsc fftw3 $(HDF5_PC)
 
 # `:=` for what asks pkg-config: asked once, not once a file
 PC_CFLAGS := $(shell $(PC) --cflags $(PACKAGES))
-PC_LIBS   := $(shell $(PC) --libs-only-L --libs-only-other $(PACKAGES)) $(RPATH) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PC) --libs-only-l $(PACKAGES)) -lhdf5_hl -lm
+PC_LIBS   := $(shell $(PC) --libs-only-L --libs-only-other $(PACKAGES)) $(RPATH) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PC) --libs-only-l $(PACKAGES)) -lhdf5_hl $(if $(filter Linux,$(shell uname -s)),-lrt) -lm
 ifeq ($(origin CC),default)
   CC := mpicc
 endif
