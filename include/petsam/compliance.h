@@ -33,11 +33,10 @@ PETSC_EXTERN PetscErrorCode SamComplianceGetCoarse(SamCompliance compliance, Sam
   operator borrowed, NULL when there is none.
   SamComplianceChoosePart - a part that holds the n[0] * n[1] cells from first[0], first[1] on and some more about them; none
   where it would be hardly smaller than the grid. `keep`: one that holds these cells and is not much too large stays.
-  SamComplianceSetPart - just those cells; n = 0: none. GetPartPlace tells them.
+  SamComplianceSetPart - just those cells; n = 0: none; one that is just these stays. GetPartPlace tells them.
 */
 PETSC_EXTERN PetscErrorCode SamComplianceChoosePart(SamCompliance compliance, const PetscInt first[2], const PetscInt n[2], PetscBool keep, SamWindow *window, SamCompliance *part);
 PETSC_EXTERN PetscErrorCode SamComplianceSetPart(SamCompliance compliance, const PetscInt first[2], const PetscInt n[2]);
-PETSC_EXTERN PetscErrorCode SamComplianceGetPart(SamCompliance compliance, SamWindow *window, SamCompliance *part);
 PETSC_EXTERN PetscErrorCode SamComplianceGetPartPlace(SamCompliance compliance, PetscInt first[2], PetscInt n[2]);
 
 /* Products, all collective. One-component fields p, u_z; two-component fields q, u_t. Input and output may be the same. */

@@ -27,6 +27,8 @@ typedef struct {
 } SamFrame;
 
 PETSC_INTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
+/* The same with all rigid displacements given as they stand in the balance. */
+PETSC_INTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* Rigid displacements of the force-controlled components from a free combination a of the phi. */
 PETSC_INTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
 /* Loads of all three components from sum phi traction (not times the cell's area). */
@@ -90,6 +92,17 @@ static inline void SamGramAddNormal(double gram[SAM_GRAM], double xi, double eta
   gram[3] += eta * eta;
   gram[4] -= eta * xi;
   gram[5] += xi * xi;
+}
+
+/* Adds the cells of a row, from their number and their sums of xi and xi^2. */
+static inline void SamGramNormalRow(double gram[SAM_GRAM], double count, double xi, double xi2, double eta)
+{
+  gram[0] += count;
+  gram[1] -= eta * count;
+  gram[2] += xi;
+  gram[3] += eta * eta * count;
+  gram[4] -= eta * xi;
+  gram[5] += xi2;
 }
 
 /* Adds a cell to the Gram matrix of the tangential phi, weighted by the symmetric 2 x 2 matrix hxx, hxy, hyy. */

@@ -62,6 +62,16 @@ PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamFrameSetGiven(SamFrame *f, SamGrid grid, const SamBalance *balance)
+{
+  SamBalance given = *balance;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3; k++) given.force[k] = PETSC_FALSE;
+  PetscCall(SamFrameSet(f, grid, &given));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 void SamFrameGetRigid(const SamFrame *f, const double a[3], SamBalance *balance)
 {
   double d[3];

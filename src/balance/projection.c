@@ -135,12 +135,7 @@ SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field
   row->sums[0] += x;
   row->sums[1] -= eta * x;
   row->sums[2] += turn;
-  row->gram[0] += count;
-  row->gram[1] -= eta * count;
-  row->gram[2] += sum_xi;
-  row->gram[3] += eta * eta * count;
-  row->gram[4] -= eta * sum_xi;
-  row->gram[5] += xi2;
+  SamGramNormalRow(row->gram, count, sum_xi, xi2, eta);
 }
 
 static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])

@@ -8,19 +8,14 @@
 #define WORTH 0.8
 #define SLACK 1.5
 
-PetscErrorCode SamComplianceGetPart(SamCompliance C, SamWindow *window, SamCompliance *part)
-{
-  PetscFunctionBegin;
-  *window = C->window;
-  *part   = C->part;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamComplianceSetPart(SamCompliance C, const PetscInt first[2], const PetscInt n[2])
 {
-  SamGrid grid;
+  SamGrid  grid;
+  PetscInt old_first[2], old_n[2];
 
   PetscFunctionBegin;
+  PetscCall(SamComplianceGetPartPlace(C, old_first, old_n));
+  if (n[0] == old_n[0] && n[1] == old_n[1] && (!n[0] || (first[0] == old_first[0] && first[1] == old_first[1]))) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamWindowDestroy(&C->window));
   PetscCall(SamComplianceDestroy(&C->part));
   if (!n[0]) PetscFunctionReturn(PETSC_SUCCESS);
@@ -40,7 +35,7 @@ static PetscBool Suits(SamCompliance C, const PetscInt first[2], const PetscInt 
 PetscErrorCode SamComplianceChoosePart(SamCompliance C, const PetscInt first[2], const PetscInt n[2], PetscBool keep, SamWindow *window, SamCompliance *part)
 {
   const PetscInt all[2] = {C->grid->nx, C->grid->ny};
-  PetscInt       from[2], size[2], old_from[2], old_size[2];
+  PetscInt       from[2], size[2];
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; k++) { /* a few cells more, for contacts that grow */
@@ -51,9 +46,9 @@ PetscErrorCode SamComplianceChoosePart(SamCompliance C, const PetscInt first[2],
     from[k] = PetscMin(from[k], all[k] - size[k]);
   }
   if ((double)size[0] * (double)size[1] > WORTH * (double)all[0] * (double)all[1]) size[0] = size[1] = 0;
-  PetscCall(SamComplianceGetPartPlace(C, old_from, old_size));
-  if (!(keep && Suits(C, first, n)) && (size[0] != old_size[0] || size[1] != old_size[1] || (size[0] && (from[0] != old_from[0] || from[1] != old_from[1])))) PetscCall(SamComplianceSetPart(C, from, size));
-  PetscCall(SamComplianceGetPart(C, window, part));
+  if (!keep || !Suits(C, first, n)) PetscCall(SamComplianceSetPart(C, from, size));
+  *window = C->window;
+  *part   = C->part;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

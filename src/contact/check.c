@@ -27,15 +27,13 @@ static PetscErrorCode ComputeDisplacements(SamCompliance C, PetscBool coupling, 
 /* gap = u_z + h - rigid, slip = u_t - rigid. */
 static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamStep *step, SamFields *f)
 {
-  SamBalance    given[2] = {step->normal, step->tangential};
   SamFrame      normal, tangential;
   const double *uz, *ut, *h;
   double       *gap, *slip;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < 3; c++) given[0].force[c] = given[1].force[c] = PETSC_FALSE; /* all displacements are known now */
-  PetscCall(SamFrameSet(&normal, grid, &given[0]));
-  PetscCall(SamFrameSet(&tangential, grid, &given[1]));
+  PetscCall(SamFrameSetGiven(&normal, grid, &step->normal)); /* all displacements are known now */
+  PetscCall(SamFrameSetGiven(&tangential, grid, &step->tangential));
   PetscCall(VecGetArrayRead(f->displacement_z, &uz));
   PetscCall(VecGetArrayRead(f->displacement_t, &ut));
   PetscCall(VecGetArrayRead(separation, &h));

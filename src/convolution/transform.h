@@ -126,20 +126,19 @@ static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt
 /* Makes room for that many fields. */
 static PetscErrorCode Reserve(SamFourier F, PetscInt fields)
 {
-  TRANSFORM *t    = &F->PART;
-  PetscBool  more = fields > t->fields ? PETSC_TRUE : PETSC_FALSE;
+  TRANSFORM *t = &F->PART;
 
   PetscFunctionBegin;
   if (!t->row) PetscCall(PlanLines(F));
-  PetscCall(SamWorkspaceReserve(F->work, fields));
-  if (more) {
+  if (fields > t->fields) {
     free(t->buffer);
     PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
-    t->fields = fields;
+    t->fields  = fields;
+    t->version = -1;
   }
-  if (!SamWorkspaceTransposes(F->work) || (!more && t->version == F->work->version)) PetscFunctionReturn(PETSC_SUCCESS);
-  DestroyTransposes(t);
   PetscCall(SamWorkspaceReserve(F->work, t->fields));
+  if (!SamWorkspaceTransposes(F->work) || t->version == F->work->version) PetscFunctionReturn(PETSC_SUCCESS);
+  DestroyTransposes(t);
   PetscCall(PlanTransposes(F, SAM_FOURIER_PERIODIC, t->fields));
   PetscCall(PlanTransposes(F, SAM_FOURIER_PADDED, t->fields));
   t->version = F->work->version;

@@ -6,7 +6,7 @@
 PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2], SamGrid *grid)
 {
   PetscMPIInt rank, size;
-  PetscInt    block;
+  PetscInt    end;
   SamGrid     g;
 
   PetscFunctionBegin;
@@ -34,10 +34,9 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
   g->dx        = width[0] / (PetscReal)n[0];
   g->dy        = width[1] / (PetscReal)n[1];
   g->length    = 0.5 * PetscMax(width[0], width[1]);
-  block        = (n[1] + size - 1) / size;
-  g->row_start = PetscMin((PetscInt)rank * block, n[1]);
-  g->rows      = PetscMin(block, n[1] - g->row_start);
-  g->cells     = g->rows * n[0];
+  SamGridRowsOf(g, size, rank, &g->row_start, &end);
+  g->rows  = end - g->row_start;
+  g->cells = g->rows * n[0];
   *grid        = g;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,46 +1,23 @@
 /*
   A window: a rectangle of cells as a grid of its own.
 
-  Both grids have their rows in slabs, so what one rank owes another are whole rows of the window: an exchange of all
-  with all, in which each rank counts what is whose.
+  Both grids have their rows in slabs; which rows one side wants of the other, and how they come, is rows.c.
 */
 #include "gridimpl.h"
 #include <string.h>
 
 struct _n_SamWindow {
-  SamGrid      grid, part;
-  PetscInt     first[2];
-  PetscMPIInt  ranks;
-  PetscMPIInt *counts[2], *offsets[2]; /* doubles exchanged with each rank: 0 on the whole grid's side, 1 on the window's */
+  SamGrid  grid, part;
+  PetscInt first[2];
+  SamRows  taken; /* rows of the whole grid that this rank's rows of the window are */
+  SamRows  put;   /* rows of the window among this rank's rows of the whole grid */
 };
-
-/* Doubles of one component to exchange with each rank: rows that are mine on one side and its on the other. */
-static PetscErrorCode CountRows(SamWindow w)
-{
-  PetscFunctionBegin;
-  for (PetscInt side = 0; side < 2; side++) {
-    const SamGrid  mine = side ? w->part : w->grid, theirs = side ? w->grid : w->part;
-    const PetscInt my_shift = side ? w->first[1] : 0, their_shift = side ? 0 : w->first[1];
-    PetscMPIInt    total = 0;
-
-    for (PetscMPIInt r = 0; r < w->ranks; r++) {
-      PetscInt begin, end;
-
-      SamGridRowsOf(theirs, w->ranks, r, &begin, &end);
-      begin               = PetscMax(begin + their_shift, mine->row_start + my_shift);
-      end                 = PetscMin(end + their_shift, mine->row_start + mine->rows + my_shift);
-      w->counts[side][r]  = (PetscMPIInt)(PetscMax(end - begin, 0) * w->part->nx);
-      w->offsets[side][r] = total;
-      total += w->counts[side][r];
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2], SamWindow *window)
 {
   const PetscReal step[2] = {grid->dx, grid->dy};
   const PetscInt  all[2]  = {grid->nx, grid->ny};
+  PetscInt        begin, end;
   PetscReal       width[2], center[2];
   SamWindow       w;
 
@@ -55,9 +32,10 @@ PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const Pets
     center[k]   = grid->center[k] + ((PetscReal)first[k] + 0.5 * (PetscReal)n[k] - 0.5 * (PetscReal)all[k]) * step[k];
   }
   PetscCall(SamGridCreate(grid->comm, n, width, center, &w->part));
-  PetscCallMPI(MPI_Comm_size(grid->comm, &w->ranks));
-  PetscCall(PetscMalloc4(w->ranks, &w->counts[0], w->ranks, &w->counts[1], w->ranks, &w->offsets[0], w->ranks, &w->offsets[1]));
-  PetscCall(CountRows(w));
+  begin = PetscMax(grid->row_start, first[1]);
+  end   = PetscMin(grid->row_start + grid->rows, first[1] + n[1]);
+  PetscCall(SamRowsCreate(grid, w->part->row_start + first[1], w->part->rows, &w->taken));
+  PetscCall(SamRowsCreate(w->part, PetscMax(begin - first[1], 0), PetscMax(end - begin, 0), &w->put));
   *window = w;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -68,7 +46,8 @@ PetscErrorCode SamWindowDestroy(SamWindow *window)
 
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFree4(w->counts[0], w->counts[1], w->offsets[0], w->offsets[1]));
+  PetscCall(SamRowsDestroy(&w->taken));
+  PetscCall(SamRowsDestroy(&w->put));
   PetscCall(SamGridDestroy(&w->part));
   PetscCall(SamGridDestroy(&w->grid));
   PetscCall(PetscFree(*window));
@@ -100,61 +79,49 @@ PetscBool SamWindowCovers(SamWindow w, const PetscInt first[2], const PetscInt n
   return PETSC_TRUE;
 }
 
-/* Rows of the window among this rank's rows of the whole grid, their columns packed together. */
-static void Pack(SamWindow w, const double whole[], double packed[])
-{
-  const PetscInt begin = PetscMax(w->grid->row_start, w->first[1]), end = PetscMin(w->grid->row_start + w->grid->rows, w->first[1] + w->part->ny);
-
-  for (PetscInt j = begin; j < end; j++) memcpy(packed + (j - begin) * w->part->nx, whole + (j - w->grid->row_start) * w->grid->nx + w->first[0], sizeof(double) * (size_t)w->part->nx);
-}
-
-static void Unpack(SamWindow w, const double packed[], double whole[])
-{
-  const PetscInt begin = PetscMax(w->grid->row_start, w->first[1]), end = PetscMin(w->grid->row_start + w->grid->rows, w->first[1] + w->part->ny);
-
-  memset(whole, 0, sizeof(double) * (size_t)w->grid->cells);
-  for (PetscInt j = begin; j < end; j++) memcpy(whole + (j - w->grid->row_start) * w->grid->nx + w->first[0], packed + (j - begin) * w->part->nx, sizeof(double) * (size_t)w->part->nx);
-}
-
 PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
 {
+  const size_t  nx = (size_t)w->part->nx, row = sizeof(double) * nx;
   PetscInt      components;
-  const double *from;
-  double       *to, *packed;
+  const double *from, *rows;
+  double       *to, *columns;
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
-  PetscCall(PetscMalloc1((size_t)PetscMin(w->grid->rows, w->part->ny) * (size_t)w->part->nx, &packed));
+  PetscCall(PetscMalloc1((size_t)w->grid->rows * nx, &columns)); /* of all rows; those that nobody wants stay untouched */
   PetscCall(VecGetArrayRead(whole, &from));
   PetscCall(VecGetArrayWrite(part, &to));
   for (PetscInt c = 0; c < components; c++) {
-    Pack(w, from + c * w->grid->cells, packed);
-    PetscCallMPI(MPI_Alltoallv(packed, w->counts[0], w->offsets[0], MPI_DOUBLE, to + c * w->part->cells, w->counts[1], w->offsets[1], MPI_DOUBLE, w->grid->comm));
+    for (PetscInt j = w->put.first + w->first[1] - w->grid->row_start, end = j + w->put.count; j < end; j++) memcpy(columns + (size_t)j * nx, from + c * w->grid->cells + j * w->grid->nx + w->first[0], row);
+    PetscCall(SamRowsFetch(&w->taken, w->part->nx, columns, &rows));
+    PetscCall(PetscArraycpy(to + c * w->part->cells, rows, w->part->cells));
+    PetscCall(SamRowsRestore(&w->taken, &rows));
   }
   PetscCall(VecRestoreArrayWrite(part, &to));
   PetscCall(VecRestoreArrayRead(whole, &from));
-  PetscCall(PetscFree(packed));
+  PetscCall(PetscFree(columns));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamWindowPut(SamWindow w, Vec part, Vec whole)
 {
+  const size_t  nx = (size_t)w->part->nx;
   PetscInt      components;
-  const double *from;
-  double       *to, *packed;
+  const double *from, *rows;
+  double       *to;
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
-  PetscCall(PetscMalloc1((size_t)PetscMin(w->grid->rows, w->part->ny) * (size_t)w->part->nx, &packed));
   PetscCall(VecGetArrayRead(part, &from));
   PetscCall(VecGetArrayWrite(whole, &to));
+  PetscCall(PetscArrayzero(to, components * w->grid->cells));
   for (PetscInt c = 0; c < components; c++) {
-    PetscCallMPI(MPI_Alltoallv(from + c * w->part->cells, w->counts[1], w->offsets[1], MPI_DOUBLE, packed, w->counts[0], w->offsets[0], MPI_DOUBLE, w->grid->comm));
-    Unpack(w, packed, to + c * w->grid->cells);
+    PetscCall(SamRowsFetch(&w->put, w->part->nx, from + c * w->part->cells, &rows));
+    for (PetscInt j = 0; j < w->put.count; j++) memcpy(to + c * w->grid->cells + (w->put.first + w->first[1] + j - w->grid->row_start) * w->grid->nx + w->first[0], rows + (size_t)j * nx, sizeof(double) * nx);
+    PetscCall(SamRowsRestore(&w->put, &rows));
   }
   PetscCall(VecRestoreArrayWrite(whole, &to));
   PetscCall(VecRestoreArrayRead(part, &from));
-  PetscCall(PetscFree(packed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

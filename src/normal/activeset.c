@@ -172,7 +172,10 @@ SAM_VECTORIZED static RowSums ChooseRow(PetscInt n, const double *restrict p, co
 
 static void AddRow(RowSums row, double eta, SamTotal totals[])
 {
-  SamAddAll(SAM_GRAM + 3, totals, (const double[SAM_GRAM + 3]){row.count, -eta * row.count, row.xi, eta * eta * row.count, -eta * row.xi, row.xi2, row.g, -eta * row.g, row.xi_g});
+  double sums[SAM_GRAM + 3] = {[SAM_GRAM] = row.g, -eta * row.g, row.xi_g};
+
+  SamGramNormalRow(sums, row.count, row.xi, row.xi2, eta);
+  SamAddAll(SAM_GRAM + 3, totals, sums);
 }
 
 /* Adds to the motion what fits the gap to the cells that were summed, whose Gram matrix becomes w's. */

@@ -1,6 +1,5 @@
 /* The normal solver's class: types, tolerances, monitors, nested grids, windows. The methods are in files of their own. */
 #include "normalimpl.h"
-#include <string.h>
 
 /*
   Coarse grids need to be solved only as well as they approximate the fine one; beyond that their iterations are wasted.
@@ -333,28 +332,18 @@ static void GetRigid(const SamNormalLevel *level, SamBalance *balance)
   SamFrameGetRigid(&level->frame, a, balance);
 }
 
-/* The frame of the whole grid in which the rigid displacements found are all given. */
-static PetscErrorCode FixFrame(const SamNormalLevel *level, const SamBalance *balance, SamFrame *frame)
-{
-  SamBalance found = *balance;
-
-  PetscFunctionBegin;
-  GetRigid(level, &found);
-  for (PetscInt k = 0; k < 3; k++) found.force[k] = PETSC_FALSE;
-  PetscCall(SamFrameSet(frame, level->grid, &found));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Whether in single precision no cell outside the window comes near to touching. */
-static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame *frame, const PetscInt first[2], const PetscInt size[2], PetscBool *clear)
+static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window, PetscBool *clear)
 {
   const SamGrid grid = level->grid;
+  PetscInt      first[2], size[2];
   PetscReal     self, most;
   double        scale, max[2] = {0, -PETSC_MAX_REAL}; /* largest displacement, and nearest to touching */
   const double *p, *h;
   float        *u;
 
   PetscFunctionBegin;
+  PetscCall(SamWindowGetPlace(window, first, size));
   PetscCall(SamComplianceGetSelfInfluence(level->compliance, &self, NULL));
   PetscCall(VecMax(level->p, NULL, &most));
   scale = self * most;
@@ -388,14 +377,12 @@ static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame
 static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window, PetscInt first[2], PetscInt size[2])
 {
   const SamGrid grid = level->grid;
-  PetscInt      from[2], part[2];
   PetscReal     most;
   const double *p, *h;
   double       *u;
   Vec           touching;
 
   PetscFunctionBegin;
-  PetscCall(SamWindowGetPlace(window, from, part));
   PetscCall(SamGridCreateVec(grid, 1, &touching));
   PetscCall(SamNormalApply(n, level, level->p, touching));
   PetscCall(VecNorm(touching, NORM_INFINITY, &most));
@@ -404,12 +391,11 @@ static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const Sam
   PetscCall(VecGetArrayRead(level->h, &h));
   for (PetscInt j = 0; j < grid->rows; j++)
     for (PetscInt i = 0; i < grid->nx; i++) {
-      const ptrdiff_t k      = (ptrdiff_t)j * grid->nx + i;
-      const PetscInt  row    = grid->row_start + j;
-      const PetscBool inside = (row >= from[1] && row < from[1] + part[1] && i >= from[0] && i < from[0] + part[0]) ? PETSC_TRUE : PETSC_FALSE;
-      const double    gap    = u[k] + h[k] - SamFrameNormal(frame->fixed, frame->xi0 + (double)i * frame->dxi, SamFrameEta(frame, j));
+      const PetscInt  cell[2] = {i, grid->row_start + j}, one[2] = {1, 1};
+      const ptrdiff_t k       = (ptrdiff_t)j * grid->nx + i;
+      const double    gap     = u[k] + h[k] - SamFrameNormal(frame->fixed, frame->xi0 + (double)i * frame->dxi, SamFrameEta(frame, j));
 
-      u[k] = p[k] > 0 || (!inside && gap < -level->rtol * most);
+      u[k] = p[k] > 0 || (gap < -level->rtol * most && !SamWindowCovers(window, cell, one));
     }
   PetscCall(VecRestoreArrayRead(level->h, &h));
   PetscCall(VecRestoreArrayRead(level->p, &p));
@@ -422,13 +408,13 @@ static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const Sam
 /* Whether the bodies are apart outside the window; if not, the rectangle that holds all contact. */
 static PetscErrorCode LookOutside(SamNormal n, SamNormalLevel *level, const SamBalance *balance, SamWindow window, PetscInt first[2], PetscInt size[2], PetscBool *apart)
 {
-  PetscInt from[2], part[2];
-  SamFrame frame;
+  SamBalance found = *balance;
+  SamFrame   frame;
 
   PetscFunctionBegin;
-  PetscCall(FixFrame(level, balance, &frame));
-  PetscCall(SamWindowGetPlace(window, from, part));
-  PetscCall(IsClear(n, level, &frame, from, part, apart));
+  GetRigid(level, &found);
+  PetscCall(SamFrameSetGiven(&frame, level->grid, &found));
+  PetscCall(IsClear(n, level, &frame, window, apart));
   if (*apart) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(FindTouching(n, level, &frame, window, first, size));
   *apart = SamWindowCovers(window, first, size);
@@ -532,11 +518,9 @@ static PetscErrorCode SetSeparated(SamNormal n, Vec h, SamBalance *balance, Vec 
   PetscFunctionBegin;
   PetscCall(VecSet(p, 0));
   PetscCall(SamComplianceGetGrid(n->compliance, &grid));
-  for (PetscInt k = 0; k < 3; k++) {
+  for (PetscInt k = 0; k < 3; k++)
     if (balance->force[k]) still.rigid[k] = 0;
-    still.force[k] = PETSC_FALSE;
-  }
-  PetscCall(SamFrameSet(&frame, grid, &still));
+  PetscCall(SamFrameSetGiven(&frame, grid, &still));
   PetscCall(Clearance(grid, h, &frame, &clearance));
   if (balance->force[0]) still.rigid[0] = PetscMin(0, clearance);
   for (PetscInt k = 0; k < 3; k++) {
