@@ -47,7 +47,7 @@ typedef struct {
   double      *old;            /* q before the step */
   float       *normal;         /* q/|q| where a cell slips, 0 where it sticks */
   float       *weight;         /* w; 0 outside the contact */
-  float       *r, *z;          /* residual P(a - s); direction */
+  float       *r, *z;          /* residual -P s; direction */
   float       *step, *u;       /* last step, and C times it */
   float       *xi;             /* of the columns */
   double       unit;           /* m */
@@ -154,21 +154,24 @@ SAM_VECTORIZED static double RowClassify(const Work *w, Row row, Space *space)
   return most;
 }
 
-/* r = P(a - s), in units, and z = w r. */
+/* The motion a is taken off s; r = -P s, in units, and z = w r. */
 SAM_VECTORIZED static void RowResidual(const Work *w, Row row, double inverse, const double a[3])
 {
   const SamStickSlip *u = &w->base;
-  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells;
   const float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict weight = w->weight + row.first;
+  double *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
   float *restrict rx = w->r + row.first, *restrict ry = rx + row.cells, *restrict zx = w->z + row.first, *restrict zy = zx + row.cells;
   const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
 
 #pragma omp simd
   for (ptrdiff_t i = 0; i < row.count; i++) {
-    const double x = ax - sx[i], y = a1 + a2 * (row.xi0 + (double)i * row.dxi) - sy[i], q2 = qx[i] * qx[i] + qy[i] * qy[i];
-    const double part = (nx[i] != 0 || ny[i] != 0) ? (x * qx[i] + y * qy[i]) / q2 : 0, scale = weight[i] > 0 ? inverse : 0;
+    const double x = sx[i] - ax, y = sy[i] - a1 - a2 * (row.xi0 + (double)i * row.dxi), q2 = qx[i] * qx[i] + qy[i] * qy[i];
+    const double part = (nx[i] != 0 || ny[i] != 0) ? (x * qx[i] + y * qy[i]) / q2 : 0, scale = weight[i] > 0 ? -inverse : 0;
     const float  vx = (float)(scale * (x - part * qx[i])), vy = (float)(scale * (y - part * qy[i]));
 
+    sx[i] = x;
+    sy[i] = y;
     rx[i] = vx;
     ry[i] = vy;
     zx[i] = weight[i] * vx;
@@ -214,6 +217,7 @@ static PetscErrorCode Classify(Work *w)
   w->work = space.work;
   PetscCall(PetscArraycpy(w->gram, space.gram, SAM_GRAM));
   SamFrameSolve(u->frame, w->gram, space.sums, a);
+  for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
   PetscCall(ClearMargins(w, w->z));
   for (PetscInt j = 0; j < u->rows; j++) RowResidual(w, GetRow(w, j), 1 / w->unit, a);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -477,6 +481,7 @@ static PetscErrorCode Step(Work *w, double *best)
   PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
   *best = w->along / (sums[0] + w->bend);
   t     = PetscMin(1, IsRounding(w) ? *best : -w->slope / sums[0]);
+  if (getenv("DBG") && u->level->finest) printf("  it %d alpha %.3f best %.3f chord %.3f t %.3f along %.2e slope %.2e curv %.2e bend %.2e round %d error %.3e doubt %.1e\n", (int)u->solver->solver.iterations, w->alpha, *best, -w->slope / sums[0], t, w->along, w->slope, sums[0], w->bend, IsRounding(w), u->error, w->doubt/u->scale);
   for (PetscInt j = 0; j < u->rows; j++) RowSetLength(w, GetRow(w, j), t);
   w->doubt += SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -528,6 +533,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, Pets
   }
   if (gradient) PetscCall(TryGradient(w, found));
   *good = (*found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
+  if (getenv("DBG") && u->level->finest && (gradient || !*good)) printf("  gradient %d good %d found %d slope %.2e along %.2e\n", gradient, *good, *found, w->slope, w->along);
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best));
   if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
