@@ -110,6 +110,7 @@ typedef struct {
   PetscInt   steps;                             /* that count for the prediction of the next one */
   SamBalance given, found;                      /* normal control of the last step, and its outcome */
   double     values[2][6];                      /* what was controlled in the last step and in the one before */
+  double     rigid[2][3];                       /* tangential rigid displacements then */
   PetscInt   window_first[2], window_n[2];      /* part of the compliance that the solvers use; n = 0: none */
   Vec        pressure, shear, slip, displacement_z; /* as in SamFields, after the last step */
   Vec        previous_pressure, previous_shear; /* of the step before it; NULL before the second */

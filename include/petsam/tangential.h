@@ -55,8 +55,8 @@ PETSC_EXTERN PetscErrorCode SamTangentialView(SamTangential tangential, PetscVie
 
 /*
   SamTangentialSolve - finds q (Pa, two components) for the bound mu p (Pa, one component) and the offset w - S (m, two
-  components; NULL: zero). With `guess` q holds a start, and only the finest grid is used. On return the balance holds all loads and
-  rigid displacements. The residual is that of the projection equation q = D(q - ds/c), D onto the discs |q| <= mu p and c
+  components; NULL: zero). With `guess` q and the rigid displacements in the balance are a start, and only the finest grid is
+  used. On return the balance holds all loads and rigid displacements. The residual is that of the projection equation q = D(q - ds/c), D onto the discs |q| <= mu p and c
   the self-influence of a cell, relative: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)| in the
   2-norm. Collective.
 */

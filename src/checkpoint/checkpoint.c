@@ -119,6 +119,7 @@ static void WriteNumbers(SamFile f, const SamContactState *s)
   SamFileWriteAttribute(f, f->id, "contact_steps", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &steps);
   SamFileWriteAttribute(f, f->id, "contact_window", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, window);
   SamFileWriteAttribute(f, f->id, "contact_values", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 12, s->values);
+  SamFileWriteAttribute(f, f->id, "contact_rigid", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 6, s->rigid);
   SamFileWriteAttribute(f, f->id, "contact_balances", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2 * BALANCE, balances);
 }
 
@@ -130,6 +131,7 @@ static void ReadNumbers(SamFile f, SamContactState *s)
   SamFileReadAttribute(f, f->id, "contact_steps", H5T_NATIVE_INT64, 1, &steps);
   SamFileReadAttribute(f, f->id, "contact_window", H5T_NATIVE_INT64, 4, window);
   SamFileReadAttribute(f, f->id, "contact_values", H5T_NATIVE_DOUBLE, 12, s->values);
+  SamFileReadAttribute(f, f->id, "contact_rigid", H5T_NATIVE_DOUBLE, 6, s->rigid);
   SamFileReadAttribute(f, f->id, "contact_balances", H5T_NATIVE_DOUBLE, 2 * BALANCE, balances);
   s->steps = (PetscInt)steps;
   for (PetscInt k = 0; k < 2; k++) {

@@ -206,6 +206,7 @@ static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamB
   }
   if (c->steps > 1 && c->warm) alpha = Continuation(c, next);
   *predicted = alpha > 0 ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt k = 0; k < 3; k++) c->start[k] = c->rigid[0][k] + alpha * (c->rigid[0][k] - c->rigid[1][k]);
   if (*predicted) PetscCall(SamExtrapolate(c->grid, c->friction, alpha, c->fields.pressure, c->fields.shear, c->previous[0], c->previous[1], predicted));
   else if (c->steps) {
     if (!c->previous[0]) PetscCall(SamGridCreateVec(c->grid, 1, &c->previous[0]));
@@ -304,9 +305,12 @@ static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, Pet
   PetscCall(VecAXPY(bound, c->friction, c->fields.pressure));
   PetscCall(CreateOffset(c, &offset));
   step->tangential = *given;
+  for (PetscInt k = 0; k < 3; k++)
+    if (given->force[k]) step->tangential.rigid[k] = c->start[k];
   PetscCall(SamTangentialSolve(c->tangential, bound, offset, &step->tangential, guess, c->fields.shear));
   PetscCall(VecDestroy(&bound));
   PetscCall(VecDestroy(&offset));
+  for (PetscInt k = 0; k < 3; k++) c->start[k] = step->tangential.rigid[k]; /* of the next pass */
   PetscCall(Count(c, PETSC_TRUE, step));
   PetscCall(SamTangentialGetReason(c->tangential, &reason));
   if (reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) {
@@ -453,6 +457,10 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
   PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
   PetscCall(ComputeScalars(c, step));
   PetscCall(Judge(c, step));
+  for (PetscInt k = 0; k < 3; k++) {
+    c->rigid[1][k] = c->rigid[0][k];
+    c->rigid[0][k] = step->tangential.rigid[k];
+  }
   c->steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

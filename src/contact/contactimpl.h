@@ -26,6 +26,8 @@ struct _n_SamContact {
   PetscInt   steps;                      /* solved so far */
   SamBalance normal_given, normal_found; /* of the last normal solve */
   double     values[2][6];               /* what was controlled in the last step and in the one before */
+  double     rigid[2][3];                /* tangential rigid displacements then */
+  double     start[3];                   /* and where they start now */
   Vec        previous[2];                /* p and q of the step before the last; NULL until there are two */
 };
 

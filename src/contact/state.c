@@ -40,6 +40,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   s->previous_pressure = c->previous[0];
   s->previous_shear    = c->previous[1];
   PetscCall(PetscMemcpy(s->values, c->values, sizeof(s->values)));
+  PetscCall(PetscMemcpy(s->rigid, c->rigid, sizeof(s->rigid)));
   PetscCall(SamComplianceGetPartPlace(c->compliance, s->window_first, s->window_n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -64,6 +65,7 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
   c->normal_given = s->given;
   c->normal_found = s->found;
   PetscCall(PetscMemcpy(c->values, s->values, sizeof(c->values)));
+  PetscCall(PetscMemcpy(c->rigid, s->rigid, sizeof(c->rigid)));
   PetscCall(SamContactDestroyDerived(c, PETSC_FALSE));
   PetscCall(VecDestroy(&c->slip_before));
   PetscCall(Take(s->pressure, &c->fields.pressure));

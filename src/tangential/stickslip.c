@@ -2,6 +2,9 @@
 #include "tangentialimpl.h"
 #include <math.h>
 
+/* A cell is on its circle from this part of the bound's square on. */
+#define ON_CIRCLE (1 - 1e-9)
+
 /* The columns between which each row has contact. */
 static PetscErrorCode FindRows(SamStickSlip *w)
 {
@@ -25,7 +28,7 @@ PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *leve
   w->nx     = level->grid->nx;
   w->rows   = level->grid->rows;
   w->cells  = level->grid->cells;
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] = level->has_motion ? level->rigid[c] : level->frame.fixed[c];
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] = level->rigid[c];
   PetscCall(SamComplianceGetSelfInfluence(level->compliance, NULL, &w->self));
   PetscCall(SamGridCreateVec(level->grid, 2, &w->vs));
   PetscCall(VecGetArrayRead(level->bound, &w->bound));
@@ -95,9 +98,9 @@ PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy)
 
 /*
   Part of a row, n <= SAM_CHUNK: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the
-  derivative of the projection of y = q - s/c on the disc, or, with `stick`, the identity.
+  derivative of the projection of y = q - s/c on the disc; with `inverse` 0, of q: cells on their circles slip along them.
 */
-SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, PetscBool stick, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
+SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
 {
   double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
 
@@ -106,7 +109,7 @@ SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const
     const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
     const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i];
 
-    beyond += yx * yx + yy * yy > b * b ? in : 0;
+    beyond += yx * yx + yy * yy > ON_CIRCLE * b * b ? in : 0;
     x += in * tx[i];
     y += in * ty[i];
     turn += in * xi * ty[i];
@@ -115,13 +118,13 @@ SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const
     xi2_hyy += in * xi * xi;
   }
   hyy = hxx;
-  if (beyond > 0 && !stick) {
+  if (beyond > 0) {
     x = y = turn = hxx = hyy = xi_hyy = xi2_hyy = 0;
 #pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
     for (PetscInt i = 0; i < n; i++) {
       const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
       const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
-      const double over = n2 > b * b ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in, g = s * over;
+      const double over = b > 0 && n2 > ON_CIRCLE * b * b ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in, g = s * over;
       const double gxx = s - g * yx * yx, gxy = -g * yx * yy, gyy = s - g * yy * yy;
       const double px = gxx * tx[i] + gxy * ty[i], py = gxy * tx[i] + gyy * ty[i];
 
@@ -146,8 +149,8 @@ SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *
   }
 }
 
-/* Fits the motion: least squares of s over the tangent space, the sets taken from s as it is, or all of it stick. */
-static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
+/* Fits the motion: least squares of s over the tangent space, the sets taken from q - inverse s. */
+static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
 {
   const SamFrame *f                  = w->frame;
   SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
@@ -160,7 +163,7 @@ static PetscErrorCode FitMotion(SamStickSlip *w, PetscBool stick)
     for (PetscInt i = w->first[j]; i < w->last[j]; i += SAM_CHUNK) {
       const ptrdiff_t k = (ptrdiff_t)j * w->nx + i, l = k + w->cells;
 
-      FitCells(PetscMin(SAM_CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, stick, f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
+      FitCells(PetscMin(SAM_CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, inverse, f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
     }
     SamAddAll(3 + SAM_GRAM, totals, row);
   }
@@ -179,7 +182,7 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
 {
   PetscFunctionBegin;
   PetscCall(SamStickSlipComputeSlip(w));
-  if (!w->level->has_motion && w->frame->count) PetscCall(FitMotion(w, PETSC_TRUE));
+  if (!w->level->fitted && w->frame->count) PetscCall(FitMotion(w, 0));
   /* the fit and the sets depend on each other */
   w->error = 0;
   for (PetscInt sweep = 0; sweep < 4; sweep++) {
@@ -218,7 +221,7 @@ PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
   double   sums[4];
 
   PetscFunctionBegin;
-  if (w->frame->count) PetscCall(FitMotion(w, PETSC_FALSE));
+  if (w->frame->count) PetscCall(FitMotion(w, 1 / w->self));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
     double          row[4] = {0, 0, 0, 0};

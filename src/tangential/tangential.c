@@ -300,7 +300,7 @@ static PetscErrorCode StartFromCoarse(SamTangential t, SamTangentialLevel *level
   }
   PetscCall(SolveLevel(t, &coarse, depth, balance, PETSC_FALSE));
   PetscCall(Prolong(transfer, &coarse, level));
-  level->has_motion = t->reason > 0 ? PETSC_TRUE : PETSC_FALSE;
+  level->fitted = t->reason > 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = coarse.rigid[c];
   PetscCall(VecDestroy(&coarse.bound));
   PetscCall(VecDestroy(&coarse.offset));
@@ -313,12 +313,15 @@ static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, Pet
 {
   SamCompliance coarse   = NULL;
   SamTransfer   transfer = NULL;
+  SamFrame      start;
   const double *bound;
   double       *q;
   PetscBool     found = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&level->frame, level->grid, balance));
+  PetscCall(SamFrameSetGiven(&start, level->grid, balance));
+  for (PetscInt c = 0; c < 3; c++) level->rigid[c] = guess ? start.fixed[c] : level->frame.fixed[c];
   if (depth > 1 && !guess) PetscCall(SamComplianceGetCoarse(level->compliance, &coarse, &transfer));
   if (coarse) PetscCall(StartFromCoarse(t, level, coarse, transfer, depth - 1, balance));
   else if (!level->finest) PetscCall(SamVecZero(level->q));

@@ -14,7 +14,7 @@ typedef struct {
   Vec           bound, offset, q;
   PetscReal     rtol;
   PetscBool     finest;
-  PetscBool     has_motion; /* whether rigid holds a start */
+  PetscBool     fitted;     /* whether the start in rigid fits q */
   double        rigid[3];   /* start and result: combination of the phi, fixed part included */
 } SamTangentialLevel;
 
