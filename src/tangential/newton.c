@@ -481,7 +481,6 @@ static PetscErrorCode Step(Work *w, double *best)
   PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
   *best = w->along / (sums[0] + w->bend);
   t     = PetscMin(1, IsRounding(w) ? *best : -w->slope / sums[0]);
-  if (getenv("DBG") && u->level->finest) printf("  it %d alpha %.3f best %.3f chord %.3f t %.3f along %.2e slope %.2e curv %.2e bend %.2e round %d error %.3e doubt %.1e\n", (int)u->solver->solver.iterations, w->alpha, *best, -w->slope / sums[0], t, w->along, w->slope, sums[0], w->bend, IsRounding(w), u->error, w->doubt/u->scale);
   for (PetscInt j = 0; j < u->rows; j++) RowSetLength(w, GetRow(w, j), t);
   w->doubt += SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -533,7 +532,6 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, Pets
   }
   if (gradient) PetscCall(TryGradient(w, found));
   *good = (*found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
-  if (getenv("DBG") && u->level->finest && (gradient || !*good)) printf("  gradient %d good %d found %d slope %.2e along %.2e\n", gradient, *good, *found, w->slope, w->along);
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best));
   if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));

@@ -4,6 +4,8 @@
 
 /* A cell is on its circle from this part of the bound's square on. */
 #define ON_CIRCLE (1 - 1e-9)
+/* The error of a start from which on another motion is tried. */
+#define POOR_START 0.1
 
 /* The columns between which each row has contact. */
 static PetscErrorCode FindRows(SamStickSlip *w)
@@ -149,6 +151,19 @@ SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *
   }
 }
 
+/* Adds a to the motion. */
+static void AddMotion(SamStickSlip *w, const double a[3])
+{
+  const SamFrame *f = w->frame;
+
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
+
+    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, SamFrameEta(f, j), a);
+  }
+}
+
 /* Fits the motion: least squares of s over the tangent space, the sets taken from q - inverse s. */
 static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
 {
@@ -169,21 +184,14 @@ static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
   SamFrameSolve(f, sums + 3, sums, a);
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
-  for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
-
-    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, SamFrameEta(f, j), a);
-  }
+  AddMotion(w, a);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStickSlipStart(SamStickSlip *w)
+/* The error; the fit of the motion and the sets depend on each other. */
+static PetscErrorCode MeasureStart(SamStickSlip *w)
 {
   PetscFunctionBegin;
-  PetscCall(SamStickSlipComputeSlip(w));
-  if (!w->level->fitted && w->frame->count) PetscCall(FitMotion(w, 0));
-  /* the fit and the sets depend on each other */
   w->error = 0;
   for (PetscInt sweep = 0; sweep < 4; sweep++) {
     const double before = w->error;
@@ -191,6 +199,26 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
     PetscCall(SamStickSlipMeasure(w));
     if (fabs(w->error - before) <= 1e-3 * w->error) break;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipStart(SamStickSlip *w)
+{
+  double motion[3], back[3], error;
+
+  PetscFunctionBegin;
+  PetscCall(SamStickSlipComputeSlip(w));
+  PetscCall(MeasureStart(w));
+  if (w->error <= POOR_START || !w->frame->count) PetscFunctionReturn(PETSC_SUCCESS);
+  /* cells on their circles may slip along them, the others stick: does that tell the motion better? */
+  error = w->error;
+  for (PetscInt c = 0; c < 3; c++) motion[c] = w->motion[c];
+  PetscCall(FitMotion(w, 0));
+  PetscCall(MeasureStart(w));
+  if (w->error <= error) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt c = 0; c < 3; c++) back[c] = motion[c] - w->motion[c];
+  AddMotion(w, back);
+  w->error = error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

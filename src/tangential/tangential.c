@@ -300,8 +300,8 @@ static PetscErrorCode StartFromCoarse(SamTangential t, SamTangentialLevel *level
   }
   PetscCall(SolveLevel(t, &coarse, depth, balance, PETSC_FALSE));
   PetscCall(Prolong(transfer, &coarse, level));
-  level->fitted = t->reason > 0 ? PETSC_TRUE : PETSC_FALSE;
-  for (PetscInt c = 0; c < 3; c++) level->rigid[c] = coarse.rigid[c];
+  if (t->reason > 0)
+    for (PetscInt c = 0; c < 3; c++) level->rigid[c] = coarse.rigid[c];
   PetscCall(VecDestroy(&coarse.bound));
   PetscCall(VecDestroy(&coarse.offset));
   PetscCall(VecDestroy(&coarse.q));

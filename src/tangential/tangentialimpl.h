@@ -14,7 +14,6 @@ typedef struct {
   Vec           bound, offset, q;
   PetscReal     rtol;
   PetscBool     finest;
-  PetscBool     fitted;     /* whether the start in rigid fits q */
   double        rigid[3];   /* start and result: combination of the phi, fixed part included */
 } SamTangentialLevel;
 
