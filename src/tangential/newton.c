@@ -26,8 +26,9 @@
 
 /* A cell slips when q - EASE s/c is beyond its circle. */
 #define EASE 0.25
-/* The length of the first trial. */
-#define FIRST_LENGTH 0.7
+/* The length of the first trial, and how much longer than the best a trial is to be, as only steps shorter than it can be made. */
+#define FIRST_LENGTH 0.85
+#define LONGER 1.2
 /* A direction's least descent, as a part of that of the preconditioned residual. */
 #define DESCENT 0.1
 /* The trial's length follows the best one by at most this factor's root. */
@@ -468,7 +469,7 @@ static PetscErrorCode Step(Work *w, double *best)
 {
   SamStickSlip *u         = &w->base;
   SamTotal      totals[2] = {{0, 0}};
-  double        sums[2], t;
+  double        sums[2], least, t;
 
   PetscFunctionBegin;
   PetscCall(SamTangentialApplySingle(u->solver, u->level, 1 / u->self, w->step, w->u));
@@ -480,7 +481,9 @@ static PetscErrorCode Step(Work *w, double *best)
   }
   PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
   *best = w->along / (sums[0] + w->bend);
-  t     = PetscMin(1, IsRounding(w) ? *best : -w->slope / sums[0]);
+  least = -w->slope / sums[0];
+  t     = IsRounding(w) ? *best : PetscMin(PetscMax(*best, 0.5 * PetscMin(1, least)), 1.8 * least);
+  t     = PetscMin(1, t);
   for (PetscInt j = 0; j < u->rows; j++) RowSetLength(w, GetRow(w, j), t);
   w->doubt += SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -534,7 +537,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, Pets
   *good = (*found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best));
-  if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
+  if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(LONGER * best, 1 / FOLLOW), FOLLOW));
   PetscCall(Measure(w));
   SamTangentialIterated(u->solver, u->level);
   PetscCall(SamTangentialMeasured(u->solver, u->level, u->error));
