@@ -45,7 +45,7 @@
 /* Floats are in units: slip in unit, shear in unit/c, with the unit of the iteration that made them. */
 typedef struct {
   SamStickSlip base;
-  double      *old;            /* q before the step */
+  double      *trial;          /* admissible shear */
   float       *normal;         /* q/|q| where a cell slips, 0 where it sticks */
   float       *weight;         /* w; 0 outside the contact */
   float       *r, *z;          /* residual -P s; direction */
@@ -64,7 +64,8 @@ typedef struct {
 
 /* The contact's part of a row: cells first ... first + count - 1 of the arrays. */
 typedef struct {
-  ptrdiff_t    first, count, cells;
+  ptrdiff_t    first, cells;
+  int          count; /* 32 bits: loops that make a double of such an index are vectorised */
   const float *xi;
   double       xi0, dxi, eta;
 } Row;
@@ -73,7 +74,7 @@ static Row GetRow(const Work *w, PetscInt j)
 {
   const SamStickSlip *u = &w->base;
 
-  return (Row){.first = (ptrdiff_t)j * u->nx + u->first[j], .count = u->last[j] - u->first[j], .cells = u->cells, .xi = w->xi + u->first[j], .xi0 = u->frame->xi0 + (double)u->first[j] * u->frame->dxi, .dxi = u->frame->dxi, .eta = SamFrameEta(u->frame, j)};
+  return (Row){.first = (ptrdiff_t)j * u->nx + u->first[j], .count = (int)(u->last[j] - u->first[j]), .cells = u->cells, .xi = w->xi + u->first[j], .xi0 = u->frame->xi0 + (double)u->first[j] * u->frame->dxi, .dxi = u->frame->dxi, .eta = SamFrameEta(u->frame, j)};
 }
 
 /* The root of the number of cells in contact. */
@@ -98,8 +99,8 @@ static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level
   PetscFunctionBegin;
   PetscCall(SamStickSlipCreate(solver, level, &w->base));
   n = 2 * w->base.cells;
-  PetscCall(PetscCalloc6(n, &w->normal, n / 2, &w->weight, n, &w->r, n, &w->z, n, &w->step, n, &w->u));
-  PetscCall(PetscMalloc2(n, &w->old, w->base.nx, &w->xi));
+  PetscCall(PetscCalloc7(n, &w->trial, n, &w->normal, n / 2, &w->weight, n, &w->r, n, &w->z, n, &w->step, n, &w->u));
+  PetscCall(PetscMalloc1(w->base.nx, &w->xi));
   for (PetscInt i = 0; i < w->base.nx; i++) w->xi[i] = (float)(f->xi0 + (double)i * f->dxi);
   PetscCall(FindReach(w));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -108,68 +109,77 @@ static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level
 static PetscErrorCode DestroyWork(Work *w)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree6(w->normal, w->weight, w->r, w->z, w->step, w->u));
-  PetscCall(PetscFree2(w->old, w->xi));
+  PetscCall(PetscFree7(w->trial, w->normal, w->weight, w->r, w->z, w->step, w->u));
+  PetscCall(PetscFree(w->xi));
   PetscCall(SamStickSlipDestroy(&w->base));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sums in the tangent space: the slip with the phi, and the Gram matrix. */
+/* Sums over cells: the slip with the phi in the tangent space, its Gram matrix, the work of friction. */
 typedef struct {
-  double sums[3], gram[SAM_GRAM], work;
+  double slip[3], gram[SAM_GRAM], work;
 } Space;
 
 #define SPACE ((PetscInt)(sizeof(Space) / sizeof(double)))
 
-/* Step 1 for a row, and the sums of the tangent space that it makes; returns the largest slip there. */
-SAM_VECTORIZED static double RowClassify(const Work *w, Row row, Space *space)
+/* Makes the step of length t: q += t (trial - q), s += by u; chooses the sets, and returns the largest slip in the tangent space. */
+SAM_VECTORIZED static double RowAdvance(const Work *w, Row row, double t, double by, Space *space)
 {
   const SamStickSlip *u       = &w->base;
   const double        inverse = 1 / u->self, ease = EASE * inverse;
-  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
-  const double *restrict bound = u->bound + row.first;
+  const double *restrict vx = w->trial + row.first, *restrict vy = vx + row.cells, *restrict bound = u->bound + row.first;
+  const float *restrict ux = w->u + row.first, *restrict uy = ux + row.cells;
+  double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
   float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict weight = w->weight + row.first;
   double most = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, work = 0;
 
 #pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, work) reduction(max : most)
-  for (ptrdiff_t i = 0; i < row.count; i++) {
-    const double b = bound[i], in = b > 0 ? 1 : 0, xi = row.xi0 + (double)i * row.dxi, power = sx[i] * qx[i] + sy[i] * qy[i], q2 = qx[i] * qx[i] + qy[i] * qy[i];
-    const double yx = qx[i] - ease * sx[i], yy = qy[i] - ease * sy[i];
-    const double slips = (b > 0 && power < 0 && yx * yx + yy * yy >= b * b) ? 1 : 0;
-    const double scale = slips > 0 ? 1 / sqrt(q2) : 0, vx = scale * qx[i], vy = scale * qy[i], part = vx * sx[i] + vy * sy[i];
-    const double px = in * (sx[i] - part * vx), py = in * (sy[i] - part * vy), gxx = in - vx * vx, gxy = -vx * vy, gyy = in - vy * vy;
+  for (int i = 0; i < row.count; i++) {
+    const double ax = qx[i] + t * (vx[i] - qx[i]), ay = qy[i] + t * (vy[i] - qy[i]), bx = sx[i] + by * (double)ux[i], cy = sy[i] + by * (double)uy[i];
+    const double b = bound[i], in = b > 0 ? 1 : 0, xi = row.xi0 + (double)i * row.dxi, power = bx * ax + cy * ay;
+    const double yx = ax - ease * bx, yy = ay - ease * cy, outside = yx * yx + yy * yy >= b * b ? 1 : 0, slips = outside * (power < 0 ? 1 : 0);
+    const double scale = slips / sqrt(ax * ax + ay * ay + (1 - slips)), ex = scale * ax, ey = scale * ay, part = ex * bx + ey * cy;
+    const double px = in * bx - part * ex, py = in * cy - part * ey, gxx = in - ex * ex, gxy = -ex * ey, gyy = in - ey * ey;
     const double largest = fabs(px) > fabs(py) ? fabs(px) : fabs(py);
 
-    nx[i]     = (float)vx;
-    ny[i]     = (float)vy;
-    weight[i] = (float)(slips > 0 ? 1 / sqrt(1 - inverse * power * scale * scale) : in);
+    qx[i]     = ax;
+    qy[i]     = ay;
+    sx[i]     = bx;
+    sy[i]     = cy;
+    nx[i]     = (float)ex;
+    ny[i]     = (float)ey;
+    weight[i] = (float)in / sqrtf((float)(1 - inverse * part * scale));
     most = largest > most ? largest : most;
     work -= slips * power;
     SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
   }
   space->work += work;
-  space->sums[0] += x;
-  space->sums[1] += y;
-  space->sums[2] += turn - row.eta * x;
+  space->slip[0] += x;
+  space->slip[1] += y;
+  space->slip[2] += turn - row.eta * x;
   SamGramTangentialRow(space->gram, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, row.eta);
   return most;
 }
 
-/* The motion a is taken off s; r = -P s, in units, and z = w r. */
-SAM_VECTORIZED static void RowResidual(const Work *w, Row row, double inverse, const double a[3])
+/* Takes the motion a off s; r = -P s, in units, and z = w r; the squares of the error. */
+SAM_VECTORIZED static void RowResidual(const Work *w, Row row, double inverse_unit, const double a[3], double squares[SAM_SQUARES])
 {
-  const SamStickSlip *u = &w->base;
-  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells;
+  const SamStickSlip *u       = &w->base;
+  const double        inverse = 1 / u->self;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict bound = u->bound + row.first;
   const float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict weight = w->weight + row.first;
   double *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
   float *restrict rx = w->r + row.first, *restrict ry = rx + row.cells, *restrict zx = w->z + row.first, *restrict zy = zx + row.cells;
   const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
+  double       residual = 0, shear = 0, projected = 0, least = 0;
 
-#pragma omp simd
-  for (ptrdiff_t i = 0; i < row.count; i++) {
-    const double x = sx[i] - ax, y = sy[i] - a1 - a2 * (row.xi0 + (double)i * row.dxi), q2 = qx[i] * qx[i] + qy[i] * qy[i];
-    const double part = (nx[i] != 0 || ny[i] != 0) ? (x * qx[i] + y * qy[i]) / q2 : 0, scale = weight[i] > 0 ? -inverse : 0;
-    const float  vx = (float)(scale * (x - part * qx[i])), vy = (float)(scale * (y - part * qy[i]));
+#pragma omp simd reduction(+ : residual, shear, projected, least)
+  for (int i = 0; i < row.count; i++) {
+    const double x = sx[i] - ax, y = sy[i] - a1 - a2 * (row.xi0 + (double)i * row.dxi), b = bound[i], q2 = qx[i] * qx[i] + qy[i] * qy[i];
+    const double slips = nx[i] * nx[i] + ny[i] * ny[i] > 0.5f ? 1 : 0, part = slips * (x * qx[i] + y * qy[i]) / (q2 + (1 - slips)), unit = b > 0 ? -inverse_unit : 0;
+    const float  vx = (float)(unit * (x - part * qx[i])), vy = (float)(unit * (y - part * qy[i]));
+    const double yx = qx[i] - inverse * x, yy = qy[i] - inverse * y, n2 = yx * yx + yy * yy;
+    const double scale = SamDiscScale(n2, b), ex = qx[i] - scale * yx, ey = qy[i] - scale * yy;
 
     sx[i] = x;
     sy[i] = y;
@@ -177,18 +187,26 @@ SAM_VECTORIZED static void RowResidual(const Work *w, Row row, double inverse, c
     ry[i] = vy;
     zx[i] = weight[i] * vx;
     zy[i] = weight[i] * vy;
+    residual += ex * ex + ey * ey;
+    shear += q2;
+    projected += scale * scale * n2;
+    least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
   }
+  squares[0] += residual;
+  squares[1] += shear;
+  squares[2] += projected;
+  squares[3] += least;
 }
 
-/* A field of two components is 0 beside the contact's rows, which alone are written to. */
-static PetscErrorCode ClearMargins(const Work *w, float field[])
+/* z = 0 beside the contact's rows, which alone are written to. */
+static PetscErrorCode ClearMargins(const Work *w)
 {
   const SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt j = 0; j < u->rows; j++) {
-      float *z = field + c * u->cells + j * u->nx;
+      float *z = w->z + c * u->cells + j * u->nx;
 
       PetscCall(PetscArrayzero(z, u->first[j]));
       PetscCall(PetscArrayzero(z + u->last[j], u->nx - u->last[j]));
@@ -196,18 +214,18 @@ static PetscErrorCode ClearMargins(const Work *w, float field[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 1: the sets, the Gram matrix of the tangent space, the unit, and the residual with the motion that fits best. */
-static PetscErrorCode Classify(Work *w)
+/* After a step of length t: the sets, the Gram matrix of the tangent space, the unit, the motion that fits best, the residual and the error. */
+static PetscErrorCode Advance(Work *w, double t)
 {
-  SamStickSlip *u      = &w->base;
-  SamTotal      totals[sizeof(Space) / sizeof(double)] = {{0, 0}};
+  SamStickSlip *u = &w->base;
+  SamTotal      totals[sizeof(Space) / sizeof(double)] = {{0, 0}}, squares[SAM_SQUARES] = {{0, 0}};
   Space         space;
-  double        most   = 0, a[3];
+  double        most = 0, a[3];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) {
     Space        row     = {0};
-    const double largest = RowClassify(w, GetRow(w, j), &row);
+    const double largest = RowAdvance(w, GetRow(w, j), t, t * w->unit, &row);
 
     most = PetscMax(most, largest);
     SamAddAll(SPACE, totals, (const double *)&row);
@@ -217,10 +235,16 @@ static PetscErrorCode Classify(Work *w)
   w->unit = most > 0 ? most : 1;
   w->work = space.work;
   PetscCall(PetscArraycpy(w->gram, space.gram, SAM_GRAM));
-  SamFrameSolve(u->frame, w->gram, space.sums, a);
+  SamFrameSolve(u->frame, w->gram, space.slip, a);
   for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
-  PetscCall(ClearMargins(w, w->z));
-  for (PetscInt j = 0; j < u->rows; j++) RowResidual(w, GetRow(w, j), 1 / w->unit, a);
+  PetscCall(ClearMargins(w));
+  for (PetscInt j = 0; j < u->rows; j++) {
+    double row[SAM_SQUARES] = {0};
+
+    RowResidual(w, GetRow(w, j), 1 / w->unit, a, row);
+    SamAddAll(SAM_SQUARES, squares, row);
+  }
+  PetscCall(SamStickSlipSetError(u, squares));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -241,7 +265,7 @@ SAM_VECTORIZED static void RowPreconditioned(const Work *w, Row row, Products *s
   float z_x = 0, z_y = 0, z_turn = 0, v_x = 0, v_y = 0, v_turn = 0, zr = 0, zv = 0, ev = 0, er = 0;
 
 #pragma omp simd reduction(+ : z_x, z_y, z_turn, v_x, v_y, v_turn, zr, zv, ev, er)
-  for (ptrdiff_t i = 0; i < row.count; i++) {
+  for (int i = 0; i < row.count; i++) {
     const float g = weight[i], h = g * g, in = h > 0 ? 1.0f : 0.0f, rest = 0.5f * (1 - h) * h, lambda = h > 0 ? (1 - h) / h : 0, part = g * (nx[i] * zx[i] + ny[i] * zy[i]);
     const float x = g * zx[i] - part * nx[i] + rest * rx[i], y = g * zy[i] - part * ny[i] + rest * ry[i];
     const float d_part = nx[i] * dx[i] + ny[i] * dy[i], ex = in * (dx[i] - d_part * nx[i]), ey = in * (dy[i] - d_part * ny[i]);
@@ -272,7 +296,7 @@ SAM_VECTORIZED static void RowDirection(const Work *w, Row row, const double a[3
   const float ax = (float)SamFrameX(a, row.eta), a1 = (float)a[1], a2 = (float)a[2];
 
 #pragma omp simd
-  for (ptrdiff_t i = 0; i < row.count; i++) {
+  for (int i = 0; i < row.count; i++) {
     const float in = weight[i] > 0 ? 1.0f : 0.0f, x = beta * dx[i] - ax, y = beta * dy[i] - a1 - a2 * xi[i], part = nx[i] * x + ny[i] * y;
 
     zx[i] += in * (x - part * nx[i]);
@@ -305,7 +329,7 @@ static PetscErrorCode NewDirection(Work *w)
 }
 
 /*
-  q += alpha z. Cells that slip go beyond their circles, as far as their slip in units of c, but at least to twice their
+  trial = q + alpha z. Cells that slip go beyond their circles, as far as their slip in units of c, but at least to twice their
   bound. So the projection, which restores equilibrium by a common shift, leaves them on the circle: otherwise half of them
   would be pulled inside, and convergence would be linear instead of quadratic. And it turns them by what a change of the
   motion would turn them by.
@@ -315,25 +339,26 @@ SAM_VECTORIZED static void RowAddStep(const Work *w, Row row, double alpha)
   const SamStickSlip *u      = &w->base;
   const double        unit_q = alpha * w->unit / u->self;
   const float *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict zx = w->z + row.first, *restrict zy = zx + row.cells, *restrict weight = w->weight + row.first;
-  const double *restrict b = u->bound + row.first;
-  double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells;
+  const double *restrict b = u->bound + row.first, *restrict qx = u->q + row.first, *restrict qy = qx + row.cells;
+  double *restrict vx = w->trial + row.first, *restrict vy = vx + row.cells;
 
 #pragma omp simd
-  for (ptrdiff_t i = 0; i < row.count; i++) {
-    const double x = qx[i] + unit_q * (double)zx[i], y = qy[i] + unit_q * (double)zy[i], h = (double)(weight[i] * weight[i]);
-    const double scale = (nx[i] != 0 || ny[i] != 0) ? b[i] / sqrt(x * x + y * y) * (h < 0.5 ? 1 / h : 2) : 1;
+  for (int i = 0; i < row.count; i++) {
+    const double x = qx[i] + unit_q * (double)zx[i], y = qy[i] + unit_q * (double)zy[i], slips = nx[i] * nx[i] + ny[i] * ny[i] > 0.5f ? 1 : 0;
+    const double in = weight[i] > 0 ? 1 : 0, far = 1 / ((double)(weight[i] * weight[i]) + (1 - in)), push = far > 2 ? far : 2;
+    const double scale = 1 + slips * (b[i] * push / sqrt(x * x + y * y + (1 - slips)) - 1);
 
-    qx[i] = scale * x;
-    qy[i] = scale * y;
+    vx[i] = scale * x;
+    vy[i] = scale * y;
   }
 }
 
-/* step = q - old, in units; its products with s, with r, with L, and its square. */
+/* step = trial - q, in units; its products with s, with r, with L, and its square. */
 SAM_VECTORIZED static void RowChange(const Work *w, Row row, double sums[4])
 {
   const SamStickSlip *u       = &w->base;
   const double        inverse = u->self / w->unit;
-  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict ox = w->old + row.first, *restrict oy = ox + row.cells;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + row.cells, *restrict ax = w->trial + row.first, *restrict ay = ax + row.cells;
   const double *restrict sx = u->s + row.first, *restrict sy = sx + row.cells;
   const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + row.cells, *restrict rx = w->r + row.first, *restrict ry = rx + row.cells;
   float *restrict dx = w->step + row.first, *restrict dy = dx + row.cells;
@@ -341,8 +366,8 @@ SAM_VECTORIZED static void RowChange(const Work *w, Row row, double sums[4])
   float  along = 0, bend = 0, size = 0;
 
 #pragma omp simd reduction(+ : slope, along, bend, size)
-  for (ptrdiff_t i = 0; i < row.count; i++) {
-    const double x = (qx[i] - ox[i]) * inverse, y = (qy[i] - oy[i]) * inverse;
+  for (int i = 0; i < row.count; i++) {
+    const double x = (ax[i] - qx[i]) * inverse, y = (ay[i] - qy[i]) * inverse;
     const float  vx = (float)x, vy = (float)y, part = nx[i] * vx + ny[i] * vy, ex = vx - part * nx[i], ey = vy - part * ny[i];
     const float  h = weight[i] * weight[i], lambda = h > 0 ? (1 - h) / h : 0;
 
@@ -359,7 +384,7 @@ SAM_VECTORIZED static void RowChange(const Work *w, Row row, double sums[4])
   sums[3] += (double)size;
 }
 
-/* q becomes the nearest admissible shear, step and its products the way there. */
+/* The trial becomes the nearest admissible shear, step and its products the way there. */
 static PetscErrorCode Project(Work *w, PetscBool *found)
 {
   SamStickSlip *u = &w->base;
@@ -367,9 +392,8 @@ static PetscErrorCode Project(Work *w, PetscBool *found)
   double        sums[4];
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectTangential(u->frame, u->bound, u->q, found));
+  PetscCall(SamFrameProjectTangential(u->frame, u->bound, w->trial, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ClearMargins(w, w->step));
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[4] = {0, 0, 0, 0};
 
@@ -390,7 +414,6 @@ static PetscErrorCode Try(Work *w, PetscBool *found)
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(w->old, u->q, 2 * u->cells));
   for (PetscInt j = 0; j < u->rows; j++) RowAddStep(w, GetRow(w, j), w->alpha);
   PetscCall(Project(w, found));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -403,13 +426,12 @@ static PetscErrorCode TryGradient(Work *w, PetscBool *found)
   const double  length = 1 / (u->self * w->reach);
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(w->old, u->q, 2 * u->cells));
   for (PetscInt j = 0; j < u->rows; j++) {
     const ptrdiff_t first = (ptrdiff_t)j * u->nx + u->first[j], last = (ptrdiff_t)j * u->nx + u->last[j];
 
     for (ptrdiff_t k = first; k < last; k++) {
-      u->q[k] -= length * u->s[k];
-      u->q[k + u->cells] -= length * u->s[k + u->cells];
+      w->trial[k]            = u->q[k] - length * u->s[k];
+      w->trial[k + u->cells] = u->q[k + u->cells] - length * u->s[k + u->cells];
     }
   }
   PetscCall(Project(w, found));
@@ -434,31 +456,12 @@ SAM_VECTORIZED static void RowCurvature(const Work *w, Row row, double sums[2])
   float curvature = 0, norm = 0;
 
 #pragma omp simd reduction(+ : curvature, norm)
-  for (ptrdiff_t i = 0; i < row.count; i++) {
+  for (int i = 0; i < row.count; i++) {
     curvature += dx[i] * ux[i] + dy[i] * uy[i];
     norm += ux[i] * ux[i] + uy[i] * uy[i];
   }
   sums[0] += (double)curvature;
   sums[1] += (double)norm;
-}
-
-/* q = old + t step, s += t u. */
-SAM_VECTORIZED static void RowSetLength(const Work *w, Row row, double t)
-{
-  const SamStickSlip *u = &w->base;
-  const double by = t * w->unit;
-
-  for (PetscInt c = 0; c < 2; c++) {
-    double *restrict q = u->q + row.first + c * row.cells, *restrict s = u->s + row.first + c * row.cells;
-    const double *restrict old = w->old + row.first + c * row.cells;
-    const float *restrict change = w->u + row.first + c * row.cells;
-
-#pragma omp simd
-    for (ptrdiff_t i = 0; i < row.count; i++) {
-      q[i] = t == 1 ? q[i] : old[i] + t * (q[i] - old[i]);
-      s[i] += by * (double)change[i];
-    }
-  }
 }
 
 /*
@@ -484,8 +487,8 @@ static PetscErrorCode Step(Work *w, double *best)
   least = -w->slope / sums[0];
   t     = IsRounding(w) ? *best : PetscMin(PetscMax(*best, 0.5 * PetscMin(1, least)), 1.8 * least);
   t     = PetscMin(1, t);
-  for (PetscInt j = 0; j < u->rows; j++) RowSetLength(w, GetRow(w, j), t);
   w->doubt += SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self;
+  PetscCall(Advance(w, t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -495,16 +498,15 @@ static double Error(const Work *w)
   return w->base.error + (w->doubt > 0 ? w->doubt / w->base.scale : 0);
 }
 
-/* The error, with the slip computed anew where what is in doubt about it matters. */
-static PetscErrorCode Measure(Work *w)
+/* Computes the slip anew where what is in doubt about it matters. */
+static PetscErrorCode Refresh(Work *w)
 {
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  PetscCall(SamStickSlipMeasure(u));
   if (w->doubt <= DOUBT * PetscMax(u->error, u->level->rtol) * u->scale) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamStickSlipComputeSlip(u));
-  PetscCall(SamStickSlipMeasure(u));
+  PetscCall(Advance(w, 0));
   w->doubt = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -526,19 +528,17 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, Pets
   double        best = 0;
 
   PetscFunctionBegin;
-  PetscCall(Classify(w));
   if (!gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, found));
     gradient = (!*found || !IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
-    if (gradient) PetscCall(PetscArraycpy(u->q, w->old, 2 * u->cells));
   }
   if (gradient) PetscCall(TryGradient(w, found));
   *good = (*found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best));
   if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(LONGER * best, 1 / FOLLOW), FOLLOW));
-  PetscCall(Measure(w));
+  PetscCall(Refresh(w));
   SamTangentialIterated(u->solver, u->level);
   PetscCall(SamTangentialMeasured(u->solver, u->level, u->error));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -550,13 +550,12 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  PetscCall(Classify(w));
-  PetscCall(PetscArraycpy(w->old, u->q, 2 * u->cells));
   for (PetscInt j = 0; j < u->rows; j++) RowAddStep(w, GetRow(w, j), 0);
   PetscCall(Project(w, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   w->doubt += (1 + w->reach) * sqrt(w->size) * w->unit / u->self;
-  PetscCall(Measure(w));
+  PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
+  PetscCall(Refresh(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -571,6 +570,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamTangential solver, SamTangent
   PetscFunctionBegin;
   PetscCall(CreateWork(solver, level, &w));
   PetscCall(SamStickSlipStart(u));
+  PetscCall(Advance(&w, 0));
   best   = u->error;
   reason = Reason(&w, stagnant);
   while (!reason) {

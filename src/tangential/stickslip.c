@@ -222,43 +222,50 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One row of squares: residual q - D(q - s/c), q, D(q - s/c), and the bound as the least measure of the shear. */
-SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double sums[4])
+SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double squares[SAM_SQUARES])
 {
   double residual = 0, shear = 0, projected = 0, least = 0;
 
 #pragma omp simd reduction(+ : residual, shear, projected, least)
   for (PetscInt i = 0; i < n; i++) {
     const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
-    const double scale = b > 0 ? (n2 > b * b ? b / sqrt(n2) : 1) : 0, rx = qx[i] - scale * yx, ry = qy[i] - scale * yy;
+    const double scale = SamDiscScale(n2, b), rx = qx[i] - scale * yx, ry = qy[i] - scale * yy;
 
     residual += rx * rx + ry * ry;
     shear += qx[i] * qx[i] + qy[i] * qy[i];
     projected += scale * scale * n2;
     least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
   }
-  sums[0] += residual;
-  sums[1] += shear;
-  sums[2] += projected;
-  sums[3] += least;
+  squares[0] += residual;
+  squares[1] += shear;
+  squares[2] += projected;
+  squares[3] += least;
+}
+
+PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_SQUARES])
+{
+  double sums[SAM_SQUARES];
+
+  PetscFunctionBegin;
+  PetscCall(SamSumTotals(w->level->grid->comm, SAM_SQUARES, squares, sums));
+  w->scale = sqrt(PetscMax(sums[3], PetscMax(sums[1], sums[2])));
+  w->error = sums[0] != 0 ? sqrt(sums[0]) / w->scale : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
-  SamTotal totals[4] = {{0, 0}};
-  double   sums[4];
+  SamTotal squares[SAM_SQUARES] = {{0, 0}};
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, 1 / w->self));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
-    double          row[4] = {0, 0, 0, 0};
+    double          row[SAM_SQUARES] = {0};
 
     MeasureRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, row);
-    SamAddAll(4, totals, row);
+    SamAddAll(SAM_SQUARES, squares, row);
   }
-  PetscCall(SamSumTotals(w->level->grid->comm, 4, totals, sums));
-  w->scale = sqrt(PetscMax(sums[3], PetscMax(sums[1], sums[2])));
-  w->error = sums[0] != 0 ? sqrt(sums[0]) / w->scale : 0;
+  PetscCall(SamStickSlipSetError(w, squares));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

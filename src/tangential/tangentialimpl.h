@@ -52,6 +52,17 @@ typedef struct {
   double              scale;        /* norm of the shear, Pa */
 } SamStickSlip;
 
+/* What D, the projection on the disc of radius b, multiplies a vector of square n2 by. No branch: loops with it are vectorised. */
+static inline double SamDiscScale(double n2, double b)
+{
+  const double ratio = b / sqrt(n2), in = b > 0 ? 1 : 0;
+
+  return in * (ratio < 1 ? ratio : 1);
+}
+
+/* Sums of squares of which the error is made: residual q - D(q - s/c), q, D(q - s/c), and the bound as the least measure of the shear. */
+#define SAM_SQUARES 4
+
 PETSC_INTERN PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w);
 PETSC_INTERN PetscErrorCode SamStickSlipDestroy(SamStickSlip *w);
 /* s = C q + offset - motion. */
@@ -65,6 +76,9 @@ PETSC_INTERN PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *en
   tangent space of the constraints (both directions where q - s/c lies within the disc, along the circle elsewhere).
 */
 PETSC_INTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *w);
+
+/* Error and scale from this rank's squares. Collective. */
+PETSC_INTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_SQUARES]);
 
 PETSC_INTERN PetscErrorCode SamTangentialCreate_Newton(SamTangential tangential);
 PETSC_INTERN PetscErrorCode SamTangentialCreate_Gradient(SamTangential tangential);
