@@ -84,7 +84,7 @@ units: $(UNIT) ## build the unit tests
 
 bench-programs: $(BENCHES) ## build the benchmark's programs
 
-bench: all bench-programs venv peers ## run the benchmark, report in build/bench/report: ARGS=--quick for a short one
+bench: all bench-programs venv peers ## run the benchmark, or go on with an unfinished one, report in build/bench/report: ARGS=--quick for a short one, ARGS=--anew to start over
 	$(PYTHON) tests/bench/benchmark.py --build $(B) --out $(B)/bench/report $(ARGS)
 
 # the programs that the benchmark compares with, built for this processor; without one of them it runs all the same

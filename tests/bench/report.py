@@ -68,6 +68,8 @@ class Report:
                    f"by one measure for all (`tests/bench/problem.py`): exact is at most {d['exact']:g}, approximate at most "
                    f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the program's own check "
                    f"certifies, to {d['shear_exact']:g} or {d['shear_approximate']:g} (relative L2).\n")
+        for r in d.get("resumed", []):
+            self.write(f"The run was resumed after {r['rows']} rows: {r['date']}, load {r['load']:.1f}.\n")
 
     def machine(self):
         self.write("## Memory and transforms\n", table(["ranks", "triad, GB/s"], [[n, f"{b:.1f}"] for n, b in self.data["bandwidth"].items()]))
@@ -92,10 +94,12 @@ class Report:
             for cells in self.grids(case):
                 ours = self.of(case, cells, program="petsam")
                 best = self.best(case, cells, lambda r: r["program"] == "petsam")
+                if not best:
+                    continue
                 peers = [self.best(case, cells, lambda r, a=a: r["program"] != "petsam" and r["accuracy"] == a)
                          for a in ("exact", "approximate")]
-                rows.append([TITLES[case], f"{cells}²", *[seconds(r["seconds"]) for r in sorted(ours, key=lambda r: r["cores"])],
-                             f"{best['total_normal_applies']} + {best['total_tangential_applies']}", f"{ours[0]['memory']:.0f}",
+                rows.append([TITLES[case], f"{cells}²", *[seconds(r["seconds"]) if "seconds" in r else "" for r in sorted(ours, key=lambda r: r["cores"])],
+                             f"{best['total_normal_applies']} + {best['total_tangential_applies']}", f"{ours[0]['memory']:.0f}" if "memory" in ours[0] else "",
                              *[self.versus(p, best) for p in peers]])
         ranks = sorted({r["cores"] for r in self.rows if r["program"] == "petsam"})
         self.write("## Summary\n", table(["case", "cells", *[f"petsam on {n}, s" for n in ranks], "products", "MB on one",
@@ -110,7 +114,7 @@ class Report:
         notes = {}
         for r in self.rows:
             if "seconds" not in r:
-                notes.setdefault((r["case"], r["program"], r["note"]), []).append(f"{r['cells']}²")
+                notes.setdefault((r["case"], r["program"], r["note"]), {})[f"{r['cells']}²"] = True
         if notes:
             self.write("Without an answer:\n", "".join(f"- {TITLES[case]}, {', '.join(cells)}: {program}: {note}\n"
                                                        for (case, program, note), cells in notes.items()))
@@ -129,13 +133,14 @@ class Report:
             rows = []
             for r in self.of(case):
                 timed = "seconds" in r
-                rest = [seconds(r["seconds"]), f"{self.ratio(r):.2f}", seconds(r["cpu"]), f"{r['memory']:.0f}", self.error(r), r["accuracy"]] if timed else [""] * 5 + [r["note"]]
+                rest = [seconds(r["seconds"]), self.ratio(r), seconds(r["cpu"]), f"{r['memory']:.0f}", self.error(r), r["accuracy"]] if timed else [""] * 5 + [r["note"]]
                 rows.append([f"{r['cells']}²", r["program"], str(r["cores"]), *rest])
             self.write(f"## {TITLES[case]}\n", table(["cells", "program", "cores", "s", "times petsam", "CPU s", "MB", "error", ""], rows))
         self.write("Settings: " + "; ".join(f"{k}: {v}" for k, v in self.data["settings"].items()) + ".\n")
 
     def ratio(self, row):
-        return row["seconds"] / self.best(row["case"], row["cells"], lambda r: r["program"] == "petsam")["seconds"]
+        best = self.best(row["case"], row["cells"], lambda r: r["program"] == "petsam")
+        return f"{row['seconds'] / best['seconds']:.2f}" if best else ""
 
     @staticmethod
     def error(row):
@@ -192,12 +197,16 @@ class Report:
         n = max(both)
         return scaling.fit(n, times[n, 1][0], *times[n, 2], bandwidth[1], self.cluster), n
 
+    def timed(self, case, cells, ranks):
+        """petsam's row in a list; an empty one when it has no time."""
+        return [r for r in self.of(case, cells, program="petsam", cores=ranks) if "seconds" in r]
+
     def solves(self, convolution):
         """Case: the model of its largest solve on one rank, and its seconds on one and two ranks."""
         found = {}
         for case in ("hertz", "rough_8", "slip_tx"):
-            for row in self.of(case, max(self.grids(case), default=0), program="petsam", cores=1):
-                two = self.of(case, row["cells"], program="petsam", cores=2)
+            for row in self.timed(case, max(self.grids(case), default=0), 1):
+                two = self.timed(case, row["cells"], 2)
                 solve = scaling.measured_solve(row["cells"], row["seconds"], row["normal_applies"] + 2 * row["tangential_applies"],
                                                row["normal_preconditions"] + 2 * row["tangential_preconditions"], convolution)
                 found[case] = solve, row["seconds"], two[0]["seconds"] if two else None

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -19,30 +20,39 @@ CASES = ("hertz", "rough_8", "slip_tx", "slip_tx_mz", "cycle_16")
 N, SECONDS = 2048, (0.06, 0.033, 0.057)  # a convolution's on one rank, and on two by shared memory and by messages
 
 
-def run(*words):
-    build = os.environ.get("PETSAM_BUILD", str(support.ROOT / "build"))
-    return subprocess.run([sys.executable, str(support.ROOT / "tests/bench/benchmark.py"), "--build", build, *words],
-                          capture_output=True, text=True, timeout=300)
+BUILD = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve()
+TINY = ("--quick", "--peers", "none", "--cells", "32", "--repeats", "1")
+
+
+def command(*words, build=BUILD):
+    return [sys.executable, str(support.ROOT / "tests/bench/benchmark.py"), "--build", str(build), *map(str, words)]
+
+
+def run(*words, build=BUILD):
+    return subprocess.run(command(*words, build=build), capture_output=True, text=True, timeout=300)
+
+
+def rows(out):
+    path = out / "results.json"
+    return json.loads(path.read_text())["runs"] if path.exists() else []
 
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory):
     """The folder of a run with petsam and FFTW alone, on a tiny grid."""
     out = tmp_path_factory.mktemp("benchmark")
-    done = run("--quick", "--peers", "none", "--cells", "32", "--repeats", "1", "--out", str(out))
+    done = run(*TINY, "--out", out)
     assert done.returncode == 0, done.stdout + done.stderr
     return out
 
 
 def test_every_case_is_solved_on_one_and_two_ranks(report):
-    rows = json.loads((report / "results.json").read_text())["runs"]
-    assert {(r["case"], r["cores"]) for r in rows} == {(case, n) for case in CASES for n in (1, 2)}
-    assert all(r["accuracy"] == "exact" for r in rows)
+    assert {(r["case"], r["cores"]) for r in rows(report)} == {(case, n) for case in CASES for n in (1, 2)}
+    assert all(r["accuracy"] == "exact" for r in rows(report))
 
 
 def test_memory_is_a_process_s(report):
-    rows = json.loads((report / "results.json").read_text())["runs"]
-    assert all(10 < r["memory"] / r["cores"] < 1000 for r in rows)  # MB: PETSc alone takes 30, a grid of 32 next to nothing
+    assert all(10 < r["memory"] / r["cores"] < 1000 for r in rows(report))  # MB: PETSc alone takes 30, a grid of 32 next to nothing
 
 
 def test_report_has_all_rows_and_figures(report):
@@ -51,6 +61,64 @@ def test_report_has_all_rows_and_figures(report):
     text = (report / "report.md").read_text()
     assert all(f"![{name}]({name}.png)" in text and (report / f"{name}.png").exists() for name in ("seconds", "memory", "scaling"))
     assert "| 32² | 2 |" in text  # FFTW's padded pair beside petsam's convolution
+
+
+@pytest.fixture
+def killed(tmp_path):
+    """The folder of a run that was killed after its first rows."""
+    words = (*TINY, "--cases", "hertz,slip_tx", "--out", tmp_path)
+    with subprocess.Popen(command(*words), stdout=subprocess.DEVNULL) as started:
+        end = time.monotonic() + 120
+        while not rows(tmp_path) and started.poll() is None and time.monotonic() < end:
+            time.sleep(0.02)
+        started.kill()
+    return words, tmp_path
+
+
+def test_killed_run_goes_on_where_it_was(killed):
+    words, out = killed
+    before = rows(out)
+    done = run(*words)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert 0 < len(before) < 4 and len(rows(out)) == 4
+    assert rows(out)[:len(before)] == before  # the times, too
+    assert f"resumed after {len(before)} rows" in (out / "report.md").read_text()
+
+
+def test_killed_run_does_not_go_on_with_other_options(killed):
+    words, out = killed
+    before = rows(out)
+    done = run(*words, "--repeats", "2")
+    assert done.returncode == 1 and "repeats is 2, was 1" in done.stderr and "--anew" in done.stderr
+    assert rows(out) == before
+
+
+def test_killed_run_starts_over_when_told(killed):
+    words, out = killed
+    done = run(*words, "--repeats", "2", "--anew")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert [len(r["runs"]) for r in rows(out)] == [2] * 4
+
+
+def test_failing_case_is_named_and_loses_no_other(tmp_path):
+    """A petsam that fails with M_z alone; mended, the same command measures only that."""
+    build = tmp_path / "build"
+    (build / "bin").mkdir(parents=True)
+    for name in ("bench", "venv"):
+        (build / name).symlink_to(BUILD / name)
+    program = build / "bin" / "petsam"
+    program.write_text(f'#!/bin/sh\ncase "$*" in *load_mz*) [ -e {tmp_path}/mended ] || exit 3;; esac\nexec {BUILD}/bin/petsam "$@"\n')
+    program.chmod(0o755)
+    words = (*TINY, "--cases", "slip_tx_mz,hertz", "--out", tmp_path / "out")
+    done = run(*words, build=build)
+    assert done.returncode == 1 and "slip_tx_mz 32^2 petsam on 2: petsam: exit code 3" in done.stderr
+    timed = [r for r in rows(tmp_path / "out") if "seconds" in r]
+    assert [(r["case"], r["cores"]) for r in timed] == [("hertz", 1), ("hertz", 2)]
+    assert "exit code 3" in (tmp_path / "out" / "report.md").read_text()
+    (tmp_path / "mended").touch()
+    done = run(*words, build=build)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert rows(tmp_path / "out")[:2] == timed and all("seconds" in r for r in rows(tmp_path / "out"))
 
 
 def test_unknown_case_is_refused():
