@@ -27,6 +27,11 @@ PETSC_EXTERN PetscErrorCode SamComplianceGetPair(SamCompliance compliance, const
   grid is too small to be halved (fewer than 32 cells in a direction). Made at the first call. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamComplianceGetCoarse(SamCompliance compliance, SamCompliance *coarse, SamTransfer *transfer);
+/*
+  SamComplianceRelease - frees what is made again when it is needed: the transforms' memory, the kernels of the coarser operators
+  and of the part, and, with `own`, the operator's own kernels. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamComplianceRelease(SamCompliance compliance, PetscBool own);
 
 /*
   The operator on a part of the grid, one at a time, which stays until another is chosen; all collective, the window and the

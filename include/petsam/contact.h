@@ -97,6 +97,11 @@ PETSC_EXTERN PetscErrorCode SamContactGetTangential(SamContact contact, SamTange
   Collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactSolve(SamContact contact, SamStep *step);
+/*
+  SamContactSetLast - whether the next step is the last one: what would serve further ones only is then given back as soon as it
+  can be. Another step is possible all the same, and its result the same. (Default: false.)
+*/
+PETSC_EXTERN PetscErrorCode SamContactSetLast(SamContact contact, PetscBool last);
 /* SamContactGetFields - the fields of the last step that had a solution; borrowed. */
 PETSC_EXTERN PetscErrorCode SamContactGetFields(SamContact contact, SamFields *fields);
 PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);          /* borrowed */

@@ -43,6 +43,8 @@ typedef void (*SamFourierFilter)(const SamFourierBlock *block, const void *conte
 /* SamFourierCreate - reads -fft_effort and -fft_exchange; plans are made when they are first needed. Collective. */
 PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier);
 PETSC_EXTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
+/* SamFourierTrim - frees the memory that all transforms on the communicator share, until one of them needs it again. Collective. */
+PETSC_EXTERN PetscErrorCode SamFourierTrim(SamFourier fourier);
 /* The periods hx, hy, without the doubling of padded mode. */
 PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
 

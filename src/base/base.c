@@ -1,6 +1,9 @@
 /* Start and end of the library, log events and small reductions. */
 #include "baseimpl.h"
 #include <fftw3-mpi.h>
+#if defined(__GLIBC__)
+  #include <malloc.h>
+#endif
 
 PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 PetscClassId  SAM_CLASSID;
@@ -49,6 +52,13 @@ PetscErrorCode SamFinalize(void)
   fftw_mpi_cleanup();
   fftwf_mpi_cleanup();
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamReturnMemory(void)
+{
+#if defined(__GLIBC__)
+  (void)malloc_trim(0);
+#endif
 }
 
 PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[])

@@ -28,6 +28,12 @@
   #define SAM_VECTORIZED
 #endif
 
+/*
+  SamReturnMemory - gives the system back what was freed and the C library keeps. What is allocated next has to be mapped anew,
+  which costs time: for the end of long stages.
+*/
+PETSC_INTERN void SamReturnMemory(void);
+
 /* ---- log events, shown by -log_view ---- */
 typedef enum {
   SAM_EVENT_SETUP_INFLUENCE,

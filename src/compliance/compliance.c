@@ -46,6 +46,16 @@ PetscErrorCode SamComplianceDestroy(SamCompliance *compliance)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamComplianceRelease(SamCompliance C, PetscBool own)
+{
+  PetscFunctionBegin;
+  if (C->coarse) PetscCall(SamComplianceRelease(C->coarse, PETSC_TRUE));
+  if (C->part) PetscCall(SamComplianceRelease(C->part, PETSC_TRUE));
+  PetscCall(SamFourierTrim(C->fourier));
+  for (PetscInt k = 0; own && k < SAM_KERNELS; k++) PetscCall(SamKernelDestroy(&C->kernel[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamComplianceGetGrid(SamCompliance C, SamGrid *grid)
 {
   PetscFunctionBegin;

@@ -1,26 +1,36 @@
 /* The check of a solution, which trusts no solver. */
 #include "../balance/balanceimpl.h"
-#include <petsam/contact.h>
+#include "contactimpl.h"
 #include <math.h>
 
-/* Elastic displacements from the tractions. */
-static PetscErrorCode ComputeDisplacements(SamCompliance C, PetscBool coupling, PetscBool same_pressure, SamFields *f)
+PetscErrorCode SamCheckDisplacements(SamCompliance C, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *f)
 {
+  SamGrid   grid;
   PetscReal shear;
   PetscBool coupled;
+  Vec       more;
 
   PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   if (!same_pressure) PetscCall(SamComplianceApplyNormal(C, f->pressure, f->displacement_z));
+  if (release) PetscCall(SamComplianceRelease(C, PETSC_TRUE));
   PetscCall(VecNorm(f->shear, NORM_INFINITY, &shear));
   if (shear != 0) PetscCall(SamComplianceApplyTangential(C, f->shear, f->displacement_t));
   else PetscCall(SamVecZero(f->displacement_t));
+  if (release) PetscCall(SamComplianceRelease(C, PETSC_TRUE));
   PetscCall(SamComplianceIsCoupled(C, &coupled));
-  if (!coupled || !coupling) PetscFunctionReturn(PETSC_SUCCESS);
-  /* gap and slip are not yet in use: room for the two other products */
-  PetscCall(SamComplianceApplyTangentialToNormal(C, f->shear, f->gap));
-  PetscCall(VecAXPY(f->displacement_z, 1, f->gap));
-  PetscCall(SamComplianceApplyNormalToTangential(C, f->pressure, f->slip));
-  PetscCall(VecAXPY(f->displacement_t, 1, f->slip));
+  if (coupled && coupling) {
+    PetscCall(SamComplianceGetGrid(C, &grid));
+    PetscCall(SamGridCreateVec(grid, 1, &more));
+    PetscCall(SamComplianceApplyTangentialToNormal(C, f->shear, more));
+    PetscCall(VecAXPY(f->displacement_z, 1, more));
+    PetscCall(VecDestroy(&more));
+    PetscCall(SamGridCreateVec(grid, 2, &more));
+    PetscCall(SamComplianceApplyNormalToTangential(C, f->pressure, more));
+    PetscCall(VecAXPY(f->displacement_t, 1, more));
+    PetscCall(VecDestroy(&more));
+  }
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -197,7 +207,7 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactCheck(SamCompliance C, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
+PetscErrorCode SamCheckFields(SamCompliance C, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
 {
   SamGrid   grid;
   PetscReal self;
@@ -207,12 +217,19 @@ PetscErrorCode SamContactCheck(SamCompliance C, PetscBool coupling, PetscBool sa
   PetscCall(PetscMemzero(check, sizeof(*check)));
   PetscCall(SamComplianceGetGrid(C, &grid));
   PetscCall(SamComplianceGetSelfInfluence(C, NULL, &self));
-  PetscCall(ComputeDisplacements(C, coupling, same_pressure, fields));
   PetscCall(ComputeGapAndSlip(grid, separation, step, fields));
   PetscCall(CheckNormal(grid, fields, check));
   PetscCall(CheckTangential(grid, friction, self, fields, slip_before, check));
   PetscCall(CheckEquilibrium(grid, given_normal, fields->pressure, check));
   PetscCall(CheckEquilibrium(grid, given_tangential, fields->shear, check));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactCheck(SamCompliance C, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
+{
+  PetscFunctionBegin;
+  PetscCall(SamCheckDisplacements(C, coupling, same_pressure, PETSC_FALSE, fields));
+  PetscCall(SamCheckFields(C, friction, separation, slip_before, given_normal, given_tangential, step, fields, check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

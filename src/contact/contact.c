@@ -49,13 +49,19 @@ PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscR
   The fields that follow from the tractions exist from the end of a step to the beginning of the next: while the solvers
   work, their memory is the solvers'.
 */
-PetscErrorCode SamContactCreateDerived(SamContact c)
+PetscErrorCode SamContactCheckStep(SamContact c, PetscBool same_pressure, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, SamStep *step)
 {
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.gap));
+  if (c->last_step) {
+    PetscCall(SamComplianceRelease(c->compliance, PETSC_FALSE));
+    SamReturnMemory();
+  }
   if (!c->fields.displacement_z) PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.displacement_z));
-  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.slip));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.displacement_t));
+  PetscCall(SamCheckDisplacements(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->last_step, &c->fields));
+  PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.gap));
+  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.slip));
+  PetscCall(SamCheckFields(c->compliance, c->friction, c->separation, slip_before, given_normal, given_tangential, step, &c->fields, &step->check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -119,6 +125,13 @@ PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
 {
   PetscFunctionBegin;
   *tangential = c->tangential;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSetLast(SamContact c, PetscBool last)
+{
+  PetscFunctionBegin;
+  c->last_step = last;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -245,6 +258,7 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
     PetscCall(VecCopy(c->fields.pressure, predicted));
   }
   PetscCall(SamNormalSolve(c->normal, h, &step->normal, guess, c->fields.pressure));
+  if (c->last_step && !c->coupled) PetscCall(SamComplianceRelease(c->compliance, PETSC_FALSE));
   if (guess) PetscCall(SamFollowBound(c->grid, predicted, c->fields.pressure, c->fields.shear));
   PetscCall(VecDestroy(&predicted));
   c->normal_given = *given;
@@ -297,18 +311,15 @@ static PetscErrorCode CreateOffset(SamContact c, Vec *offset)
 static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
 {
   SamTangentialReason reason;
-  Vec                 bound, offset;
+  Vec                 offset;
   char                message[sizeof(step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(c->grid, 1, &bound));
-  PetscCall(VecAXPY(bound, c->friction, c->fields.pressure));
   PetscCall(CreateOffset(c, &offset));
   step->tangential = *given;
   for (PetscInt k = 0; k < 3; k++)
     if (given->force[k]) step->tangential.rigid[k] = c->start[k];
-  PetscCall(SamTangentialSolve(c->tangential, bound, offset, &step->tangential, guess, c->fields.shear));
-  PetscCall(VecDestroy(&bound));
+  PetscCall(SamTangentialSolve(c->tangential, c->fields.pressure, c->friction, offset, &step->tangential, guess, c->fields.shear));
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) c->start[k] = step->tangential.rigid[k]; /* of the next pass */
   PetscCall(Count(c, PETSC_TRUE, step));
@@ -453,8 +464,7 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
     PetscCall(SamContactStepBack(c, &given, &found, same_pressure));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamContactCreateDerived(c));
-  PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->friction, c->separation, c->slip_before, &normal, &tangential, step, &c->fields, &step->check));
+  PetscCall(SamContactCheckStep(c, same_pressure, c->slip_before, &normal, &tangential, step));
   PetscCall(ComputeScalars(c, step));
   PetscCall(Judge(c, step));
   for (PetscInt k = 0; k < 3; k++) {

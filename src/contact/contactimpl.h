@@ -9,7 +9,7 @@ struct _n_SamContact {
   /* what the user set */
   PetscReal friction, coupling_rtol;
   PetscInt  coupling, coupling_max_it;
-  PetscBool warm;
+  PetscBool warm, last_step;
   PetscBool coupling_monitor, allow_edge, print_check;
   /* what it owns */
   SamCompliance compliance;
@@ -31,9 +31,16 @@ struct _n_SamContact {
   Vec        previous[2];                /* p and q of the step before the last; NULL until there are two */
 };
 
-/* SamContactCreateDerived - room for the fields that follow from the tractions. SamContactDestroyDerived - frees it; with `same_pressure` displacement_z stays. Collective. */
-PETSC_INTERN PetscErrorCode SamContactCreateDerived(SamContact contact);
+/* SamContactDestroyDerived - frees the fields that follow from the tractions; with `same_pressure` displacement_z stays. Collective. */
 PETSC_INTERN PetscErrorCode SamContactDestroyDerived(SamContact contact, PetscBool same_pressure);
+/* SamContactCheckStep - makes them for the step, whose check fills step->check; see SamContactCheck. Collective. */
+PETSC_INTERN PetscErrorCode SamContactCheckStep(SamContact contact, PetscBool same_pressure, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, SamStep *step);
+/*
+  The two halves of SamContactCheck: elastic displacements from the tractions (`release`: each kernel is freed after its last
+  product); gap, slip and what they show. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamCheckDisplacements(SamCompliance compliance, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *fields);
+PETSC_INTERN PetscErrorCode SamCheckFields(SamCompliance compliance, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check);
 
 /*
   SamContactStepBack - after a step without equilibrium: the fields are again those of the last step that had a solution, whose

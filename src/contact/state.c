@@ -15,8 +15,7 @@ PetscErrorCode SamContactStepBack(SamContact c, const SamBalance *given, const S
   PetscCall(PetscMemzero(&step, sizeof(step)));
   step.normal          = *found;
   step.tangential.kind = SAM_BALANCE_TANGENTIAL; /* its displacements are only in the slip, which is known */
-  PetscCall(SamContactCreateDerived(c));
-  PetscCall(SamContactCheck(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->friction, c->separation, NULL, &step.normal, &step.tangential, &step, &c->fields, &step.check));
+  PetscCall(SamContactCheckStep(c, same_pressure, NULL, &step.normal, &step.tangential, &step));
   PetscCall(VecDestroy(&c->fields.slip));
   c->fields.slip = c->slip_before;
   c->slip_before = NULL;

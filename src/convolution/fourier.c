@@ -115,6 +115,7 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   SamFourier     F;
   PetscInt       effort  = 0;
   ptrdiff_t      periodic, padded, quadrant, rows, row_start, columns, column_start;
+  unsigned long long bytes;
   const unsigned flags[] = {FFTW_ESTIMATE, FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
 
   PetscFunctionBegin;
@@ -134,7 +135,10 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   PetscCall(DivideColumns(F, SAM_FOURIER_PERIODIC, &periodic));
   PetscCall(DivideColumns(F, SAM_FOURIER_PADDED, &padded));
   quadrant = SamFourierDivideQuadrant(F, &rows, &row_start, &columns, &column_start);
-  PetscCall(SamWorkspaceGet(grid->comm, sizeof(double) * (size_t)PetscMax(quadrant, PetscMax(periodic, padded)), &F->work));
+  bytes    = sizeof(double) * (unsigned long long)PetscMax(quadrant, PetscMax(periodic, padded));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_UNSIGNED_LONG_LONG, MPI_MAX, grid->comm));
+  F->bytes = (size_t)bytes;
+  PetscCall(SamWorkspaceGet(grid->comm, &F->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -149,6 +153,13 @@ PetscErrorCode SamFourierDestroy(SamFourier *fourier)
   PetscCall(SamWorkspaceRelease(&F->work));
   PetscCall(SamGridDestroy(&F->grid));
   PetscCall(PetscFree(*fourier));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFourierTrim(SamFourier F)
+{
+  PetscFunctionBegin;
+  PetscCall(SamWorkspaceTrim(F->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

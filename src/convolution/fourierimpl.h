@@ -43,16 +43,17 @@ typedef struct {
   PetscMPIInt ranks, rank;
   PetscInt    references;
   PetscBool   shared;
-  size_t      bytes;      /* of a slab, the largest that anybody needs */
   PetscInt    version;    /* of the slabs' addresses */
   SamSlab     slab[SAM_FOURIER_FIELDS + 1];
 } *SamWorkspace;
 
-/* SamWorkspaceGet - a reference to that of a communicator, its slabs of at least so many bytes. Release gives it back. Collective. */
-PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, size_t bytes, SamWorkspace *workspace);
+/* SamWorkspaceGet - a reference to that of a communicator. Release gives it back. Collective. */
+PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, SamWorkspace *workspace);
 PETSC_INTERN PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace);
-/* SamWorkspaceReserve - makes the slabs for so many fields. Collective. */
-PETSC_INTERN PetscErrorCode SamWorkspaceReserve(SamWorkspace workspace, PetscInt fields);
+/* SamWorkspaceTrim - frees the slabs until they are reserved again. Collective. */
+PETSC_INTERN PetscErrorCode SamWorkspaceTrim(SamWorkspace workspace);
+/* SamWorkspaceReserve - makes the slabs for so many fields, of at least so many bytes on every rank. Collective. */
+PETSC_INTERN PetscErrorCode SamWorkspaceReserve(SamWorkspace workspace, size_t bytes, PetscInt fields);
 /* SamWorkspaceSynchronize - what any rank has written to a shared slab before is seen by all after it. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceSynchronize(SamWorkspace workspace);
 /* Whether rows have to be sent to become columns. */
@@ -69,7 +70,8 @@ struct _n_SamFourier {
   SamColumns         columns[2]; /* by mode */
   SamTransformDouble in_double;
   SamTransformSingle in_single;
-  SamWorkspace       work;       /* half spectra of the fields' rows and columns, or a kernel's on its way; room for doubles */
+  SamWorkspace       work;       /* half spectra of the fields' rows and columns, or a kernel's on its way */
+  size_t             bytes;      /* of a slab of them on any rank, in doubles */
 };
 
 /* Memory for FFTW's arrays; PETSC_ERR_MEM with the size when there is none. */

@@ -144,7 +144,7 @@ PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, S
   k->odd_x   = odd_x;
   k->odd_y   = odd_y;
   k->columns = columns;
-  PetscCall(SamWorkspaceReserve(F->work, 1));
+  PetscCall(SamWorkspaceReserve(F->work, F->bytes, 1));
   rows   = (double *)SamFourierRows(F, 0);
   pieces = SamFourierGetPieces(F, 0, F->hy + 1, F->hx + 1, column_start, columns);
   PetscCall(TransformRows(F, odd_x, row, context, start, count, rows));

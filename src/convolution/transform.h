@@ -136,7 +136,7 @@ static PetscErrorCode Reserve(SamFourier F, PetscInt fields)
     t->fields  = fields;
     t->version = -1;
   }
-  PetscCall(SamWorkspaceReserve(F->work, t->fields));
+  PetscCall(SamWorkspaceReserve(F->work, F->bytes, t->fields));
   if (!SamWorkspaceTransposes(F->work) || t->version == F->work->version) PetscFunctionReturn(PETSC_SUCCESS);
   DestroyTransposes(t);
   PetscCall(PlanTransposes(F, SAM_FOURIER_PERIODIC, t->fields));

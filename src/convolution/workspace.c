@@ -1,8 +1,8 @@
 /*
   The slabs of memory in which transforms keep their half spectra.
 
-  On a communicator only one transform is under way at a time, so all of them use the same slabs, as large as the largest
-  needs them. Where all ranks are on one node the slabs are in memory that they share: columns are gathered from where the
+  On a communicator only one transform is under way at a time, so all of them use the same slabs, as large as the largest so far
+  needed them. Where all ranks are on one node the slabs are in memory that they share: columns are gathered from where the
   rows are, and nothing is sent. Elsewhere, or when there is no such memory, every rank has its own, and rows are exchanged
   for columns by FFTW's transposes.
 */
@@ -41,11 +41,10 @@ static PetscErrorCode CanShare(SamWorkspace w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWorkspaceGet(MPI_Comm comm, size_t bytes, SamWorkspace *workspace)
+PetscErrorCode SamWorkspaceGet(MPI_Comm comm, SamWorkspace *workspace)
 {
   SamWorkspace w;
   PetscMPIInt  found;
-  unsigned long long most = bytes;
 
   PetscFunctionBegin;
   if (keyval == MPI_KEYVAL_INVALID) {
@@ -62,9 +61,7 @@ PetscErrorCode SamWorkspaceGet(MPI_Comm comm, size_t bytes, SamWorkspace *worksp
     PetscCall(CanShare(w));
     PetscCallMPI(MPI_Comm_set_attr(comm, keyval, w));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_UNSIGNED_LONG_LONG, MPI_MAX, w->comm));
   w->references++;
-  w->bytes   = PetscMax(w->bytes, (size_t)most);
   *workspace = w;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -81,6 +78,14 @@ static PetscErrorCode FreeSlab(SamWorkspace w, SamSlab *slab)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamWorkspaceTrim(SamWorkspace w)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k <= SAM_FOURIER_FIELDS; k++)
+    if (w->slab[k].bytes) PetscCall(FreeSlab(w, &w->slab[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace)
 {
   SamWorkspace w = *workspace;
@@ -88,8 +93,7 @@ PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace)
   PetscFunctionBegin;
   *workspace = NULL;
   if (!w || --w->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k <= SAM_FOURIER_FIELDS; k++)
-    if (w->slab[k].bytes) PetscCall(FreeSlab(w, &w->slab[k]));
+  PetscCall(SamWorkspaceTrim(w));
   PetscCallMPI(MPI_Comm_delete_attr(w->user, keyval));
   PetscCallMPI(MPI_Comm_free(&w->comm));
   PetscCall(PetscFree(w));
@@ -131,9 +135,9 @@ static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
   A slab in shared memory, or none when there is no more of it. Not by MPI_Win_allocate_shared: when memory is short, Open MPI
   tells one rank so and lets the others wait.
 */
-static PetscErrorCode AllocateShared(SamWorkspace w, SamSlab *slab, PetscBool *done)
+static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab, PetscBool *done)
 {
-  const size_t page = (size_t)sysconf(_SC_PAGESIZE), part = (w->bytes + page - 1) / page * page;
+  const size_t page = (size_t)sysconf(_SC_PAGESIZE), part = (bytes + page - 1) / page * page;
   void        *base = MAP_FAILED;
   PetscMPIInt  good;
   int          fd;
@@ -159,7 +163,7 @@ static PetscErrorCode AllocateShared(SamWorkspace w, SamSlab *slab, PetscBool *d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWorkspaceReserve(SamWorkspace w, PetscInt fields)
+PetscErrorCode SamWorkspaceReserve(SamWorkspace w, size_t bytes, PetscInt fields)
 {
   PetscFunctionBegin;
   PetscCheck(fields <= SAM_FOURIER_FIELDS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d fields in one pass", SAM_FOURIER_FIELDS);
@@ -167,14 +171,14 @@ PetscErrorCode SamWorkspaceReserve(SamWorkspace w, PetscInt fields)
     SamSlab  *slab = &w->slab[k];
     PetscBool done = PETSC_FALSE;
 
-    if (slab->bytes == w->bytes) continue;
+    if (slab->bytes >= bytes) continue;
     if (slab->bytes) PetscCall(FreeSlab(w, slab));
     if (w->shared) {
-      PetscCall(AllocateShared(w, slab, &done));
+      PetscCall(AllocateShared(w, bytes, slab, &done));
       w->shared = done; /* what is shared by now stays so, and is used as if it were not */
     }
-    if (!done) PetscCall(SamFourierAllocate(w->bytes, &slab->own));
-    slab->bytes = w->bytes;
+    if (!done) PetscCall(SamFourierAllocate(bytes, &slab->own));
+    slab->bytes = bytes;
     w->version++;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -113,14 +113,14 @@ PetscErrorCode SamWindowPut(SamWindow w, Vec part, Vec whole)
   PetscFunctionBegin;
   PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
   PetscCall(VecGetArrayRead(part, &from));
-  PetscCall(VecGetArrayWrite(whole, &to));
-  PetscCall(PetscArrayzero(to, components * w->grid->cells));
+  PetscCall(SamVecZero(whole));
+  PetscCall(VecGetArray(whole, &to));
   for (PetscInt c = 0; c < components; c++) {
     PetscCall(SamRowsFetch(&w->put, w->part->nx, from + c * w->part->cells, &rows));
     for (PetscInt j = 0; j < w->put.count; j++) memcpy(to + c * w->grid->cells + (w->put.first + w->first[1] + j - w->grid->row_start) * w->grid->nx + w->first[0], rows + (size_t)j * nx, sizeof(double) * nx);
     PetscCall(SamRowsRestore(&w->put, &rows));
   }
-  PetscCall(VecRestoreArrayWrite(whole, &to));
+  PetscCall(VecRestoreArray(whole, &to));
   PetscCall(VecRestoreArrayRead(part, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

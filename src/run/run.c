@@ -232,6 +232,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscInt count, PetscBool *ended)
   PetscFunctionBegin;
   PetscCall(SamHistoryGetStep(run->history, k, &step));
   PetscCall(SamReportBeginStep(run->report, k, run->contact));
+  PetscCall(SamContactSetLast(run->contact, k + 1 == count ? PETSC_TRUE : PETSC_FALSE));
   PetscCall(SamContactSolve(run->contact, &step));
   PetscCall(WriteStep(run, &step, k, count));
   PetscCall(SamReportEndStep(run->report, &step)); /* a step that is told is in the file */

@@ -424,7 +424,7 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
 }
 
 /* The problem on a window around the contact: fields taken out, the solution put back. */
-static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamCompliance part, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamCompliance part, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
 {
   SamTangentialLevel level = {.compliance = part, .finest = PETSC_TRUE, .rtol = t->solver.rtol};
 
@@ -432,13 +432,15 @@ static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamCompli
   PetscCall(SamWindowGetGrid(window, &level.grid));
   PetscCall(SamGridCreateVec(level.grid, 1, &level.bound));
   PetscCall(SamGridCreateVec(level.grid, 2, &level.q));
-  PetscCall(SamWindowTake(window, bound, level.bound));
+  PetscCall(SamWindowTake(window, pressure, level.bound));
+  PetscCall(VecScale(level.bound, friction));
   if (offset) {
     PetscCall(SamGridCreateVec(level.grid, 2, &level.offset));
     PetscCall(SamWindowTake(window, offset, level.offset));
   }
   if (guess) PetscCall(SamWindowTake(window, q, level.q));
   PetscCall(SolveLoaded(t, &level, balance, guess));
+  if (!guess) SamReturnMemory(); /* the method's, before the whole grid's shear is written to for the first time */
   PetscCall(SamWindowPut(window, level.q, q));
   PetscCall(VecDestroy(&level.bound));
   PetscCall(VecDestroy(&level.offset));
@@ -446,33 +448,47 @@ static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamCompli
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialSolve(SamTangential t, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+/* The same on the whole grid. */
+static PetscErrorCode SolveWhole(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
 {
-  SamTangentialLevel level = {.compliance = t->compliance, .finest = PETSC_TRUE, .bound = bound, .offset = offset, .q = q, .rtol = t->solver.rtol};
-  PetscReal          most;
+  SamTangentialLevel level = {.compliance = t->compliance, .finest = PETSC_TRUE, .offset = offset, .q = q, .rtol = t->solver.rtol};
 
   PetscFunctionBegin;
   PetscCall(SamComplianceGetGrid(t->compliance, &level.grid));
-  PetscCheck(balance->kind == SAM_BALANCE_TANGENTIAL, level.grid->comm, PETSC_ERR_ARG_WRONG, "The tangential solver wants a tangential balance");
+  PetscCall(SamGridCreateVec(level.grid, 1, &level.bound));
+  PetscCall(VecAXPY(level.bound, friction, pressure));
+  PetscCall(SolveLoaded(t, &level, balance, guess));
+  PetscCall(VecDestroy(&level.bound));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTangentialSolve(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+{
+  SamGrid   grid;
+  PetscReal most;
+
+  PetscFunctionBegin;
+  PetscCall(SamComplianceGetGrid(t->compliance, &grid));
+  PetscCheck(balance->kind == SAM_BALANCE_TANGENTIAL, grid->comm, PETSC_ERR_ARG_WRONG, "The tangential solver wants a tangential balance");
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_TANGENTIAL_SOLVE], 0, 0, 0, 0));
   SamSolverStart(&t->solver);
   t->limit  = PETSC_INFINITY;
   t->reason = SAM_TANGENTIAL_CONVERGED_ITERATING;
-  PetscCall(VecMax(bound, NULL, &most));
-  if (most <= 0 || IsUnloaded(balance, offset)) PetscCall(SolveFree(t, balance, q));
+  PetscCall(VecMax(pressure, NULL, &most));
+  if (friction * most <= 0 || IsUnloaded(balance, offset)) PetscCall(SolveFree(t, balance, q));
   else {
     PetscInt      first[2], n[2];
     SamWindow     window;
     SamCompliance part;
 
     /* shear acts only where there is contact, and only there its displacement counts */
-    PetscCall(SamGridGetSupport(level.grid, bound, first, n));
+    PetscCall(SamGridGetSupport(grid, pressure, first, n));
     PetscCall(SamComplianceChoosePart(t->compliance, first, n, PETSC_TRUE, &window, &part));
-    if (window) PetscCall(SolveInWindow(t, window, part, bound, offset, balance, guess, q));
-    else PetscCall(SolveLoaded(t, &level, balance, guess));
+    if (window) PetscCall(SolveInWindow(t, window, part, pressure, friction, offset, balance, guess, q));
+    else PetscCall(SolveWhole(t, pressure, friction, offset, balance, guess, q));
   }
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_TANGENTIAL_SOLVE], 0, 0, 0, 0));
-  PetscCheck(t->reason, level.grid->comm, PETSC_ERR_PLIB, "Method %s set no reason", t->solver.type);
+  PetscCheck(t->reason, grid->comm, PETSC_ERR_PLIB, "Method %s set no reason", t->solver.type);
   PetscCall(SamSolverViewFromOptions(&t->solver, t->reason > 0 ? PETSC_TRUE : PETSC_FALSE, SamTangentialReasonName(t->reason)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -180,6 +180,31 @@ static void test_contact_with_the_state_of_another_goes_on_as_it_would(void **st
   }
 }
 
+/* What was given back is made again: similar and dissimilar bodies, steps of new and of the same pressure. */
+static void test_last_step_is_as_any_other_and_may_be_followed(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 2; kind++) {
+    const SamPair pair = kind ? NewPair(210e9, 0.3, 70e9, 0.2) : Steel();
+    Case          one = NewCase(pair, 45, 2, mu, ""), other = NewCase(pair, 45, 2, mu, "");
+    SamFields     f[2];
+
+    sam_call(SamContactSetLast(other.contact, PETSC_TRUE));
+    for (int k = 0; k < 4; k++) {
+      SamStep a = Turn(&one, k), b = Turn(&other, k);
+
+      Solve(&one, &a);
+      Solve(&other, &b);
+      sam_call(SamContactGetFields(one.contact, &f[0]));
+      sam_call(SamContactGetFields(other.contact, &f[1]));
+      AssertSameFields(&f[0], &f[1], 0);
+      sam_assert(a.tangential_iterations == b.tangential_iterations && a.dissipated_energy == b.dissipated_energy);
+    }
+    DestroyCase(&one);
+    DestroyCase(&other);
+  }
+}
+
 static void test_step_without_equilibrium_leaves_the_contact_as_it_was(void **state)
 {
   (void)state;
@@ -609,6 +634,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_dissipation_is_work_at_the_final_shear_less_that_of_the_elastic_part),
     cmocka_unit_test(test_gross_slip_is_told_with_its_limit),
     cmocka_unit_test(test_contact_with_the_state_of_another_goes_on_as_it_would),
+    cmocka_unit_test(test_last_step_is_as_any_other_and_may_be_followed),
     cmocka_unit_test(test_step_without_equilibrium_leaves_the_contact_as_it_was),
     cmocka_unit_test(test_moment_beyond_the_grid_is_told),
     cmocka_unit_test(test_contact_at_the_edge_of_the_grid_is_a_status),
