@@ -2,15 +2,16 @@
 #include "runimpl.h"
 
 /*
-  Bytes a cell at the peak, shared memory counted once, and the program with its libraries. Measured at 512 to 4096 cells, from
-  more to less: without friction 80 to 65, with friction 200 to 175; 135 and 237 when pressure and shear are coupled.
+  Bytes a cell at the peak, shared memory counted once, and the program with its libraries. Measured at 512 to 4096 cells: in one
+  step without friction 55 to 85, with friction 115 to 130 for contact on half of the grid and 215 on all of it; 115 to 155
+  and 225 to 310 when pressure and shear are coupled. In several steps 125 to 155, 250 to 290; 215, 315.
 */
-static const double bytes_per_cell[2][2] = {{90, 150}, {215, 255}}; /* by friction and coupling */
+static const double bytes_per_cell[2][2][2] = {{{85, 150}, {170, 270}}, {{140, 220}, {275, 320}}}; /* by steps, friction and coupling */
 #define BYTES_PROGRAM 50e6
 
-double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction)
+double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps)
 {
-  return BYTES_PROGRAM + bytes_per_cell[friction > 0][pair->dundurs != 0] * (double)grid->cells;
+  return BYTES_PROGRAM + bytes_per_cell[steps > 1][friction > 0][pair->dundurs != 0] * (double)grid->cells;
 }
 
 /* Memory of this node that can be had, bytes; 0 when it cannot be told. */
@@ -27,7 +28,7 @@ static double AvailableMemory(void)
   return 1024 * kilobytes;
 }
 
-PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction)
+PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps)
 {
   double       need, worst;
   MPI_Comm     node;
@@ -36,7 +37,7 @@ PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal
   PetscFunctionBegin;
   PetscCall(SamOptionsBool(NULL, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
   PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  need = SamRunMemory(grid, pair, friction);
+  need = SamRunMemory(grid, pair, friction, steps);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
   PetscCallMPI(MPI_Comm_free(&node));
   worst = AvailableMemory();

@@ -68,12 +68,14 @@ static PetscErrorCode ReadOptions(SamRun *run)
 PetscErrorCode SamRunSetUp(SamRun *run)
 {
   PetscBool help;
+  PetscInt  steps;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(ReadOptions(run));
   PetscCall(CheckFiles(run));
-  PetscCall(SamRunRefuseTooLarge(run->grid, &run->pair, run->friction));
+  PetscCall(SamHistoryGetCount(run->history, &steps));
+  PetscCall(SamRunRefuseTooLarge(run->grid, &run->pair, run->friction, steps));
   PetscCall(SamComplianceCreate(run->grid, &run->pair, &run->compliance));
   PetscCall(SamGridCreateVec(run->grid, 1, &run->separation));
   if (!help) PetscCall(SamGapFill(run->gap, run->grid, run->separation));
@@ -149,7 +151,7 @@ static PetscErrorCode Begin(SamRun *run)
     PetscCall(SamReportSetRestart(run->report, restart, run->solved));
   }
   PetscCall(SamCheckpointsBegin(run->checkpoints, run->grid));
-  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->pair, run->friction), count, run->has_output ? run->filename : NULL));
+  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->pair, run->friction, count), count, run->has_output ? run->filename : NULL));
   if (run->has_output && restart) PetscCall(ContinueResults(run));
   else if (run->has_output) PetscCall(CreateResults(run));
   PetscFunctionReturn(PETSC_SUCCESS);

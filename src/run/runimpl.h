@@ -34,8 +34,8 @@ PETSC_INTERN PetscErrorCode SamRunTearDown(SamRun *run);
 /* SamRunCollectParameters - what defines the run, for its results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamRunCollectParameters(SamRun *run, Vec separation);
 /* SamRunMemory - what this rank will need, bytes. */
-PETSC_INTERN double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction);
+PETSC_INTERN double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps);
 /* SamRunRefuseTooLarge - raises SAM_ERR_USER for what this node cannot hold, before the system kills the run for it. Collective. */
-PETSC_INTERN PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction);
+PETSC_INTERN PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps);
 
 #endif
