@@ -1,23 +1,27 @@
 /*
-  Newton's method on stick and slip, with preconditioned projected conjugate gradients.
+  Newton's method and conjugate gradients in one, on changing stick and slip.
 
   Problem: minimise q.C q/2 + offset.q over the discs |q| <= b in equilibrium (or with given rigid displacements); its
-  gradient is the slip increment s. Strictly convex, so there is one solution.
-    1. Cells on their circle with s.q < 0 slip, the others stick. Unknown are both components of q in stick, and the one
-       along the circle in slip; P projects on them.
-    2. Newton's step delta: conjugate gradients on P(C + L)P in the null space of equilibrium, L = |s|/b in slip (the
-       curvature of the circle). Preconditioned by P(w M w + (1 - h)/2(L + c))P, M the spectral inverse of C, c a cell's
-       self-influence, h = c/(L + c), which is 1 in stick, and w = sqrt(h). It ends when the residual has fallen enough,
-       or is smaller than what the discs will cut off.
-    3. q becomes the nearest admissible shear: discs and equilibrium at once (SamFrameProjectTangential), the slipping
-       cells having been pushed outward before.
-    4. The energy may rise in a step; if the error has not fallen for several, the best point between the old and the new
-       q is taken, or a projected gradient step. If it still does not fall, every other step is one: a few cells that slip
-       and are to be released can hold up Newton's steps, which the discs cut off at once, but not the gradient's.
+  gradient is the slip increment s. Strictly convex, so there is one solution. An iteration, with one product:
+    1. Sets: cells that are or should be on their circle, with s against q, slip; the others stick. Unknown are both
+       components of q in stick, and the one along the circle in slip; P projects on them. The motion (the multipliers of
+       equilibrium) makes P s smallest. The residual is -P s, its derivative P(C + L)P, L = |s|/b in slip being the curvature
+       of the circle.
+    2. Direction: the preconditioned residual, with the part of the last step that makes the two conjugate. Both stay
+       meaningful when the sets change, as the last step is the difference of two shears, whose product is known.
+       Preconditioned by P(w M w + (1 - h)/2(L + c))P, M the spectral inverse of C, c a cell's self-influence, h = c/(L + c),
+       which is 1 in stick, and w = sqrt(h).
+    3. Trial: the admissible shear nearest to q + alpha times the direction, discs and equilibrium at once
+       (SamFrameProjectTangential), the slipping cells having been pushed outward before; alpha as last was best.
+    4. The product of trial - q gives the length of the step, at most to the trial: the one that leaves the residual normal to
+       it, as in linear conjugate gradients, unless the energy falls much farther. Cells that slip are then a little within
+       their circles, by the square of the step, and the next trial puts them back.
+  If the trial is uphill, or the error has not fallen for several iterations, the direction is the slip itself: projected
+  gradient steps with the best length converge whatever is between them.
   Stops on the residual of q = D(q - s/c), which only the solution makes zero.
 
-  Step 2 is done in single precision, at half the cost, in units of its residual; so is the slip that the whole step causes.
-  Their rounding is counted, and before it can matter the slip is computed anew in double precision.
+  Steps and their products are in single precision, at half the cost; q and s are not. Their rounding is counted, and before
+  it can matter the slip is computed anew in double precision.
   References: Dostal and Kucera 2010, SIAM J. Optim. 20, 2913 (separable convex constraints); Alart and Curnier 1991,
   CMAME 92, 353 (semi-smooth Newton for friction); the classical alternative is Wang, Jin, Zhang and Keer 2010.
 */
@@ -26,18 +30,21 @@
 
 /* A cell slips when q - EASE s/c is beyond its circle. */
 #define EASE 0.25
-/* The length of the first trial, and how much longer than the best a trial is to be, as only steps shorter than it can be made. */
-#define FIRST_LENGTH 0.85
-#define LONGER 1.2
 /* A direction's least descent, as a part of that of the preconditioned residual. */
 #define DESCENT 0.1
-/* The trial's length follows the best one by at most this factor's root. */
-#define FOLLOW 2.0
+/* The first trial's length; then it is to be longer than the best one, as steps go at most to the trial, and changes by at
+   most FOLLOW's root. Chosen by counting; half or twice of any changes the counts by a few per cent. */
+#define FIRST_LENGTH 0.85
+#define LONGER       1.2
+#define FOLLOW       2.0
+/* Least and largest length of a step, in parts of that to the least energy, where these bound it. */
+#define LEAST_PART    0.5
+#define LARGEST_PART  1.8
 /* Rounding of a product in single precision, relative, and the part of the error that it may make up before the slip is
-   computed anew; at the end it is less than this part of the tolerance. */
+   computed anew. Rounding of energies, relative to the work of friction in them. */
 #define SINGLE_ROUNDING 3e-7
 #define DOUBT           0.05
-#define ROUNDING        1e-14
+#define ENERGY_ROUNDING 1e-14
 /* Iterations without progress before a gradient step, and before giving up. */
 #define PATIENCE   10
 #define STAGNATION 100
@@ -57,7 +64,7 @@ typedef struct {
   double       along, bend;    /* r.P step; P step.L P step */
   double       size;           /* |step|^2 */
   double       alpha;          /* length of the trial */
-  double       work;    /* of friction: sum of -s.q where cells slip, m Pa */
+  double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
   double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
   double       doubt;          /* norm of what rounding may be in s/c since the last product in double precision, Pa */
 } Work;
@@ -408,7 +415,7 @@ static PetscErrorCode Project(Work *w, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 3. */
+/* Step 3, and what it is to the energy. */
 static PetscErrorCode Try(Work *w, PetscBool *found)
 {
   SamStickSlip *u = &w->base;
@@ -441,7 +448,7 @@ static PetscErrorCode TryGradient(Work *w, PetscBool *found)
 /* The step changes the energy by less than what rounding makes of the work of friction in it. */
 static PetscBool IsRounding(const Work *w)
 {
-  return fabs(w->slope) * w->unit * w->unit / w->base.self <= ROUNDING * w->work ? PETSC_TRUE : PETSC_FALSE;
+  return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscBool IsDownhill(const Work *w)
@@ -465,8 +472,8 @@ SAM_VECTORIZED static void RowCurvature(const Work *w, Row row, double sums[2])
 }
 
 /*
-  Step 4: from `old` to the point of least energy on the way to the trial, which is admissible. `best` is the length of the
-  step for which the residual would be normal to it, were the circles followed.
+  Step 4, and step 1 of the next iteration. `best` is the length of the step for which the residual would be normal to it, were
+  the circles followed; `least` that of least energy on the straight way to the trial, which is admissible.
 */
 static PetscErrorCode Step(Work *w, double *best)
 {
@@ -485,7 +492,7 @@ static PetscErrorCode Step(Work *w, double *best)
   PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
   *best = w->along / (sums[0] + w->bend);
   least = -w->slope / sums[0];
-  t     = IsRounding(w) ? *best : PetscMin(PetscMax(*best, 0.5 * PetscMin(1, least)), 1.8 * least);
+  t     = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
   t     = PetscMin(1, t);
   w->doubt += SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self;
   PetscCall(Advance(w, t));
