@@ -68,16 +68,30 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
 /* Cells of a row looked at together: where all of them are within their discs, roots and divisions are spared. */
 #define SAM_CHUNK 64
 
-/* Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. */
+/*
+  Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. Which stretches
+  count is kept as one char each, those of a row together.
+*/
 #define SAM_STRETCH 128
 
-static inline PetscBool SamAnyOf(const char mask[], PetscInt n)
+static inline PetscInt SamStretches(SamGrid grid)
 {
-  char any = 0;
+  return (grid->nx + SAM_STRETCH - 1) / SAM_STRETCH;
+}
 
-#pragma omp simd reduction(| : any)
-  for (PetscInt i = 0; i < n; i++) any |= mask[i];
-  return any ? PETSC_TRUE : PETSC_FALSE;
+/* The next cells first ... last - 1 of a row of nx, from `last` on, whose stretches all count; `busy` NULL: the whole row. */
+static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *first, PetscInt *last)
+{
+  PetscInt i = *last;
+
+  if (busy)
+    while (i < nx && !busy[i / SAM_STRETCH]) i += SAM_STRETCH;
+  if (i >= nx) return PETSC_FALSE;
+  *first = i;
+  if (!busy) i = nx;
+  while (i < nx && busy[i / SAM_STRETCH]) i += SAM_STRETCH;
+  *last = PetscMin(i, nx);
+  return PETSC_TRUE;
 }
 
 /* Gram matrices sum phi phi' are kept as their six upper entries 00, 01, 02, 11, 12, 22. */
@@ -141,17 +155,19 @@ static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, doubl
 PETSC_INTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3], double a[3]);
 
 /*
-  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is not 0 (mask NULL: all), 0 elsewhere, with the a
-  for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when there is none
-  (p is then left as it was). Collective.
+  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 elsewhere, where it is 0,
+  with the a for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when there is
+  none (p is then left as it was). Collective.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const char mask[], double p[], PetscBool *found);
+PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[], PetscBool *found);
 
 /*
-  SamFrameProjectNormalStep - the same for p + by step: p becomes the nearest admissible pressure, and `made` is `scale` times
-  its change, in single precision like the step. Not found: p is as it was.
+  SamFrameProjectNormalStep - the same for p + by step, which nearly carries the loads: p becomes an admissible pressure, the
+  nearest where one step of Newton's method finds it, else one as near, and `made` is `scale` times its change, in single
+  precision like the step. `busy`: the stretches that have cells in the mask, or pressure. Not found: p is as it was, to the
+  rounding of `made`.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const char mask[], double p[], double by, const float step[], double scale, float made[], PetscBool *found);
+PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const float mask[], const char busy[], double p[], double by, const float step[], double scale, float made[], PetscBool *found);
 
 /*
   SamFrameProjectNormalOnContact - the same on the cells that have pressure, if those can carry the loads, else on all.

@@ -11,24 +11,26 @@
 */
 #include "balanceimpl.h"
 #include <math.h>
-#include <string.h>
 
 #define NEWTON_MAX 60
 #define HALVINGS_MAX 40
 #define PROJECT_MAX  4
+/* Relative errors of equilibrium: none but rounding, and nearly none. */
+#define ENOUGH 1e-11
+#define CLOSE  1e-3
 
 /* Value, gradient (without F) and Hessian of the dual, and sum |x| as the scale of the gradient. */
 typedef struct {
   double value, sums[3], gram[SAM_GRAM], scale;
 } Dual;
 
-#define DUAL ((PetscInt)(sizeof(Dual) / sizeof(double)))
+#define DUAL (sizeof(Dual) / sizeof(double))
 
 typedef void (*DualPass)(const SamFrame *f, const void *context, const double a[3], SamTotal dual[]);
 
 static PetscErrorCode Evaluate(const SamFrame *f, DualPass pass, const void *context, const double a[3], Dual *dual)
 {
-  SamTotal totals[sizeof(Dual) / sizeof(double)] = {{0, 0}};
+  SamTotal totals[DUAL] = {{0, 0}};
 
   PetscFunctionBegin;
   pass(f, context, a, totals);
@@ -58,10 +60,10 @@ static double Imbalance(const SamFrame *f, const Dual *dual, double error[3])
 }
 
 /* Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer improve it; `near`: it
-   nearly holds. */
-static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void *context, double a[3], PetscBool *found, PetscBool *near)
+   nearly holds. `once`: when it does so at the start, one step is made, and what comes of it is for the caller to see. */
+static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void *context, PetscBool once, double a[3], PetscBool *found, PetscBool *near)
 {
-  const double exact = 1e-14, enough = 1e-11, close = 1e-3;
+  const double exact = 1e-14;
   Dual         now, next;
   double       error[3], size;
 
@@ -69,6 +71,12 @@ static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void 
   for (PetscInt i = 0; i < 3; i++) a[i] = 0;
   PetscCall(Evaluate(f, pass, context, a, &now));
   size = Imbalance(f, &now, error);
+  *found = PETSC_FALSE;
+  *near  = PETSC_TRUE;
+  if (once && size > exact && size <= CLOSE) {
+    SamFrameSolve(f, now.gram, error, a);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   for (PetscInt it = 0; it < NEWTON_MAX && size > exact; it++) {
     double step[3], trial[3], slope = 0, t = 1, before = size;
 
@@ -91,7 +99,7 @@ static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void 
       }
       t *= 0.5;
     }
-    if (size >= before && before <= enough) { /* at rounding: keep the better one */
+    if (size >= before && before <= ENOUGH) { /* at rounding: keep the better one */
       size = before;
       break;
     }
@@ -99,29 +107,45 @@ static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void 
     now = next;
     if (t < 1e-9) break;
   }
-  *found = size <= enough ? PETSC_TRUE : PETSC_FALSE;
-  *near  = size <= close ? PETSC_TRUE : PETSC_FALSE;
+  *found = size <= ENOUGH ? PETSC_TRUE : PETSC_FALSE;
+  *near  = size <= CLOSE ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 typedef struct {
-  const char   *mask;  /* normal: cells that count; a row of ones for all */
-  PetscInt      masked; /* from row to row of mask: nx or 0 */
+  const float  *mask;    /* normal: 1 for cells that count, else 0; NULL: all, or those with pressure */
+  PetscBool     contact; /* which of the two */
+  float        *row;     /* then: a row of ones, or room for a row */
+  const char   *busy;    /* stretches with cells that count, or pressure; NULL: all */
   const double *field;
-  const float  *step;  /* normal: added to the field with the factor `by` */
+  const float  *step;    /* normal: added to the field with the factor `by` */
   double        by;
   const double *bound;
 } Cells;
 
-/* A stretch of pressures x = max(0, field + by step + phi a) of the cells that count. */
-SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field, const float *restrict step, double by, const char *restrict mask, double xi0, double dxi, double eta, const double a[3], Dual *row)
+static const float *MaskOfRow(const Cells *c, PetscInt nx, PetscInt j)
+{
+  const double *field = c->field + (ptrdiff_t)j * nx;
+
+  if (c->mask) return c->mask + (ptrdiff_t)j * nx;
+  for (PetscInt i = 0; c->contact && i < nx; i++) c->row[i] = field[i] > 0 ? 1.0f : 0.0f;
+  return c->row;
+}
+
+static const char *BusyOfRow(const Cells *c, SamGrid grid, PetscInt j)
+{
+  return c->busy ? c->busy + (ptrdiff_t)j * SamStretches(grid) : NULL;
+}
+
+/* Some pressures x = max(0, field + by step + phi a) of the cells that count. */
+SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field, const float *restrict step, double by, const float *restrict mask, double xi0, double dxi, double eta, const double a[3], Dual *row)
 {
   const double ax = a[0] - a[1] * eta, a2 = a[2];
   double       value = 0, x = 0, turn = 0, count = 0, sum_xi = 0, xi2 = 0;
 
 #pragma omp simd reduction(+ : value, x, turn, count, sum_xi, xi2)
   for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi), in = (mask[i] && v > 0) ? 1 : 0, p = in * v;
+    const double xi = xi0 + (double)i * dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi), in = v > 0 ? (double)mask[i] : 0, p = in * v;
 
     value += 0.5 * p * p;
     x += p;
@@ -140,103 +164,133 @@ SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field
 
 static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
 {
-  const Cells *c = (const Cells *)context;
+  const Cells   *c  = (const Cells *)context;
+  const PetscInt nx = f->grid->nx;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const ptrdiff_t k    = (ptrdiff_t)j * f->grid->nx;
-    const char     *mask = c->mask + (ptrdiff_t)j * c->masked;
-    const float    *step = c->step + (c->by != 0 ? k : 0);
-    Dual            row  = {0};
+    const double *field = c->field + (ptrdiff_t)j * nx;
+    const float  *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? (ptrdiff_t)j * nx : 0);
+    const char   *busy = BusyOfRow(c, f->grid, j);
+    Dual          row  = {0};
 
-    for (PetscInt i = 0; i < f->grid->nx; i += SAM_STRETCH) {
-      const PetscInt n = PetscMin(SAM_STRETCH, f->grid->nx - i);
-
-      if (SamAnyOf(mask + i, n)) AddPressures(n, c->field + k + i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
-    }
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) AddPressures(end - i, field + i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
     SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
 
-/* p = max(0, p + by step + phi a) on a row's cells that count, 0 elsewhere; the change times `scale` is added to made. */
-SAM_VECTORIZED static void ApplyNormalRow(PetscInt n, const float *restrict step, double by, const char *restrict mask, double xi0, double dxi, double eta, const double a[3], double scale, double *restrict p, float *restrict made)
+/* p = max(0, p + by step + phi a) on cells of a row that count, 0 on others; the change times `scale` is added to made. */
+SAM_VECTORIZED static void ApplyNormal(PetscInt n, const float *restrict step, double by, const float *restrict mask, double xi0, double dxi, double eta, const double a[3], double scale, double *restrict p, float *restrict made, Dual *row)
 {
   const double ax = a[0] - a[1] * eta, a2 = a[2];
+  double       sum = 0, turn = 0;
 
-#pragma omp simd
+#pragma omp simd reduction(+ : sum, turn)
   for (PetscInt i = 0; i < n; i++) {
-    const double v = p[i] + by * (double)step[i] + (ax + a2 * (xi0 + (double)i * dxi)), x = (mask[i] && v > 0) ? v : 0;
+    const double xi = xi0 + (double)i * dxi, v = p[i] + by * (double)step[i] + (ax + a2 * xi), x = v > 0 ? (double)mask[i] * v : 0;
 
     made[i] += (float)(scale * (x - p[i]));
     p[i] = x;
+    sum += x;
+    turn += xi * x;
+  }
+  row->scale += sum;
+  row->sums[0] += sum;
+  row->sums[1] -= eta * sum;
+  row->sums[2] += turn;
+}
+
+/* The projection that belongs to a, in place of the field, and the moments of what it is then. */
+static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], double scale, double p[], float made[], float ignored[], SamTotal dual[])
+{
+  const PetscInt nx = f->grid->nx;
+
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    const ptrdiff_t k    = (ptrdiff_t)j * nx;
+    const float    *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? k : 0);
+    const char     *busy = BusyOfRow(c, f->grid, j);
+    float          *to   = made ? made + k : ignored;
+    Dual            row  = {0};
+
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) ApplyNormal(end - i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, scale, p + k + i, to + i, &row);
+    SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
 
-/*
-  The projection of p + by step. One row of zeros stands for no step, and takes what nobody wants to know of the change.
-*/
-static PetscErrorCode ProjectNormal(const SamFrame *f, const char mask[], double p[], double by, const float step[], double scale, float made[], PetscBool *found)
+/* Whether what has been made is in equilibrium. */
+static PetscErrorCode IsBalanced(const SamFrame *f, const SamTotal totals[], PetscBool *balanced)
 {
-  const PetscInt nx = f->grid->nx;
+  Dual   dual;
+  double error[3];
+
+  PetscFunctionBegin;
+  PetscCall(SamSumTotals(f->grid->comm, DUAL, totals, (double *)&dual));
+  *balanced = Imbalance(f, &dual, error) <= ENOUGH ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  The projection of the field p + by step, for a step that nearly carries the loads in few passes: one for the step of Newton's
+  method, and one that makes it and sees whether that was all. One row of zeros stands for no step, and takes what nobody wants
+  to know of the change.
+*/
+static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], double scale, float made[], PetscBool *found)
+{
+  const PetscInt nx     = f->grid->nx;
   double        *before = NULL;
-  char          *ones;
   float         *zeros, *ignored;
   PetscBool      near = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(nx, &ones));
+  PetscCall(PetscMalloc1(nx, &cells.row));
   PetscCall(PetscCalloc2(nx, &zeros, nx, &ignored));
-  (void)memset(ones, 1, (size_t)nx);
+  for (PetscInt i = 0; i < nx; i++) cells.row[i] = 1;
+  cells.field = p;
+  if (cells.by == 0) cells.step = zeros;
   *found = PETSC_FALSE;
   /* pressures far above the load leave it to rounding; once projected they are of its size, and a second time is exact */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
-    const Cells cells = {.mask = mask ? mask : ones, .masked = mask ? nx : 0, .field = p, .step = by != 0 ? step : zeros, .by = by};
-    double      a[3]  = {0, 0, 0};
+    const PetscBool once         = (made && time == 0) ? PETSC_TRUE : PETSC_FALSE;
+    SamTotal        totals[DUAL] = {{0, 0}};
+    double          a[3]         = {0, 0, 0};
 
-    if (f->count) PetscCall(MinimizeDual(f, PassNormal, &cells, a, found, &near));
+    if (f->count) PetscCall(MinimizeDual(f, PassNormal, &cells, once, a, found, &near));
     else *found = PETSC_TRUE;
-    if (!*found && near && !before) {
+    if (!*found && near && !before && !made) {
       PetscCall(PetscMalloc1(f->grid->cells, &before));
       PetscCall(PetscArraycpy(before, p, f->grid->cells));
     }
-    for (PetscInt j = 0; near && j < f->grid->rows; j++) {
-      const ptrdiff_t k = (ptrdiff_t)j * nx;
-
-      ApplyNormalRow(nx, cells.step + (by != 0 ? k : 0), by, cells.mask + (ptrdiff_t)j * cells.masked, f->xi0, f->dxi, SamFrameEta(f, j), a, scale, p + k, made ? made + k : ignored);
-    }
-    by = 0;
+    if (near) ApplyRows(f, &cells, a, scale, p, made, ignored, totals);
+    if (once && near && !*found) PetscCall(IsBalanced(f, totals, found));
+    cells.by   = 0;
+    cells.step = zeros;
   }
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
+  for (PetscInt k = 0; !*found && made && k < f->grid->cells; k++) p[k] = PetscMax(0, p[k] - (double)made[k] / scale);
   PetscCall(PetscFree(before));
-  PetscCall(PetscFree(ones));
+  PetscCall(PetscFree(cells.row));
   PetscCall(PetscFree2(zeros, ignored));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const char mask[], double p[], PetscBool *found)
+PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const float mask[], double p[], PetscBool *found)
 {
   PetscFunctionBegin;
-  PetscCall(ProjectNormal(f, mask, p, 0, NULL, 0, NULL, found));
+  PetscCall(ProjectNormal(f, (Cells){.mask = mask}, p, 0, NULL, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const char mask[], double p[], double by, const float step[], double scale, float made[], PetscBool *found)
+PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const float mask[], const char busy[], double p[], double by, const float step[], double scale, float made[], PetscBool *found)
 {
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(made, f->grid->cells));
-  PetscCall(ProjectNormal(f, mask, p, by, step, scale, made, found));
+  PetscCall(ProjectNormal(f, (Cells){.mask = mask, .busy = busy, .step = step, .by = by}, p, scale, made, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], PetscBool *found)
 {
-  const PetscInt cells = f->grid->cells;
-  char          *mask;
-
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(cells, &mask));
-  for (PetscInt k = 0; k < cells; k++) mask[k] = p[k] > 0;
-  PetscCall(SamFrameProjectNormal(f, mask, p, found));
-  PetscCall(PetscFree(mask));
+  PetscCall(ProjectNormal(f, (Cells){.contact = PETSC_TRUE}, p, 0, NULL, found));
   if (!*found) PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -323,7 +377,7 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
 
   PetscFunctionBegin;
   *found = PETSC_TRUE;
-  if (f->count) PetscCall(MinimizeDual(f, PassTangential, &cells, a, found, &near));
+  if (f->count) PetscCall(MinimizeDual(f, PassTangential, &cells, PETSC_FALSE, a, found, &near));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * nx;

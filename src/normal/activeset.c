@@ -28,6 +28,7 @@
 #include "normalimpl.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* A cell parts when the gap is more than its own pressure and that of its neighbours displace it, in units of the former. */
 #define PATCH 5.0
@@ -59,7 +60,10 @@ typedef struct {
   float          *xi;            /* of the columns */
   double          unit;          /* m, of the iteration */
   const double   *h;
-  char           *active;        /* cells of A */
+  float          *active;        /* 1 on cells of A, else 0 */
+  PetscInt        stretches;     /* of a row */
+  char           *busy;          /* stretches with cells of A, or pressure */
+  double         *least;         /* of others: the least gap when p went its last step; none known: -infinity */
   double          gram[SAM_GRAM]; /* of A */
   double          motion[3];     /* rigid displacement in g, fixed part included */
   double          displacement;  /* largest |S p| */
@@ -87,6 +91,8 @@ static PetscErrorCode CreateWork(SamNormal normal, SamNormalLevel *level, Work *
   PetscCall(VecGetArrayRead(level->h, &w->h));
   PetscCall(VecGetArray(w->vg, &w->g));
   PetscCall(PetscCalloc1(w->cells, &w->active));
+  w->stretches = SamStretches(level->grid);
+  PetscCall(PetscCalloc2(w->rows * w->stretches, &w->busy, w->rows * w->stretches, &w->least));
   PetscCall(PetscCalloc4(w->cells, &w->z, w->cells, &w->s, w->cells, &w->u, w->cells, &w->loss));
   PetscCall(PetscMalloc1(w->nx, &w->xi));
   for (PetscInt i = 0; i < w->nx; i++) w->xi[i] = (float)(w->frame->xi0 + (double)i * w->frame->dxi);
@@ -101,6 +107,7 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArray(w->vg, &w->g));
   PetscCall(VecDestroy(&w->vg));
   PetscCall(PetscFree(w->active));
+  PetscCall(PetscFree2(w->busy, w->least));
   PetscCall(PetscFree4(w->z, w->s, w->u, w->loss));
   PetscCall(PetscFree(w->xi));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -140,6 +147,7 @@ static PetscErrorCode ComputeGap(Work *w)
 
     max = SamLarger(max, size);
   }
+  for (PetscInt k = 0; k < w->rows * w->stretches; k++) w->least[k] = -INFINITY;
   PetscCall(SamMax(w->level->grid->comm, 1, &max));
   w->displacement = max;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -150,24 +158,30 @@ typedef struct {
   double count, xi, xi2, g, xi_g;
 } RowSums;
 
-/* A in a row: the cells with p > ease times the gap, which `motion` moves back first; and their sums. */
-SAM_VECTORIZED static RowSums ChooseRow(PetscInt n, const double *restrict p, const double *restrict g, double ease, double xi0, double dxi, double eta, const double motion[3], char *restrict active)
+/* A in a stretch of a row: the cells with p > ease times the gap, which `motion` moves back first; adds to their sums. Whether any is, or has pressure. */
+SAM_VECTORIZED static PetscBool ChooseStretch(PetscInt n, const double *restrict p, const double *restrict g, double ease, double xi0, double dxi, double eta, const double motion[3], float *restrict active, RowSums *sums)
 {
   const double a = motion[0] - motion[1] * eta, b = motion[2];
-  double       count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0;
+  double       count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0, pressure = 0;
 
-#pragma omp simd reduction(+ : count, xi, xi2, sum, turn)
+#pragma omp simd reduction(+ : count, xi, xi2, sum, turn, pressure)
   for (PetscInt i = 0; i < n; i++) {
     const double x = xi0 + (double)i * dxi, v = g[i] - (a + b * x), in = p[i] > ease * v ? 1 : 0;
 
-    active[i] = (char)in;
+    active[i] = (float)in;
     count += in;
     xi += in * x;
     xi2 += in * x * x;
     sum += in * v;
     turn += in * x * v;
+    pressure += p[i];
   }
-  return (RowSums){count, xi, xi2, sum, turn};
+  sums->count += count;
+  sums->xi += xi;
+  sums->xi2 += xi2;
+  sums->g += sum;
+  sums->xi_g += turn;
+  return count > 0 || pressure > 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static void AddRow(RowSums row, double eta, SamTotal totals[])
@@ -191,19 +205,43 @@ static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether a stretch without pressure has no gap that `motion` could close; rounding is the same as that of the gaps. */
+static PetscBool IsClear(const Work *w, PetscInt stretch, PetscInt i, PetscInt n, double eta, const double motion[3])
+{
+  const SamFrame *f = w->frame;
+  const double    a = motion[0] - motion[1] * eta, b = motion[2];
+  const double    most = PetscMax(a + b * (f->xi0 + (double)i * f->dxi), a + b * (f->xi0 + (double)(i + n - 1) * f->dxi));
+
+  return !w->busy[stretch] && w->least[stretch] > most ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* A in a row, and which of its stretches are busy: by the gap that `motion` has moved back. */
+static RowSums ChooseRow(Work *w, PetscInt j, double ease, const double motion[3])
+{
+  const SamFrame *f   = w->frame;
+  const double    eta = SamFrameEta(f, j);
+  RowSums         row = {0};
+
+  for (PetscInt i = 0, stretch = j * w->stretches; i < w->nx; i += SAM_STRETCH, stretch++) {
+    const PetscInt  n = PetscMin(SAM_STRETCH, w->nx - i);
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx + i;
+
+    if (IsClear(w, stretch, i, n, eta, motion)) continue; /* what was not busy has no cell of A */
+    w->busy[stretch] = ChooseStretch(n, w->p + k, w->g + k, ease, f->xi0 + (double)i * f->dxi, f->dxi, eta, motion, w->active + k, &row) ? 1 : 0;
+  }
+  return row;
+}
+
 /* Chooses A by the gap that `motion` has moved back, and adds to it what fits it to A. */
 static PetscErrorCode Choose(Work *w, double ease, double motion[3])
 {
-  const SamFrame *f = w->frame;
-  SamTotal        totals[SAM_GRAM + 3] = {{0, 0}};
+  SamTotal totals[SAM_GRAM + 3] = {{0, 0}};
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
-    const double    eta = SamFrameEta(f, j);
-    const RowSums   row = ChooseRow(w->nx, w->p + k, w->g + k, ease, f->xi0, f->dxi, eta, motion, w->active + k);
+    const RowSums row = ChooseRow(w, j, ease, motion);
 
-    AddRow(row, eta, totals);
+    AddRow(row, SamFrameEta(w->frame, j), totals);
   }
   PetscCall(Fit(w, totals, motion));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -261,37 +299,63 @@ static PetscErrorCode Refresh(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* How many cells have a loss and are not in A, or the other way round. */
+SAM_VECTORIZED static double CountChanged(PetscInt n, const float *restrict loss, const float *restrict active)
+{
+  float changed = 0; /* exact: a row has fewer cells than a float counts */
+
+#pragma omp simd reduction(+ : changed)
+  for (PetscInt i = 0; i < n; i++) changed += fabsf((loss[i] > 0 ? 1.0f : 0.0f) - active[i]);
+  return (double)changed;
+}
+
+SAM_VECTORIZED static void LossRow(PetscInt n, const float *restrict active, float *restrict loss)
+{
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) {
+    const float some = (float)LOSS_OFF * loss[i];
+
+    loss[i] = active[i] * (some > FLT_MIN ? some : FLT_MIN);
+  }
+}
+
 /* The part of |k| 1_A that is taken off the preconditioner, when A is no longer the one it was computed for. */
 static PetscErrorCode UpdateLoss(Work *w)
 {
-  PetscInt changed = 0;
-  double   total;
+  double changed = 0;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) changed += (w->loss[k] > 0) != w->active[k];
-  total = (double)changed;
-  PetscCall(SamSum(w->level->grid->comm, 1, &total));
-  if (total <= LOSS_OLD * w->gram[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < w->cells; k++) w->loss[k] = w->active[k] ? 1.0f : 0.0f;
-  PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->loss, w->loss));
-  for (PetscInt k = 0; k < w->cells; k++) w->loss[k] = w->active[k] ? fmaxf((float)LOSS_OFF * w->loss[k], FLT_MIN) : 0.0f;
+  for (PetscInt j = 0; j < w->rows; j++) changed += CountChanged(w->nx, w->loss + (ptrdiff_t)j * w->nx, w->active + (ptrdiff_t)j * w->nx);
+  PetscCall(SamSum(w->level->grid->comm, 1, &changed));
+  if (changed <= LOSS_OLD * w->gram[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->active, w->loss));
+  for (PetscInt j = 0; j < w->rows; j++) LossRow(w->nx, w->active + (ptrdiff_t)j * w->nx, w->loss + (ptrdiff_t)j * w->nx);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The residual, in units. */
-SAM_VECTORIZED static void ResidualRow(PetscInt n, const double *restrict g, const char *restrict active, double inverse, float *restrict z)
+/* The busy cells of a row: see SamNextBusy(). */
+static const char *BusyOfRow(const Work *w, PetscInt j)
 {
-#pragma omp simd
-  for (PetscInt i = 0; i < n; i++) z[i] = active[i] ? (float)(-inverse * g[i]) : 0.0f;
+  return w->busy + (ptrdiff_t)j * w->stretches;
 }
 
-static void ComputeResidual(Work *w)
+/* The residual, in units. */
+SAM_VECTORIZED static void ResidualRow(PetscInt n, const double *restrict g, const float *restrict active, double inverse, float *restrict z)
 {
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) z[i] = active[i] * (float)(-inverse * g[i]);
+}
+
+static PetscErrorCode ComputeResidual(Work *w)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(w->z, w->cells));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    ResidualRow(w->nx, w->g + k, w->active + k, 1 / w->unit, w->z + k);
+    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);) ResidualRow(end - i, w->g + k + i, w->active + k + i, 1 / w->unit, w->z + k + i);
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What a stretch of a row adds to a direction's sums over A: moments of z and of u (without the factor of eta); z.r, z.u, s.r. */
@@ -300,14 +364,14 @@ typedef struct {
 } Products;
 
 /* z = |k| r less the loss of r, and its products, added to `sums`. */
-SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict s, const float *restrict u, const float *restrict loss, const char *restrict active, const float *restrict xi, double inverse, float *restrict z, Products *sums)
+SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict s, const float *restrict u, const float *restrict loss, const float *restrict active, const float *restrict xi, double inverse, float *restrict z, Products *sums)
 {
   float  z_sum = 0, z_turn = 0, u_sum = 0, u_turn = 0, zu = 0;
   double zr = 0, sr = 0;
 
 #pragma omp simd reduction(+ : z_sum, z_turn, u_sum, u_turn, zu, zr, sr)
   for (PetscInt i = 0; i < n; i++) {
-    const float r = active[i] ? (float)(-inverse * g[i]) : 0.0f, v = active[i] ? z[i] - loss[i] * r : 0.0f, w = active[i] ? u[i] : 0.0f;
+    const float r = active[i] * (float)(-inverse * g[i]), v = active[i] * (z[i] - loss[i] * r), w = active[i] * u[i];
 
     z[i] = v;
     z_sum += v;
@@ -327,12 +391,13 @@ SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict 
   sums->sr += sr;
 }
 
-SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict s, const char *restrict active, const float *restrict xi, double eta, const double motion[3], float beta, float *restrict z)
+/* Where a cell is not in A, z is of no use, and stays what it is. */
+SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict s, const float *restrict xi, double eta, const double motion[3], float beta, float *restrict z)
 {
   const float a = (float)(motion[0] - motion[1] * eta), b = (float)motion[2];
 
 #pragma omp simd
-  for (PetscInt i = 0; i < n; i++) z[i] = active[i] ? z[i] - a - b * xi[i] + beta * s[i] : 0.0f;
+  for (PetscInt i = 0; i < n; i++) z[i] = z[i] - a - b * xi[i] + beta * s[i];
 }
 
 /* z = P M r + beta s on A, conjugate to the last step. */
@@ -344,7 +409,7 @@ static PetscErrorCode NewDirection(Work *w)
 
   PetscFunctionBegin;
   PetscCall(UpdateLoss(w));
-  ComputeResidual(w);
+  PetscCall(ComputeResidual(w));
   PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->z, w->z));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
@@ -355,7 +420,7 @@ static PetscErrorCode NewDirection(Work *w)
       const PetscInt  n = PetscMin(SAM_STRETCH, w->nx - i);
       const ptrdiff_t m = k + i;
 
-      if (SamAnyOf(w->active + m, n)) PreconditionedRow(n, w->g + m, w->s + m, w->u + m, w->loss + m, w->active + m, w->xi + i, 1 / w->unit, w->z + m, &row);
+      if (BusyOfRow(w, j)[i / SAM_STRETCH]) PreconditionedRow(n, w->g + m, w->s + m, w->u + m, w->loss + m, w->active + m, w->xi + i, 1 / w->unit, w->z + m, &row);
     }
     SamAddAll(9, totals, (const double[9]){row.z, -eta * row.z, row.z_turn, row.u, -eta * row.u, row.u_turn, row.zr, row.zu, row.sr});
   }
@@ -366,12 +431,12 @@ static PetscErrorCode NewDirection(Work *w)
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    DirectionRow(w->nx, w->s + k, w->active + k, w->xi, SamFrameEta(f, j), a, (float)beta, w->z + k);
+    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);) DirectionRow(end - i, w->s + k + i, w->xi + i, SamFrameEta(f, j), a, (float)beta, w->z + k + i);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slope of the step to the trial p; raises `shrink`. */
+/* The slope of the step to the trial p, in some cells of a row; raises `shrink`. */
 SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, const double *restrict g, const float *restrict s, double pressure, double *shrink)
 {
   double slope = 0, most = 0;
@@ -394,13 +459,15 @@ static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
   SamTotal     total    = {0, 0};
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectNormalStep(w->frame, w->active, w->p, alpha * pressure, w->z, 1 / pressure, w->s, found));
+  PetscCall(SamFrameProjectNormalStep(w->frame, w->active, w->busy, w->p, alpha * pressure, w->z, 1 / pressure, w->s, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   w->shrink = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx;
+    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
+    double          row = 0;
 
-    SamAdd(&total, TrialRow(w->nx, w->p + k, w->g + k, w->s + k, pressure, &w->shrink));
+    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);) row += TrialRow(end - i, w->p + k + i, w->g + k + i, w->s + k + i, pressure, &w->shrink);
+    SamAdd(&total, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->slope));
   PetscCall(SamMax(w->level->grid->comm, 1, &w->shrink));
@@ -414,17 +481,19 @@ static PetscErrorCode TryGradient(Work *w, PetscBool *found)
   double most = 0;
 
   PetscFunctionBegin;
+  (void)memset(w->busy, 1, (size_t)(w->rows * w->stretches)); /* cells may enter anywhere */
   for (PetscInt k = 0; k < w->cells; k++) {
-    w->active[k] = w->p[k] > 0 || w->g[k] < 0;
+    w->active[k] = w->p[k] > 0 || w->g[k] < 0 ? 1.0f : 0.0f;
     most         = PetscMax(most, w->p[k]);
   }
   PetscCall(SamMax(w->level->grid->comm, 1, &most));
-  ComputeResidual(w);
+  PetscCall(ComputeResidual(w));
   PetscCall(Try(w, most / w->displacement * w->self, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SAM_VECTORIZED static double CurvatureRow(PetscInt n, const float *restrict s, const float *restrict u)
+/* In single precision: no more cells at a time than a stretch has. */
+SAM_VECTORIZED static double CurvatureStretch(PetscInt n, const float *restrict s, const float *restrict u)
 {
   float sum = 0;
 
@@ -433,8 +502,8 @@ SAM_VECTORIZED static double CurvatureRow(PetscInt n, const float *restrict s, c
   return (double)sum;
 }
 
-/* From the trial, where p has gone by s, by so much more: what is left to rounding of a pressure is none. Sums over cells with pressure. */
-SAM_VECTORIZED static RowSums StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s, double rounding, double by_u, double xi0, double dxi, double *restrict p, double *restrict g)
+/* From the trial, where p has gone by s, by so much more: what is left to rounding of a pressure is none. Adds to the sums over cells with pressure. */
+SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s, double rounding, double by_u, double xi0, double dxi, double *restrict p, double *restrict g, RowSums *sums)
 {
   double count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0;
 
@@ -451,7 +520,27 @@ SAM_VECTORIZED static RowSums StepRow(PetscInt n, const float *restrict s, const
     sum += in * gap;
     turn += in * x * gap;
   }
-  return (RowSums){count, xi, xi2, sum, turn};
+  sums->count += count;
+  sums->xi += xi;
+  sums->xi2 += xi2;
+  sums->g += sum;
+  sums->xi_g += turn;
+}
+
+/* The same where there is neither pressure nor a step: the least gap. */
+SAM_VECTORIZED static double OpenStretch(PetscInt n, const float *restrict u, double by_u, double *restrict g)
+{
+  double least = INFINITY, sum = 0;
+
+#pragma omp simd reduction(+ : sum) reduction(min : least)
+  for (PetscInt i = 0; i < n; i++) {
+    const double gap = g[i] + by_u * (double)u[i];
+
+    g[i] = gap;
+    sum += gap;
+    least = gap < least ? gap : least;
+  }
+  return isfinite(sum) ? least : -INFINITY;
 }
 
 /* From the trial to where the step has the length t instead of 1; the sums over the cells with pressure there. */
@@ -461,22 +550,42 @@ static void SetLength(Work *w, double t, SamTotal contact[])
   const double    pressure = w->unit / w->self;
 
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
-    const RowSums   row = StepRow(w->nx, w->s + k, w->u + k, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, f->xi0, f->dxi, w->p + k, w->g + k);
+    const ptrdiff_t k    = (ptrdiff_t)j * w->nx;
+    const char     *busy = BusyOfRow(w, j);
+    RowSums         row  = {0};
 
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, w->nx, &i, &end);) StepRow(end - i, w->s + k + i, w->u + k + i, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, f->xi0 + (double)i * f->dxi, f->dxi, w->p + k + i, w->g + k + i, &row);
+    for (PetscInt i = 0, m = 0; i < w->nx; i += SAM_STRETCH, m++) {
+      if (!busy[m]) w->least[(ptrdiff_t)j * w->stretches + m] = OpenStretch(PetscMin(SAM_STRETCH, w->nx - i), w->u + k + i, t * w->unit, w->g + k + i);
+    }
     AddRow(row, SamFrameEta(f, j), contact);
   }
+}
+
+/* s.u */
+static PetscErrorCode ComputeCurvature(Work *w)
+{
+  SamTotal total = {0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
+    double          row = 0;
+
+    for (PetscInt i = 0; i < w->nx; i += SAM_STRETCH)
+      if (BusyOfRow(w, j)[i / SAM_STRETCH]) row += CurvatureStretch(PetscMin(SAM_STRETCH, w->nx - i), w->s + k + i, w->u + k + i);
+    SamAdd(&total, row);
+  }
+  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->curvature));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The least energy between where the step begins and where a pressure vanishes. `best`: its length without that bound. */
 static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {
-  SamTotal total = {0, 0};
-
   PetscFunctionBegin;
   PetscCall(SamNormalApplySingle(w->normal, w->level, 1 / w->self, w->s, w->u));
-  for (PetscInt j = 0; j < w->rows; j++) SamAdd(&total, CurvatureRow(w->nx, w->s + (ptrdiff_t)j * w->nx, w->u + (ptrdiff_t)j * w->nx));
-  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->curvature));
+  PetscCall(ComputeCurvature(w));
   *best = w->curvature > 0 ? PetscMax(-w->slope / w->curvature, 0) : 0;
   SetLength(w, *best * w->shrink > 1 ? 1 / w->shrink : *best, contact);
   PetscFunctionReturn(PETSC_SUCCESS);

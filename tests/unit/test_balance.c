@@ -183,17 +183,17 @@ static void test_normal_projection_keeps_to_its_mask(void **state)
     const PetscReal N = 5, loads[3] = {N, -N * (grid->center[1] + 0.02e-3), N * (grid->center[0] + 0.05e-3)};
     SamBalance      b    = Balance(SAM_BALANCE_NORMAL, 7, loads);
     Vec             p    = NewRandom(grid, 1, 1);
-    char           *mask = (char *)calloc((size_t)grid->cells + 1, 1);
+    float          *mask = (float *)calloc((size_t)grid->cells + 1, sizeof(*mask));
     double         *a, size, outside = 0;
     SamFrame        f;
     PetscBool       found;
 
-    for (PetscInt c = 0; c < grid->cells; c++) mask[c] = (c + grid->row_start * grid->nx) % 3 != 1;
+    for (PetscInt c = 0; c < grid->cells; c++) mask[c] = (c + grid->row_start * grid->nx) % 3 != 1 ? 1 : 0;
     sam_call(SamFrameSet(&f, grid, &b));
     sam_call(VecGetArray(p, &a));
     sam_call(SamFrameProjectNormal(&f, mask, a, &found));
     for (PetscInt c = 0; c < grid->cells; c++)
-      if (!mask[c]) outside += fabs(a[c]);
+      if (mask[c] == 0) outside += fabs(a[c]);
     sam_call(VecRestoreArray(p, &a));
     sam_assert(found);
     sam_assert(outside == 0);
