@@ -72,7 +72,7 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
   Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. Which stretches
   count is kept as one char each, those of a row together.
 */
-#define SAM_STRETCH 128
+#define SAM_STRETCH 64
 
 static inline PetscInt SamStretches(SamGrid grid)
 {

@@ -1,6 +1,8 @@
 /* Start and end of the library, log events and small reductions. */
 #include "baseimpl.h"
 #include <fftw3-mpi.h>
+#include <stdlib.h>
+#include <sys/mman.h>
 #if defined(__GLIBC__)
   #include <malloc.h>
 #endif
@@ -83,5 +85,21 @@ PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[])
 {
   PetscFunctionBegin;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)n, MPI_DOUBLE, MPI_MAX, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAllocate(size_t bytes, void *pointer)
+{
+  const size_t huge      = (size_t)2 << 20;
+  const size_t alignment = bytes >= huge ? huge : 64;
+  void        *p         = NULL;
+
+  PetscFunctionBegin;
+  PetscCheck(!posix_memalign(&p, alignment, PetscMax(bytes, 64)), PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for %zu bytes", bytes);
+#if defined(MADV_HUGEPAGE)
+  /* with small pages much of the time would go into getting them, and into looking up addresses where columns touch every row */
+  if (bytes >= huge) (void)madvise(p, bytes, MADV_HUGEPAGE);
+#endif
+  *(void **)pointer = p;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

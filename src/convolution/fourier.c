@@ -18,8 +18,6 @@
   The steps stand in transform.h, which is compiled for double and for single precision. Here is what both share.
 */
 #include "fourierimpl.h"
-#include <stdlib.h>
-#include <sys/mman.h>
 
 static const char *const efforts[] = {"auto", "estimate", "measure", "patient", NULL};
 
@@ -27,22 +25,6 @@ static const char *const efforts[] = {"auto", "estimate", "measure", "patient", 
 #define MEASURE_FROM 4096
 /* Below this, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300
-
-PetscErrorCode SamFourierAllocate(size_t bytes, void *pointer)
-{
-  const size_t huge      = (size_t)2 << 20;
-  const size_t alignment = bytes >= huge ? huge : 64;
-  void        *p         = NULL;
-
-  PetscFunctionBegin;
-  PetscCheck(!posix_memalign(&p, alignment, PetscMax(bytes, 64)), PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for %zu bytes", bytes);
-#if defined(MADV_HUGEPAGE)
-  /* columns touch every row: with small pages most of the time would go into looking up addresses */
-  if (bytes >= huge) (void)madvise(p, bytes, MADV_HUGEPAGE);
-#endif
-  *(void **)pointer = p;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 static PetscBool IsSmooth(ptrdiff_t n)
 {

@@ -74,9 +74,6 @@ struct _n_SamFourier {
   size_t             bytes;      /* of a slab of them on any rank, in doubles */
 };
 
-/* Memory for FFTW's arrays; PETSC_ERR_MEM with the size when there is none. */
-PETSC_INTERN PetscErrorCode SamFourierAllocate(size_t bytes, void *pointer);
-
 /* With transposes field k has its rows in slab k + 1 and its columns in slab k, else both in slab k. */
 static inline void *SamFourierRows(SamFourier F, PetscInt field)
 {

@@ -32,8 +32,8 @@ static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
 {
   PetscFunctionBegin;
   *m = (Mirrored){.n = n, .odd = odd};
-  PetscCall(SamFourierAllocate(sizeof(*m->line) * (size_t)(2 * n), &m->line));
-  PetscCall(SamFourierAllocate(sizeof(*m->transform) * (size_t)(n + 1), &m->transform));
+  PetscCall(SamAllocate(sizeof(*m->line) * (size_t)(2 * n), &m->line));
+  PetscCall(SamAllocate(sizeof(*m->transform) * (size_t)(n + 1), &m->transform));
   m->plan = fftw_plan_dft_r2c_1d((int)(2 * n), m->line, (fftw_complex *)m->transform, FFTW_ESTIMATE);
   PetscCall(SamFourierCheckPlan(m->plan));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -101,7 +101,7 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const Sam
 
   PetscFunctionBegin;
   PetscCall(MirroredCreate(F->hy, kernel->odd_y, &m));
-  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)(BLOCK * F->stride), &buffer));
+  PetscCall(SamAllocate(sizeof(double) * (size_t)(BLOCK * F->stride), &buffer));
   for (ptrdiff_t k = 0; k < kernel->columns; k++) {
     double       *to = kernel->values + k * n;
     const double *from;
@@ -150,7 +150,7 @@ PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, S
   PetscCall(TransformRows(F, odd_x, row, context, start, count, rows));
   if (SamWorkspaceTransposes(F->work)) PetscCall(ExchangeRows(F, rows, (double *)pieces.single));
   PetscCall(SamWorkspaceSynchronize(F->work));
-  PetscCall(SamFourierAllocate(sizeof(double) * (size_t)(columns * (F->hy + 1)), &k->values));
+  PetscCall(SamAllocate(sizeof(double) * (size_t)(columns * (F->hy + 1)), &k->values));
   PetscCall(TransformColumns(F, k, &pieces));
   PetscCall(SamWorkspaceSynchronize(F->work));
   *kernel = k;
@@ -315,7 +315,7 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const do
 
   PetscFunctionBegin;
   if (!filter.scalar && !filter.pair)
-    for (PetscInt o = 0; o < matrix->n_out; o++) PetscCall(SamFourierAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
+    for (PetscInt o = 0; o < matrix->n_out; o++) PetscCall(SamAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
   PetscCall(SamFourierApply(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
   for (PetscInt o = 0; o < matrix->n_out; o++) free(filter.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -20,14 +20,14 @@ typedef Real Complex[2];
 static PetscErrorCode Allocate(size_t reals, Real **pointer)
 {
   PetscFunctionBegin;
-  PetscCall(SamFourierAllocate(sizeof(Real) * reals, pointer));
+  PetscCall(SamAllocate(sizeof(Real) * reals, pointer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
 {
   PetscFunctionBegin;
-  PetscCall(SamFourierAllocate(sizeof(Complex) * count, pointer));
+  PetscCall(SamAllocate(sizeof(Complex) * count, pointer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -177,7 +177,7 @@ PetscErrorCode SamWorkspaceReserve(SamWorkspace w, size_t bytes, PetscInt fields
       PetscCall(AllocateShared(w, bytes, slab, &done));
       w->shared = done; /* what is shared by now stays so, and is used as if it were not */
     }
-    if (!done) PetscCall(SamFourierAllocate(bytes, &slab->own));
+    if (!done) PetscCall(SamAllocate(bytes, &slab->own));
     slab->bytes = bytes;
     w->version++;
   }

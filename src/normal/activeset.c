@@ -28,6 +28,7 @@
 #include "normalimpl.h"
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A cell parts when the gap is more than its own pressure and that of its neighbours displace it, in units of the former. */
@@ -74,8 +75,12 @@ typedef struct {
   double          alpha;         /* length of the trial */
 } Work;
 
+#define FLOATS 5
+
 static PetscErrorCode CreateWork(SamNormal normal, SamNormalLevel *level, Work *w)
 {
+  float **const floats[FLOATS] = {&w->z, &w->s, &w->u, &w->loss, &w->active};
+
   PetscFunctionBegin;
   PetscCall(PetscMemzero(w, sizeof(*w)));
   w->normal = normal;
@@ -86,14 +91,16 @@ static PetscErrorCode CreateWork(SamNormal normal, SamNormalLevel *level, Work *
   w->cells  = level->grid->cells;
   w->alpha  = 1;
   PetscCall(SamComplianceGetSelfInfluence(level->compliance, &w->self, NULL));
-  PetscCall(VecDuplicate(level->p, &w->vg));
+  PetscCall(SamGridCreateVec(level->grid, 1, &w->vg));
   PetscCall(VecGetArray(level->p, &w->p));
   PetscCall(VecGetArrayRead(level->h, &w->h));
   PetscCall(VecGetArray(w->vg, &w->g));
-  PetscCall(PetscCalloc1(w->cells, &w->active));
   w->stretches = SamStretches(level->grid);
   PetscCall(PetscCalloc2(w->rows * w->stretches, &w->busy, w->rows * w->stretches, &w->least));
-  PetscCall(PetscCalloc4(w->cells, &w->z, w->cells, &w->s, w->cells, &w->u, w->cells, &w->loss));
+  for (PetscInt k = 0; k < FLOATS; k++) PetscCall(SamAllocate(sizeof(***floats) * (size_t)w->cells, floats[k]));
+  PetscCall(PetscArrayzero(w->s, w->cells));
+  PetscCall(PetscArrayzero(w->u, w->cells));
+  PetscCall(PetscArrayzero(w->loss, w->cells));
   PetscCall(PetscMalloc1(w->nx, &w->xi));
   for (PetscInt i = 0; i < w->nx; i++) w->xi[i] = (float)(w->frame->xi0 + (double)i * w->frame->dxi);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -106,9 +113,12 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArrayRead(w->level->h, &w->h));
   PetscCall(VecRestoreArray(w->vg, &w->g));
   PetscCall(VecDestroy(&w->vg));
-  PetscCall(PetscFree(w->active));
   PetscCall(PetscFree2(w->busy, w->least));
-  PetscCall(PetscFree4(w->z, w->s, w->u, w->loss));
+  free(w->z);
+  free(w->s);
+  free(w->u);
+  free(w->loss);
+  free(w->active);
   PetscCall(PetscFree(w->xi));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
