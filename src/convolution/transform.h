@@ -45,7 +45,8 @@ static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Everything of one dimension. */
+/* Everything of one dimension but the plans of rows, which are made when a mode is first used: planning is what small grids
+   take most of their time for. */
 static PetscErrorCode PlanLines(SamFourier F)
 {
   TRANSFORM *t = &F->PART;
@@ -53,8 +54,6 @@ static PetscErrorCode PlanLines(SamFourier F)
   PetscFunctionBegin;
   PetscCall(Allocate((size_t)(2 * F->hx + 2), &t->row));
   PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->line));
-  PetscCall(PlanRows(F, SAM_FOURIER_PERIODIC));
-  PetscCall(PlanRows(F, SAM_FOURIER_PADDED));
   PetscCall(AllocateComplex((size_t)F->grid->ny, &t->twiddle));
   for (PetscInt j = 0; j < F->grid->ny; j++) {
     t->twiddle[j][0] = (Real)cos(PETSC_PI * (double)j / (double)F->hy);
@@ -87,8 +86,8 @@ void DESTROY(SamFourier F)
   if (!t->row) return;
   DestroyTransposes(t);
   for (PetscInt m = 0; m < 2; m++) {
-    FFT(destroy_plan)(t->r2c[m]);
-    FFT(destroy_plan)(t->c2r[m]);
+    if (t->r2c[m]) FFT(destroy_plan)(t->r2c[m]);
+    if (t->c2r[m]) FFT(destroy_plan)(t->c2r[m]);
   }
   FFT(destroy_plan)(t->up);
   FFT(destroy_plan)(t->down);
@@ -123,13 +122,14 @@ static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes room for that many fields. */
-static PetscErrorCode Reserve(SamFourier F, PetscInt fields)
+/* Makes room for that many fields, and what the mode needs. */
+static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields)
 {
   TRANSFORM *t = &F->PART;
 
   PetscFunctionBegin;
   if (!t->row) PetscCall(PlanLines(F));
+  if (!t->r2c[mode]) PetscCall(PlanRows(F, mode));
   if (fields > t->fields) {
     free(t->buffer);
     PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
@@ -288,7 +288,7 @@ PetscErrorCode APPLY(SamFourier F, SamFourierMode mode, PetscInt n_in, const Rea
   PetscBool  transposes;
 
   PetscFunctionBegin;
-  PetscCall(Reserve(F, PetscMax(n_in, n_out)));
+  PetscCall(Reserve(F, mode, PetscMax(n_in, n_out)));
   transposes = SamWorkspaceTransposes(F->work);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_ROWS], 0, 0, 0, 0));
   for (PetscInt i = 0; i < n_in; i++) RowsForward(F, mode, in[i], (Complex *)SamFourierRows(F, i));

@@ -20,7 +20,8 @@
   the field outside is free, not zero. The loss grows at edges like 1/distance, which |k| alone has too much.
 
   Steps and their products are in single precision, at half the cost; p and g are not. What rounding g collects is a part of
-  about 1e-7 of the largest error since the last product in double precision; before it matters there is another one.
+  about 1e-7 of the largest error since the last product in double precision; before it matters there is another one. Coarse
+  grids, solved roughly, need none.
   References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
   Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum);
   Bogdan, Burdzy and Chen 2003, Probab. Theory Relat. Fields 127, 89-152 (|k| on a part of the plane, with and without loss).
@@ -69,7 +70,7 @@ typedef struct {
   double          motion[3];     /* rigid displacement in g, fixed part included */
   double          displacement;  /* largest |S p| */
   double          self;          /* influence of a cell on itself, m/Pa */
-  double          error, worst;  /* largest complementarity error, m: now, and since g was computed in double precision */
+  double          error, worst;  /* largest complementarity error, m: now, and since g was a product (in single precision: its displacement) */
   double          slope, shrink; /* of the step: s.g; largest part of its pressure that a cell loses */
   double          curvature;     /* s.u; 0: no step yet */
   double          alpha;         /* length of the trial */
@@ -139,6 +140,40 @@ SAM_VECTORIZED static double GapRow(PetscInt n, double *restrict g, const double
   return max;
 }
 
+/* Single precision for S p is all that the tolerance asks for. */
+static PetscBool IsSingleEnough(const Work *w)
+{
+  return SINGLE_ROUNDING <= DOUBT * w->level->rtol ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* g = S p in single precision. */
+static PetscErrorCode ApplySingle(Work *w)
+{
+  double most = 0, scale;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->cells; k++) most = w->p[k] > most ? w->p[k] : most;
+  PetscCall(SamMax(w->level->grid->comm, 1, &most));
+  if (most == 0) most = 1;
+  for (PetscInt k = 0; k < w->cells; k++) w->z[k] = (float)(w->p[k] / most);
+  PetscCall(SamNormalApplySingle(w->normal, w->level, 1 / w->self, w->z, w->z));
+  scale = w->self * most;
+  for (PetscInt k = 0; k < w->cells; k++) w->g[k] = scale * (double)w->z[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* g = S p */
+static PetscErrorCode Apply(Work *w)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArray(w->level->p, &w->p));
+  PetscCall(VecRestoreArray(w->vg, &w->g));
+  PetscCall(SamNormalApply(w->normal, w->level, w->level->p, w->vg));
+  PetscCall(VecGetArray(w->level->p, &w->p));
+  PetscCall(VecGetArray(w->vg, &w->g));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* g = S p + h - motion, and the largest displacement. */
 static PetscErrorCode ComputeGap(Work *w)
 {
@@ -146,11 +181,8 @@ static PetscErrorCode ComputeGap(Work *w)
   double          max = 0;
 
   PetscFunctionBegin;
-  PetscCall(VecRestoreArray(w->level->p, &w->p));
-  PetscCall(VecRestoreArray(w->vg, &w->g));
-  PetscCall(SamNormalApply(w->normal, w->level, w->level->p, w->vg));
-  PetscCall(VecGetArray(w->level->p, &w->p));
-  PetscCall(VecGetArray(w->vg, &w->g));
+  if (IsSingleEnough(w)) PetscCall(ApplySingle(w));
+  else PetscCall(Apply(w));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k    = (ptrdiff_t)j * w->nx;
     const double    size = GapRow(w->nx, w->g + k, w->h + k, f->xi0, f->dxi, SamFrameEta(f, j), w->motion);
@@ -299,12 +331,12 @@ static PetscErrorCode ChooseSet(Work *w, SamTotal contact[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g in double precision, and the set by it. */
+/* g by a product, and the set by it. */
 static PetscErrorCode Refresh(Work *w)
 {
   PetscFunctionBegin;
   PetscCall(ComputeGap(w));
-  w->worst = 0;
+  w->worst = IsSingleEnough(w) ? w->displacement : 0;
   PetscCall(ChooseSet(w, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
