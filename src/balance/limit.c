@@ -8,6 +8,20 @@
 #include "balanceimpl.h"
 #include <math.h>
 
+/* A row's sums of t and of xi t. */
+SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict t, double xi0, double dxi, double sums[2])
+{
+  double sum = 0, turn = 0;
+
+#pragma omp simd reduction(+ : sum, turn)
+  for (PetscInt i = 0; i < n; i++) {
+    sum += t[i];
+    turn += (xi0 + (double)i * dxi) * t[i];
+  }
+  sums[0] = sum;
+  sums[1] = turn;
+}
+
 PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3])
 {
   const SamBalance none = {.kind = kind};
@@ -18,19 +32,16 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&f, grid, &none));
   PetscCall(VecGetArrayRead(traction, &t));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    const double eta    = SamFrameEta(&f, j);
-    double       row[3] = {0, 0, 0}; /* row by row, for less rounding */
+  for (PetscInt j = 0; j < grid->rows; j++) { /* row by row, for less rounding */
+    const ptrdiff_t k    = (ptrdiff_t)j * grid->nx;
+    const double    eta  = SamFrameEta(&f, j);
+    double          x[2] = {0, 0}, y[2] = {0, 0};
 
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const double xi = f.xi0 + (double)i * f.dxi;
-      const double x = t[j * grid->nx + i], y = kind == SAM_BALANCE_NORMAL ? 0 : t[grid->cells + j * grid->nx + i];
-
-      row[0] += x;
-      row[1] += kind == SAM_BALANCE_NORMAL ? -eta * x : y;
-      row[2] += kind == SAM_BALANCE_NORMAL ? xi * x : xi * y - eta * x;
-    }
-    for (PetscInt c = 0; c < 3; c++) sums[c] += row[c];
+    SumRow(grid->nx, t + k, f.xi0, f.dxi, x);
+    if (kind == SAM_BALANCE_TANGENTIAL) SumRow(grid->nx, t + k + grid->cells, f.xi0, f.dxi, y);
+    sums[0] += x[0];
+    sums[1] += kind == SAM_BALANCE_NORMAL ? -eta * x[0] : y[0];
+    sums[2] += kind == SAM_BALANCE_NORMAL ? x[1] : y[1] - eta * x[0];
   }
   PetscCall(VecRestoreArrayRead(traction, &t));
   PetscCall(SamSum(grid->comm, 3, sums));

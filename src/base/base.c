@@ -2,6 +2,7 @@
 #include "baseimpl.h"
 #include <fftw3-mpi.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #if defined(__GLIBC__)
   #include <malloc.h>
@@ -102,4 +103,24 @@ PetscErrorCode SamAllocate(size_t bytes, void *pointer)
 #endif
   *(void **)pointer = p;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SAM_VECTORIZED static double SumOfSizes(PetscInt n, const double *restrict x)
+{
+  double sum = 0;
+
+#pragma omp simd reduction(+ : sum)
+  for (PetscInt i = 0; i < n; i++) sum += fabs(x[i]);
+  return sum;
+}
+
+void SamZero(PetscInt n, double x[])
+{
+  enum { CHUNK = 512 };
+
+  for (PetscInt k = 0; k < n; k += CHUNK) {
+    const PetscInt count = PetscMin(CHUNK, n - k);
+
+    if (SumOfSizes(count, x + k) != 0) (void)memset(x + k, 0, sizeof(*x) * (size_t)count);
+  }
 }

@@ -58,6 +58,9 @@ PETSC_INTERN PetscClassId  SAM_CLASSID;
 /* SamAllocate - large arrays, in large pages where there are such, to be freed by free(); PETSC_ERR_MEM with the size when there is no memory. */
 PETSC_INTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
 
+/* SamZero - sets an array to zero without writing to where it is: what the system has not given memory yet stays so. */
+PETSC_INTERN void SamZero(PetscInt n, double x[]);
+
 /* ---- reductions over the ranks of small arrays of doubles, in place. Collective. ---- */
 PETSC_INTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_INTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);

@@ -2,6 +2,7 @@
 #include "../balance/balanceimpl.h"
 #include "contactimpl.h"
 #include <math.h>
+#include <string.h>
 
 PetscErrorCode SamCheckDisplacements(SamCompliance C, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *f)
 {
@@ -34,14 +35,43 @@ PetscErrorCode SamCheckDisplacements(SamCompliance C, PetscBool coupling, PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict uz, const double *restrict h, double xi0, double dxi, double eta, const double a[3], double *restrict gap)
+{
+  const double ax = a[0] - a[1] * eta, a2 = a[2];
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) gap[i] = uz[i] + h[i] - (ax + a2 * (xi0 + (double)i * dxi));
+}
+
+/* A row of u - a - b xi; returns the sum of sizes. */
+SAM_VECTORIZED static double SlipRow(PetscInt n, const double *restrict u, double a, double b, double xi0, double dxi, double *restrict slip)
+{
+  double sum = 0;
+
+#pragma omp simd reduction(+ : sum)
+  for (PetscInt i = 0; i < n; i++) {
+    slip[i] = u[i] - (a + b * (xi0 + (double)i * dxi));
+    sum += fabs(slip[i]);
+  }
+  return sum;
+}
+
+/* Takes a row's slip; a row of zeros stays unwritten, and takes no memory. */
+static void TakeSlip(PetscInt n, const double row[], double size, double slip[])
+{
+  if (size != 0) (void)memcpy(slip, row, sizeof(*slip) * (size_t)n);
+  else SamZero(n, slip);
+}
+
 /* gap = u_z + h - rigid, slip = u_t - rigid. */
 static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamStep *step, SamFields *f)
 {
   SamFrame      normal, tangential;
   const double *uz, *ut, *h;
-  double       *gap, *slip;
+  double       *gap, *slip, *row;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(grid->nx, &row));
   PetscCall(SamFrameSetGiven(&normal, grid, &step->normal)); /* all displacements are known now */
   PetscCall(SamFrameSetGiven(&tangential, grid, &step->tangential));
   PetscCall(VecGetArrayRead(f->displacement_z, &uz));
@@ -50,24 +80,19 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
   PetscCall(VecGetArrayWrite(f->gap, &gap));
   PetscCall(VecGetArray(f->slip, &slip));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const double eta = SamFrameEta(&normal, j);
+    const ptrdiff_t k   = (ptrdiff_t)j * grid->nx, l = k + grid->cells;
+    const double    eta = SamFrameEta(&normal, j), xi0 = normal.xi0, dxi = normal.dxi;
 
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const PetscInt k = j * grid->nx + i, l = k + grid->cells;
-      const double   xi = normal.xi0 + (double)i * normal.dxi;
-
-      const double   sx = ut[k] - SamFrameX(tangential.fixed, eta), sy = ut[l] - SamFrameY(tangential.fixed, xi);
-
-      gap[k] = uz[k] + h[k] - SamFrameNormal(normal.fixed, xi, eta);
-      if (slip[k] != sx) slip[k] = sx; /* zero stays unwritten, and takes no memory */
-      if (slip[l] != sy) slip[l] = sy;
-    }
+    GapRow(grid->nx, uz + k, h + k, xi0, dxi, eta, normal.fixed, gap + k);
+    TakeSlip(grid->nx, row, SlipRow(grid->nx, ut + k, SamFrameX(tangential.fixed, eta), 0, xi0, dxi, row), slip + k);
+    TakeSlip(grid->nx, row, SlipRow(grid->nx, ut + l, tangential.fixed[1], tangential.fixed[2], xi0, dxi, row), slip + l);
   }
   PetscCall(VecRestoreArray(f->slip, &slip));
   PetscCall(VecRestoreArrayWrite(f->gap, &gap));
   PetscCall(VecRestoreArrayRead(separation, &h));
   PetscCall(VecRestoreArrayRead(f->displacement_t, &ut));
   PetscCall(VecRestoreArrayRead(f->displacement_z, &uz));
+  PetscCall(PetscFree(row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

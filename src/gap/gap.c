@@ -195,9 +195,10 @@ static PetscErrorCode CheckFinite(SamGap gap, SamGrid grid, Vec h)
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(h, &array));
-  for (PetscInt k = 0; k < grid->cells; k++)
-    if (!isfinite(array[k])) bad = 1;
+#pragma omp simd reduction(+ : bad)
+  for (PetscInt k = 0; k < grid->cells; k++) bad += 0 * array[k]; /* which is no number when array[k] is not finite */
   PetscCall(VecRestoreArrayRead(h, &array));
+  bad = isnan(bad) ? 1 : 0;
   PetscCall(SamMax(grid->comm, 1, &bad));
   PetscCheck(bad == 0, gap->comm, SAM_ERR_USER, "-gap_type %s: the separation is not finite everywhere on the grid: look at the values of its options", gap->type);
   PetscFunctionReturn(PETSC_SUCCESS);

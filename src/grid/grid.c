@@ -168,8 +168,7 @@ PetscErrorCode SamVecZero(Vec v)
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(v, &n));
   PetscCall(VecGetArray(v, &x));
-  for (PetscInt k = 0; k < n; k++)
-    if (x[k] != 0) x[k] = 0;
+  SamZero(n, x);
   PetscCall(VecRestoreArray(v, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

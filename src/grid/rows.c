@@ -3,6 +3,7 @@
   unit of the messages, so that their numbers stay small.
 */
 #include "gridimpl.h"
+#include <stdlib.h>
 
 void SamGridRowsOf(SamGrid grid, PetscMPIInt ranks, PetscMPIInt rank, PetscInt *begin, PetscInt *end)
 {
@@ -62,7 +63,7 @@ PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double 
     *wanted = own + (size_t)rows->first * (size_t)columns;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(PetscMalloc1((size_t)rows->count * (size_t)columns, &array));
+  PetscCall(SamAllocate(sizeof(*array) * (size_t)rows->count * (size_t)columns, &array));
   PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)columns, MPI_DOUBLE, &row));
   PetscCallMPI(MPI_Type_commit(&row));
   PetscCallMPI(MPI_Alltoallv(own, rows->counts[0], rows->offsets[0], row, array, rows->counts[1], rows->offsets[1], row, rows->grid->comm));
@@ -74,7 +75,7 @@ PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double 
 PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted)
 {
   PetscFunctionBegin;
-  if (rows->ranks > 1) PetscCall(PetscFree(*wanted));
+  if (rows->ranks > 1) free((void *)*wanted);
   *wanted = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,6 +7,7 @@
 */
 #include "gridimpl.h"
 #include <math.h>
+#include <stdlib.h>
 
 struct _n_SamTransfer {
   SamGrid    fine, coarse;
@@ -160,7 +161,7 @@ PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "the two grids of this transfer", &components));
-  PetscCall(PetscMalloc1((size_t)t->fine->rows * (size_t)t->coarse->nx, &averaged));
+  PetscCall(SamAllocate(sizeof(*averaged) * (size_t)t->fine->rows * (size_t)t->coarse->nx, &averaged));
   PetscCall(VecGetArrayRead(fine, &f));
   PetscCall(VecGetArrayWrite(coarse, &c));
   for (PetscInt k = 0; k < components; k++) {
@@ -171,11 +172,11 @@ PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
   }
   PetscCall(VecRestoreArrayWrite(coarse, &c));
   PetscCall(VecRestoreArrayRead(fine, &f));
-  PetscCall(PetscFree(averaged));
+  free(averaged);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void InterpolateComponent(SamTransfer t, const double rows[], double fine[])
+static void InterpolateComponent(SamTransfer t, const double rows[], double row[], double fine[])
 {
   const PetscInt N = t->coarse->nx, n = t->fine->nx;
 
@@ -187,11 +188,12 @@ static void InterpolateComponent(SamTransfer t, const double rows[], double fine
     Between(t->fine->row_start + j, t->fine->ny, t->coarse->ny, &J, &ty);
     below = rows + (J - t->coarse_rows.first) * N;
     above = below + N;
+    for (PetscInt l = 0; l < N; l++) row[l] = (1 - ty) * below[l] + ty * above[l];
     for (PetscInt i = 0; i < n; i++) {
       const PetscInt l  = t->left[i];
       const double   tx = t->position[i];
 
-      fine[j * n + i] = (1 - ty) * ((1 - tx) * below[l] + tx * below[l + 1]) + ty * ((1 - tx) * above[l] + tx * above[l + 1]);
+      fine[j * n + i] = (1 - tx) * row[l] + tx * row[l + 1];
     }
   }
 }
@@ -200,20 +202,22 @@ PetscErrorCode SamTransferProlong(SamTransfer t, Vec coarse, Vec fine)
 {
   PetscInt      components;
   const double *c, *rows;
-  double       *f;
+  double       *f, *row;
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "the two grids of this transfer", &components));
+  PetscCall(PetscMalloc1(t->coarse->nx, &row));
   PetscCall(VecGetArrayRead(coarse, &c));
   PetscCall(VecGetArrayWrite(fine, &f));
   for (PetscInt k = 0; k < components; k++) {
     const double *component = c + k * t->coarse->cells;
 
     PetscCall(SamRowsFetch(&t->coarse_rows, t->coarse->nx, component, &rows));
-    InterpolateComponent(t, rows, f + k * t->fine->cells);
+    InterpolateComponent(t, rows, row, f + k * t->fine->cells);
     PetscCall(SamRowsRestore(&t->coarse_rows, &rows));
   }
   PetscCall(VecRestoreArrayWrite(fine, &f));
   PetscCall(VecRestoreArrayRead(coarse, &c));
+  PetscCall(PetscFree(row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,6 +4,7 @@
   Both grids have their rows in slabs; which rows one side wants of the other, and how they come, is rows.c.
 */
 #include "gridimpl.h"
+#include <stdlib.h>
 #include <string.h>
 
 struct _n_SamWindow {
@@ -88,7 +89,7 @@ PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
-  PetscCall(PetscMalloc1((size_t)w->grid->rows * nx, &columns)); /* of all rows; those that nobody wants stay untouched */
+  PetscCall(SamAllocate(sizeof(*columns) * (size_t)w->grid->rows * nx, &columns)); /* of all rows; those that nobody wants stay untouched */
   PetscCall(VecGetArrayRead(whole, &from));
   PetscCall(VecGetArrayWrite(part, &to));
   for (PetscInt c = 0; c < components; c++) {
@@ -99,7 +100,7 @@ PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
   }
   PetscCall(VecRestoreArrayWrite(part, &to));
   PetscCall(VecRestoreArrayRead(whole, &from));
-  PetscCall(PetscFree(columns));
+  free(columns);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,5 +1,6 @@
 /* The normal solver's class: types, tolerances, monitors, nested grids, windows. The methods are in files of their own. */
 #include "normalimpl.h"
+#include <stdlib.h>
 
 /*
   Coarse grids need to be solved only as well as they approximate the fine one; beyond that their iterations are wasted.
@@ -256,21 +257,21 @@ static PetscErrorCode MakeAdmissible(SamNormalLevel *level, PetscBool *found)
 }
 
 /*
-  The coarse pressure on the fine grid: linear interpolation of its values, but not of its support, which that would
+  The pressure of the coarse `grid` on the fine one: linear interpolation of its values, but not of its support, which that would
   widen by half a coarse cell; a cell has pressure where the interpolated indicator of the coarse contact exceeds 1/2.
 */
-static PetscErrorCode Prolong(SamTransfer transfer, Vec coarse, Vec fine)
+static PetscErrorCode Prolong(SamGrid grid, SamTransfer transfer, Vec coarse, Vec fine)
 {
   PetscInt      cells, coarse_cells;
   Vec           indicator;
   double       *p, *c;
-  char         *mask;
+  float        *mask;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(fine, &cells));
   PetscCall(VecGetLocalSize(coarse, &coarse_cells));
-  PetscCall(PetscMalloc1(cells, &mask));
-  PetscCall(VecDuplicate(coarse, &indicator));
+  PetscCall(SamAllocate(sizeof(*mask) * (size_t)cells, &mask));
+  PetscCall(SamGridCreateVec(grid, 1, &indicator));
   PetscCall(VecGetArray(coarse, &p));
   PetscCall(VecGetArray(indicator, &c));
   for (PetscInt k = 0; k < coarse_cells; k++) c[k] = p[k] > 0;
@@ -278,15 +279,14 @@ static PetscErrorCode Prolong(SamTransfer transfer, Vec coarse, Vec fine)
   PetscCall(VecRestoreArray(coarse, &p));
   PetscCall(SamTransferProlong(transfer, indicator, fine));
   PetscCall(VecGetArray(fine, &p));
-  for (PetscInt k = 0; k < cells; k++) mask[k] = p[k] > 0.5;
+  for (PetscInt k = 0; k < cells; k++) mask[k] = p[k] > 0.5 ? 1.0f : 0.0f;
   PetscCall(VecRestoreArray(fine, &p));
   PetscCall(SamTransferProlong(transfer, coarse, fine));
   PetscCall(VecGetArray(fine, &p));
-  for (PetscInt k = 0; k < cells; k++)
-    if (!mask[k]) p[k] = 0;
+  for (PetscInt k = 0; k < cells; k++) p[k] *= (double)mask[k];
   PetscCall(VecRestoreArray(fine, &p));
   PetscCall(VecDestroy(&indicator));
-  PetscCall(PetscFree(mask));
+  free(mask);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -332,6 +332,29 @@ static void GetRigid(const SamNormalLevel *level, SamBalance *balance)
   SamFrameGetRigid(&level->frame, a, balance);
 }
 
+/* Raises the largest displacement v = scale u, and what is nearest to touching: motion - h - v. */
+SAM_VECTORIZED static void NearestStretch(PetscInt n, const float *restrict u, const double *restrict h, double scale, double xi0, double dxi, double eta, const double motion[3], double max[2])
+{
+  const double a = motion[0] - motion[1] * eta, b = motion[2];
+  double       displacement = max[0], nearest = max[1];
+
+#pragma omp simd reduction(max : displacement, nearest)
+  for (PetscInt i = 0; i < n; i++) {
+    const double v = scale * (double)u[i], overlap = a + b * (xi0 + (double)i * dxi) - h[i] - v;
+
+    displacement = v > displacement ? v : displacement;
+    nearest      = overlap > nearest ? overlap : nearest;
+  }
+  max[0] = displacement;
+  max[1] = nearest;
+}
+
+SAM_VECTORIZED static void ToSingle(PetscInt n, const double *restrict p, double factor, float *restrict u)
+{
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) u[i] = (float)(factor * p[i]);
+}
+
 /* Whether in single precision no cell outside the window comes near to touching. */
 static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window, PetscBool *clear)
 {
@@ -347,27 +370,26 @@ static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame
   PetscCall(SamComplianceGetSelfInfluence(level->compliance, &self, NULL));
   PetscCall(VecMax(level->p, NULL, &most));
   scale = self * most;
-  PetscCall(PetscMalloc1(grid->cells, &u));
+  PetscCall(SamAllocate(sizeof(*u) * (size_t)grid->cells, &u));
   PetscCall(VecGetArrayRead(level->p, &p));
-  for (PetscInt k = 0; k < grid->cells; k++) u[k] = (float)(p[k] / most);
+  ToSingle(grid->cells, p, 1 / most, u);
   PetscCall(VecRestoreArrayRead(level->p, &p));
   PetscCall(SamNormalApplySingle(n, level, 1 / self, u, u));
   PetscCall(VecGetArrayRead(level->h, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const PetscBool inside = (grid->row_start + j >= first[1] && grid->row_start + j < first[1] + size[1]) ? PETSC_TRUE : PETSC_FALSE;
-    const double    eta    = SamFrameEta(frame, j);
+    const PetscBool inside   = (grid->row_start + j >= first[1] && grid->row_start + j < first[1] + size[1]) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscInt  begin[3] = {0, first[0], first[0] + size[0]}, end[3] = {first[0], first[0] + size[0], grid->nx};
+    double          within[2] = {0, 0}; /* of the window only the displacement counts */
 
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const ptrdiff_t k = (ptrdiff_t)j * grid->nx + i;
-      const double    v = scale * (double)u[k];
+    for (PetscInt part = 0; part < 3; part++) {
+      const ptrdiff_t k = (ptrdiff_t)j * grid->nx + begin[part];
 
-      max[0] = PetscMax(max[0], v);
-      if (inside && i >= first[0] && i < first[0] + size[0]) continue;
-      max[1] = PetscMax(max[1], SamFrameNormal(frame->fixed, frame->xi0 + (double)i * frame->dxi, eta) - h[k] - v);
+      NearestStretch(end[part] - begin[part], u + k, h + k, scale, frame->xi0 + (double)begin[part] * frame->dxi, frame->dxi, SamFrameEta(frame, j), frame->fixed, inside && part == 1 ? within : max);
     }
+    max[0] = PetscMax(max[0], within[0]);
   }
   PetscCall(VecRestoreArrayRead(level->h, &h));
-  PetscCall(PetscFree(u));
+  free(u);
   PetscCall(SamMax(grid->comm, 2, max));
   *clear = max[1] < -CLEARANCE * max[0] ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -461,7 +483,7 @@ static PetscErrorCode SolveLevel(SamNormal n, SamNormalLevel *level, PetscInt de
     PetscCall(SamGridCreateVec(lower.grid, 1, &lower.p));
     PetscCall(SamTransferRestrict(transfer, level->h, lower.h));
     PetscCall(SolveLevel(n, &lower, depth - 1, balance, PETSC_FALSE));
-    PetscCall(Prolong(transfer, lower.p, level->p));
+    PetscCall(Prolong(lower.grid, transfer, lower.p, level->p));
     PetscCall(VecDestroy(&lower.h));
     PetscCall(VecDestroy(&lower.p));
   }
