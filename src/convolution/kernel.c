@@ -4,11 +4,12 @@
   A kernel that is even or odd in x and in y has a real (or, odd in just one, imaginary) transform with the same
   symmetries. Its quadrant comes from cosine transforms (even) and sine transforms (odd) of the quadrant of its values:
   along x for rows of lags, then, rows exchanged for columns, along y. FFTW's own (REDFT00, RODFT00) take twice as long as
-  its transform of the mirrored line, of which the real or the imaginary part is kept. A column of hy + 1 values is kept
+  a transform of the mirrored line, of which the real or the imaginary part is kept. A column of hy + 1 values is kept
   with its even frequencies first and its odd ones after them, as the filter meets them.
 */
 #include "fourierimpl.h"
 #include <stdlib.h>
+#include <string.h>
 
 struct _n_SamKernel {
   PetscBool odd_x, odd_y;
@@ -19,22 +20,34 @@ struct _n_SamKernel {
 /* Columns that are gathered together: two cache lines of each row are read at once. */
 #define BLOCK ((ptrdiff_t)(128 / sizeof(double)))
 
-/* The transform of lines given by their values at 0 ... n and a parity. */
+/* The transform of lines given by their values at 0 ... n and a parity: that of half their length, as in transform.h. */
 typedef struct {
   ptrdiff_t n;
   PetscBool odd;
-  double   *line; /* 2 n values, of which the caller sets n + 1 */
-  double (*transform)[2];
+  double   *line;        /* 2 n values, of which the caller sets n + 1 */
+  double   *values;      /* n + 1 of the transform */
+  double (*z)[2];        /* of the even entries and i times the odd ones, n + 1 */
+  double (*mirror)[2];   /* the same from its end to its beginning */
+  double (*turn)[2];     /* i exp(i pi k/n) */
   fftw_plan plan;
 } Mirrored;
 
 static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
 {
+  const size_t complexes = sizeof(*m->z) * (size_t)(n + 1);
+
   PetscFunctionBegin;
   *m = (Mirrored){.n = n, .odd = odd};
   PetscCall(SamAllocate(sizeof(*m->line) * (size_t)(2 * n), &m->line));
-  PetscCall(SamAllocate(sizeof(*m->transform) * (size_t)(n + 1), &m->transform));
-  m->plan = fftw_plan_dft_r2c_1d((int)(2 * n), m->line, (fftw_complex *)m->transform, FFTW_ESTIMATE);
+  PetscCall(SamAllocate(sizeof(*m->values) * (size_t)(n + 1), &m->values));
+  PetscCall(SamAllocate(complexes, &m->z));
+  PetscCall(SamAllocate(complexes, &m->mirror));
+  PetscCall(SamAllocate(complexes, &m->turn));
+  for (ptrdiff_t k = 0; k <= n; k++) {
+    m->turn[k][0] = k < n ? -sin(PETSC_PI * (double)k / (double)n) : 0;
+    m->turn[k][1] = cos(PETSC_PI * (double)k / (double)n);
+  }
+  m->plan = fftw_plan_dft_1d((int)n, (fftw_complex *)m->line, (fftw_complex *)m->z, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
   PetscCall(SamFourierCheckPlan(m->plan));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -42,19 +55,37 @@ static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
 static void MirroredDestroy(Mirrored *m)
 {
   fftw_destroy_plan(m->plan);
-  free(m->transform);
+  free(m->turn);
+  free(m->mirror);
+  free(m->z);
+  free(m->values);
   free(m->line);
 }
 
-/* The transform of an even line, or the imaginary part of an odd one's: its n + 1 values are every second one from there. */
+/* The real part of a line's transform, all there is when it is even, or the imaginary part. */
+SAM_VECTORIZED static void RealPart(ptrdiff_t n, const double (*restrict turn)[2], const double (*restrict z)[2], const double (*restrict m)[2], double *restrict to)
+{
+  for (ptrdiff_t k = 0; k <= n; k++) to[k] = 0.5 * (z[k][0] + m[k][0] + turn[k][0] * (z[k][0] - m[k][0]) + turn[k][1] * (z[k][1] + m[k][1]));
+}
+SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const double (*restrict turn)[2], const double (*restrict z)[2], const double (*restrict m)[2], double *restrict to)
+{
+  for (ptrdiff_t k = 0; k <= n; k++) to[k] = 0.5 * (z[k][1] - m[k][1] + turn[k][0] * (z[k][1] + m[k][1]) - turn[k][1] * (z[k][0] - m[k][0]));
+}
+
+/* The transform of an even line, or the imaginary part of an odd one's: n + 1 values. */
 static const double *MirroredTransform(Mirrored *m)
 {
-  double *line = m->line;
+  const ptrdiff_t n    = m->n;
+  double         *line = m->line;
 
-  if (m->odd) line[0] = line[m->n] = 0;
-  for (ptrdiff_t j = 1; j < m->n; j++) line[2 * m->n - j] = m->odd ? -line[j] : line[j];
+  if (m->odd) line[0] = line[n] = 0;
+  for (ptrdiff_t j = 1; j < n; j++) line[2 * n - j] = m->odd ? -line[j] : line[j];
   fftw_execute(m->plan);
-  return &m->transform[0][m->odd ? 1 : 0];
+  for (ptrdiff_t r = 0; r < 2; r++) m->z[n][r] = m->z[0][r];
+  for (ptrdiff_t k = 0; k <= n; k++) memcpy(m->mirror[k], m->z[n - k], sizeof(*m->z));
+  if (m->odd) ImaginaryPart(n, (const double(*)[2])m->turn, (const double(*)[2])m->z, (const double(*)[2])m->mirror, m->values);
+  else RealPart(n, (const double(*)[2])m->turn, (const double(*)[2])m->z, (const double(*)[2])m->mirror, m->values);
+  return m->values;
 }
 
 /* Rows of lags, transformed along x, into rows (local rows of hy + 1, hx + 1). */
@@ -70,7 +101,7 @@ static PetscErrorCode TransformRows(SamFourier F, PetscBool odd, SamKernelRow ro
 
     row((PetscInt)(start + j), (PetscInt)n, m.line, context);
     from = MirroredTransform(&m);
-    for (ptrdiff_t k = 0; k < n; k++) rows[j * n + k] = from[2 * k];
+    PetscCall(PetscArraycpy(rows + j * n, from, (size_t)n));
   }
   MirroredDestroy(&m);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -109,8 +140,8 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const Sam
     if (k % BLOCK == 0) Gather(pieces, k, PetscMin(BLOCK, kernel->columns - k), F->stride, buffer);
     PetscCall(PetscArraycpy(m.line, buffer + k % BLOCK * F->stride, (size_t)n));
     from = MirroredTransform(&m);
-    for (ptrdiff_t j = 0; j < even; j++) to[j] = scale * from[4 * j];
-    for (ptrdiff_t j = even; j < n; j++) to[j] = scale * from[4 * (j - even) + 2];
+    for (ptrdiff_t j = 0; j < even; j++) to[j] = scale * from[2 * j];
+    for (ptrdiff_t j = even; j < n; j++) to[j] = scale * from[2 * (j - even) + 1];
   }
   MirroredDestroy(&m);
   free(buffer);
