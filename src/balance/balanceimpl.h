@@ -66,7 +66,7 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
 }
 
 /* Cells of a row looked at together: where all of them are within their discs, roots and divisions are spared. */
-#define SAM_CHUNK 64
+#define SAM_CHUNK 256
 
 /*
   Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. Which stretches
@@ -177,7 +177,7 @@ PETSC_INTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
 
 /*
   SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear on the disc of radius bound, with
-  the a for which the force-controlled loads are exact. `found` as above. Collective.
+  the a for which the force-controlled loads are exact. `found` is false when there is none (q is then of no use). Collective.
 */
 PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], double q[], PetscBool *found);
 

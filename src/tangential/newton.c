@@ -43,7 +43,7 @@
 /* Rounding of a product in single precision, relative, and the part of the error that it may make up before the slip is
    computed anew. Rounding of energies, relative to the work of friction in them. */
 #define SINGLE_ROUNDING 3e-7
-#define DOUBT           0.05
+#define DOUBT           0.2
 #define ENERGY_ROUNDING 1e-14
 /* Iterations without progress before a gradient step, and before giving up. */
 #define PATIENCE   10
