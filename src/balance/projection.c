@@ -381,30 +381,45 @@ SAM_VECTORIZED static void ApplyShears(PetscInt n, double *restrict qx, double *
   row->sums[2] += turn - eta * x;
 }
 
+/* The projection that belongs to a, in place of q, and the moments of what it is then. */
+static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const double a[3], double q[], SamTotal dual[])
+{
+  const PetscInt nx = f->grid->nx;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    const double *b = bound + (ptrdiff_t)j * nx;
+    double       *qx = q + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells;
+    PetscInt      first, last;
+    Dual          row = {0};
+
+    SamBoundRange(nx, b, &first, &last);
+    PetscCall(PetscArrayzero(qx, first));
+    PetscCall(PetscArrayzero(qy, first));
+    ApplyShears(last - first, qx + first, qy + first, b + first, f->xi0 + (double)first * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
+    PetscCall(PetscArrayzero(qx + last, nx - last));
+    PetscCall(PetscArrayzero(qy + last, nx - last));
+    SamAddAll(DUAL, dual, (const double *)&row);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* At first, where that is likely to do, one step of Newton's method is made without looking; what comes of it is a start if it does not. */
 PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], double q[], PetscBool *found)
 {
-  const Cells    cells = {.field = q, .bound = bound};
-  const PetscInt nx = f->grid->nx, ncells = f->grid->cells;
-  PetscBool      near = PETSC_TRUE;
+  const Cells cells = {.field = q, .bound = bound};
+  PetscBool   near  = PETSC_TRUE;
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
   for (PetscInt time = 0; time < 2 && !*found; time++) {
     SamTotal totals[DUAL] = {{0, 0}};
-    double   a[3] = {0, 0, 0};
+    double   a[3]         = {0, 0, 0};
 
     if (f->count) PetscCall(MinimizeDual(f, PassTangential, &cells, time == 0 ? SMOOTH : 0, a, found, &near));
     else *found = PETSC_TRUE;
     if (!*found && (!near || time > 0)) break;
-    for (PetscInt j = 0; j < f->grid->rows; j++) {
-      const ptrdiff_t k   = (ptrdiff_t)j * nx;
-      PetscInt        first, last;
-      Dual            row = {0};
-
-      SamBoundRange(nx, bound + k, &first, &last);
-      ApplyShears(last - first, q + k + first, q + ncells + k + first, bound + k + first, f->xi0 + (double)first * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
-      SamAddAll(DUAL, totals, (const double *)&row);
-    }
+    PetscCall(ApplyTangential(f, bound, a, q, totals));
     if (!*found) PetscCall(IsBalanced(f, totals, EXACT, found));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -33,10 +33,10 @@
 #include <string.h>
 
 /* A cell parts when the gap is more than its own pressure and that of its neighbours displace it, in units of the former. */
-#define PATCH 5.0
+#define PATCH 6.0
 /* The part of the loss that is taken off, and that of A that may change before the loss is computed anew. */
 #define LOSS_OFF 0.5
-#define LOSS_OLD 0.03
+#define LOSS_OLD 0.01
 /* A direction's least descent, as a part of that of the preconditioned residual. */
 #define DESCENT 0.1
 /* The trial's length follows the best one by at most this factor's root. */
