@@ -99,7 +99,9 @@ typedef struct {
   size_t mapped; /* 0: from the heap */
 } Memory;
 
-#define LARGE ((size_t)2 << 20)
+/* From this size on pages are large: smaller fields would be rounded up to them. */
+#define LARGE      ((size_t)8 << 20)
+#define LARGE_PAGE ((size_t)2 << 20)
 
 static PetscErrorCode FreeMemory(void *pointer)
 {
@@ -114,13 +116,13 @@ static PetscErrorCode FreeMemory(void *pointer)
 /* The mapping begins at a large page: what is too much at both ends is given back. NULL: there is no memory. */
 static void *MapLarge(size_t bytes)
 {
-  char  *base = (char *)mmap(NULL, bytes + LARGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  char  *base = (char *)mmap(NULL, bytes + LARGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   size_t before;
 
   if (base == (char *)MAP_FAILED) return NULL;
-  before = (LARGE - (uintptr_t)base % LARGE) % LARGE;
+  before = (LARGE_PAGE - (uintptr_t)base % LARGE_PAGE) % LARGE_PAGE;
   if (before) (void)munmap(base, before);
-  (void)munmap(base + before + bytes, LARGE - before);
+  (void)munmap(base + before + bytes, LARGE_PAGE - before);
 #if defined(MADV_HUGEPAGE)
   (void)madvise(base + before, bytes, MADV_HUGEPAGE);
 #endif
