@@ -94,8 +94,8 @@ def test_similar_contacts_scale(solve):
 
 
 def test_softer_bodies_scale(solve):
-    """Moduli and forces by s leave displacements as they are."""
-    case = dict(ball(61), load_tx=30.0)
+    """Moduli and forces by s leave displacements as they are; s is no power of two, so rounding differs, and with it what the tolerances leave."""
+    case = dict(ball(61), load_tx=30.0, normal_rtol=1e-11, tangential_rtol=1e-9)
     reference = solve(case)
     for s in (1e-9, 1e9):
         other = solve(dict(case, **{k: case[k] * s for k in ("body1_young", "body2_young", "load_n", "load_tx")}))

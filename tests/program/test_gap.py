@@ -6,7 +6,8 @@ import pytest
 from support import assert_close, assert_same, ball, hertz
 
 D = 2.1e-5
-BASE = dict(ball(0), grid_n=(84, 71), grid_size=(84 * D, 71 * D), load_tx=25.0)
+# rounding of h sends the solvers another way, so that what their tolerances leave differs: with these it is below 1e-9
+BASE = dict(ball(0), grid_n=(84, 71), grid_size=(84 * D, 71 * D), load_tx=25.0, normal_rtol=1e-11, tangential_rtol=1e-9)
 FILE = dict(BASE, gap_type="file", gap_radius1=None, gap_radius2=None, gap_file="gap.h5")
 
 
@@ -23,7 +24,7 @@ def write(path, height, name="height", **more):
 def test_file_of_a_paraboloid_is_the_sphere(solve, tmp_path):
     x, y = cells()
     gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"])
-    assert_same(solve(dict(FILE, gap_file=gap)), solve(BASE), 1e-9)  # rounding of h, in the solver's path
+    assert_same(solve(dict(FILE, gap_file=gap)), solve(BASE), 1e-9)
 
 
 @pytest.mark.parametrize("ranks", [3, 5])
@@ -78,7 +79,7 @@ def test_rough_surfaces_touch_in_places(solve, tmp_path):
     waves = 2e-7 * (np.cos(x * 2.9e4 + 0.3) * np.cos(y * 3.3e4) + 0.5 * np.sin(5.1e4 * x - 4.3e4 * y))
     s = solve(dict(BASE, gap_rough_file=write(tmp_path / "rough.h5", waves)))
     assert s["contact_area"] < np.pi * hertz(BASE).radius**2
-    assert s["normal_residual"] <= 1.05e-8 and s["tangential_residual"] <= 1.05e-6
+    assert s["normal_residual"] <= 1.05 * BASE["normal_rtol"] and s["tangential_residual"] <= 1.05 * BASE["tangential_rtol"]
     assert s.loads()["load_n"] == pytest.approx(180.0, rel=1e-10)
 
 
