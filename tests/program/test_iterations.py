@@ -11,11 +11,11 @@ from support import PUNCH, ball, slide_limit, sliding_pair
 
 
 @pytest.mark.parametrize("n", [256, 512, 1024, (509, 330)])
-def test_normal_products_at_most_20(solve, n):
+def test_normal_products_at_most_15(solve, n):
     case = ball(n, friction=0)
     if not isinstance(n, int):
         case["grid_size"] = (case["grid_size"], 0.8 * case["grid_size"])
-    assert solve(case)["normal_applies"] <= 20
+    assert solve(case)["normal_applies"] <= 15
 
 
 @pytest.mark.parametrize("n", [256, 512])
@@ -34,29 +34,36 @@ def test_normal_products_of_a_rough_plane_at_most_30(solve, tmp_path, n):
 
 
 @pytest.mark.parametrize("tx, mz", [(0.01, 0), (0.3, 0), (0.6, 0), (0.9, 0), (0.99, 0), (0, 0.1), (0, 0.7), (0, 0.95), (0, 0.99)])
-def test_tangential_products_at_512_at_most_60(solve, tx, mz):
+def test_tangential_products_at_512_at_most_25(solve, tx, mz):
     case = ball(512, poisson=0.3)
     force, torque = slide_limit(case)
-    assert solve(case, dict(load_tx=tx * force, load_mz=mz * torque))["tangential_applies"] <= 60
+    assert solve(case, dict(load_tx=tx * force, load_mz=mz * torque))["tangential_applies"] <= 25
 
 
 @pytest.mark.parametrize("part", [0.5, 0.95, 0.99])
 @pytest.mark.parametrize("arm", [0.3, 1.0])
-def test_tangential_products_of_force_with_torque_at_512_at_most_60(solve, arm, part):
+def test_tangential_products_of_force_with_torque_at_512_at_most_25(solve, arm, part):
     case = ball(512, poisson=0.3)
     force, torque = sliding_pair(case, arm)
-    assert solve(case, dict(load_tx=part * force, load_mz=part * torque))["tangential_applies"] <= 60
+    assert solve(case, dict(load_tx=part * force, load_mz=part * torque))["tangential_applies"] <= 25
 
 
 @pytest.mark.parametrize("load", [dict(load_tx=800.0), dict(load_tx=800.0, load_my=1.0), dict(load_mz=1.2), dict(load_ty=-900.0, load_mz=0.6)],
                          ids=["tx", "tx-my", "mz", "ty-mz"])
-def test_tangential_products_of_a_punch_at_most_60(solve, load):
-    assert solve(PUNCH, dict(grid_n=256), load)["tangential_applies"] <= 60
+def test_tangential_products_of_a_punch_at_most_25(solve, load):
+    assert solve(PUNCH, dict(grid_n=256), load)["tangential_applies"] <= 25
 
 
-def test_tangential_products_at_1024_at_most_75(solve):
+def test_tangential_products_at_1024_at_most_25(solve):
     case = ball(1024, poisson=0.3)
-    assert solve(case, dict(load_tx=0.8 * slide_limit(case)[0]))["tangential_applies"] <= 75
+    assert solve(case, dict(load_tx=0.8 * slide_limit(case)[0]))["tangential_applies"] <= 25
+
+
+@pytest.mark.parametrize("n", [128, 512])
+def test_products_of_a_dissimilar_contact_that_nearly_slides_at_most_25_a_pass(solve, n):
+    """Friction is used up by the coupling: but for a few cells everything slips, in all directions."""
+    s = solve(ball(n, poisson=0.3, body2_young=1e15, friction=0.1), dict(load_tx=0.6 * slide_limit(ball(n, friction=0.1))[0]))
+    assert s["tangential_applies"] <= 25 * s["coupling_iterations"]
 
 
 def test_products_without_tangential_load_are_none(solve):
