@@ -16,10 +16,12 @@ typedef struct {
   typedef struct { \
     PetscInt fields, version; /* for which buffers and transposes were made, and slabs of the latter */ \
     Plan     forward[2][SAM_FOURIER_FIELDS], backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
-    Plan     r2c[2], c2r[2]; /* one row, by mode */ \
+    Plan     row_up[2], row_down[2]; /* one row as half as many complex numbers, by mode */ \
     Plan     up, down;       /* one column of hy, forward and backward, out of place */ \
-    Real    *row;            /* one row, padded */ \
-    Real (*line)[2];         /* its transform */ \
+    Real (*turn[2])[2];      /* i exp(i pi k/n), k <= n, half a row's length, by mode */ \
+    Real (*row)[2];          /* one row, padded: two reals a number */ \
+    Real (*line)[2];         /* its transform, and an entry more */ \
+    Real (*mirror)[2];       /* the same from its end to its beginning */ \
     Real (*twiddle)[2];      /* exp(-i pi j/hy), j < ny */ \
     Real (*staging)[2];      /* a block of columns as gathered */ \
     Real (*twisted)[2];      /* one column times the twiddles */ \

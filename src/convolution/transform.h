@@ -17,13 +17,6 @@ typedef Real Complex[2];
 /* Columns that are transformed together: two cache lines of each row are read and written at once. */
 #define BLOCK ((ptrdiff_t)(128 / sizeof(Complex)))
 
-static PetscErrorCode Allocate(size_t reals, Real **pointer)
-{
-  PetscFunctionBegin;
-  PetscCall(SamAllocate(sizeof(Real) * reals, pointer));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
 {
   PetscFunctionBegin;
@@ -31,17 +24,27 @@ static PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Plans of one row, forward out of place into a row of a slab, backward from there. */
+static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
+{
+  return mode == SAM_FOURIER_PADDED ? F->hx : F->hx / 2;
+}
+
+/* Plans of one row, out of place. */
 static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
 {
-  TRANSFORM *t      = &F->PART;
-  const int  period = (int)(mode == SAM_FOURIER_PADDED ? 2 * F->hx : F->hx);
+  TRANSFORM      *t = &F->PART;
+  const ptrdiff_t n = HalfLength(F, mode);
 
   PetscFunctionBegin;
-  t->r2c[mode] = FFT(plan_dft_r2c_1d)(period, t->row, (FFT(complex) *)t->line, F->effort);
-  t->c2r[mode] = FFT(plan_dft_c2r_1d)(period, (FFT(complex) *)t->line, t->row, F->effort | FFTW_DESTROY_INPUT);
-  PetscCall(SamFourierCheckPlan(t->r2c[mode]));
-  PetscCall(SamFourierCheckPlan(t->c2r[mode]));
+  PetscCall(AllocateComplex((size_t)(n + 1), &t->turn[mode]));
+  for (ptrdiff_t k = 0; k <= n; k++) {
+    t->turn[mode][k][0] = k < n ? (Real)-sin(PETSC_PI * (double)k / (double)n) : 0;
+    t->turn[mode][k][1] = (Real)cos(PETSC_PI * (double)k / (double)n);
+  }
+  t->row_up[mode]   = FFT(plan_dft_1d)((int)n, (FFT(complex) *)t->row, (FFT(complex) *)t->line, FFTW_FORWARD, F->effort | FFTW_DESTROY_INPUT);
+  t->row_down[mode] = FFT(plan_dft_1d)((int)n, (FFT(complex) *)t->line, (FFT(complex) *)t->row, FFTW_BACKWARD, F->effort | FFTW_DESTROY_INPUT);
+  PetscCall(SamFourierCheckPlan(t->row_up[mode]));
+  PetscCall(SamFourierCheckPlan(t->row_down[mode]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -52,8 +55,9 @@ static PetscErrorCode PlanLines(SamFourier F)
   TRANSFORM *t = &F->PART;
 
   PetscFunctionBegin;
-  PetscCall(Allocate((size_t)(2 * F->hx + 2), &t->row));
+  PetscCall(AllocateComplex((size_t)F->hx, &t->row));
   PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->line));
+  PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->mirror));
   PetscCall(AllocateComplex((size_t)F->grid->ny, &t->twiddle));
   for (PetscInt j = 0; j < F->grid->ny; j++) {
     t->twiddle[j][0] = (Real)cos(PETSC_PI * (double)j / (double)F->hy);
@@ -86,8 +90,9 @@ void DESTROY(SamFourier F)
   if (!t->row) return;
   DestroyTransposes(t);
   for (PetscInt m = 0; m < 2; m++) {
-    if (t->r2c[m]) FFT(destroy_plan)(t->r2c[m]);
-    if (t->c2r[m]) FFT(destroy_plan)(t->c2r[m]);
+    if (t->row_up[m]) FFT(destroy_plan)(t->row_up[m]);
+    if (t->row_down[m]) FFT(destroy_plan)(t->row_down[m]);
+    free(t->turn[m]);
   }
   FFT(destroy_plan)(t->up);
   FFT(destroy_plan)(t->down);
@@ -97,6 +102,7 @@ void DESTROY(SamFourier F)
   free(t->staging);
   free(t->row);
   free(t->line);
+  free(t->mirror);
   memset(t, 0, sizeof(*t));
 }
 
@@ -129,7 +135,7 @@ static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields
 
   PetscFunctionBegin;
   if (!t->row) PetscCall(PlanLines(F));
-  if (!t->r2c[mode]) PetscCall(PlanRows(F, mode));
+  if (!t->row_up[mode]) PetscCall(PlanRows(F, mode));
   if (fields > t->fields) {
     free(t->buffer);
     PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
@@ -145,41 +151,65 @@ static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rows of floats in a slab start anywhere; FFTW's plans for such arrays take several times as long. */
-static inline PetscBool IsAligned(Complex *line)
+/* to[k] = from[n - k], k <= n. */
+SAM_VECTORIZED static void Mirror(ptrdiff_t n, const Complex *restrict from, Complex *restrict to)
 {
-  return FFT(alignment_of)((Real *)line) == 0 ? PETSC_TRUE : PETSC_FALSE;
+  for (ptrdiff_t k = 0; k <= n; k++) memcpy(to[k], from[n - k], sizeof(Complex));
+}
+
+/* From the transform z of the even entries of a line, and i times the odd ones, to that of the line; m is the mirror of z. */
+SAM_VECTORIZED static void Unpack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, Complex *restrict to)
+{
+  const Real half = (Real)0.5;
+
+  for (ptrdiff_t k = 0; k <= n; k++) {
+    const Real sum[2] = {z[k][0] + m[k][0], z[k][1] - m[k][1]}, gap[2] = {z[k][0] - m[k][0], z[k][1] + m[k][1]};
+
+    to[k][0] = half * (sum[0] + turn[k][0] * gap[0] + turn[k][1] * gap[1]);
+    to[k][1] = half * (sum[1] + turn[k][0] * gap[1] - turn[k][1] * gap[0]);
+  }
+}
+
+/* The way back, times 2. */
+SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, Complex *restrict to)
+{
+  for (ptrdiff_t k = 0; k < n; k++) {
+    const Real sum[2] = {z[k][0] + m[k][0], z[k][1] - m[k][1]}, gap[2] = {z[k][0] - m[k][0], z[k][1] + m[k][1]};
+
+    to[k][0] = sum[0] + turn[k][0] * gap[0] - turn[k][1] * gap[1];
+    to[k][1] = sum[1] + turn[k][0] * gap[1] + turn[k][1] * gap[0];
+  }
 }
 
 static void RowsForward(SamFourier F, SamFourierMode mode, const Real field[], Complex *slab)
 {
-  TRANSFORM        *t      = &F->PART;
-  const ptrdiff_t   n      = F->columns[mode].n;
-  const ptrdiff_t   period = mode == SAM_FOURIER_PADDED ? 2 * F->hx : F->hx;
-  const size_t      nx     = (size_t)F->grid->nx;
+  TRANSFORM      *t  = &F->PART;
+  const ptrdiff_t n  = HalfLength(F, mode);
+  const size_t    nx = (size_t)F->grid->nx;
 
-  memset(t->row + nx, 0, sizeof(Real) * ((size_t)period - nx));
   for (PetscInt j = 0; j < F->grid->rows; j++) {
     memcpy(t->row, field + (size_t)j * nx, sizeof(Real) * nx);
-    if (IsAligned(slab + j * n)) FFT(execute_dft_r2c)(t->r2c[mode], t->row, (FFT(complex) *)(slab + j * n));
-    else {
-      FFT(execute_dft_r2c)(t->r2c[mode], t->row, (FFT(complex) *)t->line);
-      memcpy(slab + j * n, t->line, sizeof(Complex) * (size_t)n);
-    }
+    memset(&t->row[0][0] + nx, 0, sizeof(Real) * (2 * (size_t)n - nx));
+    FFT(execute_dft)(t->row_up[mode], (FFT(complex) *)t->row, (FFT(complex) *)t->line);
+    memcpy(t->line[n], t->line[0], sizeof(Complex));
+    Mirror(n, (const Complex *)t->line, t->mirror);
+    Unpack(n, (const Complex *)t->turn[mode], (const Complex *)t->line, (const Complex *)t->mirror, slab + j * (n + 1));
   }
 }
 
 static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real field[])
 {
   TRANSFORM      *t  = &F->PART;
-  const ptrdiff_t n  = F->columns[mode].n;
+  const ptrdiff_t n  = HalfLength(F, mode);
   const size_t    nx = (size_t)F->grid->nx;
 
   for (PetscInt j = 0; j < F->grid->rows; j++) {
-    Complex *line = slab + j * n;
+    Complex *line = slab + j * (n + 1);
 
-    if (!IsAligned(line)) line = memcpy(t->line, line, sizeof(Complex) * (size_t)n);
-    FFT(execute_dft_c2r)(t->c2r[mode], (FFT(complex) *)line, t->row);
+    line[0][1] = line[n][1] = 0; /* as in the transform of real numbers, but for rounding */
+    Mirror(n, (const Complex *)line, t->mirror);
+    Pack(n, (const Complex *)t->turn[mode], (const Complex *)line, (const Complex *)t->mirror, t->line);
+    FFT(execute_dft)(t->row_down[mode], (FFT(complex) *)t->line, (FFT(complex) *)t->row);
     memcpy(field + (size_t)j * nx, t->row, sizeof(Real) * nx);
   }
 }
