@@ -46,8 +46,8 @@ static double Weight(ptrdiff_t m, PetscBool measured)
   return m == 1 || m == 5 ? 1 : (m == 3 ? 1.12 : (m == 25 ? 1.25 : 1.45));
 }
 
-/* A length >= n for which FFTW is fast, a multiple of `step`. */
-static ptrdiff_t FastSize(ptrdiff_t n, ptrdiff_t step)
+/* An even length >= n for which FFTW is fast. */
+static ptrdiff_t FastSize(ptrdiff_t n)
 {
   const PetscBool measured  = n >= MEASURE_FROM ? PETSC_TRUE : PETSC_FALSE;
   ptrdiff_t       best      = n;
@@ -56,7 +56,7 @@ static ptrdiff_t FastSize(ptrdiff_t n, ptrdiff_t step)
   for (ptrdiff_t m = n; (double)m < best_cost; m++) {
     const double cost = n < 64 ? (double)m : Weight(m, measured) * (double)m; /* small ones are fast anyway */
 
-    if (m % step || !IsSmooth(m) || cost >= best_cost) continue;
+    if (m % 2 || !IsSmooth(m) || cost >= best_cost) continue;
     best      = m;
     best_cost = cost;
   }
@@ -109,8 +109,8 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
   F->effort = flags[effort];
-  F->hx     = FastSize(grid->nx, 2);
-  F->hy     = FastSize(grid->ny, 1);
+  F->hx     = FastSize(grid->nx);
+  F->hy     = FastSize(grid->ny);
   if (effort == 0 && PetscMax(F->hx, F->hy) >= MEASURE_FROM) F->effort = FFTW_MEASURE;
   if (effort == 2 && PetscMax(F->hx, F->hy) < ESTIMATE_BELOW) F->effort = FFTW_ESTIMATE;
   /* whole cache lines, and one more, so that the columns of a block do not compete for the same cache sets */
