@@ -70,6 +70,17 @@ PetscErrorCode SamFourierCheckPlan(const void *plan)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2])
+{
+  const ptrdiff_t acute = PetscMin(k, n - k);
+  const PetscBool steep = 4 * acute > n ? PETSC_TRUE : PETSC_FALSE;
+  const double    angle = PETSC_PI * (double)(steep ? n - 2 * acute : 2 * acute) / (double)(2 * n);
+
+  root[0] = steep ? sin(angle) : cos(angle);
+  root[1] = steep ? cos(angle) : sin(angle);
+  if (acute < k) root[0] = -root[0];
+}
+
 /* Which columns are whose, and how many reals FFTW wants for a slab. */
 static PetscErrorCode DivideColumns(SamFourier F, SamFourierMode mode, ptrdiff_t *reals)
 {

@@ -116,6 +116,8 @@ static inline void *SamPieceData(const SamPieces *p, PetscMPIInt r, size_t eleme
 /* This rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns how many reals FFTW wants for them. */
 PETSC_INTERN ptrdiff_t SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns, ptrdiff_t *column_start);
 PETSC_INTERN PetscErrorCode SamFourierCheckPlan(const void *plan);
+/* SamRootOfUnity - exp(i pi k/n), 0 <= k <= n, to the last digits: from an angle of at most pi/4, which rounds least. */
+PETSC_INTERN void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2]);
 
 PETSC_INTERN void SamTransformDestroyDouble(SamFourier fourier);
 PETSC_INTERN void SamTransformDestroySingle(SamFourier fourier);

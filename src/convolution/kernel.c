@@ -44,8 +44,11 @@ static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
   PetscCall(SamAllocate(complexes, &m->mirror));
   PetscCall(SamAllocate(complexes, &m->turn));
   for (ptrdiff_t k = 0; k <= n; k++) {
-    m->turn[k][0] = k < n ? -sin(PETSC_PI * (double)k / (double)n) : 0;
-    m->turn[k][1] = cos(PETSC_PI * (double)k / (double)n);
+    double root[2];
+
+    SamRootOfUnity(k, n, root);
+    m->turn[k][0] = -root[1];
+    m->turn[k][1] = root[0];
   }
   m->plan = fftw_plan_dft_1d((int)n, (fftw_complex *)m->line, (fftw_complex *)m->z, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
   PetscCall(SamFourierCheckPlan(m->plan));

@@ -8,7 +8,6 @@
   See fourier.c for the steps.
 */
 #include "fourierimpl.h"
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,8 +37,11 @@ static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
   PetscFunctionBegin;
   PetscCall(AllocateComplex((size_t)(n + 1), &t->turn[mode]));
   for (ptrdiff_t k = 0; k <= n; k++) {
-    t->turn[mode][k][0] = k < n ? (Real)-sin(PETSC_PI * (double)k / (double)n) : 0;
-    t->turn[mode][k][1] = (Real)cos(PETSC_PI * (double)k / (double)n);
+    double root[2];
+
+    SamRootOfUnity(k, n, root);
+    t->turn[mode][k][0] = (Real)-root[1];
+    t->turn[mode][k][1] = (Real)root[0];
   }
   t->row_up[mode]   = FFT(plan_dft_1d)((int)n, (FFT(complex) *)t->row, (FFT(complex) *)t->line, FFTW_FORWARD, F->effort | FFTW_DESTROY_INPUT);
   t->row_down[mode] = FFT(plan_dft_1d)((int)n, (FFT(complex) *)t->line, (FFT(complex) *)t->row, FFTW_BACKWARD, F->effort | FFTW_DESTROY_INPUT);
@@ -60,8 +62,11 @@ static PetscErrorCode PlanLines(SamFourier F)
   PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->mirror));
   PetscCall(AllocateComplex((size_t)F->grid->ny, &t->twiddle));
   for (PetscInt j = 0; j < F->grid->ny; j++) {
-    t->twiddle[j][0] = (Real)cos(PETSC_PI * (double)j / (double)F->hy);
-    t->twiddle[j][1] = (Real)-sin(PETSC_PI * (double)j / (double)F->hy);
+    double root[2];
+
+    SamRootOfUnity(j, F->hy, root);
+    t->twiddle[j][0] = (Real)root[0];
+    t->twiddle[j][1] = (Real)-root[1];
   }
   PetscCall(AllocateComplex((size_t)(BLOCK * F->stride), &t->staging));
   PetscCall(AllocateComplex((size_t)F->stride, &t->twisted));
