@@ -265,7 +265,7 @@ class Bench:
                 said.get("reason", "its own test fails"), said["seconds"], said["residual"]))
         return dict(said, cpu=ran.cpu, memory=ran.memory)
 
-    def peer(self, setting, case, cells, folder):
+    def peer(self, setting, folder):
         """All runs of one setting: its row."""
         first, cores = self.first_run(setting, folder)
         if "seconds" not in first:
