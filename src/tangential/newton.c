@@ -33,7 +33,7 @@
 /* A direction's least descent, as a part of that of the preconditioned residual. */
 #define DESCENT 0.1
 /* The first trial's length; then it is to be longer than the best one, as steps go at most to the trial, and changes by at
-   most FOLLOW's root. Chosen by counting; half or twice of any changes the counts by a few per cent. */
+   most FOLLOW's root. Chosen by counting; other values around them change the counts by a few per cent. */
 #define FIRST_LENGTH 0.85
 #define LONGER       1.2
 #define FOLLOW       2.0
