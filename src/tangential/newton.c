@@ -185,8 +185,7 @@ SAM_VECTORIZED static void RowResidual(const Work *w, Row row, double inverse_un
     const double x = sx[i] - ax, y = sy[i] - a1 - a2 * (row.xi0 + (double)i * row.dxi), b = bound[i], q2 = qx[i] * qx[i] + qy[i] * qy[i];
     const double slips = nx[i] * nx[i] + ny[i] * ny[i] > 0.5f ? 1 : 0, part = slips * (x * qx[i] + y * qy[i]) / (q2 + (1 - slips)), unit = b > 0 ? -inverse_unit : 0;
     const float  vx = (float)(unit * (x - part * qx[i])), vy = (float)(unit * (y - part * qy[i]));
-    const double yx = qx[i] - inverse * x, yy = qy[i] - inverse * y, n2 = yx * yx + yy * yy;
-    const double scale = SamDiscScale(n2, b), ex = qx[i] - scale * yx, ey = qy[i] - scale * yy;
+    const double yx = qx[i] - inverse * x, yy = qy[i] - inverse * y, n2 = yx * yx + yy * yy, scale = SamDiscScale(n2, b);
 
     sx[i] = x;
     sy[i] = y;
@@ -194,15 +193,9 @@ SAM_VECTORIZED static void RowResidual(const Work *w, Row row, double inverse_un
     ry[i] = vy;
     zx[i] = weight[i] * vx;
     zy[i] = weight[i] * vy;
-    residual += ex * ex + ey * ey;
-    shear += q2;
-    projected += scale * scale * n2;
-    least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
+    SAM_ADD_SQUARES(qx[i], qy[i], yx, yy, scale, n2, b);
   }
-  squares[0] += residual;
-  squares[1] += shear;
-  squares[2] += projected;
-  squares[3] += least;
+  SamSumSquares(squares, residual, shear, projected, least);
 }
 
 /* z = 0 beside the contact's rows, which alone are written to. */

@@ -1,4 +1,4 @@
-/* What the tangential methods share: slip increment, energy, residual, fit of the rigid motion. */
+/* What the tangential methods share: slip increment, residual, fit of the rigid motion. */
 #include "tangentialimpl.h"
 #include <math.h>
 
@@ -73,28 +73,6 @@ PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
       w->s[l] += (w->offset ? w->offset[l] : 0) - SamFrameY(w->motion, f->xi0 + (double)i * f->dxi);
     }
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy)
-{
-  const SamFrame *f = w->frame;
-  double          a[3];
-
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < 3; c++) a[c] = w->motion[c] - 2 * f->fixed[c];
-  *energy = 0;
-  for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = SamFrameEta(f, j);
-
-    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
-      const PetscInt k = j * w->nx + i, l = k + w->cells;
-
-      *energy += 0.5 * w->q[k] * (w->s[k] + (w->offset ? w->offset[k] : 0) + SamFrameX(a, eta));
-      *energy += 0.5 * w->q[l] * (w->s[l] + (w->offset ? w->offset[l] : 0) + SamFrameY(a, f->xi0 + (double)i * f->dxi));
-    }
-  }
-  PetscCall(SamSum(w->level->grid->comm, 1, energy));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -228,18 +206,11 @@ SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, con
 
 #pragma omp simd reduction(+ : residual, shear, projected, least)
   for (PetscInt i = 0; i < n; i++) {
-    const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
-    const double scale = SamDiscScale(n2, b), rx = qx[i] - scale * yx, ry = qy[i] - scale * yy;
+    const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy, scale = SamDiscScale(n2, b);
 
-    residual += rx * rx + ry * ry;
-    shear += qx[i] * qx[i] + qy[i] * qy[i];
-    projected += scale * scale * n2;
-    least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
+    SAM_ADD_SQUARES(qx[i], qy[i], yx, yy, scale, n2, b);
   }
-  squares[0] += residual;
-  squares[1] += shear;
-  squares[2] += projected;
-  squares[3] += least;
+  SamSumSquares(squares, residual, shear, projected, least);
 }
 
 PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_SQUARES])

@@ -63,14 +63,24 @@ static inline double SamDiscScale(double n2, double b)
 /* Sums of squares of which the error is made: residual q - D(q - s/c), q, D(q - s/c), and the bound as the least measure of the shear. */
 #define SAM_SQUARES 4
 
+/* Adds a cell to those of a vectorised row, which are variables of these names: its q, y = q - s/c of square n2, and the scale of D(y). */
+#define SAM_ADD_SQUARES(qx, qy, yx, yy, scale, n2, b) \
+  residual += ((qx) - (scale) * (yx)) * ((qx) - (scale) * (yx)) + ((qy) - (scale) * (yy)) * ((qy) - (scale) * (yy)), shear += (qx) * (qx) + (qy) * (qy), projected += (scale) * (scale) * (n2), least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * (b) * (b)
+
+static inline void SamSumSquares(double squares[SAM_SQUARES], double residual, double shear, double projected, double least)
+{
+  squares[0] += residual;
+  squares[1] += shear;
+  squares[2] += projected;
+  squares[3] += least;
+}
+
 PETSC_INTERN PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w);
 PETSC_INTERN PetscErrorCode SamStickSlipDestroy(SamStickSlip *w);
 /* s = C q + offset - motion. */
 PETSC_INTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w);
 /* The same for the start, with a motion fitted to it and the error measured. */
 PETSC_INTERN PetscErrorCode SamStickSlipStart(SamStickSlip *w);
-/* Energy q.C q/2 + (offset - fixed).q from q and s. */
-PETSC_INTERN PetscErrorCode SamStickSlipEnergy(const SamStickSlip *w, double *energy);
 /*
   The residual of the projection equation with the motion that makes it smallest: s and motion are changed by a fit on the
   tangent space of the constraints (both directions where q - s/c lies within the disc, along the circle elsewhere).

@@ -150,13 +150,26 @@ static SamStep Turn(const Case *c, int k)
   return Loaded(c, N[k], T[k], 0.1, 0);
 }
 
+/* Both contacts take the k-th step, to the last bit alike. */
+static void AssertSameTurn(Case *one, Case *other, int k)
+{
+  SamStep   a = Turn(one, k), b = Turn(other, k);
+  SamFields f[2];
+
+  Solve(one, &a);
+  Solve(other, &b);
+  sam_call(SamContactGetFields(one->contact, &f[0]));
+  sam_call(SamContactGetFields(other->contact, &f[1]));
+  AssertSameFields(&f[0], &f[1], 0);
+  sam_assert(a.tangential_iterations == b.tangential_iterations && a.dissipated_energy == b.dissipated_energy);
+}
+
 static void test_contact_with_the_state_of_another_goes_on_as_it_would(void **state)
 {
   (void)state;
   for (int solved = 1; solved < 4; solved++) {
     Case            one = NewCase(Steel(), 45, 2, mu, ""), other = NewCase(Steel(), 45, 2, mu, "");
     SamContactState held;
-    SamFields       f[2];
 
     for (int k = 0; k < solved; k++) {
       SamStep step = Turn(&one, k);
@@ -165,16 +178,7 @@ static void test_contact_with_the_state_of_another_goes_on_as_it_would(void **st
     }
     sam_call(SamContactGetState(one.contact, &held));
     sam_call(SamContactSetState(other.contact, &held));
-    for (int k = solved; k < 5; k++) {
-      SamStep a = Turn(&one, k), b = Turn(&other, k);
-
-      Solve(&one, &a);
-      Solve(&other, &b);
-      sam_call(SamContactGetFields(one.contact, &f[0]));
-      sam_call(SamContactGetFields(other.contact, &f[1]));
-      AssertSameFields(&f[0], &f[1], 0);
-      sam_assert(a.tangential_iterations == b.tangential_iterations && a.dissipated_energy == b.dissipated_energy);
-    }
+    for (int k = solved; k < 5; k++) AssertSameTurn(&one, &other, k);
     DestroyCase(&one);
     DestroyCase(&other);
   }
@@ -187,19 +191,9 @@ static void test_last_step_is_as_any_other_and_may_be_followed(void **state)
   for (int kind = 0; kind < 2; kind++) {
     const SamPair pair = kind ? NewPair(210e9, 0.3, 70e9, 0.2) : Steel();
     Case          one = NewCase(pair, 45, 2, mu, ""), other = NewCase(pair, 45, 2, mu, "");
-    SamFields     f[2];
 
     sam_call(SamContactSetLast(other.contact, PETSC_TRUE));
-    for (int k = 0; k < 4; k++) {
-      SamStep a = Turn(&one, k), b = Turn(&other, k);
-
-      Solve(&one, &a);
-      Solve(&other, &b);
-      sam_call(SamContactGetFields(one.contact, &f[0]));
-      sam_call(SamContactGetFields(other.contact, &f[1]));
-      AssertSameFields(&f[0], &f[1], 0);
-      sam_assert(a.tangential_iterations == b.tangential_iterations && a.dissipated_energy == b.dissipated_energy);
-    }
+    for (int k = 0; k < 4; k++) AssertSameTurn(&one, &other, k);
     DestroyCase(&one);
     DestroyCase(&other);
   }
