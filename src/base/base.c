@@ -1,12 +1,6 @@
 /* Start and end of the library, log events and small reductions. */
 #include "baseimpl.h"
 #include <fftw3-mpi.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/mman.h>
-#if defined(__GLIBC__)
-  #include <malloc.h>
-#endif
 
 PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 PetscClassId  SAM_CLASSID;
@@ -57,13 +51,6 @@ PetscErrorCode SamFinalize(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamReturnMemory(void)
-{
-#if defined(__GLIBC__)
-  (void)malloc_trim(0);
-#endif
-}
-
 PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[])
 {
   PetscFunctionBegin;
@@ -87,40 +74,4 @@ PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[])
   PetscFunctionBegin;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)n, MPI_DOUBLE, MPI_MAX, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamAllocate(size_t bytes, void *pointer)
-{
-  const size_t huge      = (size_t)2 << 20;
-  const size_t alignment = bytes >= huge ? huge : 64;
-  void        *p         = NULL;
-
-  PetscFunctionBegin;
-  PetscCheck(!posix_memalign(&p, alignment, PetscMax(bytes, 64)), PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for %zu bytes", bytes);
-#if defined(MADV_HUGEPAGE)
-  /* with small pages much of the time would go into getting them, and into looking up addresses where columns touch every row */
-  if (bytes >= huge) (void)madvise(p, bytes, MADV_HUGEPAGE);
-#endif
-  *(void **)pointer = p;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-SAM_VECTORIZED static double SumOfSizes(PetscInt n, const double *restrict x)
-{
-  double sum = 0;
-
-#pragma omp simd reduction(+ : sum)
-  for (PetscInt i = 0; i < n; i++) sum += fabs(x[i]);
-  return sum;
-}
-
-void SamZero(PetscInt n, double x[])
-{
-  enum { CHUNK = 512 };
-
-  for (PetscInt k = 0; k < n; k += CHUNK) {
-    const PetscInt count = PetscMin(CHUNK, n - k);
-
-    if (SumOfSizes(count, x + k) != 0) (void)memset(x + k, 0, sizeof(*x) * (size_t)count);
-  }
 }

@@ -28,12 +28,6 @@
   #define SAM_VECTORIZED
 #endif
 
-/*
-  SamReturnMemory - gives the system back what was freed and the C library keeps. What is allocated next has to be mapped anew,
-  which costs time: for the end of long stages.
-*/
-PETSC_INTERN void SamReturnMemory(void);
-
 /* ---- log events, shown by -log_view ---- */
 typedef enum {
   SAM_EVENT_SETUP_INFLUENCE,
@@ -55,11 +49,23 @@ typedef enum {
 PETSC_INTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 PETSC_INTERN PetscClassId  SAM_CLASSID;
 
-/* SamAllocate - large arrays, in large pages where there are such, to be freed by free(); PETSC_ERR_MEM with the size when there is no memory. */
+/* ---- memory ---- */
+/*
+  SamAllocate, SamAllocateZeros - arrays of any size, in large pages where they are large, to be freed by SamFree(). PETSC_ERR_MEM
+  with the size when there is no memory.
+*/
 PETSC_INTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
+PETSC_INTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
+PETSC_INTERN void           SamFree(void *pointer);
 
 /* SamZero - sets an array to zero without writing to where it is: what the system has not given memory yet stays so. */
 PETSC_INTERN void SamZero(PetscInt n, double x[]);
+
+/*
+  SamReturnMemory - gives the system back what was freed and the C library keeps. What is allocated next has to be mapped anew,
+  which costs time: for the end of long stages.
+*/
+PETSC_INTERN void SamReturnMemory(void);
 
 /* ---- reductions over the ranks of small arrays of doubles, in place. Collective. ---- */
 PETSC_INTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);

@@ -8,7 +8,6 @@
   with its even frequencies first and its odd ones after them, as the filter meets them.
 */
 #include "fourierimpl.h"
-#include <stdlib.h>
 #include <string.h>
 
 struct _n_SamKernel {
@@ -58,11 +57,11 @@ static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
 static void MirroredDestroy(Mirrored *m)
 {
   fftw_destroy_plan(m->plan);
-  free(m->turn);
-  free(m->mirror);
-  free(m->z);
-  free(m->values);
-  free(m->line);
+  SamFree(m->turn);
+  SamFree(m->mirror);
+  SamFree(m->z);
+  SamFree(m->values);
+  SamFree(m->line);
 }
 
 /* The real part of a line's transform, all there is when it is even, or the imaginary part. */
@@ -147,7 +146,7 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const Sam
     for (ptrdiff_t j = even; j < n; j++) to[j] = scale * from[2 * (j - even) + 1];
   }
   MirroredDestroy(&m);
-  free(buffer);
+  SamFree(buffer);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -196,7 +195,7 @@ PetscErrorCode SamKernelDestroy(SamKernel *kernel)
 {
   PetscFunctionBegin;
   if (!*kernel) PetscFunctionReturn(PETSC_SUCCESS);
-  free((*kernel)->values);
+  SamFree((*kernel)->values);
   PetscCall(PetscFree(*kernel));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -351,7 +350,7 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const do
   if (!filter.scalar && !filter.pair)
     for (PetscInt o = 0; o < matrix->n_out; o++) PetscCall(SamAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
   PetscCall(SamFourierApply(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
-  for (PetscInt o = 0; o < matrix->n_out; o++) free(filter.column[o]);
+  for (PetscInt o = 0; o < matrix->n_out; o++) SamFree(filter.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

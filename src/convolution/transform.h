@@ -8,7 +8,6 @@
   See fourier.c for the steps.
 */
 #include "fourierimpl.h"
-#include <stdlib.h>
 #include <string.h>
 
 typedef Real Complex[2];
@@ -97,17 +96,17 @@ void DESTROY(SamFourier F)
   for (PetscInt m = 0; m < 2; m++) {
     if (t->row_up[m]) FFT(destroy_plan)(t->row_up[m]);
     if (t->row_down[m]) FFT(destroy_plan)(t->row_down[m]);
-    free(t->turn[m]);
+    SamFree(t->turn[m]);
   }
   FFT(destroy_plan)(t->up);
   FFT(destroy_plan)(t->down);
-  free(t->buffer);
-  free(t->twiddle);
-  free(t->twisted);
-  free(t->staging);
-  free(t->row);
-  free(t->line);
-  free(t->mirror);
+  SamFree(t->buffer);
+  SamFree(t->twiddle);
+  SamFree(t->twisted);
+  SamFree(t->staging);
+  SamFree(t->row);
+  SamFree(t->line);
+  SamFree(t->mirror);
   memset(t, 0, sizeof(*t));
 }
 
@@ -142,7 +141,7 @@ static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields
   if (!t->row) PetscCall(PlanLines(F));
   if (!t->row_up[mode]) PetscCall(PlanRows(F, mode));
   if (fields > t->fields) {
-    free(t->buffer);
+    SamFree(t->buffer);
     PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
     t->fields  = fields;
     t->version = -1;

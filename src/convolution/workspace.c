@@ -9,7 +9,6 @@
 #include "fourierimpl.h"
 #include <fcntl.h>
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -72,7 +71,7 @@ static PetscErrorCode FreeSlab(SamWorkspace w, SamSlab *slab)
   if (slab->mapped) {
     (void)munmap(slab->of[0], slab->mapped);
     PetscCall(PetscFree(slab->of));
-  } else free(slab->own);
+  } else SamFree(slab->own);
   *slab = (SamSlab){0};
   w->version++;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,10 +1,6 @@
 /* The grid and its slab distribution. */
 #include "gridimpl.h"
-#include <stdlib.h>
 #include <math.h>
-#include <stdint.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2], SamGrid *grid)
 {
@@ -93,70 +89,27 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Memory of a field: from the system when it is large, and then untouched and in large pages, else from the heap. */
-typedef struct {
-  void  *array;
-  size_t mapped; /* 0: from the heap */
-} Memory;
-
-/* From this size on pages are large: smaller fields would be rounded up to them. */
-#define LARGE      ((size_t)8 << 20)
-#define LARGE_PAGE ((size_t)2 << 20)
-
-static PetscErrorCode FreeMemory(void *pointer)
+static PetscErrorCode FreeArray(void *pointer)
 {
-  Memory *m = (Memory *)pointer;
-
-  if (m->mapped) (void)munmap(m->array, m->mapped);
-  else free(m->array);
-  free(m);
+  SamFree(pointer);
   return PETSC_SUCCESS;
-}
-
-/* The mapping begins at a large page: what is too much at both ends is given back. NULL: there is no memory. */
-static void *MapLarge(size_t bytes)
-{
-  char  *base = (char *)mmap(NULL, bytes + LARGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  size_t before;
-
-  if (base == (char *)MAP_FAILED) return NULL;
-  before = (LARGE_PAGE - (uintptr_t)base % LARGE_PAGE) % LARGE_PAGE;
-  if (before) (void)munmap(base, before);
-  (void)munmap(base + before + bytes, LARGE_PAGE - before);
-#if defined(MADV_HUGEPAGE)
-  (void)madvise(base + before, bytes, MADV_HUGEPAGE);
-#endif
-  return base + before;
-}
-
-static Memory *AllocateZeros(size_t bytes)
-{
-  const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (bytes + page - 1) / page * page;
-  Memory      *m    = (Memory *)malloc(sizeof(*m));
-
-  if (!m) return NULL;
-  *m = (Memory){.mapped = bytes >= LARGE ? whole : 0};
-  m->array = m->mapped ? MapLarge(whole) : calloc(PetscMax(bytes, 1), 1);
-  if (m->array) return m;
-  free(m);
-  return NULL;
 }
 
 PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
 {
   const PetscInt n = components * grid->cells, all = components * grid->nx * grid->ny;
   PetscContainer owner;
-  Memory        *memory = AllocateZeros(sizeof(PetscScalar) * (size_t)n);
+  PetscScalar   *array;
   PetscMPIInt    ranks;
 
   PetscFunctionBegin;
-  PetscCheck(memory, PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for a field of %" PetscInt_FMT " values", n);
+  PetscCall(SamAllocateZeros(sizeof(*array) * (size_t)n, &array));
   PetscCallMPI(MPI_Comm_size(grid->comm, &ranks));
-  if (ranks > 1) PetscCall(VecCreateMPIWithArray(grid->comm, 1, n, all, (PetscScalar *)memory->array, field));
-  else PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, (PetscScalar *)memory->array, field));
+  if (ranks > 1) PetscCall(VecCreateMPIWithArray(grid->comm, 1, n, all, array, field));
+  else PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, array, field));
   PetscCall(PetscContainerCreate(PETSC_COMM_SELF, &owner));
-  PetscCall(PetscContainerSetPointer(owner, memory));
-  PetscCall(PetscContainerSetUserDestroy(owner, FreeMemory));
+  PetscCall(PetscContainerSetPointer(owner, array));
+  PetscCall(PetscContainerSetUserDestroy(owner, FreeArray));
   PetscCall(PetscObjectCompose((PetscObject)*field, "sam_array", (PetscObject)owner));
   PetscCall(PetscContainerDestroy(&owner));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -3,7 +3,6 @@
   unit of the messages, so that their numbers stay small.
 */
 #include "gridimpl.h"
-#include <stdlib.h>
 
 void SamGridRowsOf(SamGrid grid, PetscMPIInt ranks, PetscMPIInt rank, PetscInt *begin, PetscInt *end)
 {
@@ -75,7 +74,7 @@ PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double 
 PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted)
 {
   PetscFunctionBegin;
-  if (rows->ranks > 1) free((void *)*wanted);
+  if (rows->ranks > 1) SamFree((void *)*wanted);
   *wanted = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,7 +7,6 @@
 */
 #include "gridimpl.h"
 #include <math.h>
-#include <stdlib.h>
 
 struct _n_SamTransfer {
   SamGrid    fine, coarse;
@@ -172,7 +171,7 @@ PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
   }
   PetscCall(VecRestoreArrayWrite(coarse, &c));
   PetscCall(VecRestoreArrayRead(fine, &f));
-  free(averaged);
+  SamFree(averaged);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -4,7 +4,6 @@
   Both grids have their rows in slabs; which rows one side wants of the other, and how they come, is rows.c.
 */
 #include "gridimpl.h"
-#include <stdlib.h>
 #include <string.h>
 
 struct _n_SamWindow {
@@ -100,7 +99,7 @@ PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
   }
   PetscCall(VecRestoreArrayWrite(part, &to));
   PetscCall(VecRestoreArrayRead(whole, &from));
-  free(columns);
+  SamFree(columns);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -29,7 +29,6 @@
 #include "normalimpl.h"
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A cell parts when the gap is more than its own pressure and that of its neighbours displace it, in units of the former. */
@@ -115,11 +114,11 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArray(w->vg, &w->g));
   PetscCall(VecDestroy(&w->vg));
   PetscCall(PetscFree2(w->busy, w->least));
-  free(w->z);
-  free(w->s);
-  free(w->u);
-  free(w->loss);
-  free(w->active);
+  SamFree(w->z);
+  SamFree(w->s);
+  SamFree(w->u);
+  SamFree(w->loss);
+  SamFree(w->active);
   PetscCall(PetscFree(w->xi));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

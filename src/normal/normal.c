@@ -1,6 +1,5 @@
 /* The normal solver's class: types, tolerances, monitors, nested grids, windows. The methods are in files of their own. */
 #include "normalimpl.h"
-#include <stdlib.h>
 
 /*
   Coarse grids need to be solved only as well as they approximate the fine one; beyond that their iterations are wasted.
@@ -286,7 +285,7 @@ static PetscErrorCode Prolong(SamGrid grid, SamTransfer transfer, Vec coarse, Ve
   for (PetscInt k = 0; k < cells; k++) p[k] *= (double)mask[k];
   PetscCall(VecRestoreArray(fine, &p));
   PetscCall(VecDestroy(&indicator));
-  free(mask);
+  SamFree(mask);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -389,7 +388,7 @@ static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame
     max[0] = PetscMax(max[0], within[0]);
   }
   PetscCall(VecRestoreArrayRead(level->h, &h));
-  free(u);
+  SamFree(u);
   PetscCall(SamMax(grid->comm, 2, max));
   *clear = max[1] < -CLEARANCE * max[0] ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -98,15 +98,17 @@ static PetscErrorCode FindReach(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define FLOATS 6
+
 static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level, Work *w)
 {
-  const SamFrame *f = &level->frame;
-  PetscInt        n;
+  const SamFrame *f              = &level->frame;
+  float **const   floats[FLOATS] = {&w->weight, &w->normal, &w->r, &w->z, &w->step, &w->u};
 
   PetscFunctionBegin;
   PetscCall(SamStickSlipCreate(solver, level, &w->base));
-  n = 2 * w->base.cells;
-  PetscCall(PetscCalloc7(n, &w->trial, n, &w->normal, n / 2, &w->weight, n, &w->r, n, &w->z, n, &w->step, n, &w->u));
+  PetscCall(SamAllocateZeros(sizeof(*w->trial) * 2 * (size_t)w->base.cells, &w->trial));
+  for (PetscInt k = 0; k < FLOATS; k++) PetscCall(SamAllocateZeros(sizeof(***floats) * (k > 0 ? 2 : 1) * (size_t)w->base.cells, floats[k]));
   PetscCall(PetscMalloc1(w->base.nx, &w->xi));
   for (PetscInt i = 0; i < w->base.nx; i++) w->xi[i] = (float)(f->xi0 + (double)i * f->dxi);
   PetscCall(FindReach(w));
@@ -116,7 +118,13 @@ static PetscErrorCode CreateWork(SamTangential solver, SamTangentialLevel *level
 static PetscErrorCode DestroyWork(Work *w)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree7(w->trial, w->normal, w->weight, w->r, w->z, w->step, w->u));
+  SamFree(w->trial);
+  SamFree(w->weight);
+  SamFree(w->normal);
+  SamFree(w->r);
+  SamFree(w->z);
+  SamFree(w->step);
+  SamFree(w->u);
   PetscCall(PetscFree(w->xi));
   PetscCall(SamStickSlipDestroy(&w->base));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,0 +1,117 @@
+/*
+  Memory of large arrays, in large pages where the system has them: with small ones much of the time would go into getting them,
+  and into looking up addresses where columns touch every row.
+
+  Large arrays of zeros come from the system, which clears them when they are touched; what never is takes no memory. All
+  others are the C library's, which keeps what is freed for the next ones.
+*/
+#include "baseimpl.h"
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#if defined(__GLIBC__)
+  #include <malloc.h>
+#endif
+
+/* From this size on zeros come from the system: smaller arrays would be rounded up to its pages. */
+#define LARGE      ((size_t)8 << 20)
+#define LARGE_PAGE ((size_t)2 << 20)
+
+typedef struct Mapped {
+  void          *base;
+  size_t         bytes;
+  struct Mapped *next;
+} Mapped;
+
+static Mapped *mapped = NULL;
+
+static void UseLargePages(void *p, size_t bytes)
+{
+#if defined(MADV_HUGEPAGE)
+  if (bytes >= LARGE_PAGE) (void)madvise(p, bytes, MADV_HUGEPAGE);
+#endif
+}
+
+/* The mapping begins at a large page: what is too much at both ends is given back. NULL: there is no memory. */
+static void *MapZeros(size_t bytes)
+{
+  const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (bytes + page - 1) / page * page;
+  Mapped      *m    = (Mapped *)malloc(sizeof(*m));
+  char        *base = m ? (char *)mmap(NULL, whole + LARGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) : (char *)MAP_FAILED;
+  size_t       before;
+
+  if (base == (char *)MAP_FAILED) {
+    free(m);
+    return NULL;
+  }
+  before = (LARGE_PAGE - (uintptr_t)base % LARGE_PAGE) % LARGE_PAGE;
+  if (before) (void)munmap(base, before);
+  (void)munmap(base + before + whole, LARGE_PAGE - before);
+  *m     = (Mapped){.base = base + before, .bytes = whole, .next = mapped};
+  mapped = m;
+  UseLargePages(m->base, whole);
+  return m->base;
+}
+
+PetscErrorCode SamAllocate(size_t bytes, void *pointer)
+{
+  void *p = NULL;
+
+  PetscFunctionBegin;
+  PetscCheck(!posix_memalign(&p, bytes >= LARGE_PAGE ? LARGE_PAGE : 64, PetscMax(bytes, 64)), PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for %zu bytes", bytes);
+  UseLargePages(p, bytes);
+  *(void **)pointer = p;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer)
+{
+  void *p = bytes >= LARGE ? MapZeros(bytes) : calloc(PetscMax(bytes, 1), 1);
+
+  PetscFunctionBegin;
+  PetscCheck(p, PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for %zu bytes", bytes);
+  *(void **)pointer = p;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamFree(void *pointer)
+{
+  for (Mapped **m = &mapped; *m; m = &(*m)->next)
+    if ((*m)->base == pointer) {
+      Mapped *found = *m;
+
+      (void)munmap(pointer, found->bytes);
+      *m = found->next;
+      free(found);
+      return;
+    }
+  free(pointer);
+}
+
+void SamReturnMemory(void)
+{
+#if defined(__GLIBC__)
+  (void)malloc_trim(0);
+#endif
+}
+
+SAM_VECTORIZED static double SumOfSizes(PetscInt n, const double *restrict x)
+{
+  double sum = 0;
+
+#pragma omp simd reduction(+ : sum)
+  for (PetscInt i = 0; i < n; i++) sum += fabs(x[i]);
+  return sum;
+}
+
+void SamZero(PetscInt n, double x[])
+{
+  enum { CHUNK = 512 };
+
+  for (PetscInt k = 0; k < n; k += CHUNK) {
+    const PetscInt count = PetscMin(CHUNK, n - k);
+
+    if (SumOfSizes(count, x + k) != 0) (void)memset(x + k, 0, sizeof(*x) * (size_t)count);
+  }
+}
