@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <malloc.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -217,6 +218,25 @@ static void ReturnLargeFields(void)
 #endif
 }
 
+/*
+  A program that nobody launched as one of several needs no network. Open MPI would look for one, and start a daemon to be found
+  by, which takes longer than a small problem and cannot be done everywhere. What the user has set stays.
+*/
+static void StartAlone(void)
+{
+#if defined(OPEN_MPI)
+  static const char *const launched[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK", "PMI_ID", "PMI_FD", "PMI_SIZE", "SLURM_STEP_ID", "ALPS_APP_PE", NULL};
+
+  for (int k = 0; launched[k]; k++)
+    if (getenv(launched[k])) return;
+  (void)setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  (void)setenv("OMPI_MCA_orte_create_session_dirs", "0", 0); /* or all that run at the same time would use the same */
+  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0);               /* it needs one */
+  (void)setenv("OMPI_MCA_pml", "ob1", 0);
+  (void)setenv("OMPI_MCA_btl", "self", 0);
+#endif
+}
+
 int main(int argc, char **argv)
 {
   PetscBool      help = PETSC_FALSE, version = PETSC_FALSE;
@@ -226,6 +246,7 @@ int main(int argc, char **argv)
   int            status;
 
   ReturnLargeFields();
+  StartAlone();
   TakeWords(&argc, argv, &help, &version);
   bad_file = TakeBadOptionsFiles(&argc, argv, message, sizeof(message));
   memset(&run, 0, sizeof(run));

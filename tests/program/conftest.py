@@ -3,14 +3,12 @@ import contextlib
 import os
 import signal
 import subprocess
-import tempfile
 from pathlib import Path
 
 import pytest
 
 import support
 
-SESSION = tempfile.TemporaryDirectory(prefix="petsam")
 TIMEOUT = 120  # seconds for one run
 PROGRAM = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve() / "bin" / "petsam"
 
@@ -54,19 +52,11 @@ def kill_all(run, ranks):
             os.kill(process, signal.SIGKILL)
 
 
-def alone(ranks):
-    """A rank alone need not look for networks: half of a small run's time. Such runs share a folder of Open MPI's, which
-    those of another pytest would remove."""
-    if ranks > 1:
-        return {}
-    return dict(OMPI_MCA_pml="ob1", OMPI_MCA_btl="self", OMPI_MCA_ess_singleton_isolated="1", OMPI_MCA_orte_tmpdir_base=SESSION.name)
-
-
 def execute(launcher, directory, options, ranks, check, extra=None):
     """One run; with more than one rank by the launcher."""
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM)] + support.flatten(options)
     done = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=directory, timeout=TIMEOUT + 30,
-                          env={**environment(), **alone(ranks), **(extra or {})}, stdin=subprocess.DEVNULL)
+                          env={**environment(), **(extra or {})}, stdin=subprocess.DEVNULL)
     assert check is None or done.returncode == check, (
         f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}")
     return support.Run(done.returncode, done.stdout, done.stderr)

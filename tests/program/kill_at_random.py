@@ -37,7 +37,7 @@ def write_history(folder, steps=STEPS):
 def start(launcher, folder, options, ranks):
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten(options)]
     return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env={**conftest.environment(), **conftest.alone(ranks)})
+                            env=conftest.environment())
 
 
 def complete_steps(path):

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from conftest import PROGRAM, alone, environment
+from conftest import PROGRAM, environment
 from support import ROOT, Results, analytic
 
 BUILD = PROGRAM.parents[1]
@@ -52,7 +52,7 @@ def test_DESTDIR_is_before_the_prefix_and_not_in_the_files(tmp_path, prefix):
 
 
 def test_installed_program_runs(prefix, tmp_path):
-    done = subprocess.run([str(prefix / "bin/petsam"), "--version"], capture_output=True, text=True, cwd=tmp_path, env={**environment(), **alone(1)})
+    done = subprocess.run([str(prefix / "bin/petsam"), "--version"], capture_output=True, text=True, cwd=tmp_path, env=environment())
     assert done.returncode == 0 and done.stdout.startswith("petsam ")
 
 
@@ -86,7 +86,7 @@ def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, lau
     assert done.returncode == 0, done.stderr
     for ranks in (1, 2):
         words = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(tmp_path / "contact")]
-        text = subprocess.run(words, capture_output=True, text=True, env={**environment(), **alone(ranks)}, timeout=120).stdout
+        text = subprocess.run(words, capture_output=True, text=True, env=environment(), timeout=120).stdout
         status, approach, tangential = re.fullmatch(r"status (\d), approach (\S+) m, tangential displacement (\S+) m\n", text).groups()
         hertz = analytic.hertz(CONTACT["load"], CONTACT["radius"], CONTACT["e_star"])
         assert status == "0"

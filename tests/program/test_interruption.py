@@ -45,7 +45,7 @@ def assert_intact(path, least):
 def start(launcher, folder, ranks, *options, **how):
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten([CASE, *options])]
     return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env={**conftest.environment(), **conftest.alone(ranks)}, **how)
+                            env=conftest.environment(), **how)
 
 
 def wait_for(run, step):
@@ -168,7 +168,7 @@ def die(deadly, folder, **variables):
     """Steps told before the end, and how the run ended."""
     command = [str(conftest.PROGRAM), *flatten([CASE, dict(grid_n=24)])]
     run = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,
-                         env={**conftest.environment(), **conftest.alone(1), "LD_PRELOAD": str(deadly), **variables})
+                         env={**conftest.environment(), "LD_PRELOAD": str(deadly), **variables})
     return told(run.stdout), run.returncode
 
 

@@ -1,8 +1,12 @@
 """The number of ranks does not change the results."""
+import concurrent.futures
+import subprocess
+
 import numpy as np
 import pytest
 
-from support import FIELDS, LOADS, RIGID, assert_same, ball
+from conftest import PROGRAM
+from support import FIELDS, LOADS, RIGID, Results, assert_same, ball, flatten
 
 BALL = dict(ball(), grid_n=(75, 62), load_my=0.02, load_tx=30.0, load_ty=9.0, load_mz=1e-3)
 # 4 rows for 5 ranks; flat bodies touch everywhere, so the contact is at the edge
@@ -38,6 +42,18 @@ def test_tiny_and_thin_grids_on_three_ranks(solve, n):
 
 @pytest.mark.parametrize("ranks", [2, 5])
 def test_run_repeats(solve, petsam, tmp_path, ranks):
-    from support import Results
     petsam(BALL, dict(output="again.h5"), ranks=ranks)
     assert_same(Results(tmp_path / "again.h5"), solve(BALL, ranks=ranks), 0)
+
+
+def test_rank_that_nobody_launched_needs_no_environment(tmp_path):
+    """Neither Open MPI's daemon nor its ssh, nor the leave to run as root."""
+    done = subprocess.run([str(PROGRAM), *flatten([ball(16)])], env={}, cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_runs_at_the_same_time_do_not_meet(petsam, tmp_path):
+    """As the cases of a study do: no file or folder of the launcher's is shared. One in a hundred failed when it was."""
+    with concurrent.futures.ThreadPoolExecutor(8) as pool:
+        runs = list(pool.map(lambda k: petsam(ball(16), dict(output=f"{k}.h5")), range(96)))
+    assert {run.stderr for run in runs} == {""}

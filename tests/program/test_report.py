@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 import pytest
 
-from conftest import PROGRAM, alone, environment
+from conftest import PROGRAM, environment
 from support import SPHERE, ball, flatten
 
 STEPS = dict(ball(48), load_tx=20.0, steps=4)
@@ -89,7 +89,7 @@ def test_failed_step_is_a_line_too(petsam):
 
 def test_steps_are_told_when_they_are_done(tmp_path):
     """Into a pipe as well, which C's streams would fill before they say anything."""
-    run = subprocess.Popen([str(PROGRAM), *flatten([STEPS, dict(steps=100000)])], stdout=subprocess.PIPE, text=True, env={**environment(), **alone(1)},
+    run = subprocess.Popen([str(PROGRAM), *flatten([STEPS, dict(steps=100000)])], stdout=subprocess.PIPE, text=True, env=environment(),
                            cwd=tmp_path, stdin=subprocess.DEVNULL)
     try:
         assert any(re.match(r" *3 ", line) for line in run.stdout)
@@ -166,7 +166,7 @@ def on_terminal(words, folder):
     pid, terminal = pty.fork()
     if pid == 0:
         os.chdir(folder)
-        os.execvpe(words[0], words, {**environment(), **({} if "mpirun" in " ".join(words) else alone(1))})
+        os.execvpe(words[0], words, environment())
     text = b""
     while True:
         try:
@@ -235,7 +235,7 @@ def test_version_is_told_by_either_word(petsam, word):
 
 
 def test_help_into_a_pipe_that_closes_is_no_crash(tmp_path):
-    run = subprocess.Popen([str(PROGRAM), "-help"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**environment(), **alone(1)}, cwd=tmp_path)
+    run = subprocess.Popen([str(PROGRAM), "-help"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment(), cwd=tmp_path)
     run.stdout.close()
     assert "PETSC ERROR" not in run.stderr.read()
     run.wait()
