@@ -109,7 +109,7 @@ PETSC_EXTERN PetscErrorCode SamContactGetCoupling(SamContact contact, PetscBool 
 
 /*
   SamContactState - all that the steps before have to say to those that come: a contact that is given the state of
-  another goes on as that one would, to the last bit on the same number of ranks.
+  another goes on as that one would, to the last bit and on any number of ranks.
 */
 typedef struct {
   PetscInt   steps;                             /* that count for the prediction of the next one */

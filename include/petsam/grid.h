@@ -41,6 +41,11 @@ PETSC_EXTERN PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse);
 PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
 /* SamVecZero - sets a field to zero without writing to what is. Collective. */
 PETSC_EXTERN PetscErrorCode SamVecZero(Vec field);
+/*
+  SamGridNorm - NORM_1 or NORM_2 of a field of one or two components, as VecNorm() has it, but to the last bit the same on any
+  number of ranks. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm);
 
 /* Coordinates of the centre of column i and of row j (both global), m. */
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)

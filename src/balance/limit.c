@@ -26,25 +26,27 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
 {
   const SamBalance none = {.kind = kind};
   SamFrame         f;
-  double           sums[3] = {0, 0, 0};
+  SamTotal         totals[3] = {{0, 0}};
+  double           sums[3];
   const double    *t;
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&f, grid, &none));
   PetscCall(VecGetArrayRead(traction, &t));
-  for (PetscInt j = 0; j < grid->rows; j++) { /* row by row, for less rounding */
+  for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k    = (ptrdiff_t)j * grid->nx;
     const double    eta  = SamFrameEta(&f, j);
     double          x[2] = {0, 0}, y[2] = {0, 0};
 
     SumRow(grid->nx, t + k, f.xi0, f.dxi, x);
     if (kind == SAM_BALANCE_TANGENTIAL) SumRow(grid->nx, t + k + grid->cells, f.xi0, f.dxi, y);
-    sums[0] += x[0];
-    sums[1] += kind == SAM_BALANCE_NORMAL ? -eta * x[0] : y[0];
-    sums[2] += kind == SAM_BALANCE_NORMAL ? x[1] : y[1] - eta * x[0];
+    sums[0] = x[0];
+    sums[1] = kind == SAM_BALANCE_NORMAL ? -eta * x[0] : y[0];
+    sums[2] = kind == SAM_BALANCE_NORMAL ? x[1] : y[1] - eta * x[0];
+    SamAddAll(3, totals, sums);
   }
   PetscCall(VecRestoreArrayRead(traction, &t));
-  PetscCall(SamSum(grid->comm, 3, sums));
+  PetscCall(SamSumTotals(grid->comm, 3, totals, sums));
   SamFrameGetLoads(&f, sums, loads);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -85,12 +87,16 @@ typedef struct {
   double value, gradient[3], hessian[SAM_GRAM];
 } Power;
 
+#define POWER ((PetscInt)(sizeof(Power) / sizeof(double)))
+
 static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], const double a[3], double smoothing, Power *power)
 {
+  SamTotal totals[sizeof(Power) / sizeof(double)] = {{0, 0}};
+
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(power, sizeof(*power)));
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const double eta = SamFrameEta(f, j);
+    Power        row = {0};
 
     for (PetscInt i = 0; i < f->grid->nx; i++) {
       const double xi = f->xi0 + (double)i * f->dxi, b = bound[j * f->grid->nx + i];
@@ -100,19 +106,20 @@ static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], con
       vx = SamFrameX(a, eta);
       vy = SamFrameY(a, xi);
       n  = sqrt(vx * vx + vy * vy + smoothing * smoothing);
-      power->value += b * n;
+      row.value += b * n;
       vx /= n;
       vy /= n;
-      power->gradient[0] += b * vx;
-      power->gradient[1] += b * vy;
-      power->gradient[2] += b * (xi * vy - eta * vx);
+      row.gradient[0] += b * vx;
+      row.gradient[1] += b * vy;
+      row.gradient[2] += b * (xi * vy - eta * vx);
       hxx = b / n * (1 - vx * vx);
       hxy = -b / n * vx * vy;
       hyy = b / n * (1 - vy * vy);
-      SamGramAddTangential(power->hessian, hxx, hxy, hyy, xi, eta);
+      SamGramAddTangential(row.hessian, hxx, hxy, hyy, xi, eta);
     }
+    SamAddAll(POWER, totals, (const double *)&row);
   }
-  PetscCall(SamSum(f->grid->comm, (PetscInt)(sizeof(*power) / sizeof(double)), (double *)power));
+  PetscCall(SamSumTotals(f->grid->comm, POWER, totals, (double *)power));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -153,9 +153,9 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
 }
 
 /* A row's squares (residual, q, D(q - ds/c), bound) and largest |q| - mu p and mu p. */
-SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, const double *restrict qx, const double *restrict qy, const double *restrict sx, const double *restrict sy, double friction, double inverse, double sums[4], double max[2])
+SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, const double *restrict qx, const double *restrict qy, const double *restrict sx, const double *restrict sy, double friction, double inverse, SamTotal totals[4], double max[2])
 {
-  double residual = 0, shear = 0, projected = 0, least = 0, over = max[0], most = max[1];
+  double residual = 0, shear = 0, projected = 0, least = 0, over = max[0], most = max[1], sums[4];
 
 #pragma omp simd reduction(+ : residual, shear, projected, least) reduction(max : over, most)
   for (PetscInt i = 0; i < n; i++) {
@@ -169,17 +169,19 @@ SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, c
     over = beyond > over ? beyond : over;
     most = b > most ? b : most;
   }
-  sums[0] += residual;
-  sums[1] += shear;
-  sums[2] += projected;
-  sums[3] += least;
+  sums[0] = residual;
+  sums[1] = shear;
+  sums[2] = projected;
+  sums[3] = least;
+  SamAddAll(4, totals, sums);
   max[0] = over;
   max[1] = most;
 }
 
 static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscReal self, const SamFields *f, Vec slip_before, SamCheck *check)
 {
-  double        sums[4] = {0, 0, 0, 0}, max[2] = {0, 0}, *ds;
+  SamTotal      totals[4] = {{0, 0}};
+  double        sums[4], max[2] = {0, 0}, *ds;
   const double *p, *q, *s, *before = NULL;
 
   PetscFunctionBegin;
@@ -195,14 +197,14 @@ static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscRea
       ds[i]            = s[k + i] - (before ? before[k + i] : 0);
       ds[i + grid->nx] = s[l + i] - (before ? before[l + i] : 0);
     }
-    TangentialRow(grid->nx, p + k, q + k, q + l, ds, ds + grid->nx, friction, 1 / self, sums, max);
+    TangentialRow(grid->nx, p + k, q + k, q + l, ds, ds + grid->nx, friction, 1 / self, totals, max);
   }
   PetscCall(PetscFree(ds));
   if (slip_before) PetscCall(VecRestoreArrayRead(slip_before, &before));
   PetscCall(VecRestoreArrayRead(f->slip, &s));
   PetscCall(VecRestoreArrayRead(f->shear, &q));
   PetscCall(VecRestoreArrayRead(f->pressure, &p));
-  PetscCall(SamSum(grid->comm, 4, sums));
+  PetscCall(SamSumTotals(grid->comm, 4, totals, sums));
   PetscCall(SamMax(grid->comm, 2, max));
   check->tangential = sums[0] == 0 ? 0 : sqrt(sums[0] / PetscMax(sums[3], PetscMax(sums[1], sums[2])));
   check->cone       = max[0] == 0 ? 0 : (max[1] > 0 ? max[0] / max[1] : INFINITY);
@@ -217,7 +219,7 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
 
   PetscFunctionBegin;
   PetscCall(SamBalanceGetLoads(grid, given->kind, traction, loads));
-  PetscCall(VecNorm(traction, NORM_1, &total));
+  PetscCall(SamGridNorm(grid, traction, NORM_1, &total));
   total *= grid->dx * grid->dy;
   for (PetscInt c = 0; c < 3; c++) {
     const PetscBool moment = given->kind == SAM_BALANCE_NORMAL ? c > 0 : c == 2;

@@ -335,14 +335,14 @@ static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, Pet
 }
 
 /* Relative change of a traction since the pass before, which it then replaces. */
-static PetscErrorCode Change(Vec now, Vec last, PetscReal *change)
+static PetscErrorCode Change(SamGrid grid, Vec now, Vec last, PetscReal *change)
 {
   PetscReal norm;
 
   PetscFunctionBegin;
   PetscCall(VecAYPX(last, -1, now));
-  PetscCall(VecNorm(last, NORM_2, change));
-  PetscCall(VecNorm(now, NORM_2, &norm));
+  PetscCall(SamGridNorm(grid, last, NORM_2, change));
+  PetscCall(SamGridNorm(grid, now, NORM_2, &norm));
   *change = *change > 0 ? *change / norm : 0;
   PetscCall(VecCopy(now, last));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -361,8 +361,8 @@ static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const 
     if (step->status == SAM_STATUS_CONVERGED) PetscCall(SolveTangential(c, tangential, guess, step));
     step->coupling_iterations = pass;
     if (!c->coupled || c->friction == 0 || step->status != SAM_STATUS_CONVERGED) break;
-    PetscCall(Change(c->fields.pressure, c->last[0], &change[0]));
-    PetscCall(Change(c->fields.shear, c->last[1], &change[1]));
+    PetscCall(Change(c->grid, c->fields.pressure, c->last[0], &change[0]));
+    PetscCall(Change(c->grid, c->fields.shear, c->last[1], &change[1]));
     if (c->coupling_monitor) PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass, (double)change[0], (double)change[1]));
     if (pass > 1 && PetscMax(change[0], change[1]) <= c->coupling_rtol) break;
     if (pass >= c->coupling_max_it) {
@@ -376,9 +376,10 @@ static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const 
 /* Areas of contact and stick, and the work of friction in this step, -sum q.(s - s_before) dA. */
 static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
 {
-  const PetscInt cells   = c->grid->cells;
-  const double   area    = c->grid->dx * c->grid->dy;
-  double         sums[3] = {0, 0, 0};
+  const PetscInt cells = c->grid->cells, nx = c->grid->nx;
+  const double   area  = c->grid->dx * c->grid->dy;
+  SamTotal       totals[3] = {{0, 0}};
+  double         sums[3];
   const double  *p, *q, *s, *before = NULL;
 
   PetscFunctionBegin;
@@ -386,23 +387,28 @@ static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
   PetscCall(VecGetArrayRead(c->fields.shear, &q));
   PetscCall(VecGetArrayRead(c->fields.slip, &s));
   if (c->slip_before) PetscCall(VecGetArrayRead(c->slip_before, &before));
-  for (PetscInt k = 0; k < cells; k++) {
-    const PetscInt l     = k + cells;
-    const SamState state = SamStateOf(p[k], q[k], q[l], c->friction);
+  for (PetscInt first = 0; first < cells; first += nx) {
+    double row[3] = {0, 0, 0};
 
-    if (state == SAM_STATE_OPEN) continue;
-    sums[0] += area;
-    sums[1] += state == SAM_STATE_STICK ? area : 0;
-    sums[2] -= (q[k] * (s[k] - (before ? before[k] : 0)) + q[l] * (s[l] - (before ? before[l] : 0))) * area;
+    for (PetscInt k = first; k < first + nx; k++) {
+      const PetscInt l     = k + cells;
+      const SamState state = SamStateOf(p[k], q[k], q[l], c->friction);
+
+      if (state == SAM_STATE_OPEN) continue;
+      row[0] += 1;
+      row[1] += state == SAM_STATE_STICK ? 1 : 0;
+      row[2] -= q[k] * (s[k] - (before ? before[k] : 0)) + q[l] * (s[l] - (before ? before[l] : 0));
+    }
+    SamAddAll(3, totals, row);
   }
   if (c->slip_before) PetscCall(VecRestoreArrayRead(c->slip_before, &before));
   PetscCall(VecRestoreArrayRead(c->fields.slip, &s));
   PetscCall(VecRestoreArrayRead(c->fields.shear, &q));
   PetscCall(VecRestoreArrayRead(c->fields.pressure, &p));
-  PetscCall(SamSum(c->grid->comm, 3, sums));
-  step->contact_area      = sums[0];
-  step->stick_area        = sums[1];
-  step->dissipated_energy = sums[2];
+  PetscCall(SamSumTotals(c->grid->comm, 3, totals, sums));
+  step->contact_area      = sums[0] * area;
+  step->stick_area        = sums[1] * area;
+  step->dissipated_energy = sums[2] * area;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -128,6 +128,41 @@ PetscErrorCode SamVecZero(Vec v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A row's sums of |x| and of x^2. */
+SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict x, double sums[2])
+{
+  double sizes = 0, squares = 0;
+
+#pragma omp simd reduction(+ : sizes, squares)
+  for (PetscInt i = 0; i < n; i++) {
+    sizes += fabs(x[i]);
+    squares += x[i] * x[i];
+  }
+  sums[0] = sizes;
+  sums[1] = squares;
+}
+
+PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm)
+{
+  SamTotal      totals[2] = {{0, 0}};
+  double        sums[2];
+  const double *x;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCheck(type == NORM_1 || type == NORM_2, grid->comm, PETSC_ERR_SUP, "Only NORM_1 and NORM_2");
+  PetscCall(VecGetLocalSize(field, &n));
+  PetscCall(VecGetArrayRead(field, &x));
+  for (PetscInt k = 0; k < n; k += grid->nx) {
+    SumRow(grid->nx, x + k, sums);
+    SamAddAll(2, totals, sums);
+  }
+  PetscCall(VecRestoreArrayRead(field, &x));
+  PetscCall(SamSumTotals(grid->comm, 2, totals, sums));
+  *norm = type == NORM_1 ? sums[0] : PetscSqrtReal(sums[1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[], PetscInt *components)
 {
   PetscInt n, m;

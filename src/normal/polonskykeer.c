@@ -19,12 +19,43 @@ typedef struct {
   double          norm; /* |g|^2 on the contact */
 } Work;
 
+/* The rigid displacement that fits x best on the contact, of the free ones. */
+static PetscErrorCode FitOnContact(const Work *w, const double p[], const double x[], double a[3])
+{
+  const SamFrame *f                   = &w->level->frame;
+  const PetscInt  nx                  = w->level->grid->nx;
+  SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
+  double          sums[3 + SAM_GRAM];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < w->level->grid->rows; j++) {
+    const double eta                = SamFrameEta(f, j);
+    double       row[3 + SAM_GRAM] = {0};
+
+    for (PetscInt i = 0; i < nx; i++) {
+      const PetscInt k  = j * nx + i;
+      const double   xi = f->xi0 + (double)i * f->dxi;
+
+      if (p[k] <= 0) continue;
+      row[0] += x[k];
+      row[1] -= eta * x[k];
+      row[2] += xi * x[k];
+      SamGramAddNormal(row + 3, xi, eta);
+    }
+    SamAddAll(3 + SAM_GRAM, totals, row);
+  }
+  PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
+  SamFrameSolve(f, sums + 3, sums, a);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* g and the motion that fits it on {p > 0}, or the given one; the errors; all from scratch. */
 static PetscErrorCode ComputeGap(Work *w)
 {
-  const SamFrame *f    = &w->level->frame;
-  const PetscInt  nx   = w->level->grid->nx;
-  double          a[3] = {0, 0, 0}, gram[SAM_GRAM] = {0}, sums[3] = {0, 0, 0}, max[2] = {0, 0};
+  const SamFrame *f     = &w->level->frame;
+  const PetscInt  nx    = w->level->grid->nx;
+  SamTotal        total = {0, 0};
+  double          a[3]  = {0, 0, 0}, max[2] = {0, 0};
   const double   *p, *h;
   double         *g;
 
@@ -37,52 +68,72 @@ static PetscErrorCode ComputeGap(Work *w)
     const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = 0; i < nx; i++) {
-      const PetscInt k  = j * nx + i;
-      const double   xi = f->xi0 + (double)i * f->dxi;
+      const PetscInt k = j * nx + i;
 
       max[0] = PetscMax(max[0], fabs(g[k]));
-      g[k] += h[k] - SamFrameNormal(f->fixed, xi, eta);
-      if (p[k] <= 0) continue;
-      sums[0] += g[k];
-      sums[1] -= eta * g[k];
-      sums[2] += xi * g[k];
-      SamGramAddNormal(gram, xi, eta);
+      g[k] += h[k] - SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, eta);
     }
   }
-  PetscCall(SamSum(w->level->grid->comm, 3, sums));
-  PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, gram));
-  SamFrameSolve(f, gram, sums, a);
-  w->norm = 0;
+  PetscCall(FitOnContact(w, p, g, a));
   for (PetscInt j = 0; j < w->level->grid->rows; j++) {
     const double eta = SamFrameEta(f, j);
+    double       row = 0;
 
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k = j * nx + i;
 
       g[k] -= SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta);
       max[1] = SamLarger(max[1], p[k] > 0 ? fabs(g[k]) : -g[k]);
-      if (p[k] > 0) w->norm += g[k] * g[k];
+      if (p[k] > 0) row += g[k] * g[k];
     }
+    SamAdd(&total, row);
   }
   PetscCall(VecRestoreArray(w->g, &g));
   PetscCall(VecRestoreArrayRead(w->level->h, &h));
   PetscCall(VecRestoreArrayRead(w->level->p, &p));
   PetscCall(SamMax(w->level->grid->comm, 2, max));
-  PetscCall(SamSum(w->level->grid->comm, 1, &w->norm));
+  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->norm));
   for (PetscInt c = 0; c < 3; c++) w->motion[c] = f->fixed[c] + a[c];
   w->displacement = max[0];
   w->error        = max[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The exact step along d among pressures in equilibrium: S d counts less its rigid part. */
+static PetscErrorCode StepLength(const Work *w, const double p[], const double g[], const double d[], const double s[], double *tau)
+{
+  const SamFrame *f         = &w->level->frame;
+  const PetscInt  nx        = w->level->grid->nx;
+  SamTotal        totals[2] = {{0, 0}};
+  double          a[3]      = {0, 0, 0}, sums[2];
+
+  PetscFunctionBegin;
+  PetscCall(FitOnContact(w, p, s, a));
+  for (PetscInt j = 0; j < w->level->grid->rows; j++) {
+    const double eta    = SamFrameEta(f, j);
+    double       row[2] = {0, 0};
+
+    for (PetscInt i = 0; i < nx; i++) {
+      const PetscInt k = j * nx + i;
+
+      if (p[k] <= 0) continue;
+      row[0] += g[k] * d[k];
+      row[1] += (s[k] - SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta)) * d[k];
+    }
+    SamAddAll(2, totals, row);
+  }
+  PetscCall(SamSumTotals(w->level->grid->comm, 2, totals, sums));
+  *tau = sums[1] > 0 ? sums[0] / sums[1] : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Steps 2 to 5. `conjugate` says on entry whether d may be used, on exit whether no cell has entered. */
 static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, PetscBool *found)
 {
-  const SamFrame *f     = &w->level->frame;
-  const PetscInt  cells = w->level->grid->cells;
-  const double    beta  = *conjugate && norm_old > 0 ? w->norm / norm_old : 0;
-  double          sums[2] = {0, 0}, tau, entered = 0;
-  double         *p, *g, *d, *s;
+  const PetscInt cells = w->level->grid->cells;
+  const double   beta  = *conjugate && norm_old > 0 ? w->norm / norm_old : 0;
+  double         tau = 0, entered = 0;
+  double        *p, *g, *d, *s;
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(w->level->p, &p));
@@ -93,32 +144,7 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   PetscCall(SamNormalApply(w->normal, w->level, w->d, w->s));
   PetscCall(VecGetArray(w->d, &d));
   PetscCall(VecGetArray(w->s, &s));
-  {
-    double    gram[SAM_GRAM] = {0}, mean[3] = {0, 0, 0}, a[3];
-    const PetscInt nx = w->level->grid->nx;
-
-    /* S d less its rigid part, so that the step is the exact one among pressures in equilibrium */
-    for (PetscInt k = 0; k < cells; k++) {
-      const double eta = SamFrameEta(f, k / nx), xi = f->xi0 + (double)(k % nx) * f->dxi;
-
-      if (p[k] <= 0) continue;
-      mean[0] += s[k];
-      mean[1] -= eta * s[k];
-      mean[2] += xi * s[k];
-      SamGramAddNormal(gram, xi, eta);
-    }
-    PetscCall(SamSum(w->level->grid->comm, 3, mean));
-    PetscCall(SamSum(w->level->grid->comm, SAM_GRAM, gram));
-    SamFrameSolve(f, gram, mean, a);
-    for (PetscInt k = 0; k < cells; k++) {
-      const double r = s[k] - SamFrameNormal(a, f->xi0 + (double)(k % nx) * f->dxi, SamFrameEta(f, k / nx));
-
-      sums[0] += p[k] > 0 ? g[k] * d[k] : 0;
-      sums[1] += p[k] > 0 ? r * d[k] : 0;
-    }
-  }
-  PetscCall(SamSum(w->level->grid->comm, 2, sums));
-  tau = sums[1] > 0 ? sums[0] / sums[1] : 0;
+  PetscCall(StepLength(w, p, g, d, s, &tau));
   for (PetscInt k = 0; k < cells; k++) {
     if (p[k] > 0) p[k] = PetscMax(0, p[k] - tau * d[k]);
     else if (g[k] < 0) {
@@ -128,7 +154,7 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   }
   PetscCall(SamSum(w->level->grid->comm, 1, &entered));
   *conjugate = entered > 0 ? PETSC_FALSE : PETSC_TRUE;
-  PetscCall(SamFrameProjectNormalOnContact(f, p, found));
+  PetscCall(SamFrameProjectNormalOnContact(&w->level->frame, p, found));
   PetscCall(VecRestoreArray(w->s, &s));
   PetscCall(VecRestoreArray(w->d, &d));
   PetscCall(VecRestoreArray(w->g, &g));

@@ -13,29 +13,53 @@
 static PetscErrorCode ComputeEnergy(const SamStickSlip *w, double *energy)
 {
   const SamFrame *f = w->frame;
+  SamTotal        total = {0, 0};
   double          a[3];
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; c++) a[c] = w->motion[c] - 2 * f->fixed[c];
-  *energy = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
     const double eta = SamFrameEta(f, j);
+    double       row = 0;
 
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
 
-      *energy += 0.5 * w->q[k] * (w->s[k] + (w->offset ? w->offset[k] : 0) + SamFrameX(a, eta));
-      *energy += 0.5 * w->q[l] * (w->s[l] + (w->offset ? w->offset[l] : 0) + SamFrameY(a, f->xi0 + (double)i * f->dxi));
+      row += 0.5 * w->q[k] * (w->s[k] + (w->offset ? w->offset[k] : 0) + SamFrameX(a, eta));
+      row += 0.5 * w->q[l] * (w->s[l] + (w->offset ? w->offset[l] : 0) + SamFrameY(a, f->xi0 + (double)i * f->dxi));
     }
+    SamAdd(&total, row);
   }
-  PetscCall(SamSum(w->level->grid->comm, 1, energy));
+  PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, energy));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Products of the change of q since y with that of s since sy, and with itself. */
+static PetscErrorCode ComputeBend(const SamStickSlip *w, const double y[], const double sy[], double sums[2])
+{
+  SamTotal totals[2] = {{0, 0}};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < w->rows; j++) {
+    double row[2] = {0, 0};
+
+    for (PetscInt k = j * w->nx + w->first[j]; k < j * w->nx + w->last[j]; k++)
+      for (PetscInt l = k; w->bound[k] > 0 && l <= k + w->cells; l += w->cells) {
+        const double delta = w->q[l] - y[l];
+
+        row[0] += delta * (w->s[l] - sy[l]);
+        row[1] += delta * delta;
+      }
+    SamAddAll(2, totals, row);
+  }
+  PetscCall(SamSumTotals(w->level->grid->comm, 2, totals, sums));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* One step from y = w->q with slip w->s: doubles L until the quadratic bound holds. On return q and s are the new ones. */
 static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], double sy[], PetscBool *found)
 {
-  double sums[3];
+  double sums[2];
 
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(y, w->q, 2 * w->cells));
@@ -45,17 +69,7 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], dou
     PetscCall(SamFrameProjectTangential(w->frame, w->bound, w->q, found));
     if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(SamStickSlipComputeSlip(w));
-    sums[0] = sums[1] = sums[2] = 0;
-    for (PetscInt k = 0; k < w->cells; k++) {
-      if (w->bound[k] <= 0) continue;
-      for (PetscInt l = k; l <= k + w->cells; l += w->cells) {
-        const double delta = w->q[l] - y[l];
-
-        sums[0] += delta * (w->s[l] - sy[l]);
-        sums[1] += delta * delta;
-      }
-    }
-    PetscCall(SamSum(w->level->grid->comm, 2, sums));
+    PetscCall(ComputeBend(w, y, sy, sums));
     if (sums[0] <= L[0] * sums[1] * (1 + 1e-12) || !isfinite(sums[0] + sums[1])) break;
     L[0] = PetscMax(2 * L[0], sums[0] / sums[1]);
   }
