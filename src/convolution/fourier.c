@@ -16,14 +16,13 @@
   Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT), which
   is what one rank has from the start, and shared memory in pieces, so that one code serves any number of ranks.
 
-  The steps stand in transform.h, which is compiled for double and for single precision. Here is what both share.
+  The steps stand in transform.h, on the transforms of single lines in line.h, which are compiled for double and for single
+  precision. Here is what both share.
 */
 #include "fourierimpl.h"
 
-static const char *const efforts[] = {"auto", "estimate", "measure", "patient", NULL};
+static const char *const efforts[] = {"estimate", "measure", "patient", NULL};
 
-/* From this length on FFTW's estimated plans are clearly slower than measured ones, which take some 0.2 s each. */
-#define MEASURE_FROM 4096
 /* Below this, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300
 
@@ -36,25 +35,23 @@ static PetscBool IsSmooth(ptrdiff_t n)
 
 /*
   Cost of a length beyond its size. Those of the form 2^a and 5 2^a are fast in FFTW's estimated plans, 3 2^a is somewhat
-  slower, all others take about twice as long; measured plans hardly differ. The numbers are roots of the times an element
-  of c2c transforms in both precisions, since two dimensions count.
+  slower, all others take about twice as long. The numbers are roots of the times an element of c2c transforms in both
+  precisions, since two dimensions count.
 */
-static double Weight(ptrdiff_t m, PetscBool measured)
+static double Weight(ptrdiff_t m)
 {
   while (m % 2 == 0) m /= 2;
-  if (measured) return m <= 15 ? 1 : 1.1;
   return m == 1 || m == 5 ? 1 : (m == 3 ? 1.12 : (m == 25 ? 1.25 : 1.45));
 }
 
 /* An even length >= n for which FFTW is fast. */
 static ptrdiff_t FastSize(ptrdiff_t n)
 {
-  const PetscBool measured  = n >= MEASURE_FROM ? PETSC_TRUE : PETSC_FALSE;
-  ptrdiff_t       best      = n;
-  double          best_cost = PETSC_MAX_REAL;
+  ptrdiff_t best      = n;
+  double    best_cost = PETSC_MAX_REAL;
 
   for (ptrdiff_t m = n; (double)m < best_cost; m++) {
-    const double cost = n < 64 ? (double)m : Weight(m, measured) * (double)m; /* small ones are fast anyway */
+    const double cost = n < 64 ? (double)m : Weight(m) * (double)m; /* small ones are fast anyway */
 
     if (m % 2 || !IsSmooth(m) || cost >= best_cost) continue;
     best      = m;
@@ -110,20 +107,19 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   PetscInt       effort  = 0;
   ptrdiff_t      periodic, padded, quadrant, rows, row_start, columns, column_start;
   unsigned long long bytes;
-  const unsigned flags[] = {FFTW_ESTIMATE, FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
+  const unsigned flags[] = {FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(PetscNew(&F));
   *fourier = F;
-  PetscCall(SamOptionsEnum(NULL, "fft_effort", "FFTW's planning: auto, estimate, measure or patient", efforts, &effort, NULL));
+  PetscCall(SamOptionsEnum(NULL, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
   F->effort = flags[effort];
   F->hx     = FastSize(grid->nx);
   F->hy     = FastSize(grid->ny);
-  if (effort == 0 && PetscMax(F->hx, F->hy) >= MEASURE_FROM) F->effort = FFTW_MEASURE;
-  if (effort == 2 && PetscMax(F->hx, F->hy) < ESTIMATE_BELOW) F->effort = FFTW_ESTIMATE;
+  if (effort == 1 && PetscMax(F->hx, F->hy) < ESTIMATE_BELOW) F->effort = FFTW_ESTIMATE;
   /* whole cache lines, and one more, so that the columns of a block do not compete for the same cache sets */
   F->stride = (PetscInt)(F->hy + 7) / 8 * 8 + 8;
   PetscCall(DivideColumns(F, SAM_FOURIER_PERIODIC, &periodic));

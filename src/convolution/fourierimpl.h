@@ -11,25 +11,35 @@ typedef struct {
   ptrdiff_t n, start, count;
 } SamColumns;
 
+/* Transforms of lines of one length and precision, see line.h. */
+#define SAM_LINE(Name, Real, Plan) \
+  typedef struct { \
+    ptrdiff_t n, part, shift; /* length; that of a part; parts are 2^shift */ \
+    Plan      up, down; \
+    Real (*root)[2];          /* exp(-2 pi i q k/n), k < part, for q = 1, 2, 3, of four parts */ \
+  } Name
+
+SAM_LINE(SamLineDouble, double, fftw_plan);
+SAM_LINE(SamLineSingle, float, fftwf_plan);
+
 /* Plans and buffers of one precision; made when it is first used. */
-#define SAM_TRANSFORM(Name, Real, Plan) \
+#define SAM_TRANSFORM(Name, Real, Plan, Line) \
   typedef struct { \
     PetscInt fields, version; /* for which buffers and transposes were made, and slabs of the latter */ \
     Plan     forward[2][SAM_FOURIER_FIELDS], backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
-    Plan     row_up[2], row_down[2]; /* one row as half as many complex numbers, by mode */ \
-    Plan     up, down;       /* one column of hy, forward and backward, out of place */ \
+    Line     rows[2], column; /* one row as half as many complex numbers, by mode; one column of hy */ \
     Real (*turn[2])[2];      /* i exp(i pi k/n), k <= n, half a row's length, by mode */ \
     Real (*row)[2];          /* one row, padded: two reals a number */ \
     Real (*line)[2];         /* its transform, and an entry more */ \
     Real (*mirror)[2];       /* the same from its end to its beginning */ \
-    Real (*twiddle)[2];      /* exp(-i pi j/hy), j < ny */ \
+    Real (*twiddle)[2];      /* exp(-i pi j/hy), j < ny, at the places of a column's entries */ \
     Real (*staging)[2];      /* a block of columns as gathered */ \
     Real (*twisted)[2];      /* one column times the twiddles */ \
     Real (*buffer)[2];       /* a block of columns, both phases, all fields */ \
   } Name
 
-SAM_TRANSFORM(SamTransformDouble, double, fftw_plan);
-SAM_TRANSFORM(SamTransformSingle, float, fftwf_plan);
+SAM_TRANSFORM(SamTransformDouble, double, fftw_plan, SamLineDouble);
+SAM_TRANSFORM(SamTransformSingle, float, fftwf_plan, SamLineSingle);
 
 /* Memory for a field's half spectrum. */
 typedef struct {

@@ -7,8 +7,10 @@
   a transform of the mirrored line, of which the real or the imaginary part is kept. A column of hy + 1 values is kept
   with its even frequencies first and its odd ones after them, as the filter meets them.
 */
-#include "fourierimpl.h"
-#include <string.h>
+#define Real   double
+#define FFT(x) fftw_##x
+#define LINE   SamLineDouble
+#include "line.h"
 
 struct _n_SamKernel {
   PetscBool odd_x, odd_y;
@@ -21,27 +23,26 @@ struct _n_SamKernel {
 
 /* The transform of lines given by their values at 0 ... n and a parity: that of half their length, which is planned in a fraction of the time of a real one. */
 typedef struct {
-  ptrdiff_t n;
-  PetscBool odd;
-  double   *line;        /* 2 n values, of which the caller sets n + 1 */
-  double   *values;      /* n + 1 of the transform */
-  double (*z)[2];        /* of the even entries and i times the odd ones, n + 1 */
-  double (*mirror)[2];   /* the same from its end to its beginning */
-  double (*turn)[2];     /* i exp(i pi k/n) */
-  fftw_plan plan;
+  SamLineDouble half;
+  PetscBool     odd;
+  double       *line;    /* 2 n values, of which the caller sets n + 1 */
+  double       *values;  /* n + 1 of the transform */
+  Complex      *pairs;   /* of the line's values, at the places of entries to be transformed */
+  Complex      *z;       /* transform of the even values and i times the odd ones, n + 1 */
+  Complex      *mirror;  /* the same from its end to its beginning */
+  Complex      *turn;    /* i exp(i pi k/n) */
 } Mirrored;
 
 static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
 {
-  const size_t complexes = sizeof(*m->z) * (size_t)(n + 1);
-
   PetscFunctionBegin;
-  *m = (Mirrored){.n = n, .odd = odd};
+  *m = (Mirrored){.odd = odd};
   PetscCall(SamAllocate(sizeof(*m->line) * (size_t)(2 * n), &m->line));
   PetscCall(SamAllocate(sizeof(*m->values) * (size_t)(n + 1), &m->values));
-  PetscCall(SamAllocate(complexes, &m->z));
-  PetscCall(SamAllocate(complexes, &m->mirror));
-  PetscCall(SamAllocate(complexes, &m->turn));
+  PetscCall(AllocateComplex((size_t)n, &m->pairs));
+  PetscCall(AllocateComplex((size_t)(n + 1), &m->z));
+  PetscCall(AllocateComplex((size_t)(n + 1), &m->mirror));
+  PetscCall(AllocateComplex((size_t)(n + 1), &m->turn));
   for (ptrdiff_t k = 0; k <= n; k++) {
     double root[2];
 
@@ -49,17 +50,17 @@ static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
     m->turn[k][0] = -root[1];
     m->turn[k][1] = root[0];
   }
-  m->plan = fftw_plan_dft_1d((int)n, (fftw_complex *)m->line, (fftw_complex *)m->z, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
-  PetscCall(SamFourierCheckPlan(m->plan));
+  PetscCall(LineCreate(n, FFTW_ESTIMATE, m->pairs, m->z, &m->half));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static void MirroredDestroy(Mirrored *m)
 {
-  fftw_destroy_plan(m->plan);
+  LineDestroy(&m->half);
   SamFree(m->turn);
   SamFree(m->mirror);
   SamFree(m->z);
+  SamFree(m->pairs);
   SamFree(m->values);
   SamFree(m->line);
 }
@@ -77,12 +78,13 @@ SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const double (*restrict tu
 /* The transform of an even line, or the imaginary part of an odd one's: n + 1 values. */
 static const double *MirroredTransform(Mirrored *m)
 {
-  const ptrdiff_t n    = m->n;
+  const ptrdiff_t n    = m->half.n;
   double         *line = m->line;
 
   if (m->odd) line[0] = line[n] = 0;
   for (ptrdiff_t j = 1; j < n; j++) line[2 * n - j] = m->odd ? -line[j] : line[j];
-  fftw_execute(m->plan);
+  LinePut(&m->half, n, (const Complex *)line, m->pairs);
+  LineForward(&m->half, m->pairs, m->z);
   for (ptrdiff_t r = 0; r < 2; r++) m->z[n][r] = m->z[0][r];
   for (ptrdiff_t k = 0; k <= n; k++) memcpy(m->mirror[k], m->z[n - k], sizeof(*m->z));
   if (m->odd) ImaginaryPart(n, (const double(*)[2])m->turn, (const double(*)[2])m->z, (const double(*)[2])m->mirror, m->values);

@@ -2,32 +2,23 @@
   The transform of one precision: included with
     Real     double or float
     FFT(x)   fftw_x or fftwf_x
+    LINE     the type SamLine...
     TRANSFORM, PART   the type SamTransform..., and its place in SamFourier
     DATA     the block's array of that precision
     DESTROY, APPLY    names of the two functions that others call
   See fourier.c for the steps.
 */
-#include "fourierimpl.h"
-#include <string.h>
-
-typedef Real Complex[2];
+#include "line.h"
 
 /* Columns that are transformed together: two cache lines of each row are read and written at once. */
 #define BLOCK ((ptrdiff_t)(128 / sizeof(Complex)))
-
-static PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
-{
-  PetscFunctionBegin;
-  PetscCall(SamAllocate(sizeof(Complex) * count, pointer));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
 {
   return mode == SAM_FOURIER_PADDED ? F->hx : F->hx / 2;
 }
 
-/* Plans of one row, out of place. */
+/* Of one row. */
 static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
 {
   TRANSFORM      *t = &F->PART;
@@ -42,10 +33,7 @@ static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
     t->turn[mode][k][0] = (Real)-root[1];
     t->turn[mode][k][1] = (Real)root[0];
   }
-  t->row_up[mode]   = FFT(plan_dft_1d)((int)n, (FFT(complex) *)t->row, (FFT(complex) *)t->line, FFTW_FORWARD, F->effort | FFTW_DESTROY_INPUT);
-  t->row_down[mode] = FFT(plan_dft_1d)((int)n, (FFT(complex) *)t->line, (FFT(complex) *)t->row, FFTW_BACKWARD, F->effort | FFTW_DESTROY_INPUT);
-  PetscCall(SamFourierCheckPlan(t->row_up[mode]));
-  PetscCall(SamFourierCheckPlan(t->row_down[mode]));
+  PetscCall(LineCreate(n, F->effort, t->row, t->line, &t->rows[mode]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -59,20 +47,18 @@ static PetscErrorCode PlanLines(SamFourier F)
   PetscCall(AllocateComplex((size_t)F->hx, &t->row));
   PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->line));
   PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->mirror));
-  PetscCall(AllocateComplex((size_t)F->grid->ny, &t->twiddle));
+  PetscCall(AllocateComplex((size_t)(BLOCK * F->stride), &t->staging));
+  PetscCall(AllocateComplex((size_t)F->stride, &t->twisted));
+  PetscCall(LineCreate(F->hy, F->effort, t->twisted, t->staging, &t->column));
+  PetscCall(AllocateComplex((size_t)F->hy, &t->twiddle));
   for (PetscInt j = 0; j < F->grid->ny; j++) {
+    Real  *twiddle = t->twiddle[LinePlace(&t->column, j)];
     double root[2];
 
     SamRootOfUnity(j, F->hy, root);
-    t->twiddle[j][0] = (Real)root[0];
-    t->twiddle[j][1] = (Real)-root[1];
+    twiddle[0] = (Real)root[0];
+    twiddle[1] = (Real)-root[1];
   }
-  PetscCall(AllocateComplex((size_t)(BLOCK * F->stride), &t->staging));
-  PetscCall(AllocateComplex((size_t)F->stride, &t->twisted));
-  t->up   = FFT(plan_dft_1d)((int)F->hy, (FFT(complex) *)t->twisted, (FFT(complex) *)t->staging, FFTW_FORWARD, F->effort | FFTW_DESTROY_INPUT);
-  t->down = FFT(plan_dft_1d)((int)F->hy, (FFT(complex) *)t->twisted, (FFT(complex) *)t->staging, FFTW_BACKWARD, F->effort | FFTW_DESTROY_INPUT);
-  PetscCall(SamFourierCheckPlan(t->up));
-  PetscCall(SamFourierCheckPlan(t->down));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -94,12 +80,10 @@ void DESTROY(SamFourier F)
   if (!t->row) return;
   DestroyTransposes(t);
   for (PetscInt m = 0; m < 2; m++) {
-    if (t->row_up[m]) FFT(destroy_plan)(t->row_up[m]);
-    if (t->row_down[m]) FFT(destroy_plan)(t->row_down[m]);
+    LineDestroy(&t->rows[m]);
     SamFree(t->turn[m]);
   }
-  FFT(destroy_plan)(t->up);
-  FFT(destroy_plan)(t->down);
+  LineDestroy(&t->column);
   SamFree(t->buffer);
   SamFree(t->twiddle);
   SamFree(t->twisted);
@@ -139,7 +123,7 @@ static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields
 
   PetscFunctionBegin;
   if (!t->row) PetscCall(PlanLines(F));
-  if (!t->row_up[mode]) PetscCall(PlanRows(F, mode));
+  if (!t->rows[mode].n) PetscCall(PlanRows(F, mode));
   if (fields > t->fields) {
     SamFree(t->buffer);
     PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));
@@ -189,12 +173,13 @@ static void RowsForward(SamFourier F, SamFourierMode mode, const Real field[], C
 {
   TRANSFORM      *t  = &F->PART;
   const ptrdiff_t n  = HalfLength(F, mode);
-  const size_t    nx = (size_t)F->grid->nx;
+  const ptrdiff_t nx = F->grid->nx, last = LinePlace(&t->rows[mode], nx / 2);
 
+  LineClear(&t->rows[mode], nx / 2, t->row);
   for (PetscInt j = 0; j < F->grid->rows; j++) {
-    memcpy(t->row, field + (size_t)j * nx, sizeof(Real) * nx);
-    memset(&t->row[0][0] + nx, 0, sizeof(Real) * (2 * (size_t)n - nx));
-    FFT(execute_dft)(t->row_up[mode], (FFT(complex) *)t->row, (FFT(complex) *)t->line);
+    LinePut(&t->rows[mode], nx / 2, (const Complex *)(field + j * nx), t->row);
+    if (nx % 2) t->row[last][0] = field[(j + 1) * nx - 1];
+    LineForward(&t->rows[mode], t->row, t->line);
     memcpy(t->line[n], t->line[0], sizeof(Complex));
     Mirror(n, (const Complex *)t->line, t->mirror);
     Unpack(n, (const Complex *)t->turn[mode], (const Complex *)t->line, (const Complex *)t->mirror, slab + j * (n + 1));
@@ -205,7 +190,7 @@ static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real 
 {
   TRANSFORM      *t  = &F->PART;
   const ptrdiff_t n  = HalfLength(F, mode);
-  const size_t    nx = (size_t)F->grid->nx;
+  const ptrdiff_t nx = F->grid->nx, last = LinePlace(&t->rows[mode], nx / 2);
 
   for (PetscInt j = 0; j < F->grid->rows; j++) {
     Complex *line = slab + j * (n + 1);
@@ -213,8 +198,9 @@ static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real 
     line[0][1] = line[n][1] = 0; /* as in the transform of real numbers, but for rounding */
     Mirror(n, (const Complex *)line, t->mirror);
     Pack(n, (const Complex *)t->turn[mode], (const Complex *)line, (const Complex *)t->mirror, t->line);
-    FFT(execute_dft)(t->row_down[mode], (FFT(complex) *)t->line, (FFT(complex) *)t->row);
-    memcpy(field + (size_t)j * nx, t->row, sizeof(Real) * nx);
+    LineBackward(&t->rows[mode], t->line, t->row);
+    LineTake(&t->rows[mode], nx / 2, (const Complex *)t->row, (Complex *)(field + j * nx));
+    if (nx % 2) field[(j + 1) * nx - 1] = t->row[last][0];
   }
 }
 
@@ -236,63 +222,68 @@ SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle,
   }
 }
 
-/* Columns of a slab from the k-th of this rank's on into the buffer, where each is contiguous. */
-static void Gather(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, Complex *restrict buffer)
+/* Columns of a slab from the k-th of this rank's on into the buffer, one after the other. */
+static void Gather(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, Complex *restrict buffer)
 {
   for (PetscMPIInt r = 0; r < pieces->count; r++) {
     const ptrdiff_t         rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
     const Complex *restrict slab = (const Complex *)SamPieceData(pieces, r, sizeof(Complex)) + k;
-    Complex *restrict to         = buffer + r * pieces->block;
 
-    for (ptrdiff_t j = 0; j < rows; j++)
-      for (ptrdiff_t b = 0; b < count; b++) memcpy(to[b * stride + j], slab[j * row_length + b], sizeof(Complex));
+    for (ptrdiff_t j = 0; j < rows; j++) {
+      Complex *restrict to = buffer + LinePlace(line, r * pieces->block + j);
+
+      for (ptrdiff_t b = 0; b < count; b++) memcpy(to[b * stride], slab[j * row_length + b], sizeof(Complex));
+    }
   }
 }
 
-static void Scatter(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict buffer)
+static void Scatter(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict buffer)
 {
   for (PetscMPIInt r = 0; r < pieces->count; r++) {
     const ptrdiff_t         rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
     Complex *restrict slab       = (Complex *)SamPieceData(pieces, r, sizeof(Complex)) + k;
-    const Complex *restrict from = buffer + r * pieces->block;
 
-    for (ptrdiff_t j = 0; j < rows; j++)
-      for (ptrdiff_t b = 0; b < count; b++) memcpy(slab[j * row_length + b], from[b * stride + j], sizeof(Complex));
+    for (ptrdiff_t j = 0; j < rows; j++) {
+      const Complex *restrict from = buffer + LinePlace(line, r * pieces->block + j);
+
+      for (ptrdiff_t b = 0; b < count; b++) memcpy(slab[j * row_length + b], from[b * stride], sizeof(Complex));
+    }
   }
 }
 
 /* Gathers columns, pads them and transforms them; then the way back. Out of place, which FFTW does faster. */
 static void ColumnsForward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, Complex *buffer)
 {
-  TRANSFORM   *t  = &F->PART;
-  const size_t ny = (size_t)F->grid->ny, padding = sizeof(*buffer) * ((size_t)F->hy - ny);
+  TRANSFORM  *t    = &F->PART;
+  const LINE *line = &t->column;
 
-  Gather(pieces, k, count, F->stride, t->staging);
+  Gather(line, pieces, k, count, F->stride, t->staging);
   for (ptrdiff_t b = 0; b < count; b++) {
     Complex *staged = t->staging + b * F->stride, *even = buffer + b * F->stride, *odd = even + BLOCK * F->stride;
 
-    memset(staged + ny, 0, padding);
-    FFT(execute_dft)(t->up, (FFT(complex) *)staged, (FFT(complex) *)even);
+    LineClear(line, F->grid->ny, staged);
+    LineForward(line, staged, even);
     if (phases == 1) continue;
-    Twist((ptrdiff_t)ny, (const Complex *)t->twiddle, (const Complex *)staged, t->twisted);
-    memset(t->twisted + ny, 0, padding);
-    FFT(execute_dft)(t->up, (FFT(complex) *)t->twisted, (FFT(complex) *)odd);
+    for (ptrdiff_t q = 0; q < LineParts(line); q++) Twist(LineCount(line, F->grid->ny, q), (const Complex *)t->twiddle + q * line->part, (const Complex *)staged + q * line->part, t->twisted + q * line->part);
+    LineClear(line, F->grid->ny, t->twisted);
+    LineForward(line, t->twisted, odd);
   }
 }
 
 static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, Complex *buffer)
 {
-  TRANSFORM *t = &F->PART;
+  TRANSFORM  *t    = &F->PART;
+  const LINE *line = &t->column;
 
   for (ptrdiff_t b = 0; b < count; b++) {
     Complex *staged = t->staging + b * F->stride, *even = buffer + b * F->stride, *odd = even + BLOCK * F->stride;
 
-    FFT(execute_dft)(t->down, (FFT(complex) *)even, (FFT(complex) *)staged);
+    LineBackward(line, even, staged);
     if (phases == 1) continue;
-    FFT(execute_dft)(t->down, (FFT(complex) *)odd, (FFT(complex) *)t->twisted);
-    Untwist(F->grid->ny, (const Complex *)t->twiddle, (const Complex *)t->twisted, staged);
+    LineBackward(line, odd, t->twisted);
+    for (ptrdiff_t q = 0; q < LineParts(line); q++) Untwist(LineCount(line, F->grid->ny, q), (const Complex *)t->twiddle + q * line->part, (const Complex *)t->twisted + q * line->part, staged + q * line->part);
   }
-  Scatter(pieces, k, count, F->stride, (const Complex *)t->staging);
+  Scatter(line, pieces, k, count, F->stride, (const Complex *)t->staging);
 }
 
 static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n_out, SamFourierFilter filter, const void *context)

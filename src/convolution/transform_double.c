@@ -1,6 +1,7 @@
 /* The transform in double precision. */
 #define Real      double
 #define FFT(x)    fftw_##x
+#define LINE      SamLineDouble
 #define TRANSFORM SamTransformDouble
 #define PART      in_double
 #define DATA      data

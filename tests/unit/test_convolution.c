@@ -6,8 +6,8 @@
 #include <petsam/convolution.h>
 
 /* Sizes that do not divide, odd, prime, square, and fewer rows than ranks. */
-static const PetscInt sizes[][2] = {{7, 5}, {13, 11}, {16, 9}, {2, 3}, {17, 17}, {9, 2}, {5, 13}};
-enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]) };
+static const PetscInt sizes[][2] = {{7, 5}, {13, 11}, {16, 9}, {2, 3}, {17, 17}, {9, 2}, {5, 13}, {2563, 2}, {3, 2810}, {4096, 4}};
+enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]), NUM_SHORT = 7 }; /* the last ones have lines that are transformed in parts */
 
 /*
   Rounding of transforms grows as the logarithm of their length: some 10 eps of the largest value for these, while the sums
@@ -112,7 +112,7 @@ static void AssertConvolution(SamGrid grid, SamFourier fourier, PetscInt n_in, P
 
 static void AssertConvolutions(PetscInt n_in, PetscInt n_out, const int parity[3][3], PetscBool in_place)
 {
-  for (int k = 0; k < NUM_SIZES; k++) {
+  for (int k = 0; k < NUM_SHORT; k++) {
     SamGrid    grid = NewGrid(sizes[k][0], sizes[k][1], 1, 1);
     SamFourier fourier;
 
@@ -192,6 +192,22 @@ static void test_three_fields_to_three(void **state)
 
   (void)state;
   AssertConvolutions(3, 3, parity, PETSC_FALSE);
+}
+
+static void test_long_lines(void **state)
+{
+  (void)state;
+  for (int k = NUM_SHORT; k < NUM_SIZES - 1; k++)
+    for (int p = 0; p < 4; p += 3) {
+      const int  parity[3][3] = {{p}};
+      SamGrid    grid = NewGrid(sizes[k][0], sizes[k][1], 1, 1);
+      SamFourier fourier;
+
+      sam_call(SamFourierCreate(grid, &fourier));
+      AssertConvolution(grid, fourier, 1, 1, parity, PETSC_FALSE);
+      sam_call(SamFourierDestroy(&fourier));
+      sam_call(SamGridDestroy(&grid));
+    }
 }
 
 static void test_missing_kernel_is_zero(void **state)
@@ -407,6 +423,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_one_field_to_two),
     cmocka_unit_test(test_two_fields_to_two),
     cmocka_unit_test(test_three_fields_to_three),
+    cmocka_unit_test(test_long_lines),
     cmocka_unit_test(test_missing_kernel_is_zero),
     cmocka_unit_test(test_output_may_be_the_input),
     cmocka_unit_test(test_one_transform_serves_any_number_of_fields),
