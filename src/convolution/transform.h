@@ -18,7 +18,7 @@ static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
   return mode == SAM_FOURIER_PADDED ? F->hx : F->hx / 2;
 }
 
-/* Of one row. */
+/* What rows of a mode need. */
 static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
 {
   TRANSFORM      *t = &F->PART;
