@@ -54,6 +54,7 @@ def base(n):
 
 def make(name, n, folder):
     """Write the problem of that name and number of cells; return its petsam options."""
+    folder.mkdir(parents=True, exist_ok=True)
     case, gap = base(n)
     e_star = modulus(case)
     force, torque = slide_limit(case)
