@@ -180,5 +180,7 @@ PETSC_INTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
   the a for which the force-controlled loads are exact. `found` is false when there is none (q is then of no use). Collective.
 */
 PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], double q[], PetscBool *found);
+/* The same, and it is the nearest one to rounding, where the former is admissible to rounding but may be the nearest one to 1e-6 of the change only. */
+PETSC_INTERN PetscErrorCode SamFrameNearestTangential(const SamFrame *frame, const double bound[], double q[], PetscBool *found);
 
 #endif

@@ -405,14 +405,14 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
 }
 
 /* At first, where that is likely to do, one step of Newton's method is made without looking; what comes of it is a start if it does not. */
-PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], double q[], PetscBool *found)
+static PetscErrorCode ProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[], PetscBool *found)
 {
   const Cells cells = {.field = q, .bound = bound};
   PetscBool   near  = PETSC_TRUE;
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
-  for (PetscInt time = 0; time < 2 && !*found; time++) {
+  for (PetscInt time = nearest ? 1 : 0; time < 2 && !*found; time++) {
     SamTotal totals[DUAL] = {{0, 0}};
     double   a[3]         = {0, 0, 0};
 
@@ -422,5 +422,19 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
     PetscCall(ApplyTangential(f, bound, a, q, totals));
     if (!*found) PetscCall(IsBalanced(f, totals, EXACT, found));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], double q[], PetscBool *found)
+{
+  PetscFunctionBegin;
+  PetscCall(ProjectTangential(f, bound, PETSC_FALSE, q, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameNearestTangential(const SamFrame *f, const double bound[], double q[], PetscBool *found)
+{
+  PetscFunctionBegin;
+  PetscCall(ProjectTangential(f, bound, PETSC_TRUE, q, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -393,14 +393,15 @@ SAM_VECTORIZED static void RowChange(const Work *w, Row row, double sums[4])
 }
 
 /* The trial becomes the nearest admissible shear, step and its products the way there. */
-static PetscErrorCode Project(Work *w, PetscBool *found)
+static PetscErrorCode Project(Work *w, PetscBool exactly, PetscBool *found)
 {
   SamStickSlip *u = &w->base;
   SamTotal      totals[4] = {{0, 0}};
   double        sums[4];
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectTangential(u->frame, u->bound, w->trial, found));
+  if (exactly) PetscCall(SamFrameNearestTangential(u->frame, u->bound, w->trial, found));
+  else PetscCall(SamFrameProjectTangential(u->frame, u->bound, w->trial, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[4] = {0, 0, 0, 0};
@@ -423,11 +424,11 @@ static PetscErrorCode Try(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) RowAddStep(w, GetRow(w, j), w->alpha);
-  PetscCall(Project(w, found));
+  PetscCall(Project(w, PETSC_FALSE, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same along the slip itself, as far as is downhill for modes of the contact's size. */
+/* The same along the slip itself, as far as is downhill for modes of the contact's size; only the nearest shear is sure to be. */
 static PetscErrorCode TryGradient(Work *w, PetscBool *found)
 {
   SamStickSlip *u      = &w->base;
@@ -442,7 +443,7 @@ static PetscErrorCode TryGradient(Work *w, PetscBool *found)
       w->trial[k + u->cells] = u->q[k + u->cells] - length * u->s[k + u->cells];
     }
   }
-  PetscCall(Project(w, found));
+  PetscCall(Project(w, PETSC_TRUE, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -559,7 +560,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) RowAddStep(w, GetRow(w, j), 0);
-  PetscCall(Project(w, found));
+  PetscCall(Project(w, PETSC_FALSE, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   w->doubt += (1 + w->reach) * sqrt(w->size) * w->unit / u->self;
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));

@@ -5,7 +5,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import assert_close, assert_same, ball, displacement
+from support import ROOT, assert_close, assert_same, ball, displacement
 from support import analytic
 
 INF = float("inf")
@@ -289,6 +289,11 @@ def test_cycle_of_dissimilar_bodies(petsam, tmp_path):
     assert h["status"].tolist() == [0] * len(rows)
     assert h["contact_area"][9] == 0 and h["contact_area"][10] > 0
     assert h["dissipated_energy"].min() >= -1e-5 * h["dissipated_energy"].max()
+
+
+def test_growing_load_where_little_sticks(petsam):
+    """Four cells in a hundred stick: gradient steps, which only the nearest admissible shear makes go downhill, are needed."""
+    petsam("-options_file", ROOT / "examples/dissimilar/dissimilar.opts", dict(body1_poisson=0.3, friction=0.1))
 
 
 def test_same_row_again_changes_nothing(petsam, tmp_path):
