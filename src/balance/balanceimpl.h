@@ -177,10 +177,10 @@ PETSC_INTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
 
 /*
   SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear on the disc of radius bound, with
-  the a for which the force-controlled loads are exact. `found` is false when there is none (q is then of no use). Collective.
+  the a for which the force-controlled loads are exact. `found` is false when there is none (q is then of no use). The result is
+  admissible to rounding in any case; with `nearest` it is the nearest such shear too, without it, which is faster, that
+  may hold to 1e-6 of the change only. Collective.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], double q[], PetscBool *found);
-/* The same, and it is the nearest one to rounding, where the former is admissible to rounding but may be the nearest one to 1e-6 of the change only. */
-PETSC_INTERN PetscErrorCode SamFrameNearestTangential(const SamFrame *frame, const double bound[], double q[], PetscBool *found);
+PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], PetscBool nearest, double q[], PetscBool *found);
 
 #endif

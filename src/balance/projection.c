@@ -404,8 +404,11 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* At first, where that is likely to do, one step of Newton's method is made without looking; what comes of it is a start if it does not. */
-static PetscErrorCode ProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[], PetscBool *found)
+/*
+  At first, where that is likely to do, one step of Newton's method is made without looking; what comes of it is a start if it
+  does not, and then the result is the nearest shear to this start.
+*/
+PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[], PetscBool *found)
 {
   const Cells cells = {.field = q, .bound = bound};
   PetscBool   near  = PETSC_TRUE;
@@ -422,19 +425,5 @@ static PetscErrorCode ProjectTangential(const SamFrame *f, const double bound[],
     PetscCall(ApplyTangential(f, bound, a, q, totals));
     if (!*found) PetscCall(IsBalanced(f, totals, EXACT, found));
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], double q[], PetscBool *found)
-{
-  PetscFunctionBegin;
-  PetscCall(ProjectTangential(f, bound, PETSC_FALSE, q, found));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamFrameNearestTangential(const SamFrame *f, const double bound[], double q[], PetscBool *found)
-{
-  PetscFunctionBegin;
-  PetscCall(ProjectTangential(f, bound, PETSC_TRUE, q, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -42,15 +42,8 @@ static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
   PetscCall(AllocateComplex((size_t)n, &m->pairs));
   PetscCall(AllocateComplex((size_t)(n + 1), &m->z));
   PetscCall(AllocateComplex((size_t)(n + 1), &m->mirror));
-  PetscCall(AllocateComplex((size_t)(n + 1), &m->turn));
-  for (ptrdiff_t k = 0; k <= n; k++) {
-    double root[2];
-
-    SamRootOfUnity(k, n, root);
-    m->turn[k][0] = -root[1];
-    m->turn[k][1] = root[0];
-  }
-  PetscCall(LineCreate(n, FFTW_ESTIMATE, m->pairs, m->z, &m->half));
+  PetscCall(CreateTurns(n, &m->turn));
+  PetscCall(LineCreate(n, FFTW_ESTIMATE, PETSC_FALSE, m->pairs, m->z, &m->half));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -66,11 +59,11 @@ static void MirroredDestroy(Mirrored *m)
 }
 
 /* The real part of a line's transform, all there is when it is even, or the imaginary part. */
-SAM_VECTORIZED static void RealPart(ptrdiff_t n, const double (*restrict turn)[2], const double (*restrict z)[2], const double (*restrict m)[2], double *restrict to)
+SAM_VECTORIZED static void RealPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, double *restrict to)
 {
   for (ptrdiff_t k = 0; k <= n; k++) to[k] = 0.5 * (z[k][0] + m[k][0] + turn[k][0] * (z[k][0] - m[k][0]) + turn[k][1] * (z[k][1] + m[k][1]));
 }
-SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const double (*restrict turn)[2], const double (*restrict z)[2], const double (*restrict m)[2], double *restrict to)
+SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, double *restrict to)
 {
   for (ptrdiff_t k = 0; k <= n; k++) to[k] = 0.5 * (z[k][1] - m[k][1] + turn[k][0] * (z[k][1] + m[k][1]) - turn[k][1] * (z[k][0] - m[k][0]));
 }
@@ -85,10 +78,10 @@ static const double *MirroredTransform(Mirrored *m)
   for (ptrdiff_t j = 1; j < n; j++) line[2 * n - j] = m->odd ? -line[j] : line[j];
   LinePut(&m->half, n, (const Complex *)line, m->pairs);
   LineForward(&m->half, m->pairs, m->z);
-  for (ptrdiff_t r = 0; r < 2; r++) m->z[n][r] = m->z[0][r];
-  for (ptrdiff_t k = 0; k <= n; k++) memcpy(m->mirror[k], m->z[n - k], sizeof(*m->z));
-  if (m->odd) ImaginaryPart(n, (const double(*)[2])m->turn, (const double(*)[2])m->z, (const double(*)[2])m->mirror, m->values);
-  else RealPart(n, (const double(*)[2])m->turn, (const double(*)[2])m->z, (const double(*)[2])m->mirror, m->values);
+  (void)memcpy(m->z[n], m->z[0], sizeof(Complex));
+  Mirror(n, (const Complex *)m->z, m->mirror);
+  if (m->odd) ImaginaryPart(n, (const Complex *)m->turn, (const Complex *)m->z, (const Complex *)m->mirror, m->values);
+  else RealPart(n, (const Complex *)m->turn, (const Complex *)m->z, (const Complex *)m->mirror, m->values);
   return m->values;
 }
 

@@ -23,8 +23,8 @@ static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Arrays as aligned as those that will be transformed; forward transforms keep their input. */
-static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, Complex *in, Complex *out, LINE *l)
+/* For transforms forward, which keep their input, and where wanted backward, of arrays that are aligned as these are. */
+static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out, LINE *l)
 {
   const PetscBool parts = (effort == FFTW_ESTIMATE && n >= LONG_LINE && n % 4 == 0) ? PETSC_TRUE : PETSC_FALSE;
   const int       part  = (int)(parts ? n / 4 : n);
@@ -42,8 +42,9 @@ static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, Complex *i
       l->root[q * part + k][1] = (Real)(acute < turn ? root[1] : -root[1]);
     }
   l->up   = FFT(plan_many_dft)(1, &part, (int)(n / part), (FFT(complex) *)in, NULL, 1, part, (FFT(complex) *)out, NULL, 1, part, FFTW_FORWARD, effort);
-  l->down = FFT(plan_many_dft)(1, &part, (int)(n / part), (FFT(complex) *)in, NULL, 1, part, (FFT(complex) *)out, NULL, 1, part, FFTW_BACKWARD, effort | FFTW_DESTROY_INPUT);
   PetscCall(SamFourierCheckPlan(l->up));
+  if (!backward) PetscFunctionReturn(PETSC_SUCCESS);
+  l->down = FFT(plan_many_dft)(1, &part, (int)(n / part), (FFT(complex) *)in, NULL, 1, part, (FFT(complex) *)out, NULL, 1, part, FFTW_BACKWARD, effort | FFTW_DESTROY_INPUT);
   PetscCall(SamFourierCheckPlan(l->down));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -151,4 +152,25 @@ static inline void LineBackward(const LINE *l, Complex *from, Complex *to)
 
   if (l->shift) LineSplit(m, (const Complex *)l->root, (const Complex *)l->root + m, (const Complex *)l->root + 2 * m, from, from + m, from + 2 * m, from + 3 * m);
   FFT(execute_dft)(l->down, (FFT(complex) *)from, (FFT(complex) *)to);
+}
+
+/* For lines of 2 n real numbers, transformed as n complex ones: i exp(i pi k/n), k <= n. */
+static inline PetscErrorCode CreateTurns(ptrdiff_t n, Complex **turn)
+{
+  PetscFunctionBegin;
+  PetscCall(AllocateComplex((size_t)(n + 1), turn));
+  for (ptrdiff_t k = 0; k <= n; k++) {
+    double root[2];
+
+    SamRootOfUnity(k, n, root);
+    (*turn)[k][0] = (Real)-root[1];
+    (*turn)[k][1] = (Real)root[0];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* to[k] = from[n - k], k <= n. */
+SAM_VECTORIZED static inline void Mirror(ptrdiff_t n, const Complex *restrict from, Complex *restrict to)
+{
+  for (ptrdiff_t k = 0; k <= n; k++) (void)memcpy(to[k], from[n - k], sizeof(Complex));
 }

@@ -25,15 +25,8 @@ static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
   const ptrdiff_t n = HalfLength(F, mode);
 
   PetscFunctionBegin;
-  PetscCall(AllocateComplex((size_t)(n + 1), &t->turn[mode]));
-  for (ptrdiff_t k = 0; k <= n; k++) {
-    double root[2];
-
-    SamRootOfUnity(k, n, root);
-    t->turn[mode][k][0] = (Real)-root[1];
-    t->turn[mode][k][1] = (Real)root[0];
-  }
-  PetscCall(LineCreate(n, F->effort, t->row, t->line, &t->rows[mode]));
+  PetscCall(CreateTurns(n, &t->turn[mode]));
+  PetscCall(LineCreate(n, F->effort, PETSC_TRUE, t->row, t->line, &t->rows[mode]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -49,7 +42,7 @@ static PetscErrorCode PlanLines(SamFourier F)
   PetscCall(AllocateComplex((size_t)(F->hx + 1), &t->mirror));
   PetscCall(AllocateComplex((size_t)(BLOCK * F->stride), &t->staging));
   PetscCall(AllocateComplex((size_t)F->stride, &t->twisted));
-  PetscCall(LineCreate(F->hy, F->effort, t->twisted, t->staging, &t->column));
+  PetscCall(LineCreate(F->hy, F->effort, PETSC_TRUE, t->twisted, t->staging, &t->column));
   PetscCall(AllocateComplex((size_t)F->hy, &t->twiddle));
   for (PetscInt j = 0; j < F->grid->ny; j++) {
     Real  *twiddle = t->twiddle[LinePlace(&t->column, j)];
@@ -137,12 +130,6 @@ static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields
   PetscCall(PlanTransposes(F, SAM_FOURIER_PADDED, t->fields));
   t->version = F->work->version;
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* to[k] = from[n - k], k <= n. */
-SAM_VECTORIZED static void Mirror(ptrdiff_t n, const Complex *restrict from, Complex *restrict to)
-{
-  for (ptrdiff_t k = 0; k <= n; k++) memcpy(to[k], from[n - k], sizeof(Complex));
 }
 
 /* From the transform z of the even entries of a line, and i times the odd ones, to that of the line; m is the mirror of z. */

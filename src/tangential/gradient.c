@@ -66,7 +66,7 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], dou
   PetscCall(PetscArraycpy(sy, w->s, 2 * w->cells));
   for (;;) {
     for (PetscInt k = 0; k < 2 * w->cells; k++) w->q[k] = y[k] - sy[k] / L[0];
-    PetscCall(SamFrameProjectTangential(w->frame, w->bound, w->q, found));
+    PetscCall(SamFrameProjectTangential(w->frame, w->bound, PETSC_TRUE, w->q, found));
     if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(SamStickSlipComputeSlip(w));
     PetscCall(ComputeBend(w, y, sy, sums));

@@ -392,16 +392,15 @@ SAM_VECTORIZED static void RowChange(const Work *w, Row row, double sums[4])
   sums[3] += (double)size;
 }
 
-/* The trial becomes the nearest admissible shear, step and its products the way there. */
-static PetscErrorCode Project(Work *w, PetscBool exactly, PetscBool *found)
+/* The trial becomes an admissible shear near it, or the nearest one, step and its products the way there. */
+static PetscErrorCode Project(Work *w, PetscBool nearest, PetscBool *found)
 {
   SamStickSlip *u = &w->base;
   SamTotal      totals[4] = {{0, 0}};
   double        sums[4];
 
   PetscFunctionBegin;
-  if (exactly) PetscCall(SamFrameNearestTangential(u->frame, u->bound, w->trial, found));
-  else PetscCall(SamFrameProjectTangential(u->frame, u->bound, w->trial, found));
+  PetscCall(SamFrameProjectTangential(u->frame, u->bound, nearest, w->trial, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[4] = {0, 0, 0, 0};

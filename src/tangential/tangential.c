@@ -328,7 +328,7 @@ static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, Pet
   if (coarse || !level->finest) { /* otherwise the start is what IsPossible() left */
     PetscCall(VecGetArrayRead(level->bound, &bound));
     PetscCall(VecGetArray(level->q, &q));
-    PetscCall(SamFrameProjectTangential(&level->frame, bound, q, &found));
+    PetscCall(SamFrameProjectTangential(&level->frame, bound, PETSC_FALSE, q, &found));
     PetscCall(VecRestoreArray(level->q, &q));
     PetscCall(VecRestoreArrayRead(level->bound, &bound));
   }
@@ -375,7 +375,7 @@ static PetscErrorCode IsPossible(const SamTangentialLevel *level, const SamBalan
   if (!guess) PetscCall(SamVecZero(level->q));
   PetscCall(VecGetArrayRead(level->bound, &bound));
   PetscCall(VecGetArray(level->q, &q));
-  PetscCall(SamFrameProjectTangential(&frame, bound, q, possible));
+  PetscCall(SamFrameProjectTangential(&frame, bound, PETSC_FALSE, q, possible));
   PetscCall(VecRestoreArray(level->q, &q));
   PetscCall(VecRestoreArrayRead(level->bound, &bound));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -96,7 +96,7 @@ static PetscBool Project(SamGrid grid, const SamBalance *b, Vec bound, Vec tract
   if (b->kind == SAM_BALANCE_NORMAL) sam_call(SamFrameProjectNormal(&f, NULL, t, &found));
   else {
     sam_call(VecGetArrayRead(bound, &a));
-    sam_call(SamFrameProjectTangential(&f, a, t, &found));
+    sam_call(SamFrameProjectTangential(&f, a, PETSC_FALSE, t, &found));
     sam_call(VecRestoreArrayRead(bound, &a));
   }
   sam_call(VecRestoreArray(traction, &t));
