@@ -7,8 +7,8 @@
 #include <petsam/material.h>
 #include <petsam/gap.h>
 #include <petsam/influence.h>
-#include <petsam/convolution.h>
-#include <petsam/compliance.h>
+#include <petsam/fourier.h>
+#include <petsam/elasticity.h>
 #include <petsam/balance.h>
 #include <petsam/normal.h>
 #include <petsam/tangential.h>

@@ -12,7 +12,7 @@ int main(int argc, char **argv)
   SamPair         pair;
   SamGrid         grid;
   SamGap          gap;
-  SamCompliance   compliance;
+  SamElasticity   elasticity;
   SamContact      contact;
   Vec             separation;
 
@@ -20,18 +20,18 @@ int main(int argc, char **argv)
   PetscCall(PetscOptionsInsertString(NULL, "-gap_type sphere -gap_radius1 0.2 -gap_radius2 0.2"));
   PetscCall(SamGridCreate(PETSC_COMM_WORLD, n, width, center, &grid));
   PetscCall(SamPairSet(&pair, young, poisson));
-  PetscCall(SamComplianceCreate(grid, &pair, &compliance));
+  PetscCall(SamElasticityCreate(grid, &pair, &elasticity));
   PetscCall(SamGridCreateVec(grid, 1, &separation));
   PetscCall(SamGapCreate(PETSC_COMM_WORLD, &gap));
   PetscCall(SamGapSetFromOptions(gap));
   PetscCall(SamGapFill(gap, grid, separation));
-  PetscCall(SamContactCreate(compliance, separation, 0.1, &contact));
+  PetscCall(SamContactCreate(elasticity, separation, 0.1, &contact));
   PetscCall(SamContactSolve(contact, &step));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "status %d, approach %.6e m, tangential displacement %.6e m\n", (int)step.status, (double)step.normal.rigid[0], (double)step.tangential.rigid[0]));
   PetscCall(SamContactDestroy(&contact));
   PetscCall(SamGapDestroy(&gap));
   PetscCall(VecDestroy(&separation));
-  PetscCall(SamComplianceDestroy(&compliance));
+  PetscCall(SamElasticityDestroy(&elasticity));
   PetscCall(SamGridDestroy(&grid));
   PetscCall(SamFinalize());
   return PetscFinalize();

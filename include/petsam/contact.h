@@ -71,7 +71,7 @@ typedef struct {
   and what their loads should be is given by `given_normal`, `given_tangential`. `same_pressure`: displacement_z is that of
   the pressure already, from the check of an earlier step with the same. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactCheck(SamCompliance compliance, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
+PETSC_EXTERN PetscErrorCode SamContactCheck(SamElasticity elasticity, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
                                             SamCheck *check);
 
 /*
@@ -81,7 +81,7 @@ PETSC_EXTERN PetscErrorCode SamContactCheck(SamCompliance compliance, PetscBool 
 typedef struct _n_SamContact *SamContact;
 
 /* SamContactCreate - references the compliance and the separation (m), which must not change any more. friction >= 0. Collective. */
-PETSC_EXTERN PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscReal friction, SamContact *contact);
+PETSC_EXTERN PetscErrorCode SamContactCreate(SamElasticity elasticity, Vec separation, PetscReal friction, SamContact *contact);
 PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /*
   SamContactSetFromOptions - -coupling (full or none), -coupling_rtol, -coupling_max_it, -coupling_monitor,

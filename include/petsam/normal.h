@@ -3,7 +3,7 @@
 #define PETSAM_NORMAL_H
 
 #include <petsam/balance.h>
-#include <petsam/compliance.h>
+#include <petsam/elasticity.h>
 
 /*
   SamNormal - solver of: p >= 0, g >= 0, p g = 0 in every cell, where g = S p + h - (d_z - y r_x + x r_y) is the gap, S the
@@ -28,7 +28,7 @@ typedef enum {
 PETSC_EXTERN const char *SamNormalReasonName(SamNormalReason reason);
 
 /* SamNormalCreate - a solver for grids of this compliance (referenced). Collective. */
-PETSC_EXTERN PetscErrorCode SamNormalCreate(SamCompliance compliance, SamNormal *normal);
+PETSC_EXTERN PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal);
 PETSC_EXTERN PetscErrorCode SamNormalDestroy(SamNormal *normal);
 /* SamNormalRegister - adds a type; its create function sets the solver's methods. Not collective. */
 PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamNormal));

@@ -3,7 +3,7 @@
 #define PETSAM_TANGENTIAL_H
 
 #include <petsam/balance.h>
-#include <petsam/compliance.h>
+#include <petsam/elasticity.h>
 
 /*
   SamTangential - solver of one increment: find the shear q with |q| <= mu p so that, with
@@ -30,7 +30,7 @@ typedef enum {
 } SamTangentialReason;
 PETSC_EXTERN const char *SamTangentialReasonName(SamTangentialReason reason);
 
-PETSC_EXTERN PetscErrorCode SamTangentialCreate(SamCompliance compliance, SamTangential *tangential);
+PETSC_EXTERN PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential);
 PETSC_EXTERN PetscErrorCode SamTangentialDestroy(SamTangential *tangential);
 PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)(SamTangential));
 PETSC_EXTERN PetscErrorCode SamTangentialSetType(SamTangential tangential, SamTangentialType type);

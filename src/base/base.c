@@ -1,5 +1,5 @@
 /* Start and end of the library, log events and small reductions. */
-#include "baseimpl.h"
+#include <petsam/private/baseimpl.h>
 #include <fftw3-mpi.h>
 
 PetscLogEvent SamEvents[SAM_EVENT_COUNT];

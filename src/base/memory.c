@@ -5,7 +5,7 @@
   Large arrays of zeros come from the system, which clears them when they are touched; what never is takes no memory. All
   others are the C library's, which keeps what is freed for the next ones.
 */
-#include "baseimpl.h"
+#include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>

@@ -5,7 +5,7 @@
   which option was meant. Here the text is fetched and read as a whole, and the error names the option, the text and
   what was expected.
 */
-#include "baseimpl.h"
+#include <petsam/private/baseimpl.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* The check of a solution, which trusts no solver. */
-#include "../balance/balanceimpl.h"
+#include <petsam/private/balanceimpl.h>
 #include "contactimpl.h"
 #include <math.h>
 #include <string.h>
 
-PetscErrorCode SamCheckDisplacements(SamCompliance C, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *f)
+PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *f)
 {
   SamGrid   grid;
   PetscReal shear;
@@ -13,21 +13,21 @@ PetscErrorCode SamCheckDisplacements(SamCompliance C, PetscBool coupling, PetscB
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
-  if (!same_pressure) PetscCall(SamComplianceApplyNormal(C, f->pressure, f->displacement_z));
-  if (release) PetscCall(SamComplianceRelease(C, PETSC_TRUE));
+  if (!same_pressure) PetscCall(SamElasticityApplyNormal(C, f->pressure, f->displacement_z));
+  if (release) PetscCall(SamElasticityRelease(C, PETSC_TRUE));
   PetscCall(VecNorm(f->shear, NORM_INFINITY, &shear));
-  if (shear != 0) PetscCall(SamComplianceApplyTangential(C, f->shear, f->displacement_t));
+  if (shear != 0) PetscCall(SamElasticityApplyTangential(C, f->shear, f->displacement_t));
   else PetscCall(SamVecZero(f->displacement_t));
-  if (release) PetscCall(SamComplianceRelease(C, PETSC_TRUE));
-  PetscCall(SamComplianceIsCoupled(C, &coupled));
+  if (release) PetscCall(SamElasticityRelease(C, PETSC_TRUE));
+  PetscCall(SamElasticityIsCoupled(C, &coupled));
   if (coupled && coupling) {
-    PetscCall(SamComplianceGetGrid(C, &grid));
+    PetscCall(SamElasticityGetGrid(C, &grid));
     PetscCall(SamGridCreateVec(grid, 1, &more));
-    PetscCall(SamComplianceApplyTangentialToNormal(C, f->shear, more));
+    PetscCall(SamElasticityApplyTangentialToNormal(C, f->shear, more));
     PetscCall(VecAXPY(f->displacement_z, 1, more));
     PetscCall(VecDestroy(&more));
     PetscCall(SamGridCreateVec(grid, 2, &more));
-    PetscCall(SamComplianceApplyNormalToTangential(C, f->pressure, more));
+    PetscCall(SamElasticityApplyNormalToTangential(C, f->pressure, more));
     PetscCall(VecAXPY(f->displacement_t, 1, more));
     PetscCall(VecDestroy(&more));
   }
@@ -234,7 +234,7 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckFields(SamCompliance C, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
+PetscErrorCode SamCheckFields(SamElasticity C, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
 {
   SamGrid   grid;
   PetscReal self;
@@ -242,8 +242,8 @@ PetscErrorCode SamCheckFields(SamCompliance C, PetscReal friction, Vec separatio
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscCall(PetscMemzero(check, sizeof(*check)));
-  PetscCall(SamComplianceGetGrid(C, &grid));
-  PetscCall(SamComplianceGetSelfInfluence(C, NULL, &self));
+  PetscCall(SamElasticityGetGrid(C, &grid));
+  PetscCall(SamElasticityGetSelfInfluence(C, NULL, &self));
   PetscCall(ComputeGapAndSlip(grid, separation, step, fields));
   PetscCall(CheckNormal(grid, fields, check));
   PetscCall(CheckTangential(grid, friction, self, fields, slip_before, check));
@@ -253,7 +253,7 @@ PetscErrorCode SamCheckFields(SamCompliance C, PetscReal friction, Vec separatio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactCheck(SamCompliance C, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
+PetscErrorCode SamContactCheck(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
 {
   PetscFunctionBegin;
   PetscCall(SamCheckDisplacements(C, coupling, same_pressure, PETSC_FALSE, fields));

@@ -20,23 +20,23 @@
 
 static const char *const coupling_words[] = {"none", "full", NULL};
 
-PetscErrorCode SamContactCreate(SamCompliance compliance, Vec separation, PetscReal friction, SamContact *contact)
+PetscErrorCode SamContactCreate(SamElasticity elasticity, Vec separation, PetscReal friction, SamContact *contact)
 {
   SamContact c;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
-  PetscCall(SamComplianceReference(compliance));
-  c->compliance      = compliance;
+  PetscCall(SamElasticityReference(elasticity));
+  c->elasticity      = elasticity;
   c->friction        = friction;
   c->coupling        = 1;
   c->warm            = PETSC_TRUE;
   c->coupling_rtol   = 1e-6;
   c->coupling_max_it = 100;
-  PetscCall(SamComplianceGetGrid(compliance, &c->grid));
+  PetscCall(SamElasticityGetGrid(elasticity, &c->grid));
   PetscCheck(friction >= 0 && isfinite(friction), c->grid->comm, SAM_ERR_USER, "-friction %g: expected a number >= 0", (double)friction);
-  PetscCall(SamNormalCreate(compliance, &c->normal));
-  PetscCall(SamTangentialCreate(compliance, &c->tangential));
+  PetscCall(SamNormalCreate(elasticity, &c->normal));
+  PetscCall(SamTangentialCreate(elasticity, &c->tangential));
   PetscCall(PetscObjectReference((PetscObject)separation));
   c->separation = separation;
   PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.pressure));
@@ -53,15 +53,15 @@ PetscErrorCode SamContactCheckStep(SamContact c, PetscBool same_pressure, Vec sl
 {
   PetscFunctionBegin;
   if (c->last_step) {
-    PetscCall(SamComplianceRelease(c->compliance, PETSC_FALSE));
+    PetscCall(SamElasticityRelease(c->elasticity, PETSC_FALSE));
     SamReturnMemory();
   }
   if (!c->fields.displacement_z) PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.displacement_z));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.displacement_t));
-  PetscCall(SamCheckDisplacements(c->compliance, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->last_step, &c->fields));
+  PetscCall(SamCheckDisplacements(c->elasticity, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->last_step, &c->fields));
   PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.gap));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.slip));
-  PetscCall(SamCheckFields(c->compliance, c->friction, c->separation, slip_before, given_normal, given_tangential, step, &c->fields, &step->check));
+  PetscCall(SamCheckFields(c->elasticity, c->friction, c->separation, slip_before, given_normal, given_tangential, step, &c->fields, &step->check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -93,7 +93,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(VecDestroy(&c->fields.pressure));
   PetscCall(VecDestroy(&c->fields.shear));
   PetscCall(SamContactDestroyDerived(c, PETSC_FALSE));
-  PetscCall(SamComplianceDestroy(&c->compliance));
+  PetscCall(SamElasticityDestroy(&c->elasticity));
   PetscCall(PetscFree(*contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -243,7 +243,7 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
 
   PetscFunctionBegin;
   if (c->coupled && guess) {
-    PetscCall(SamComplianceApplyTangentialToNormal(c->compliance, c->fields.shear, c->h));
+    PetscCall(SamElasticityApplyTangentialToNormal(c->elasticity, c->fields.shear, c->h));
     PetscCall(VecAXPY(c->h, 1, c->separation));
     h = c->h;
   }
@@ -258,7 +258,7 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
     PetscCall(VecCopy(c->fields.pressure, predicted));
   }
   PetscCall(SamNormalSolve(c->normal, h, &step->normal, guess, c->fields.pressure));
-  if (c->last_step && !c->coupled) PetscCall(SamComplianceRelease(c->compliance, PETSC_FALSE));
+  if (c->last_step && !c->coupled) PetscCall(SamElasticityRelease(c->elasticity, PETSC_FALSE));
   if (guess) PetscCall(SamFollowBound(c->grid, predicted, c->fields.pressure, c->fields.shear));
   PetscCall(VecDestroy(&predicted));
   c->normal_given = *given;
@@ -303,7 +303,7 @@ static PetscErrorCode CreateOffset(SamContact c, Vec *offset)
   *offset = NULL;
   if (!c->coupled && !c->slip_before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 2, offset));
-  if (c->coupled) PetscCall(SamComplianceApplyNormalToTangential(c->compliance, c->fields.pressure, *offset));
+  if (c->coupled) PetscCall(SamElasticityApplyNormalToTangential(c->elasticity, c->fields.pressure, *offset));
   if (c->slip_before) PetscCall(VecAXPY(*offset, -1, c->slip_before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -449,7 +449,7 @@ PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
   step->time       = time;
   step->normal     = normal;
   step->tangential = tangential;
-  PetscCall(SamComplianceIsCoupled(c->compliance, &c->coupled));
+  PetscCall(SamElasticityIsCoupled(c->elasticity, &c->coupled));
   if (!c->coupling) c->coupled = PETSC_FALSE;
   if (c->coupled && !c->h) {
     PetscCall(SamGridCreateVec(c->grid, 1, &c->h));

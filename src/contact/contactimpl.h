@@ -2,7 +2,7 @@
 #ifndef PETSAM_CONTACTIMPL_H
 #define PETSAM_CONTACTIMPL_H
 
-#include "../base/baseimpl.h"
+#include <petsam/private/baseimpl.h>
 #include <petsam/contact.h>
 
 struct _n_SamContact {
@@ -12,7 +12,7 @@ struct _n_SamContact {
   PetscBool warm, last_step;
   PetscBool coupling_monitor, allow_edge, print_check;
   /* what it owns */
-  SamCompliance compliance;
+  SamElasticity elasticity;
   SamGrid       grid;
   SamNormal     normal;
   SamTangential tangential;
@@ -39,8 +39,8 @@ PETSC_INTERN PetscErrorCode SamContactCheckStep(SamContact contact, PetscBool sa
   The two halves of SamContactCheck: elastic displacements from the tractions (`release`: each kernel is freed after its last
   product); gap, slip and what they show. Collective.
 */
-PETSC_INTERN PetscErrorCode SamCheckDisplacements(SamCompliance compliance, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *fields);
-PETSC_INTERN PetscErrorCode SamCheckFields(SamCompliance compliance, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check);
+PETSC_INTERN PetscErrorCode SamCheckDisplacements(SamElasticity elasticity, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *fields);
+PETSC_INTERN PetscErrorCode SamCheckFields(SamElasticity elasticity, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check);
 
 /*
   SamContactStepBack - after a step without equilibrium: the fields are again those of the last step that had a solution, whose

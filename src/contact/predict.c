@@ -9,7 +9,7 @@
   along it.
 */
 #include "contactimpl.h"
-#include "../balance/balanceimpl.h"
+#include <petsam/private/balanceimpl.h>
 #include <math.h>
 
 /* A cell is on its circle from this part of the bound on. */

@@ -40,7 +40,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   s->previous_shear    = c->previous[1];
   PetscCall(PetscMemcpy(s->values, c->values, sizeof(s->values)));
   PetscCall(PetscMemcpy(s->rigid, c->rigid, sizeof(s->rigid)));
-  PetscCall(SamComplianceGetPartPlace(c->compliance, s->window_first, s->window_n));
+  PetscCall(SamElasticityGetPartPlace(c->elasticity, s->window_first, s->window_n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -73,7 +73,7 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
   PetscCall(Take(s->displacement_z, &c->fields.displacement_z));
   PetscCall(Take(s->previous_pressure, &c->previous[0]));
   PetscCall(Take(s->previous_shear, &c->previous[1]));
-  PetscCall(SamComplianceSetPart(c->compliance, s->window_first, s->window_n));
+  PetscCall(SamElasticitySetPart(c->elasticity, s->window_first, s->window_n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -2,7 +2,7 @@
 #ifndef PETSAM_GRIDIMPL_H
 #define PETSAM_GRIDIMPL_H
 
-#include "../base/baseimpl.h"
+#include <petsam/private/baseimpl.h>
 #include <petsam/grid.h>
 
 /* The components that two fields have, one on each grid; an error with these words when they do not fit. */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <petsam/compliance.h>
+#include <petsam/elasticity.h>
 
 /* A number in [-1, 1) that depends on its arguments alone: fields made of it are the same on any number of ranks. */
 static inline double Random(PetscInt seed, PetscInt component, PetscInt i, PetscInt j)
@@ -167,7 +167,7 @@ static inline SamPair NewPair(double young1, double poisson1, double young2, dou
 typedef struct {
   SamPair       pair;
   SamGrid       grid;
-  SamCompliance compliance;
+  SamElasticity elasticity;
   Vec           h; /* separation, m */
   double        R, N, a, p0;
 } Sphere;
@@ -186,7 +186,7 @@ static inline Sphere NewSphereOf(SamPair pair, PetscInt n, double half_width)
   s.p0   = 1.5 * s.N / (PETSC_PI * s.a * s.a);
   s.grid = NewGrid(n, n, 2 * half_width * s.a, 2 * half_width * s.a);
   s.h    = NewFrom(s.grid, Paraboloid, &s.R);
-  sam_call(SamComplianceCreate(s.grid, &pair, &s.compliance));
+  sam_call(SamElasticityCreate(s.grid, &pair, &s.elasticity));
   return s;
 }
 
@@ -198,7 +198,7 @@ static inline Sphere NewSphere(PetscInt n, double half_width, double poisson)
 static inline void DestroySphere(Sphere *s)
 {
   sam_call(VecDestroy(&s->h));
-  sam_call(SamComplianceDestroy(&s->compliance));
+  sam_call(SamElasticityDestroy(&s->elasticity));
   sam_call(SamGridDestroy(&s->grid));
 }
 

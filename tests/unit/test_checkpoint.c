@@ -57,7 +57,7 @@ static void test_checksum_is_that_of_the_field_not_of_its_ranks(void **state)
 
 typedef struct {
   SamGrid       grid;
-  SamCompliance compliance;
+  SamElasticity elasticity;
   SamContact    contact;
 } Body;
 
@@ -71,7 +71,7 @@ static Body NewBody(PetscInt ny)
   double      *values;
 
   sam_call(SamPairSet(&pair, young, poisson));
-  sam_call(SamComplianceCreate(b.grid, &pair, &b.compliance));
+  sam_call(SamElasticityCreate(b.grid, &pair, &b.elasticity));
   sam_call(VecGetArray(h, &values));
   for (PetscInt k = 0; k < b.grid->cells; k++) {
     const double x = SamGridX(b.grid, k % b.grid->nx), y = SamGridY(b.grid, b.grid->row_start + k / b.grid->nx);
@@ -79,7 +79,7 @@ static Body NewBody(PetscInt ny)
     values[k] = (x * x + y * y) / 0.2;
   }
   sam_call(VecRestoreArray(h, &values));
-  sam_call(SamContactCreate(b.compliance, h, 0.3, &b.contact));
+  sam_call(SamContactCreate(b.elasticity, h, 0.3, &b.contact));
   sam_call(VecDestroy(&h));
   return b;
 }
@@ -87,7 +87,7 @@ static Body NewBody(PetscInt ny)
 static void DestroyBody(Body *b)
 {
   sam_call(SamContactDestroy(&b->contact));
-  sam_call(SamComplianceDestroy(&b->compliance));
+  sam_call(SamElasticityDestroy(&b->elasticity));
   sam_call(SamGridDestroy(&b->grid));
 }
 

@@ -20,7 +20,7 @@ static Case NewCase(SamPair pair, PetscInt n, double half_width, double friction
 
   sam_call(PetscOptionsClear(NULL));
   sam_call(PetscOptionsInsertString(NULL, options));
-  sam_call(SamContactCreate(c.s.compliance, c.s.h, friction, &c.contact));
+  sam_call(SamContactCreate(c.s.elasticity, c.s.h, friction, &c.contact));
   sam_call(SamContactSetFromOptions(c.contact));
   sam_call(PetscOptionsClear(NULL));
   return c;
@@ -331,7 +331,7 @@ static SamCheck CheckSpoilt(Spoil spoil)
   AssertGood(&step);
   sam_call(SamContactGetFields(c.contact, &f));
   if (spoil) spoil(&c, &step, &f);
-  sam_call(SamContactCheck(c.s.compliance, PETSC_TRUE, PETSC_FALSE, mu, c.s.h, NULL, &given[0], &given[1], &step, &f, &check));
+  sam_call(SamContactCheck(c.s.elasticity, PETSC_TRUE, PETSC_FALSE, mu, c.s.h, NULL, &given[0], &given[1], &step, &f, &check));
   if (getenv("SAM_SHOW")) print_message("# spoilt: %g %g %g %g %g\n", check.normal, check.tangential, check.equilibrium, check.cone, check.edge);
   DestroyCase(&c);
   return check;

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../../src/gap/gapimpl.h" /* to register a shape */
+#include <petsam/private/gapimpl.h> /* to register a shape */
 
 /* The heights are a few operations on doubles. */
 static const double rounding = 8 * DBL_EPSILON;

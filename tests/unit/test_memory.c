@@ -1,6 +1,6 @@
 /* Memory of arrays: SamAllocate(), SamAllocateZeros(), SamFree(). */
 #include "samtest.h"
-#include "../../src/base/baseimpl.h"
+#include <petsam/private/baseimpl.h>
 #include <string.h>
 
 /* around the sizes from which arrays are in large pages, and come from the system */

@@ -27,12 +27,12 @@ typedef struct {
 } Outcome;
 
 /* Solves with a new solver; type NULL: the default, rtol 0: the default. */
-static Outcome Solve(SamCompliance compliance, Vec h, SamNormalType type, double rtol, SamBalance *balance, Vec p)
+static Outcome Solve(SamElasticity elasticity, Vec h, SamNormalType type, double rtol, SamBalance *balance, Vec p)
 {
   SamNormal normal;
   Outcome   o;
 
-  sam_call(SamNormalCreate(compliance, &normal));
+  sam_call(SamNormalCreate(elasticity, &normal));
   if (type) sam_call(SamNormalSetType(normal, type));
   if (rtol > 0) sam_call(SamNormalSetTolerances(normal, rtol, PETSC_DEFAULT));
   sam_call(SamNormalSolve(normal, h, balance, PETSC_FALSE, p));
@@ -43,9 +43,9 @@ static Outcome Solve(SamCompliance compliance, Vec h, SamNormalType type, double
   return o;
 }
 
-static void SolveWell(SamCompliance compliance, Vec h, SamNormalType type, double rtol, SamBalance *balance, Vec p)
+static void SolveWell(SamElasticity elasticity, Vec h, SamNormalType type, double rtol, SamBalance *balance, Vec p)
 {
-  sam_assert(Solve(compliance, h, type, rtol, balance, p).reason == SAM_NORMAL_CONVERGED_RTOL);
+  sam_assert(Solve(elasticity, h, type, rtol, balance, p).reason == SAM_NORMAL_CONVERGED_RTOL);
 }
 
 /* ---- Hertz ---- */
@@ -71,7 +71,7 @@ static void HertzErrors(PetscInt n, SamNormalType type, double *pressure, double
   SamBalance balance = Forced(s.N, 0, 0);
   Vec        p       = NewField(s.grid, 1);
 
-  SolveWell(s.compliance, s.h, type, 0, &balance, p);
+  SolveWell(s.elasticity, s.h, type, 0, &balance, p);
   *pressure = RelativeToHertz(&s, p);
   *approach = fabs(balance.rigid[0] * s.R / (s.a * s.a) - 1);
   if (getenv("SAM_SHOW")) print_message("# hertz %s %d pressure %g approach %g\n", type, (int)n, *pressure, *approach);
@@ -113,7 +113,7 @@ static void test_iterations_do_not_grow_with_the_grid(void **state)
     Sphere     s       = NewSphere(n, 1.5, 0.3);
     SamBalance balance = Forced(s.N, 0, 0);
     Vec        p       = NewField(s.grid, 1);
-    Outcome    o       = Solve(s.compliance, s.h, NULL, 0, &balance, p);
+    Outcome    o       = Solve(s.elasticity, s.h, NULL, 0, &balance, p);
 
     sam_assert(o.reason == SAM_NORMAL_CONVERGED_RTOL);
     sam_assert(o.applies <= 20); /* 12 to 16 as a prototype measured up to 1024 */
@@ -148,8 +148,8 @@ static void AssertTypesAgree(SamBalance balance, PetscInt n)
     balance.rigid[k] *= k ? s.a / s.R : s.a * s.a / s.R;
   }
   other = balance;
-  SolveWell(s.compliance, h, SAM_NORMAL_ACTIVESET, 1e-10, &balance, p);
-  SolveWell(s.compliance, h, SAM_NORMAL_POLONSKYKEER, 1e-10, &other, q);
+  SolveWell(s.elasticity, h, SAM_NORMAL_ACTIVESET, 1e-10, &balance, p);
+  SolveWell(s.elasticity, h, SAM_NORMAL_POLONSKYKEER, 1e-10, &other, q);
   sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6); /* rtol times the condition, about n */
   for (PetscInt k = 0; k < 3; k++) {
     sam_assert_close(balance.rigid[k], other.rigid[k], 1e-6 * (k ? s.a / s.R : s.a * s.a / s.R));
@@ -198,7 +198,7 @@ static void test_force_and_displacement_control_agree(void **state)
 
   (void)state;
   found = given;
-  SolveWell(s.compliance, h, NULL, 1e-10, &found, p);
+  SolveWell(s.elasticity, h, NULL, 1e-10, &found, p);
   for (int mask = 0; mask < 7; mask++) { /* bit k: component k stays under force control */
     SamBalance mixed = found;
 
@@ -207,7 +207,7 @@ static void test_force_and_displacement_control_agree(void **state)
       if (mixed.force[k]) mixed.rigid[k] = NAN; /* what is a result must not be read */
       else mixed.load[k] = NAN;
     }
-    SolveWell(s.compliance, h, NULL, 1e-10, &mixed, q);
+    SolveWell(s.elasticity, h, NULL, 1e-10, &mixed, q);
     sam_assert_close(Difference(q, p, NORM_2), 0, 1e-6); /* rtol times the condition, about n, twice */
     for (int k = 0; k < 3; k++) {
       sam_assert_close(mixed.load[k], given.load[k], 1e-6 * (k ? s.N * s.a : s.N));
@@ -230,7 +230,7 @@ static void test_start_from_the_solution_ends_at_once(void **state)
   PetscInt   applies;
 
   (void)state;
-  sam_call(SamNormalCreate(s.compliance, &normal));
+  sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
   sam_call(VecCopy(p, q));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_TRUE, q));
@@ -256,8 +256,8 @@ static void test_contact_outside_the_window_is_found(void **state)
 
   (void)state;
   AddAt(s.grid, 0, i, j, -4 * s.a * s.a / s.R, s.h); /* the gap of the sphere is about 2.5 a^2/R there */
-  SolveWell(s.compliance, s.h, SAM_NORMAL_ACTIVESET, 0, &balance, p);
-  SolveWell(s.compliance, s.h, SAM_NORMAL_POLONSKYKEER, 0, &other, q);
+  SolveWell(s.elasticity, s.h, SAM_NORMAL_ACTIVESET, 0, &balance, p);
+  SolveWell(s.elasticity, s.h, SAM_NORMAL_POLONSKYKEER, 0, &other, q);
   sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6);
   AddAt(s.grid, 0, i, j, 1, alone);
   sam_call(VecPointwiseMult(alone, alone, p));
@@ -279,11 +279,11 @@ static void test_contact_grows_beyond_the_window_of_its_start(void **state)
   PetscInt   first[2], before[2], after[2];
 
   (void)state;
-  sam_call(SamNormalCreate(s.compliance, &normal));
+  sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_call(SamNormalSolve(normal, s.h, &small, PETSC_FALSE, p));
-  sam_call(SamComplianceGetPartPlace(s.compliance, first, before));
+  sam_call(SamElasticityGetPartPlace(s.elasticity, first, before));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_TRUE, p));
-  sam_call(SamComplianceGetPartPlace(s.compliance, first, after));
+  sam_call(SamElasticityGetPartPlace(s.elasticity, first, after));
   sam_assert(before[0] > 0 && (after[0] == 0 || after[0] > 2 * before[0]));
   sam_call(SamNormalSolve(normal, s.h, &again, PETSC_FALSE, q));
   sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6);
@@ -308,8 +308,8 @@ static void test_moments_shift_the_pressure_of_a_paraboloid(void **state)
   double        *from, *to;
 
   (void)state;
-  SolveWell(s.compliance, s.h, NULL, 1e-10, &centred, p);
-  SolveWell(s.compliance, s.h, NULL, 1e-10, &moved, q);
+  SolveWell(s.elasticity, s.h, NULL, 1e-10, &centred, p);
+  SolveWell(s.elasticity, s.h, NULL, 1e-10, &moved, q);
   from = Whole(s.grid, 1, p);
   to   = (double *)calloc(48 * 48, sizeof(*to));
   for (PetscInt j = 0; j < 48; j++)
@@ -337,17 +337,17 @@ static void test_place_of_the_grid_does_not_matter(void **state)
   Sphere         s       = NewSphere(40, 1.5, 0.3);
   SamGrid        away    = NewGridOn(PETSC_COMM_WORLD, 40, 40, s.grid->width[0], s.grid->width[1], x, y);
   SamBalance     balance = Forced(s.N, 0, 0.1 * s.N * s.a), moved = Forced(s.N, -s.N * y, s.N * (x + 0.1 * s.a));
-  SamCompliance  compliance;
+  SamElasticity  elasticity;
   Vec            p = NewField(s.grid, 1), q = NewField(away, 1);
 
   (void)state;
-  sam_call(SamComplianceCreate(away, &s.pair, &compliance));
-  SolveWell(s.compliance, s.h, NULL, 1e-9, &balance, p);
-  SolveWell(compliance, s.h, NULL, 1e-9, &moved, q);
+  sam_call(SamElasticityCreate(away, &s.pair, &elasticity));
+  SolveWell(s.elasticity, s.h, NULL, 1e-9, &balance, p);
+  SolveWell(elasticity, s.h, NULL, 1e-9, &moved, q);
   sam_assert_close(Difference(q, p, NORM_2), 0, 1e-6); /* rtol times the condition; the lever is known to 1e-16 m of 1e-3 m */
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
-  sam_call(SamComplianceDestroy(&compliance));
+  sam_call(SamElasticityDestroy(&elasticity));
   sam_call(SamGridDestroy(&away));
   DestroySphere(&s);
 }
@@ -360,8 +360,8 @@ static void test_eight_times_the_load_doubles_sphere_contact_and_pressure(void *
   Vec        p = NewField(small.grid, 1), q = NewField(large.grid, 1);
 
   (void)state;
-  SolveWell(small.compliance, small.h, NULL, 0, &one, p);
-  SolveWell(large.compliance, large.h, NULL, 0, &eight, q);
+  SolveWell(small.elasticity, small.h, NULL, 0, &one, p);
+  SolveWell(large.elasticity, large.h, NULL, 0, &eight, q);
   sam_call(VecScale(p, 2));
   sam_assert_close(Difference(q, p, NORM_INFINITY), 0, 1e-7); /* all numbers are scaled: the same iterations, but for rounding */
   sam_assert_close(eight.rigid[0], 4 * one.rigid[0], 1e-9 * eight.rigid[0]);
@@ -380,17 +380,17 @@ static void test_units_do_not_matter(void **state)
   Vec          p = NewField(s.grid, 1), q = NewField(s.grid, 1);
 
   (void)state;
-  SolveWell(s.compliance, s.h, NULL, 0, &balance, p);
+  SolveWell(s.elasticity, s.h, NULL, 0, &balance, p);
   for (int k = 0; k < 2; k++) {
     SamPair       pair   = NewPair(210e9 * factor[k], 0.3, 210e9 * factor[k], 0.3);
     SamBalance    scaled = Forced(s.N * factor[k], 0, 0);
-    SamCompliance compliance;
+    SamElasticity elasticity;
 
-    sam_call(SamComplianceCreate(s.grid, &pair, &compliance));
-    SolveWell(compliance, s.h, NULL, 0, &scaled, q);
+    sam_call(SamElasticityCreate(s.grid, &pair, &elasticity));
+    SolveWell(elasticity, s.h, NULL, 0, &scaled, q);
     sam_call(VecScale(q, 1 / factor[k]));
     sam_assert_close(Difference(q, p, NORM_INFINITY), 0, 1e-7); /* as above */
-    sam_call(SamComplianceDestroy(&compliance));
+    sam_call(SamElasticityDestroy(&elasticity));
   }
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
@@ -410,7 +410,7 @@ static void test_bodies_without_load_or_overlap_are_separated(void **state)
   cases[2].force[1] = cases[2].force[2] = PETSC_TRUE; /* no moments on what does not touch */
   for (int k = 0; k < 3; k++) {
     sam_call(VecSet(p, 1));
-    sam_assert(Solve(s.compliance, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_CONVERGED_SEPARATED);
+    sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_CONVERGED_SEPARATED);
     sam_assert(Norm(p, NORM_INFINITY) == 0);
     sam_assert(cases[k].load[0] == 0 && cases[k].load[1] == 0 && cases[k].load[2] == 0);
   }
@@ -426,7 +426,7 @@ static void test_moment_beyond_the_grid_has_no_equilibrium(void **state)
   Vec        p        = NewField(s.grid, 1);
 
   (void)state;
-  for (int k = 0; k < 4; k++) sam_assert(Solve(s.compliance, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM);
+  for (int k = 0; k < 4; k++) sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM);
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -439,7 +439,7 @@ static void test_tension_is_refused(void **state)
   SamNormal  normal;
 
   (void)state;
-  sam_call(SamNormalCreate(s.compliance, &normal));
+  sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_fails(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p), SAM_ERR_USER);
   sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
@@ -456,7 +456,7 @@ static void test_too_few_iterations_are_a_reason_not_an_error(void **state)
 
   (void)state;
   for (int k = 0; k < 2; k++) {
-    sam_call(SamNormalCreate(s.compliance, &normal));
+    sam_call(SamNormalCreate(s.elasticity, &normal));
     sam_call(SamNormalSetType(normal, k ? SAM_NORMAL_POLONSKYKEER : SAM_NORMAL_ACTIVESET));
     sam_call(SamNormalSetTolerances(normal, PETSC_DEFAULT, 2));
     sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
@@ -476,8 +476,8 @@ static void test_nan_in_the_separation_is_reported(void **state)
 
   (void)state;
   AddAt(s.grid, 0, 16, 16, NAN, s.h);
-  sam_assert(Solve(s.compliance, s.h, SAM_NORMAL_ACTIVESET, 0, &balance, p).reason < 0);
-  sam_assert(Solve(s.compliance, s.h, SAM_NORMAL_POLONSKYKEER, 0, &other, p).reason < 0);
+  sam_assert(Solve(s.elasticity, s.h, SAM_NORMAL_ACTIVESET, 0, &balance, p).reason < 0);
+  sam_assert(Solve(s.elasticity, s.h, SAM_NORMAL_POLONSKYKEER, 0, &other, p).reason < 0);
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -493,14 +493,14 @@ static void test_flat_body_touches_everywhere_on_any_grid(void **state)
     SamPair       pair    = NewPair(70e9, 0.3, INFINITY, 0);
     SamBalance    balance = Forced(10, 0, 0);
     Vec           p = NewField(grid, 1), u = NewField(grid, 1), h = NewField(grid, 1);
-    SamCompliance compliance;
+    SamElasticity elasticity;
     PetscReal     least, most;
 
-    sam_call(SamComplianceCreate(grid, &pair, &compliance));
-    SolveWell(compliance, h, NULL, 1e-10, &balance, p);
+    sam_call(SamElasticityCreate(grid, &pair, &elasticity));
+    SolveWell(elasticity, h, NULL, 1e-10, &balance, p);
     sam_call(VecMin(p, NULL, &least));
     sam_assert(least > 0);
-    sam_call(SamComplianceApplyNormal(compliance, p, u));
+    sam_call(SamElasticityApplyNormal(elasticity, p, u));
     sam_call(VecMin(u, NULL, &least));
     sam_call(VecMax(u, NULL, &most));
     sam_assert_close(least, balance.rigid[0], 2e-10 * most); /* the tolerance asked for */
@@ -508,7 +508,7 @@ static void test_flat_body_touches_everywhere_on_any_grid(void **state)
     sam_call(VecDestroy(&p));
     sam_call(VecDestroy(&u));
     sam_call(VecDestroy(&h));
-    sam_call(SamComplianceDestroy(&compliance));
+    sam_call(SamElasticityDestroy(&elasticity));
     sam_call(SamGridDestroy(&grid));
   }
 }
@@ -534,7 +534,7 @@ static void test_monitors_add_up_and_see_every_iteration(void **state)
   PetscInt   its;
 
   (void)state;
-  sam_call(SamNormalCreate(s.compliance, &normal));
+  sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_call(SamNormalMonitorSet(normal, Remember, seen[0]));
   sam_call(SamNormalMonitorSet(normal, Remember, seen[1]));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));

@@ -24,7 +24,7 @@ static Case NewCase(PetscInt n, double poisson)
   SamNormal  solver;
 
   c.p = NewField(c.s.grid, 1);
-  sam_call(SamNormalCreate(c.s.compliance, &solver));
+  sam_call(SamNormalCreate(c.s.elasticity, &solver));
   sam_call(SamNormalSolve(solver, c.s.h, &normal, PETSC_FALSE, c.p));
   sam_call(SamNormalDestroy(&solver));
   c.bound = Copy(c.p);
@@ -60,7 +60,7 @@ static Outcome Solve(const Case *c, Vec bound, Vec offset, SamTangentialType typ
   SamTangential t;
   Outcome       o;
 
-  sam_call(SamTangentialCreate(c->s.compliance, &t));
+  sam_call(SamTangentialCreate(c->s.elasticity, &t));
   if (type) sam_call(SamTangentialSetType(t, type));
   if (rtol > 0) sam_call(SamTangentialSetTolerances(t, rtol, PETSC_DEFAULT));
   sam_call(SamTangentialSolve(t, bound, 1, offset, balance, PETSC_FALSE, q));
@@ -87,7 +87,7 @@ static Vec Slip(const Case *c, const SamBalance *balance, Vec q)
   Vec           slip = NewField(grid, 2);
   double       *s;
 
-  sam_call(SamComplianceApplyTangential(c->s.compliance, q, slip));
+  sam_call(SamElasticityApplyTangential(c->s.elasticity, q, slip));
   sam_call(VecGetArray(slip, &s));
   for (PetscInt j = 0; j < grid->rows; j++)
     for (PetscInt i = 0; i < grid->nx; i++) {
@@ -183,7 +183,7 @@ static void AssertConditions(const Case *c, const SamBalance *balance, const Sam
   PetscReal     loads[3], self;
   Vec           slip = Slip(c, balance, q);
 
-  sam_call(SamComplianceGetSelfInfluence(c->s.compliance, NULL, &self));
+  sam_call(SamElasticityGetSelfInfluence(c->s.elasticity, NULL, &self));
   sam_call(SamBalanceGetLoads(grid, SAM_BALANCE_TANGENTIAL, q, loads));
   for (int k = 0; k < 3; k++)
     if (given->force[k]) sam_assert_close(loads[k], given->load[k], 1e-10 * c->T * (k == 2 ? c->s.a : 1)); /* kept by projection */

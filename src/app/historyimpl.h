@@ -1,0 +1,29 @@
+/* A table of numbers with named columns, read from text. */
+#ifndef PETSAM_HISTORYIMPL_H
+#define PETSAM_HISTORYIMPL_H
+
+#include <petsam/private/baseimpl.h>
+#include <petsam/history.h>
+#include <string.h>
+
+#define SAM_TABLE_COLUMNS 32
+#define SAM_TABLE_NAME    32
+
+typedef struct {
+  PetscInt  columns, rows;
+  char      name[SAM_TABLE_COLUMNS][SAM_TABLE_NAME];
+  double   *value;       /* (rows, columns) */
+  PetscInt *line;        /* of each row in the file, from 1 */
+  PetscInt  header_line;
+} SamTable;
+
+/*
+  SamTableRead - rank 0 reads the file, all get the table. Errors: SAM_ERR_FILE for a file that cannot be read,
+  SAM_ERR_USER with file and line for what is in it. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamTableRead(MPI_Comm comm, const char file[], SamTable *table);
+PETSC_INTERN PetscErrorCode SamTableDestroy(SamTable *table);
+/* Column of that name, or -1. */
+PETSC_INTERN PetscInt SamTableFind(const SamTable *table, const char name[]);
+
+#endif

@@ -1,0 +1,274 @@
+/* The run: every option in, objects made, the load steps solved, results and checkpoints out. */
+#include "runimpl.h"
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- files ---- */
+
+/* Whether two names are of one file, which may not be there yet. */
+static PetscBool SameFile(const char a[], const char b[])
+{
+  struct stat one, other;
+
+  if (!strcmp(a, b)) return PETSC_TRUE;
+  return (!stat(a, &one) && !stat(b, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* A file that is written would replace one that the run reads. A checkpoint may replace the one that the run goes on from. */
+static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
+{
+  static const char *const inputs[] = {"-gap_file", "-gap_rough_file", "-petsam_history", "-options_file", "-restart", NULL};
+  static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-history", "-options_file", "-restart"};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; inputs[k]; k++) {
+    char      name[PETSC_MAX_PATH_LEN];
+    PetscBool set;
+
+    if (!restart && !strcmp(inputs[k], "-restart")) continue;
+    PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
+    PetscCheck(!set || !SameFile(name, filename), PETSC_COMM_WORLD, SAM_ERR_USER, "-%s %s: is the file of %s, which it would replace", option, filename, names[k]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckFiles(const SamRun *run)
+{
+  const char *checkpoint, *restart;
+
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
+  if (run->has_output) PetscCall(RefuseOverwriting("output", run->filename, PETSC_TRUE));
+  if (checkpoint) PetscCall(RefuseOverwriting("checkpoint", checkpoint, PETSC_FALSE));
+  PetscCheck(!checkpoint || !run->has_output || !SameFile(checkpoint, run->filename), PETSC_COMM_WORLD, SAM_ERR_USER, "-checkpoint %s: is the file of -output", checkpoint);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- set-up ---- */
+
+static PetscErrorCode ReadOptions(SamRun *run)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateFromOptions(PETSC_COMM_WORLD, &run->grid));
+  PetscCall(SamPairSetFromOptions(&run->pair));
+  PetscCall(SamOptionsReal(NULL, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &run->friction, NULL));
+  PetscCall(SamGapCreate(PETSC_COMM_WORLD, &run->gap));
+  PetscCall(SamGapSetFromOptions(run->gap));
+  PetscCall(SamHistoryCreateFromOptions(PETSC_COMM_WORLD, &run->history));
+  PetscCall(SamReportCreateFromOptions(PETSC_COMM_WORLD, &run->report));
+  PetscCall(SamCheckpointsCreateFromOptions(PETSC_COMM_WORLD, &run->checkpoints));
+  PetscCall(SamOptionsHeading("Results and resources"));
+  PetscCall(SamOptionsString(NULL, "output", "HDF5 file of the results", run->filename, sizeof(run->filename), &run->has_output));
+  run->output_every = 1;
+  PetscCall(SamOptionsInt(NULL, "output_every", "write the fields of every m-th step, and of the last", 1, &run->output_every, NULL));
+  PetscCall(SamOutputCheckOptions(PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRunSetUp(SamRun *run)
+{
+  PetscBool help;
+  PetscInt  steps;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(ReadOptions(run));
+  PetscCall(CheckFiles(run));
+  PetscCall(SamHistoryGetCount(run->history, &steps));
+  PetscCall(SamRunRefuseTooLarge(run->grid, &run->pair, run->friction, steps));
+  PetscCall(SamElasticityCreate(run->grid, &run->pair, &run->elasticity));
+  PetscCall(SamGridCreateVec(run->grid, 1, &run->separation));
+  if (!help) PetscCall(SamGapFill(run->gap, run->grid, run->separation));
+  PetscCall(SamContactCreate(run->elasticity, run->separation, run->friction, &run->contact));
+  PetscCall(SamContactSetFromOptions(run->contact));
+  if (!help) PetscCall(SamRunCollectParameters(run, run->separation));
+  PetscCall(VecDestroy(&run->separation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRunTearDown(SamRun *run)
+{
+  PetscFunctionBegin;
+  PetscCall(SamOutputDestroy(&run->output));
+  PetscCall(SamCheckpointsDestroy(&run->checkpoints));
+  PetscCall(SamReportDestroy(&run->report));
+  PetscCall(SamContactDestroy(&run->contact));
+  PetscCall(VecDestroy(&run->separation));
+  PetscCall(SamElasticityDestroy(&run->elasticity));
+  PetscCall(SamHistoryDestroy(&run->history));
+  PetscCall(SamGapDestroy(&run->gap));
+  PetscCall(SamGridDestroy(&run->grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- results ---- */
+
+static PetscErrorCode CreateResults(SamRun *run)
+{
+  char *all, *alias;
+
+  PetscFunctionBegin;
+  PetscCall(SamOutputCreate(run->grid, run->filename, &run->output));
+  PetscCall(PetscOptionsGetAll(NULL, &all));
+  while ((alias = strstr(all, "-petsam_history"))) memmove(alias + 1, alias + 8, strlen(alias + 8) + 1); /* its given name */
+  PetscCall(SamOutputSetText(run->output, "options", all));
+  PetscCall(PetscFree(all));
+  PetscCall(SamOutputSetParameters(run->output, &run->parameters));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The results of the run that was stopped, up to its checkpoint. */
+static PetscErrorCode ContinueResults(SamRun *run)
+{
+  PetscReal     *times;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(run->solved, &times));
+  for (PetscInt k = 0; k < run->solved; k++) {
+    SamStep step;
+
+    PetscCall(SamHistoryGetStep(run->history, k, &step));
+    times[k] = step.time;
+  }
+  ierr = SamOutputContinue(run->grid, run->filename, &run->parameters, run->solved, times, &run->output);
+  PetscCall(PetscFree(times));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The state of the run that was stopped, if there was one, and its results. */
+static PetscErrorCode Begin(SamRun *run)
+{
+  const char *checkpoint, *restart;
+  PetscInt    count;
+
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
+  PetscCall(SamHistoryGetCount(run->history, &count));
+  if (restart) {
+    PetscCall(SamCheckpointRead(restart, run->contact, run->history, &run->parameters, &run->solved, &run->status));
+    PetscCall(SamReportSetRestart(run->report, restart, run->solved));
+  }
+  PetscCall(SamCheckpointsBegin(run->checkpoints, run->grid));
+  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->pair, run->friction, count), count, run->has_output ? run->filename : NULL));
+  if (run->has_output && restart) PetscCall(ContinueResults(run));
+  else if (run->has_output) PetscCall(CreateResults(run));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Without a solution there are no fields of this step, but the last ones there are must be in the file. */
+static PetscErrorCode WriteLastFields(SamRun *run, PetscInt k)
+{
+  SamFields fields;
+  SamStep   before;
+  PetscReal saved;
+
+  PetscFunctionBegin;
+  if (!k) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamHistoryGetStep(run->history, k - 1, &before));
+  PetscCall(SamOutputGetSaved(run->output, NULL, NULL, &saved));
+  if (saved >= before.time) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetFields(run->contact, &fields));
+  PetscCall(SamOutputWriteFields(run->output, before.time, &fields, run->friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Results of step k. */
+static PetscErrorCode WriteStep(SamRun *run, const SamStep *step, PetscInt k, PetscInt count)
+{
+  const PetscBool due  = ((k + 1) % run->output_every == 0 || k + 1 == count || step->status == SAM_STATUS_NOT_CONVERGED) ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool none = step->status == SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
+  SamFields       fields;
+
+  PetscFunctionBegin;
+  if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetFields(run->contact, &fields));
+  run->writing = PETSC_TRUE;
+  if (none) PetscCall(WriteLastFields(run, k));
+  PetscCall(SamOutputWriteStep(run->output, step, due && !none ? &fields : NULL, run->friction));
+  run->writing = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Closes the results file, so that what is said of it is true. */
+static PetscErrorCode FinishResults(SamRun *run)
+{
+  char        content[96];
+  const char *xdmf;
+  PetscInt    steps, saved;
+
+  PetscFunctionBegin;
+  if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOutputGetSaved(run->output, &steps, &saved, NULL));
+  PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, steps, steps == 1 ? "" : "s", saved));
+  PetscCall(SamReportAddFile(run->report, run->filename, content));
+  PetscCall(SamOutputGetXdmf(run->output, &xdmf));
+  if (xdmf) PetscCall(SamReportAddFile(run->report, xdmf, "the same for ParaView and VisIt"));
+  PetscCall(SamOutputDestroy(&run->output));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReportCheckpoint(SamRun *run)
+{
+  const char *checkpoint, *restart;
+  char        content[96];
+  PetscInt    last;
+
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
+  PetscCall(SamCheckpointsGetLast(run->checkpoints, &last));
+  PetscCall(PetscSNPrintf(content, sizeof(content), "checkpoint after step %" PetscInt_FMT, last));
+  if (last) PetscCall(SamReportAddFile(run->report, checkpoint, content));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- steps ---- */
+
+/* One load step; says whether it is the last one that can be solved. */
+static PetscErrorCode SolveStep(SamRun *run, PetscInt count, PetscBool *ended)
+{
+  const PetscInt k = run->solved;
+  SamStep        step;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetStep(run->history, k, &step));
+  PetscCall(SamReportBeginStep(run->report, k, run->contact));
+  PetscCall(SamContactSetLast(run->contact, k + 1 == count ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(SamContactSolve(run->contact, &step));
+  PetscCall(WriteStep(run, &step, k, count));
+  PetscCall(SamReportEndStep(run->report, &step)); /* a step that is told is in the file */
+  *ended = (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
+  if (*ended || !run->status) run->status = step.status;
+  run->solved++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All that are left. Ends early where a step has no solution, or with a checkpoint. */
+static PetscErrorCode SolveSteps(SamRun *run)
+{
+  PetscInt  count;
+  PetscBool ended = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetCount(run->history, &count));
+  while (run->solved < count && !ended && !run->stopped) {
+    PetscCall(SolveStep(run, count, &ended));
+    if (ended) break;
+    run->writing = PETSC_TRUE;
+    PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, run->history, &run->parameters, run->solved, run->status, &run->stopped));
+    run->writing = PETSC_FALSE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRunSolve(SamRun *run)
+{
+  PetscFunctionBegin;
+  PetscCall(Begin(run));
+  PetscCall(SolveSteps(run));
+  PetscCall(FinishResults(run));
+  PetscCall(ReportCheckpoint(run));
+  PetscCall(SamReportClosing(run->report));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

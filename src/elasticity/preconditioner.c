@@ -1,0 +1,165 @@
+/*
+  The spectral preconditioner.
+
+  On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair.normal, so
+  that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B = pair.shear_xx,
+  nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the grid made
+  periodic, which costs a quarter of a padded transform and conditions as well. The symbol is computed as it is used, all in
+  single precision: it is an approximation by itself.
+*/
+#include <petsam/private/elasticityimpl.h>
+#include <math.h>
+
+typedef struct {
+  double step[2]; /* wave number of the first harmonic, 2 pi/period, in units of 1/length of the grid */
+  double gain;    /* 1/(2 pi A) or 1/(2 pi (A + B)), times a factor and the transforms' normalisation */
+  double extra;   /* nu/(1 - nu) */
+  double mean;    /* stands for |k| at k = 0 */
+} Symbol;
+
+static PetscErrorCode GetSymbol(SamElasticity C, PetscBool tangential, double factor, Symbol *symbol)
+{
+  const SamPair *pair  = &C->pair;
+  const double   local = tangential ? pair->shear + pair->shear_xx : pair->normal;
+  PetscInt       hx, hy;
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierGetPeriods(C->fourier, &hx, &hy));
+  /* wave numbers in units of the shortest, so that their squares are numbers that floats hold */
+  symbol->step[0] = 2 * PETSC_PI / (double)hx * C->grid->length / C->grid->dx;
+  symbol->step[1] = 2 * PETSC_PI / (double)hy * C->grid->length / C->grid->dy;
+  symbol->gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * C->grid->length);
+  symbol->extra   = tangential ? pair->shear_xx / pair->shear : 0;
+  symbol->mean    = 0.5 * PetscMin(symbol->step[0], symbol->step[1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Entries first ... last - 1 of a column: ky = step (m - origin). */
+SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, PetscInt first, PetscInt last, PetscInt origin, float (*restrict column)[2])
+{
+  const float gain = (float)s->gain, mean = (float)s->mean, step = (float)s->step[1];
+
+#pragma omp simd
+  for (PetscInt m = first; m < last; m++) {
+    const float ky = step * (float)(m - origin), k = sqrtf(kx * kx + ky * ky), g = gain * (k > mean ? k : mean);
+
+    column[m][0] *= g;
+    column[m][1] *= g;
+  }
+}
+
+/* `sign`: 1, or 0 at a Nyquist frequency, where the sign of the cross term is not defined, and none is right. */
+SAM_VECTORIZED static void FilterPartTangential(const Symbol *s, float kx, float sign, PetscInt first, PetscInt last, PetscInt origin, float (*restrict x)[2], float (*restrict y)[2])
+{
+  const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->extra, least = mean * mean, step = (float)s->step[1];
+
+#pragma omp simd
+  for (PetscInt m = first; m < last; m++) {
+    const float ky = step * (float)(m - origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least, g = gain * sqrtf(some);
+    const float part = g * extra / some, cross = sign * part * kx * ky, gx = g + part * kx * kx, gy = g + part * ky * ky;
+    const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
+
+    x[m][0] = gx * x0 + cross * y0;
+    x[m][1] = gx * x1 + cross * y1;
+    y[m][0] = gy * y0 + cross * x0;
+    y[m][1] = gy * y1 + cross * x1;
+  }
+}
+
+static void FilterNormal(const SamFourierBlock *block, const void *context)
+{
+  const Symbol  *s  = (const Symbol *)context;
+  const PetscInt hy = block->hy, half = hy / 2 + 1;
+
+  for (PetscInt b = 0; b < block->columns; b++) {
+    float (*column)[2] = block->single[0] + (ptrdiff_t)b * block->stride;
+    const float kx     = (float)(s->step[0] * (double)(block->first + b));
+
+    FilterPartNormal(s, kx, 0, half, 0, column);
+    FilterPartNormal(s, kx, half, hy, hy, column);
+  }
+}
+
+static void FilterTangential(const SamFourierBlock *block, const void *context)
+{
+  const Symbol  *s  = (const Symbol *)context;
+  const PetscInt hy = block->hy, half = (hy + 1) / 2;
+
+  for (PetscInt b = 0; b < block->columns; b++) {
+    float (*x)[2] = block->single[0] + (ptrdiff_t)b * block->stride, (*y)[2] = block->single[1] + (ptrdiff_t)b * block->stride;
+    const float kx = (float)(s->step[0] * (double)(block->first + b)), sign = 2 * (block->first + b) == block->hx ? 0 : 1;
+
+    FilterPartTangential(s, kx, sign, 0, half, 0, x, y);
+    if (hy % 2 == 0) FilterPartTangential(s, kx, 0, half, half + 1, 0, x, y);
+    FilterPartTangential(s, kx, sign, hy / 2 + 1, hy, hy, x, y);
+  }
+}
+
+PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity C, double factor, const float residual[], float p[])
+{
+  Symbol symbol;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PRECONDITION_NORMAL], 0, 0, 0, 0));
+  PetscCall(GetSymbol(C, PETSC_FALSE, factor, &symbol));
+  PetscCall(SamFourierApplySingle(C->fourier, SAM_FOURIER_PERIODIC, 1, &residual, 1, &p, FilterNormal, &symbol));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PRECONDITION_NORMAL], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity C, double factor, const float residual[], float q[])
+{
+  const float *const in[2]  = {residual, residual + C->grid->cells};
+  float *const       out[2] = {q, q + C->grid->cells};
+  Symbol             symbol;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PRECONDITION_TANGENTIAL], 0, 0, 0, 0));
+  PetscCall(GetSymbol(C, PETSC_TRUE, factor, &symbol));
+  PetscCall(SamFourierApplySingle(C->fourier, SAM_FOURIER_PERIODIC, 2, in, 2, out, FilterTangential, &symbol));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PRECONDITION_TANGENTIAL], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of a Vec: scaled to what floats hold, and back. */
+static PetscErrorCode Precondition(SamElasticity C, PetscInt components, Vec in, Vec out)
+{
+  const PetscInt n = components * C->grid->cells;
+  const double  *x;
+  double        *y, self[2];
+  PetscReal      size;
+  float         *work;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(in, NORM_INFINITY, &size));
+  if (size == 0) {
+    PetscCall(VecSet(out, 0));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamElasticityGetSelfInfluence(C, &self[0], &self[1]));
+  PetscCall(PetscMalloc1(n, &work));
+  PetscCall(VecGetArrayRead(in, &x));
+  for (PetscInt k = 0; k < n; k++) work[k] = (float)(x[k] / size);
+  PetscCall(VecRestoreArrayRead(in, &x));
+  if (components == 1) PetscCall(SamElasticityPreconditionNormalSingle(C, self[0], work, work));
+  else PetscCall(SamElasticityPreconditionTangentialSingle(C, self[1], work, work));
+  PetscCall(VecGetArrayWrite(out, &y));
+  for (PetscInt k = 0; k < n; k++) y[k] = size / self[components - 1] * (double)work[k];
+  PetscCall(VecRestoreArrayWrite(out, &y));
+  PetscCall(PetscFree(work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityPreconditionNormal(SamElasticity C, Vec residual, Vec p)
+{
+  PetscFunctionBegin;
+  PetscCall(Precondition(C, 1, residual, p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityPreconditionTangential(SamElasticity C, Vec residual, Vec q)
+{
+  PetscFunctionBegin;
+  PetscCall(Precondition(C, 2, residual, q));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

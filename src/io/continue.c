@@ -1,0 +1,304 @@
+/*
+  Results that go on where a run was stopped.
+
+  A run may have been killed in the middle of a step. What it has told of can be read (hdf5.c), but HDF5's indices may be
+  between two states, and nothing should be written into those. So unless the file was closed in order, the steps
+  that count are copied to a new one beside it, which is put in its place when it is whole.
+*/
+#include "ioimpl.h"
+#include <string.h>
+
+#define STEP_BYTES 4096 /* more than the numbers of a step take, and its part of HDF5's indices */
+
+/* What is found in the file. */
+typedef struct {
+  hsize_t   steps, saved; /* complete ones */
+  hsize_t   keep;         /* steps with fields among those that count */
+  PetscBool whole;        /* closed in order, with these steps and no others */
+  char      problem[256];
+  PetscErrorCode code;    /* of the problem */
+} Found;
+
+static void Complain(Found *found, PetscErrorCode code, const char text[])
+{
+  if (!found->code) (void)snprintf(found->problem, sizeof(found->problem), "%s", text);
+  if (!found->code) found->code = code;
+}
+
+/* The least of the lengths of all series, and of all fields. */
+static void CountSteps(SamOutput o, Found *found)
+{
+  found->steps = found->saved = HSIZE_UNDEF;
+  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) found->steps = PetscMin(found->steps, SamOutputLength(o, o->columns[c]));
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) found->saved = PetscMin(found->saved, SamOutputLength(o, o->fields[f]));
+  found->saved = PetscMin(found->saved, PetscMin(SamOutputLength(o, o->state), SamOutputLength(o, o->time)));
+}
+
+/* Times must be those of the load program, and say which fields belong to the steps that count. */
+static PetscErrorCode CompareTimes(SamOutput o, hsize_t steps, const PetscReal times[], Found *found)
+{
+  double *values;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(PetscMax(steps, found->saved), &values));
+  SamOutputReadSeries(o, o->columns[0], H5T_NATIVE_DOUBLE, 0, steps, values);
+  for (hsize_t k = 0; k < steps; k++)
+    if (values[k] != (double)times[k]) Complain(found, SAM_ERR_USER, "its times are not those of the load program (-history, -steps)");
+  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, found->saved, values);
+  for (found->keep = 0; found->keep < found->saved && steps && values[found->keep] <= (double)times[steps - 1]; found->keep++) o->saved_time = values[found->keep];
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Looks at a file that is open. */
+static PetscErrorCode Look(SamOutput o, const SamParameters *parameters, hsize_t steps, const PetscReal times[], Found *found)
+{
+  char   text[192];
+  int8_t closed = 0;
+
+  PetscFunctionBegin;
+  SamOutputOpenLayout(o);
+  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamParametersDiffer(o->f, parameters, text, sizeof(text))) Complain(found, SAM_ERR_USER, text);
+  CountSteps(o, found);
+  if (o->f->failed || found->code) PetscFunctionReturn(PETSC_SUCCESS);
+  if (found->steps < steps) {
+    (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint", (long)found->steps, (long)steps);
+    Complain(found, SAM_ERR_FILE, text);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(CompareTimes(o, steps, times, found));
+  (void)SamFileNote(o->f, H5Aread(o->closed, H5T_NATIVE_INT8, &closed));
+  found->whole = (closed && found->steps == steps && found->saved == found->keep) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Opens the file and looks at it. Errors leave nothing open. */
+static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode, const SamOutputSettings *set, const SamParameters *parameters, hsize_t steps, const PetscReal times[], SamOutput *output, Found *found)
+{
+  SamFile        file;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(found, sizeof(*found)));
+  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, mode, &file));
+  PetscCall(SamOutputAllocate(file, set, output));
+  PetscCall(SamFileBegin(file));
+  PetscCall(Look(*output, parameters, steps, times, found));
+  ierr = SamFileEnd(file);
+  if (ierr || found->code) {
+    (*output)->unchanged = PETSC_TRUE;
+    (void)SamOutputDestroy(output);
+  }
+  PetscCall(ierr);
+  PetscCheck(!found->code, grid->comm, found->code, "-output %s: cannot go on: %s", filename, found->problem);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- copying ---- */
+
+/* The numbers of a step from the history. */
+static void ReadStep(SamOutput o, hsize_t k, SamStep *step)
+{
+  memset(step, 0, sizeof(*step));
+  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) {
+    char *const place = (char *)step + SamOutputColumns[c].offset;
+    double      real  = 0;
+    int64_t     whole = 0;
+
+    switch (SamOutputColumns[c].kind) {
+    case SAM_COLUMN_REAL:
+      SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_DOUBLE, k, 1, &real);
+      *(PetscReal *)place = (PetscReal)real;
+      break;
+    case SAM_COLUMN_INT:
+      SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_INT64, k, 1, &whole);
+      *(PetscInt *)place = (PetscInt)whole;
+      break;
+    case SAM_COLUMN_STATUS:
+      SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_INT64, k, 1, &whole);
+      *(SamStatus *)place = (SamStatus)whole;
+      break;
+    }
+  }
+}
+
+static PetscErrorCode ReadFields(SamOutput o, hsize_t k, SamFields *fields)
+{
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) {
+    const Vec    vec = *(const Vec *)((const char *)fields + SamOutputFields[f].offset);
+    PetscScalar *values;
+
+    PetscCall(VecGetArray(vec, &values));
+    SamFileReadLayer(o->f, o->fields[f], H5T_NATIVE_DOUBLE, k, values + SamOutputFields[f].component * o->f->grid->cells);
+    PetscCall(VecRestoreArray(vec, &values));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateFields(SamGrid grid, SamFields *fields)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &fields->pressure));
+  PetscCall(VecDuplicate(fields->pressure, &fields->gap));
+  PetscCall(VecDuplicate(fields->pressure, &fields->displacement_z));
+  PetscCall(SamGridCreateVec(grid, 2, &fields->shear));
+  PetscCall(VecDuplicate(fields->shear, &fields->slip));
+  PetscCall(VecDuplicate(fields->shear, &fields->displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyFields(SamFields *fields)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&fields->pressure));
+  PetscCall(VecDestroy(&fields->shear));
+  PetscCall(VecDestroy(&fields->slip));
+  PetscCall(VecDestroy(&fields->gap));
+  PetscCall(VecDestroy(&fields->displacement_z));
+  PetscCall(VecDestroy(&fields->displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static double Friction(const SamParameters *parameters)
+{
+  for (PetscInt k = 0; k < parameters->count; k++)
+    if (!strcmp(parameters->list[k].name, "friction")) return parameters->list[k].value[0];
+  return 0;
+}
+
+/* Step by step, as a run would write them. */
+static PetscErrorCode CopySteps(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep, SamOutput to, SamFields *fields)
+{
+  hsize_t saved = 0;
+
+  PetscFunctionBegin;
+  for (hsize_t k = 0; k < steps; k++) {
+    SamStep   step;
+    double    time = 0;
+    PetscBool has;
+
+    PetscCall(SamFileBegin(from->f));
+    ReadStep(from, k, &step);
+    if (saved < keep) SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, saved, 1, &time);
+    has = (saved < keep && time == (double)step.time) ? PETSC_TRUE : PETSC_FALSE;
+    if (has) PetscCall(ReadFields(from, saved, fields));
+    PetscCall(SamFileEnd(from->f));
+    PetscCall(SamOutputWriteStep(to, &step, has ? fields : NULL, Friction(parameters)));
+    saved += has ? 1 : 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the first run was called with stays. */
+static PetscErrorCode CopyOptions(SamOutput from, SamOutput to)
+{
+  char *options = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(from->f));
+  if (SamFileNote(from->f, H5Aexists(from->f->id, "options")) > 0) SamFileReadTextAttribute(from->f, from->f->id, "options", &options);
+  PetscCall(SamFileEnd(from->f));
+  if (options) PetscCall(SamOutputSetText(to, "options", options));
+  PetscCall(PetscFree(options));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CopyAll(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep, SamOutput to)
+{
+  SamFields      fields;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamOutputSetParameters(to, parameters));
+  PetscCall(CopyOptions(from, to));
+  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to) + (off_t)steps * STEP_BYTES));
+  to->copying = PETSC_TRUE;
+  PetscCall(CreateFields(from->f->grid, &fields));
+  ierr = CopySteps(from, parameters, steps, keep, to, &fields);
+  PetscCall(DestroyFields(&fields));
+  PetscCall(ierr);
+  PetscCall(SamFileBegin(to->f));
+  (void)SamFileNote(to->f, H5Fflush(to->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(to->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The steps that count, in a new file that takes the old one's place. */
+static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const SamParameters *parameters, hsize_t steps, hsize_t keep)
+{
+  SamOutputSettings plain = *set;
+  SamOutput         to;
+  char              temporary[PETSC_MAX_PATH_LEN + 16];
+  PetscErrorCode    ierr;
+
+  PetscFunctionBegin;
+  plain.xdmf = PETSC_FALSE;
+  PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", from->f->filename));
+  PetscCall(SamOutputCreateWith(from->f->grid, temporary, &plain, &to));
+  ierr = CopyAll(from, parameters, steps, keep, to);
+  if (ierr) {
+    (void)SamOutputDestroy(&to);
+    if (!from->f->rank) (void)remove(temporary);
+  }
+  PetscCall(ierr);
+  PetscCall(SamOutputDestroy(&to));
+  PetscCall(SamFileReplace(from->f->grid, "output", temporary, from->f->filename, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- going on ---- */
+
+/* The XDMF file anew: it may have been moved, or tell of steps that no longer count. */
+static PetscErrorCode RewriteXdmf(SamOutput o)
+{
+  double *times;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(o->saved, &times));
+  PetscCall(SamFileBegin(o->f));
+  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, o->saved, times);
+  PetscCall(SamFileEnd(o->f));
+  PetscCall(SamXdmfCreate(o->f->grid, o->f->filename, &o->xdmf));
+  for (hsize_t k = 0; k < o->saved; k++) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)k, (PetscReal)times[k]));
+  PetscCall(PetscFree(times));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* From now on the file counts as open, whatever ends the run. */
+static PetscErrorCode MarkOpen(SamOutput o)
+{
+  const int8_t closed = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(o->f));
+  (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
+  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamParameters *parameters, PetscInt steps, const PetscReal times[], SamOutput *output)
+{
+  const hsize_t     count = (hsize_t)steps;
+  SamOutputSettings set;
+  Found             found;
+  PetscErrorCode    ierr = 0;
+
+  PetscFunctionBegin;
+  *output = NULL;
+  PetscCall(SamInitialize());
+  PetscCall(SamOutputGetSettings(grid->comm, &set));
+  PetscCall(Open(grid, filename, SAM_FILE_READ, &set, parameters, count, times, output, &found));
+  if (!found.whole) ierr = Rewrite(*output, &set, parameters, count, found.keep);
+  PetscCall(SamOutputDestroy(output));
+  PetscCall(ierr);
+  PetscCall(Open(grid, filename, SAM_FILE_APPEND, &set, parameters, count, times, output, &found));
+  PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program", filename);
+  (*output)->steps = found.steps;
+  (*output)->saved = found.saved;
+  PetscCall(MarkOpen(*output));
+  if (set.xdmf) PetscCall(RewriteXdmf(*output));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,412 @@
+/*
+  An HDF5 file that all ranks write or read together through MPI-IO.
+
+  Open MPI's collective writes, and HDF5 where it flushes its administration, may hang for ever when writing fails on one
+  rank alone. So what is likely to go wrong is found before MPI-IO sees it, on rank 0: a name that cannot be written, and
+  a disk or quota that is full, by allocating the space first. The file is then in order as it is, and can be closed.
+*/
+#include "ioimpl.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+/* ---- errors ---- */
+
+/* HDF5 prints its own stack of errors unless told not to. */
+static void Silence(SamFile f)
+{
+  (void)SamFileNote(f, H5Eget_auto2(H5E_DEFAULT, &f->print, &f->print_data));
+  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, NULL, NULL));
+}
+
+static void Unsilence(SamFile f)
+{
+  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, f->print, f->print_data));
+}
+
+PetscErrorCode SamFileBegin(SamFile f)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[f->event], 0, 0, 0, 0));
+  Silence(f);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileAgree(SamFile f)
+{
+  struct {
+    int good, rank;
+  } worst;
+
+  PetscFunctionBegin;
+  worst.good = f->failed ? 0 : 1;
+  worst.rank = f->rank;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MINLOC, f->grid->comm));
+  if (!worst.good) {
+    f->failed = PETSC_TRUE;
+    PetscCallMPI(MPI_Bcast(f->reason, (PetscMPIInt)sizeof(f->reason), MPI_CHAR, worst.rank, f->grid->comm));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileEnd(SamFile f)
+{
+  PetscFunctionBegin;
+  Unsilence(f);
+  PetscCall(PetscLogEventEnd(SamEvents[f->event], 0, 0, 0, 0));
+  PetscCall(SamFileAgree(f));
+  PetscCheck(!f->failed, f->grid->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename, f->writing ? "written" : "read", f->reason);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The first entry of a walk upward through HDF5's errors is where it went wrong. */
+static herr_t TakeReason(unsigned n, const H5E_error2_t *error, void *reason)
+{
+  if (n == 0 && error->desc) (void)snprintf((char *)reason, sizeof(((SamFile)NULL)->reason), "%s", error->desc);
+  return 0;
+}
+
+hid_t SamFileNote(SamFile f, hid_t result)
+{
+  if (result >= 0 || f->failed) return result;
+  f->failed = PETSC_TRUE;
+  (void)snprintf(f->reason, sizeof(f->reason), "HDF5 failed");
+  (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, TakeReason, f->reason);
+  return result;
+}
+
+PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
+  PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, strerror(error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- looking at the file before HDF5 does, on one rank; these return an errno or 0 ---- */
+
+/* Allocates this many bytes beyond the end of the file, which becomes that much longer if they are to be kept. */
+static int Reserve(int file, off_t bytes, PetscBool keep)
+{
+  struct stat    status;
+  struct statvfs space;
+  int            error = EOPNOTSUPP;
+
+  if (fstat(file, &status)) return errno;
+#if defined(__linux__)
+  error = fallocate(file, 0, status.st_size, bytes) ? errno : 0;
+  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* part may be allocated */
+#endif
+  if (error != EOPNOTSUPP && error != ENOSYS) return error;
+  if (fstatvfs(file, &space)) return errno;
+  if ((double)space.f_bavail * (double)space.f_frsize < (double)bytes) return ENOSPC;
+  return keep && ftruncate(file, status.st_size + bytes) ? errno : 0;
+}
+
+static int ReserveInFile(const char filename[], off_t bytes)
+{
+  const int file = open(filename, O_WRONLY);
+  int       error;
+
+  if (file < 0) return errno;
+  error = Reserve(file, bytes, PETSC_TRUE);
+  return close(file) && !error ? errno : error;
+}
+
+/* Whether a file of the name can be written; leaves an existing one as it is, and none that was not there. */
+static int Probe(const char filename[])
+{
+  struct stat status, link;
+  const int   exists = !stat(filename, &status), named = !lstat(filename, &link); /* a link may lead nowhere */
+  int         file, error;
+
+  if (exists && S_ISDIR(status.st_mode)) return EISDIR;
+  if (exists && !S_ISREG(status.st_mode)) return EINVAL; /* a pipe would wait for its reader */
+  file = open(filename, O_WRONLY | O_CREAT, 0666);
+  if (file < 0) return errno;
+  error = Reserve(file, SAM_FILE_ADMINISTRATION, PETSC_FALSE);
+  if (close(file) && !error) error = errno;
+  if (!named && unlink(filename) && !error) error = errno;
+  return error;
+}
+
+PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[])
+{
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  if (rank == 0) error = Probe(filename);
+  PetscCall(SamFileRaise(grid, option, filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
+{
+  int error = 0;
+
+  PetscFunctionBegin;
+  if (f->rank == 0) error = ReserveInFile(f->filename, SAM_FILE_ADMINISTRATION + bytes);
+  PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the disk, on rank 0 ---- */
+
+/* What has been written to a file, or to a folder's list of names, goes to the disk; an errno or 0. */
+static int Sync(const char name[], int flags)
+{
+  const int file = open(name, flags);
+  int       error;
+
+  if (file < 0) return errno;
+  error = fsync(file) && errno != EINVAL && errno != EROFS ? errno : 0; /* not every system can do it for folders */
+  return close(file) && !error ? errno : error;
+}
+
+static int SyncFolderOf(const char filename[])
+{
+  const char *slash = strrchr(filename, '/');
+  char        folder[PETSC_MAX_PATH_LEN];
+
+  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1, slash ? filename : ".");
+  return Sync(folder, O_RDONLY | O_DIRECTORY);
+}
+
+/* Gives a file a second name in the place of what has it; where there are no links it loses the first. */
+static int KeepAs(const char filename[], const char kept[])
+{
+  char temporary[PETSC_MAX_PATH_LEN + 16];
+
+  if (access(filename, F_OK)) return 0;
+  (void)snprintf(temporary, sizeof(temporary), "%s.tmp", kept);
+  (void)unlink(temporary);
+  if (!link(filename, temporary)) return rename(temporary, kept) ? errno : 0;
+  return rename(filename, kept) ? errno : 0;
+}
+
+PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[], const char filename[], const char kept[])
+{
+  PetscMPIInt rank;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  if (rank == 0) {
+    error = Sync(temporary, O_RDONLY);
+    if (!error && kept) error = KeepAs(filename, kept);
+    if (!error && rename(temporary, filename)) error = errno;
+    if (!error) error = SyncFolderOf(filename);
+  }
+  PetscCall(SamFileRaise(grid, option, filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the file ---- */
+
+static PetscErrorCode Allocate(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFile *file)
+{
+  SamFile f;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&f));
+  PetscCall(SamGridReference(grid));
+  f->grid   = grid;
+  f->event  = event;
+  f->option = option;
+  f->id = f->transfer = -1;
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &f->rank));
+  PetscCall(PetscStrallocpy(filename, &f->filename));
+  *file = f;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Free(SamFile *file)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridDestroy(&(*file)->grid));
+  PetscCall(PetscFree((*file)->filename));
+  PetscCall(PetscFree(*file));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+#define NOT_HDF5 (-1)
+
+/* Looks at a file that is to be read, on rank 0, so that what is commonly wrong with it is told in plain words. */
+static PetscErrorCode Examine(SamFile f)
+{
+  struct stat status;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  if (f->rank == 0) {
+    if (stat(f->filename, &status) || access(f->filename, f->writing ? R_OK | W_OK : R_OK)) error = errno;
+    else if (!S_ISREG(status.st_mode)) error = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
+    else {
+      Silence(f);
+      if (H5Fis_hdf5(f->filename) <= 0) error = NOT_HDF5;
+      Unsilence(f);
+    }
+  }
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, f->grid->comm));
+  PetscCheck(!error, f->grid->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename, f->writing ? "written" : "read", error == NOT_HDF5 ? "it is not an HDF5 file" : strerror(error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
+{
+  hid_t access;
+
+  PetscFunctionBegin;
+  if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND) PetscCall(Examine(f));
+  PetscCall(SamFileBegin(f));
+  access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
+  (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));
+  (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
+  /* the newest format has checksums of all but the data */
+  if (mode == SAM_FILE_CREATE_CHECKED) (void)SamFileNote(f, H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST));
+  f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
+  (void)SamFileNote(f, H5Pset_dxpl_mpio(f->transfer, H5FD_MPIO_COLLECTIVE));
+  if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND) f->id = SamFileNote(f, H5Fopen(f->filename, f->writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access));
+  else f->id = SamFileNote(f, H5Fcreate(f->filename, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+  (void)SamFileNote(f, H5Pclose(access));
+  PetscCall(SamFileEnd(f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFileMode mode, SamFile *file)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(Allocate(grid, event, option, filename, file));
+  (*file)->writing = mode == SAM_FILE_READ ? PETSC_FALSE : PETSC_TRUE;
+  ierr             = OpenFile(*file, mode);
+  if (ierr) {
+    (*file)->id = -1; /* not closed: that would wait for a rank that could not open it */
+    Silence(*file);
+    SamFileClose(*file);
+    Unsilence(*file);
+    PetscCall(Free(file));
+  }
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamFileClose(SamFile f)
+{
+  if (f->transfer >= 0) (void)SamFileNote(f, H5Pclose(f->transfer));
+  if (f->id >= 0) (void)SamFileNote(f, H5Fclose(f->id));
+  f->transfer = f->id = -1;
+}
+
+PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  if (!*file) PetscFunctionReturn(PETSC_SUCCESS);
+  (*file)->failed = PETSC_FALSE; /* what failed before has been raised */
+  PetscCall(SamFileBegin(*file));
+  if (close) SamFileClose(*file);
+  ierr = SamFileEnd(*file);
+  PetscCall(Free(file));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- attributes ---- */
+
+void SamFileWriteAttribute(SamFile f, hid_t object, const char name[], hid_t stored, hid_t type, PetscInt count, const void *values)
+{
+  const hsize_t size  = (hsize_t)count;
+  const hid_t   space = SamFileNote(f, count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL));
+  hid_t         attribute;
+
+  if (SamFileNote(f, H5Aexists(object, name)) > 0) (void)SamFileNote(f, H5Adelete(object, name));
+  attribute = SamFileNote(f, H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT));
+  (void)SamFileNote(f, H5Awrite(attribute, type, values));
+  (void)SamFileNote(f, H5Aclose(attribute));
+  (void)SamFileNote(f, H5Sclose(space));
+}
+
+/* Texts are stored with variable length, which h5py gives back as str. */
+void SamFileWriteTextAttribute(SamFile f, hid_t object, const char name[], const char text[])
+{
+  const hid_t type = SamFileNote(f, H5Tcopy(H5T_C_S1));
+
+  (void)SamFileNote(f, H5Tset_size(type, H5T_VARIABLE));
+  (void)SamFileNote(f, H5Tset_cset(type, H5T_CSET_UTF8));
+  SamFileWriteAttribute(f, object, name, type, type, 1, &text);
+  (void)SamFileNote(f, H5Tclose(type));
+}
+
+void SamFileReadAttribute(SamFile f, hid_t object, const char name[], hid_t type, PetscInt count, void *values)
+{
+  const hid_t attribute = SamFileNote(f, H5Aopen(object, name, H5P_DEFAULT)), space = SamFileNote(f, H5Aget_space(attribute));
+
+  if (attribute >= 0 && space >= 0) {
+    if (H5Sget_simple_extent_npoints(space) == count) (void)SamFileNote(f, H5Aread(attribute, type, values));
+    else (void)SamFileNote(f, -1);
+  }
+  if (space >= 0) (void)SamFileNote(f, H5Sclose(space));
+  if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));
+}
+
+void SamFileReadTextAttribute(SamFile f, hid_t object, const char name[], char **text)
+{
+  const hid_t type = SamFileNote(f, H5Tcopy(H5T_C_S1));
+  char       *read = NULL;
+
+  (void)SamFileNote(f, H5Tset_size(type, H5T_VARIABLE));
+  (void)SamFileNote(f, H5Tset_cset(type, H5T_CSET_UTF8));
+  SamFileReadAttribute(f, object, name, type, 1, &read);
+  if (PetscStrallocpy(read ? read : "", text)) (void)SamFileNote(f, -1);
+  if (read) (void)SamFileNote(f, H5free_memory(read));
+  (void)SamFileNote(f, H5Tclose(type));
+}
+
+/* ---- fields ---- */
+
+/* What this rank has of a layer; a rank without rows takes part with an empty selection. */
+static void SelectLayer(SamFile f, hid_t dataset, hsize_t layer, hid_t *space, hid_t *memory)
+{
+  const SamGrid grid     = f->grid;
+  const hsize_t start[3] = {layer, (hsize_t)grid->row_start, 0};
+  const hsize_t count[3] = {1, (hsize_t)grid->rows, (hsize_t)grid->nx};
+
+  *memory = SamFileNote(f, H5Screate_simple(3, count, NULL));
+  *space  = SamFileNote(f, H5Dget_space(dataset));
+  if (grid->rows) {
+    (void)SamFileNote(f, H5Sselect_hyperslab(*space, H5S_SELECT_SET, start, NULL, count, NULL));
+  } else {
+    (void)SamFileNote(f, H5Sselect_none(*space));
+    (void)SamFileNote(f, H5Sselect_none(*memory));
+  }
+}
+
+void SamFileWriteLayer(SamFile f, hid_t dataset, hid_t type, hsize_t layer, const void *values)
+{
+  const double nothing = 0;
+  hid_t        space, memory;
+
+  SelectLayer(f, dataset, layer, &space, &memory);
+  (void)SamFileNote(f, H5Dwrite(dataset, type, memory, space, f->transfer, f->grid->rows ? values : &nothing));
+  (void)SamFileNote(f, H5Sclose(space));
+  (void)SamFileNote(f, H5Sclose(memory));
+}
+
+void SamFileReadLayer(SamFile f, hid_t dataset, hid_t type, hsize_t layer, void *values)
+{
+  double nothing;
+  hid_t  space, memory;
+
+  SelectLayer(f, dataset, layer, &space, &memory);
+  (void)SamFileNote(f, H5Dread(dataset, type, memory, space, f->transfer, f->grid->rows ? values : &nothing));
+  (void)SamFileNote(f, H5Sclose(space));
+  (void)SamFileNote(f, H5Sclose(memory));
+}

@@ -1,0 +1,346 @@
+/*
+  Results in an HDF5 file, written by all ranks together.
+
+  Datasets stay open and grow by one along time with each step; each rank writes its rows. The space of a step is reserved
+  before anything of it is written.
+*/
+#include "ioimpl.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- options ---- */
+
+PetscErrorCode SamOutputGetSettings(MPI_Comm comm, SamOutputSettings *set)
+{
+  PetscFunctionBegin;
+  *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
+  PetscCall(SamOptionsInt(NULL, "output_compress", "level of compression of the fields, 0 (none) to 9", 0, &set->compress, NULL));
+  PetscCheck(set->compress <= 9, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", set->compress);
+  PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": this HDF5 was built without zlib", set->compress);
+  PetscCall(SamOptionsIntPair(NULL, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
+  PetscCall(SamOptionsBool(NULL, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCheckOptions(MPI_Comm comm)
+{
+  SamOutputSettings set;
+
+  PetscFunctionBegin;
+  PetscCall(SamOutputGetSettings(comm, &set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- on one rank ---- */
+
+/*
+  Moves what the superblock says is the end of the data to the end of the file, before HDF5 writes what points there: the
+  space of a step has been reserved, so that it lies before. HDF5 itself tells the end last; a run that is killed in
+  between would leave datasets that lead beyond it, and with them steps that were complete before. Version 0 of the superblock has no checksum and the end at byte 40 (HDF5 file format
+  specification, II.A); of others this is left to HDF5.
+*/
+#define SUPERBLOCK_VERSION 8
+#define SUPERBLOCK_OFFSETS 13 /* bytes of an address */
+#define SUPERBLOCK_END     40
+static int MoveEnd(const char filename[])
+{
+  const int     file = open(filename, O_RDWR);
+  unsigned char start[SUPERBLOCK_END], end[8];
+  struct stat   status;
+  int           error = 0;
+
+  if (file < 0) return errno;
+  errno = EIO; /* of what is shorter than it should be */
+  if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status)) error = errno;
+  else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
+    for (unsigned k = 0; k < sizeof(end); k++) end[k] = (unsigned char)((uint64_t)status.st_size >> 8 * k & 0xff);
+    if (pwrite(file, end, sizeof(end), SUPERBLOCK_END) != (ssize_t)sizeof(end)) error = errno;
+  }
+  return close(file) && !error ? errno : error;
+}
+
+/* ---- the file ---- */
+
+PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output)
+{
+  SamOutput o;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&o));
+  o->f    = file;
+  o->set  = *set;
+  o->time = o->state = o->vtk_steps = o->closed = -1;
+  o->saved_time = PETSC_NINFINITY;
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = -1;
+  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) o->columns[c] = -1;
+  PetscCall(PetscMalloc1(file->grid->cells, &o->states));
+  *output = o;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateDatasets(SamOutput o)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(o->f));
+  PetscCall(SamOutputCreateLayout(o));
+  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCreateWith(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
+{
+  SamFile        file;
+  SamXdmf        xdmf = NULL;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileCheckName(grid, "output", filename));
+  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, &xdmf)); /* first: the old results stay if it fails */
+  ierr = SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &file);
+  if (ierr) {
+    PetscCall(SamXdmfDestroy(&xdmf));
+    PetscCall(ierr);
+  }
+  PetscCall(SamOutputAllocate(file, set, output));
+  (*output)->xdmf = xdmf;
+  ierr            = CreateDatasets(*output);
+  if (ierr) (void)SamOutputDestroy(output);
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], SamOutput *output)
+{
+  SamOutputSettings set;
+
+  PetscFunctionBegin;
+  *output = NULL;
+  PetscCall(SamInitialize());
+  PetscCall(SamOutputGetSettings(grid->comm, &set));
+  PetscCall(SamOutputCreateWith(grid, filename, &set, output));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The last word of a run: what is read as open, was left by one that did not get to its end. */
+static void MarkClosed(SamOutput o)
+{
+  const int8_t closed = 1;
+
+  if (o->closed >= 0 && o->f->writing && !o->unchanged) (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
+}
+
+PetscErrorCode SamOutputDestroy(SamOutput *output)
+{
+  SamOutput      o = *output;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  *output = NULL;
+  if (!o) PetscFunctionReturn(PETSC_SUCCESS);
+  o->f->failed = PETSC_FALSE; /* what failed before has been raised */
+  PetscCall(SamFileBegin(o->f));
+  if (!o->broken) {
+    MarkClosed(o);
+    SamOutputCloseLayout(o);
+    SamFileClose(o->f);
+  }
+  ierr = SamFileEnd(o->f);
+  PetscCall(SamXdmfDestroy(&o->xdmf));
+  PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
+  PetscCall(PetscFree(o->states));
+  PetscCall(PetscFree(o));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputGetXdmf(SamOutput o, const char **filename)
+{
+  PetscFunctionBegin;
+  *filename = o->xdmf ? SamXdmfGetName(o->xdmf) : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- attributes ---- */
+
+PetscErrorCode SamOutputSetReals(SamOutput o, const char name[], PetscInt count, const PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(o->f));
+  SamFileWriteAttribute(o->f, o->f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, values);
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputSetParameters(SamOutput o, const SamParameters *parameters)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(o->f));
+  SamParametersWrite(o->f, parameters);
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputSetText(SamOutput o, const char name[], const char text[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(o->f));
+  SamFileWriteTextAttribute(o->f, o->f->id, name, text);
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- steps ---- */
+
+/* Appends a number to a series, which rank 0 writes. */
+static void AppendNumber(SamOutput o, hid_t dataset, hid_t type, hsize_t index, const void *number)
+{
+  const hsize_t size = index + 1, one = 1;
+  const hid_t   memory = SamFileNote(o->f, H5Screate_simple(1, &one, NULL));
+  hid_t         space;
+
+  (void)SamFileNote(o->f, H5Dset_extent(dataset, &size));
+  space = SamFileNote(o->f, H5Dget_space(dataset));
+  if (o->f->rank == 0) {
+    (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, &index, NULL, &one, NULL));
+  } else {
+    (void)SamFileNote(o->f, H5Sselect_none(space));
+    (void)SamFileNote(o->f, H5Sselect_none(memory));
+  }
+  (void)SamFileNote(o->f, H5Dwrite(dataset, type, memory, space, o->f->transfer, number));
+  (void)SamFileNote(o->f, H5Sclose(space));
+  (void)SamFileNote(o->f, H5Sclose(memory));
+}
+
+static void AppendHistory(SamOutput o, const SamStep *step)
+{
+  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) {
+    const char *const place = (const char *)step + SamOutputColumns[c].offset;
+    double            real;
+    int64_t           whole;
+
+    switch (SamOutputColumns[c].kind) {
+    case SAM_COLUMN_REAL:
+      real = (double)*(const PetscReal *)place;
+      AppendNumber(o, o->columns[c], H5T_NATIVE_DOUBLE, o->steps, &real);
+      break;
+    case SAM_COLUMN_INT:
+      whole = (int64_t)*(const PetscInt *)place;
+      AppendNumber(o, o->columns[c], H5T_NATIVE_INT64, o->steps, &whole);
+      break;
+    case SAM_COLUMN_STATUS:
+      whole = (int64_t)*(const SamStatus *)place;
+      AppendNumber(o, o->columns[c], H5T_NATIVE_INT64, o->steps, &whole);
+      break;
+    }
+  }
+}
+
+static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *values)
+{
+  const hsize_t size[3] = {o->saved + 1, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
+
+  (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
+  SamFileWriteLayer(o->f, dataset, type, o->saved, values);
+}
+
+static PetscErrorCode AppendState(SamOutput o, const SamFields *fields, PetscReal friction)
+{
+  const PetscInt     cells = o->f->grid->cells;
+  const PetscScalar *p, *q;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(fields->pressure, &p));
+  PetscCall(VecGetArrayRead(fields->shear, &q));
+  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)SamStateOf(p[k], q[k], q[cells + k], friction);
+  PetscCall(VecRestoreArrayRead(fields->shear, &q));
+  PetscCall(VecRestoreArrayRead(fields->pressure, &p));
+  AppendField(o, o->state, H5T_NATIVE_SCHAR, o->states);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AppendFields(SamOutput o, const SamFields *fields, PetscReal friction)
+{
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) {
+    const Vec          vec = *(const Vec *)((const char *)fields + SamOutputFields[f].offset);
+    const PetscScalar *values;
+
+    PetscCall(VecGetArrayRead(vec, &values));
+    AppendField(o, o->fields[f], H5T_NATIVE_DOUBLE, values + SamOutputFields[f].component * o->f->grid->cells);
+    PetscCall(VecRestoreArrayRead(vec, &values));
+  }
+  PetscCall(AppendState(o, fields, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes the file complete up to here: first its end is told, then HDF5 writes its administration. */
+static PetscErrorCode Flush(SamOutput o)
+{
+  int error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileAgree(o->f)); /* flush only what is there */
+  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (o->f->rank == 0) error = MoveEnd(o->f->filename);
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->f->grid->comm)); /* readers see the end before what points there */
+  if (error) {
+    o->f->failed = PETSC_TRUE;
+    (void)snprintf(o->f->reason, sizeof(o->f->reason), "%s", strerror(error));
+  } else (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A step, fields, or both, and what belongs to them; then all of it is on its way to the disk. */
+static PetscErrorCode Append(SamOutput o, const SamStep *step, PetscReal time, const SamFields *fields, PetscReal friction)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename, o->f->reason);
+  if (!o->copying) PetscCall(SamFileReserve(o->f, fields ? SamOutputFieldBytes(o) : 0));
+  PetscCall(SamFileBegin(o->f));
+  if (step) AppendHistory(o, step);
+  if (fields) {
+    const double now = (double)time;
+
+    AppendNumber(o, o->time, H5T_NATIVE_DOUBLE, o->saved, &now);
+    PetscCall(AppendFields(o, fields, friction));
+    SamOutputCountVTK(o, o->saved + 1);
+    o->saved_time = time;
+  }
+  if (!o->copying) PetscCall(Flush(o));
+  o->steps += step ? 1 : 0;
+  o->saved += fields ? 1 : 0;
+  ierr = SamFileEnd(o->f);
+  if (ierr) o->broken = PETSC_TRUE;
+  PetscCall(ierr);
+  if (fields && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteStep(SamOutput o, const SamStep *step, const SamFields *fields, PetscReal friction)
+{
+  PetscFunctionBegin;
+  PetscCall(Append(o, step, step->time, fields, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time, const SamFields *fields, PetscReal friction)
+{
+  PetscFunctionBegin;
+  PetscCall(Append(o, NULL, time, fields, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputGetSaved(SamOutput o, PetscInt *steps, PetscInt *saved, PetscReal *time)
+{
+  PetscFunctionBegin;
+  if (steps) *steps = (PetscInt)o->steps;
+  if (saved) *saved = (PetscInt)o->saved;
+  if (time) *time = o->saved_time;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

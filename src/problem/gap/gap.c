@@ -1,0 +1,240 @@
+/* The class of gaps: types, their parameters, roughness. The shapes are in files of their own. */
+#include <petsam/private/gapimpl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static PetscFunctionList SamGapList = NULL;
+static PetscBool         registered = PETSC_FALSE;
+
+static PetscErrorCode FreeList(void)
+{
+  PetscFunctionBegin;
+  registered = PETSC_FALSE;
+  PetscCall(PetscFunctionListDestroy(&SamGapList));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RegisterAll(void)
+{
+  PetscFunctionBegin;
+  if (registered) PetscFunctionReturn(PETSC_SUCCESS);
+  registered = PETSC_TRUE;
+  PetscCall(SamGapRegister(SAM_GAP_SPHERE, SamGapCreate_Sphere));
+  PetscCall(SamGapRegister(SAM_GAP_ELLIPSOID, SamGapCreate_Ellipsoid));
+  PetscCall(SamGapRegister(SAM_GAP_PUNCH, SamGapCreate_Punch));
+  PetscCall(SamGapRegister(SAM_GAP_FLAT, SamGapCreate_Flat));
+  PetscCall(SamGapRegister(SAM_GAP_FILE, SamGapCreate_File));
+  PetscCall(PetscRegisterFinalize(FreeList));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap))
+{
+  PetscFunctionBegin;
+  PetscCall(RegisterAll()); /* first, so that a type of the user's replaces one of the same name */
+  PetscCall(PetscFunctionListAdd(&SamGapList, name, create));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
+{
+  SamGap g;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(RegisterAll());
+  PetscCall(PetscNew(&g));
+  g->comm                  = comm;
+  g->source.file_option    = "gap_file";
+  g->source.dataset_option = "gap_dataset";
+  g->rough.file_option     = "gap_rough_file";
+  g->rough.dataset_option  = "gap_rough_dataset";
+  *gap                     = g;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapDestroy(SamGap *gap)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(*gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static int CompareNames(const void *a, const void *b)
+{
+  return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* The registered types in alphabetical order; the caller frees the array. */
+static PetscErrorCode GetTypes(const char ***types, int *count)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFunctionListGet(SamGapList, types, count));
+  while (*count > 0 && !(*types)[*count - 1]) --*count; /* PETSc counts the NULL at the end */
+  qsort(*types, (size_t)*count, sizeof(**types), CompareNames);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The registered types as a sentence names them: a, b or c. */
+static PetscErrorCode ListTypes(char list[], size_t size)
+{
+  const char **types;
+  int          count;
+
+  PetscFunctionBegin;
+  PetscCall(GetTypes(&types, &count));
+  list[0] = '\0';
+  for (int t = 0; t < count; t++) {
+    if (t) PetscCall(PetscStrlcat(list, t + 1 < count ? ", " : " or ", size));
+    PetscCall(PetscStrlcat(list, types[t], size));
+  }
+  PetscCall(PetscFree(types));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
+{
+  PetscErrorCode (*create)(SamGap);
+  char list[512];
+
+  PetscFunctionBegin;
+  PetscCall(PetscFunctionListFind(SamGapList, type, &create));
+  if (!create) {
+    PetscCall(ListTypes(list, sizeof(list)));
+    SETERRQ(gap->comm, SAM_ERR_USER, "-gap_type %s: expected %s", type, list);
+  }
+  PetscCall(PetscMemzero(&gap->ops, sizeof(gap->ops)));
+  PetscCall(PetscMemzero(gap->values, sizeof(gap->values)));
+  PetscCall(create(gap));
+  PetscCheck(gap->ops.count <= SAM_GAP_PARAMETERS, gap->comm, PETSC_ERR_PLIB, "Gap type %s has more than %d parameters", type, SAM_GAP_PARAMETERS);
+  PetscCheck(gap->ops.height || gap->ops.fill, gap->comm, PETSC_ERR_PLIB, "Gap type %s set no method", type);
+  for (PetscInt k = 0; k < gap->ops.count; k++) gap->names[k] = gap->ops.parameters[k].name;
+  PetscCall(PetscStrncpy(gap->type, type, sizeof(gap->type)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads what the type asks for; all of it is required, except while the help is printed. */
+static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < gap->ops.count; k++) {
+    const SamGapParameter *parameter = &gap->ops.parameters[k];
+    PetscBool              set;
+    char                   text[160];
+
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required by %s", parameter->help, gap->type));
+    PetscCall(SamOptionsReal(NULL, parameter->name, text, parameter->range, &gap->values[k], &set));
+    PetscCheck(set || help, gap->comm, SAM_ERR_USER, "-%s is missing: %s, required by -gap_type %s", parameter->name, parameter->help, gap->type);
+  }
+  if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Lists the options of all types, and leaves a gap that needs none. */
+static PetscErrorCode PrintTypes(SamGap gap)
+{
+  const char **types;
+  int          count;
+
+  PetscFunctionBegin;
+  PetscCall(GetTypes(&types, &count));
+  for (int t = 0; t < count; t++) {
+    PetscCall(SamGapSetType(gap, types[t]));
+    PetscCall(SetTypeFromOptions(gap, PETSC_TRUE));
+  }
+  PetscCall(PetscFree(types));
+  PetscCall(SamGapSetType(gap, SAM_GAP_FLAT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapSetFromOptions(SamGap gap)
+{
+  char      type[64], list[512], text[600];
+  PetscBool set, help;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamOptionsHeading("Gap"));
+  PetscCall(ListTypes(list, sizeof(list)));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
+  PetscCall(PetscStrncpy(type, gap->type, sizeof(type)));
+  PetscCall(SamOptionsString(NULL, "gap_type", text, type, sizeof(type), &set));
+  if (help) {
+    PetscCall(PrintTypes(gap));
+  } else {
+    PetscCheck(set || gap->type[0], gap->comm, SAM_ERR_USER, "-gap_type is missing: %s", list);
+    if (set) PetscCall(SamGapSetType(gap, type));
+    PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
+  }
+  PetscCall(SamGapSourceSetFromOptions(&gap->rough, "HDF5 file with a roughness that is added to any type"));
+  if (help) gap->rough.file[0] = '\0';
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FillHeight(SamGap gap, SamGrid grid, Vec h)
+{
+  PetscScalar *array;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayWrite(h, &array));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const PetscReal y = SamGridY(grid, grid->row_start + j);
+
+    for (PetscInt i = 0; i < grid->nx; i++) array[j * grid->nx + i] = gap->ops.height(gap->values, SamGridX(grid, i), y);
+  }
+  PetscCall(VecRestoreArrayWrite(h, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A radius or a roughness out of all proportion to the grid may overflow. */
+static PetscErrorCode CheckFinite(SamGap gap, SamGrid grid, Vec h)
+{
+  const PetscScalar *array;
+  double             bad = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(h, &array));
+#pragma omp simd reduction(+ : bad)
+  for (PetscInt k = 0; k < grid->cells; k++) bad += 0 * array[k]; /* which is no number when array[k] is not finite */
+  PetscCall(VecRestoreArrayRead(h, &array));
+  bad = isnan(bad) ? 1 : 0;
+  PetscCall(SamMax(grid->comm, 1, &bad));
+  PetscCheck(bad == 0, gap->comm, SAM_ERR_USER, "-gap_type %s: the separation is not finite everywhere on the grid: look at the values of its options", gap->type);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddRoughness(SamGap gap, SamGrid grid, Vec h)
+{
+  PetscErrorCode ierr;
+  Vec            rough;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(h, &rough));
+  ierr = SamGapSourceRead(&gap->rough, grid, rough);
+  if (!ierr) PetscCall(VecAXPY(h, 1, rough));
+  PetscCall(VecDestroy(&rough));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
+{
+  PetscFunctionBegin;
+  PetscCheck(gap->type[0], gap->comm, PETSC_ERR_ORDER, "Call SamGapSetType() or SamGapSetFromOptions() first");
+  if (gap->ops.fill) PetscCall(gap->ops.fill(gap, grid, h));
+  else PetscCall(FillHeight(gap, grid, h));
+  if (gap->rough.file[0]) PetscCall(AddRoughness(gap, grid, h));
+  PetscCall(CheckFinite(gap, grid, h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count, const char *const **names, const PetscReal **values)
+{
+  PetscFunctionBegin;
+  if (type) *type = gap->type;
+  if (count) *count = gap->ops.count;
+  if (names) *names = gap->names;
+  if (values) *values = gap->values;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

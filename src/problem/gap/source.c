@@ -1,0 +1,235 @@
+/*
+  Fields of (ny, nx) in HDF5 files.
+
+  A file may be wrong in many ways. Rank 0 looks at it with the serial driver and tells the others its verdict, so that
+  all raise the same error and none waits for another in a collective call; only then all read their rows together.
+*/
+#include <petsam/private/gapimpl.h>
+#include <errno.h>
+#include <hdf5.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef enum { GOOD, UNREADABLE, NOT_HDF5, DAMAGED, NO_DATASET, WRONG_TYPE, WRONG_RANK, WRONG_SHAPE, NOT_FINITE } Kind;
+
+typedef struct {
+  Kind      kind;
+  long long detail[2]; /* UNREADABLE: errno; WRONG_RANK: rank; WRONG_SHAPE: shape; NOT_FINITE: row, column */
+} Verdict;
+
+/* HDF5 prints its own stack of errors unless told not to. */
+typedef struct {
+  H5E_auto2_t print;
+  void       *data;
+} ErrorOutput;
+
+static ErrorOutput Silence(void)
+{
+  ErrorOutput output = {NULL, NULL};
+
+  (void)H5Eget_auto2(H5E_DEFAULT, &output.print, &output.data);
+  (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  return output;
+}
+
+static void Unsilence(ErrorOutput output)
+{
+  (void)H5Eset_auto2(H5E_DEFAULT, output.print, output.data);
+}
+
+PetscErrorCode SamGapSourceSetFromOptions(SamGapSource *source, const char file_help[])
+{
+  PetscBool set, help;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(source->dataset, "/height", sizeof(source->dataset)));
+  PetscCall(SamOptionsString(NULL, source->file_option, file_help, source->file, sizeof(source->file), NULL));
+  PetscCall(SamOptionsString(NULL, source->dataset_option, "dataset in it: (ny, nx), m", source->dataset, sizeof(source->dataset), &set));
+  PetscCall(SamPrintHelp(&help));
+  PetscCheck(!set || source->file[0] || help, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s is given without -%s", source->dataset_option, source->file_option);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static Verdict JudgeShape(SamGrid grid, hid_t space)
+{
+  Verdict   verdict = {GOOD, {0, 0}};
+  hsize_t   shape[2];
+  const int rank = H5Sget_simple_extent_ndims(space);
+
+  if (rank != 2 || H5Sget_simple_extent_dims(space, shape, NULL) != 2) {
+    verdict.kind      = WRONG_RANK;
+    verdict.detail[0] = rank;
+  } else if (shape[0] != (hsize_t)grid->ny || shape[1] != (hsize_t)grid->nx) {
+    verdict.kind      = WRONG_SHAPE;
+    verdict.detail[0] = (long long)shape[0];
+    verdict.detail[1] = (long long)shape[1];
+  }
+  return verdict;
+}
+
+static Verdict JudgeDataset(SamGrid grid, hid_t dataset)
+{
+  const hid_t       space = H5Dget_space(dataset), type = H5Dget_type(dataset);
+  const H5T_class_t kind    = H5Tget_class(type);
+  Verdict           verdict = {DAMAGED, {0, 0}};
+
+  if (space >= 0 && type >= 0) {
+    verdict = JudgeShape(grid, space);
+    if (kind != H5T_FLOAT && kind != H5T_INTEGER) verdict.kind = WRONG_TYPE;
+  }
+  if (type >= 0) (void)H5Tclose(type);
+  if (space >= 0) (void)H5Sclose(space);
+  return verdict;
+}
+
+/* Looks at the file, on one rank. */
+static Verdict Judge(const SamGapSource *source, SamGrid grid)
+{
+  Verdict     verdict = {GOOD, {0, 0}};
+  struct stat status;
+  hid_t       file, dataset;
+
+  if (stat(source->file, &status) || access(source->file, R_OK)) return (Verdict){UNREADABLE, {errno, 0}};
+  if (S_ISDIR(status.st_mode)) return (Verdict){UNREADABLE, {EISDIR, 0}};
+  if (H5Fis_hdf5(source->file) <= 0) return (Verdict){NOT_HDF5, {0, 0}};
+  file = H5Fopen(source->file, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return (Verdict){DAMAGED, {0, 0}};
+  dataset = H5Dopen2(file, source->dataset, H5P_DEFAULT);
+  if (dataset < 0) {
+    verdict.kind = NO_DATASET;
+  } else {
+    verdict = JudgeDataset(grid, dataset);
+    (void)H5Dclose(dataset);
+  }
+  (void)H5Fclose(file);
+  return verdict;
+}
+
+static PetscErrorCode Raise(const SamGapSource *source, SamGrid grid, const Verdict *verdict)
+{
+  const char *const file = source->file, *const dataset = source->dataset;
+  const long long   ny = grid->ny, nx = grid->nx, *const detail = verdict->detail;
+
+  PetscFunctionBegin;
+  switch (verdict->kind) {
+  case GOOD:
+    PetscFunctionReturn(PETSC_SUCCESS);
+  case UNREADABLE:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: cannot be read: %s", source->file_option, file, strerror((int)detail[0]));
+  case NOT_HDF5:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: is not an HDF5 file", source->file_option, file);
+  case NO_DATASET:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s (-%s)", source->file_option, file, dataset, source->dataset_option);
+  case WRONG_TYPE:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s does not hold real or whole numbers", source->file_option, file, dataset);
+  case WRONG_RANK:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s has %lld dimension(s), expected shape (ny, nx) = (%lld, %lld), rows are y", source->file_option, file, dataset, detail[0], ny, nx);
+  case WRONG_SHAPE:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y", source->file_option, file, dataset, detail[0], detail[1], ny, nx);
+  case NOT_FINITE:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is not a finite number", source->file_option, file, dataset, detail[0], detail[1]);
+  default: /* DAMAGED */
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s cannot be read: the file is damaged or in use", source->file_option, file, dataset);
+  }
+}
+
+static PetscErrorCode CheckFile(const SamGapSource *source, SamGrid grid)
+{
+  Verdict     verdict = {GOOD, {0, 0}};
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  if (rank == 0) verdict = Judge(source, grid);
+  PetscCallMPI(MPI_Bcast(&verdict, (PetscMPIInt)sizeof(verdict), MPI_BYTE, 0, grid->comm));
+  PetscCall(Raise(source, grid, &verdict));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Opens file and dataset on all ranks; what could not be opened is negative. */
+static void Open(const SamGapSource *source, SamGrid grid, hid_t *file, hid_t *dataset)
+{
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+
+  *file = *dataset = -1;
+  if (access >= 0 && H5Pset_fapl_mpio(access, grid->comm, MPI_INFO_NULL) >= 0) *file = H5Fopen(source->file, H5F_ACC_RDONLY, access);
+  if (*file >= 0) *dataset = H5Dopen2(*file, source->dataset, H5P_DEFAULT);
+  if (access >= 0) (void)H5Pclose(access);
+}
+
+/* Reads this rank's rows, collectively: a rank without rows takes part with an empty selection. */
+static PetscBool ReadRows(SamGrid grid, hid_t dataset, double array[])
+{
+  const hsize_t start[2] = {(hsize_t)grid->row_start, 0}, count[2] = {(hsize_t)grid->rows, (hsize_t)grid->nx};
+  const hid_t   space = H5Dget_space(dataset), memory = H5Screate_simple(2, count, NULL), transfer = H5Pcreate(H5P_DATASET_XFER);
+  double        nothing;
+  PetscBool     good = PETSC_TRUE;
+  herr_t        status;
+
+  status = grid->rows ? H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) : H5Sselect_none(space);
+  if (status < 0) good = PETSC_FALSE;
+  if (H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE) < 0) good = PETSC_FALSE;
+  if (H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, transfer, grid->rows ? array : &nothing) < 0) good = PETSC_FALSE;
+  if (H5Pclose(transfer) < 0) good = PETSC_FALSE;
+  if (H5Sclose(memory) < 0) good = PETSC_FALSE;
+  if (H5Sclose(space) < 0) good = PETSC_FALSE;
+  return good;
+}
+
+static PetscErrorCode Read(const SamGapSource *source, SamGrid grid, double array[])
+{
+  hid_t  file, dataset;
+  double bad;
+
+  PetscFunctionBegin;
+  Open(source, grid, &file, &dataset);
+  bad = dataset < 0;
+  PetscCall(SamMax(grid->comm, 1, &bad)); /* before the collective read, in which a rank must not be missing */
+  if (bad == 0) bad = ReadRows(grid, dataset, array) ? 0 : 1;
+  if (dataset >= 0 && H5Dclose(dataset) < 0) bad = 1;
+  if (file >= 0 && H5Fclose(file) < 0) bad = 1;
+  PetscCall(SamMax(grid->comm, 1, &bad));
+  if (bad != 0) PetscCall(Raise(source, grid, &(Verdict){DAMAGED, {0, 0}}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckFinite(const SamGapSource *source, SamGrid grid, const double array[])
+{
+  const long long none = (long long)grid->nx * grid->ny;
+  long long       bad  = none;
+
+  PetscFunctionBegin;
+  for (PetscInt k = grid->cells - 1; k >= 0; k--)
+    if (!isfinite(array[k])) bad = (long long)grid->row_start * grid->nx + k;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_LONG_LONG, MPI_MIN, grid->comm));
+  if (bad != none) PetscCall(Raise(source, grid, &(Verdict){NOT_FINITE, {bad / grid->nx, bad % grid->nx}}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The errors of HDF5 are kept silent by the caller. */
+static PetscErrorCode CheckAndRead(const SamGapSource *source, SamGrid grid, Vec h)
+{
+  PetscScalar *array;
+
+  PetscFunctionBegin;
+  PetscCall(CheckFile(source, grid));
+  PetscCall(VecGetArrayWrite(h, &array));
+  PetscCall(Read(source, grid, array));
+  PetscCall(CheckFinite(source, grid, array));
+  PetscCall(VecRestoreArrayWrite(h, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapSourceRead(const SamGapSource *source, SamGrid grid, Vec h)
+{
+  const ErrorOutput output = Silence();
+  PetscErrorCode    ierr;
+
+  PetscFunctionBegin;
+  ierr = CheckAndRead(source, grid, h);
+  Unsilence(output);
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,24 @@
+/*
+  Two spheres, by the paraboloid that touches them: h = (x^2 + y^2)/2R with 1/R = 1/R1 + 1/R2.
+  K. L. Johnson, Contact Mechanics (Cambridge University Press, 1985), eq. 4.3 with equal radii of curvature.
+*/
+#include <petsam/private/gapimpl.h>
+
+static const SamGapParameter parameters[] = {
+  {"gap_radius1", "radius of body 1 (m, inf: flat)", SAM_RANGE_POSITIVE_INF},
+  {"gap_radius2", "radius of body 2 (m, inf: flat)", SAM_RANGE_POSITIVE_INF}
+};
+
+static PetscReal Height_Sphere(const PetscReal radius[], PetscReal x, PetscReal y)
+{
+  return 0.5 * (x * x + y * y) * (1 / radius[0] + 1 / radius[1]);
+}
+
+PetscErrorCode SamGapCreate_Sphere(SamGap gap)
+{
+  PetscFunctionBegin;
+  gap->ops.count      = 2;
+  gap->ops.parameters = parameters;
+  gap->ops.height     = Height_Sphere;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

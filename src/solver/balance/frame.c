@@ -1,0 +1,165 @@
+/* The frame: small dense algebra of at most three components. */
+#include <petsam/private/balanceimpl.h>
+#include <math.h>
+
+const char *const SamLoadNames[2][3]  = {{"load_n", "load_mx", "load_my"}, {"load_tx", "load_ty", "load_mz"}};
+const char *const SamRigidNames[2][3] = {{"disp_z", "rot_x", "rot_y"}, {"disp_x", "disp_y", "rot_z"}};
+
+/* The rigid displacement of unit component k as a combination of the phi. */
+static void ComponentRow(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3])
+{
+  const double xc = grid->center[0], yc = grid->center[1], L = grid->length;
+  const double normal[3][3]     = {{1, 0, 0}, {-yc, L, 0}, {xc, 0, L}};
+  const double tangential[3][3] = {{1, 0, 0}, {0, 1, 0}, {-yc, xc, L}};
+
+  for (PetscInt i = 0; i < 3; i++) row[i] = kind == SAM_BALANCE_NORMAL ? normal[k][i] : tangential[k][i];
+}
+
+/* Gram-Schmidt: row = lower * basis, one new row of both. */
+static void Orthonormalize(SamFrame *f, const double row[3])
+{
+  const PetscInt m       = f->count;
+  double         rest[3] = {row[0], row[1], row[2]}, norm;
+
+  for (PetscInt pass = 0; pass < 2; pass++) /* twice is enough */
+    for (PetscInt k = 0; k < m; k++) {
+      const double part = rest[0] * f->basis[k][0] + rest[1] * f->basis[k][1] + rest[2] * f->basis[k][2];
+
+      f->lower[m][k] += part;
+      for (PetscInt i = 0; i < 3; i++) rest[i] -= part * f->basis[k][i];
+    }
+  norm           = sqrt(rest[0] * rest[0] + rest[1] * rest[1] + rest[2] * rest[2]);
+  f->lower[m][m] = norm;
+  for (PetscInt i = 0; i < 3; i++) f->basis[m][i] = rest[i] / norm;
+}
+
+PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(f, sizeof(*f)));
+  f->grid = grid;
+  f->kind = balance->kind;
+  f->dxi  = grid->dx / grid->length;
+  f->deta = grid->dy / grid->length;
+  f->xi0  = (0.5 - 0.5 * (double)grid->nx) * f->dxi;
+  for (PetscInt k = 0; k < 3; k++) {
+    double row[3];
+
+    ComponentRow(grid, f->kind, k, row);
+    if (balance->force[k]) {
+      const PetscInt m = f->count;
+
+      Orthonormalize(f, row);
+      f->target[m] = balance->load[k] / (grid->dx * grid->dy);
+      for (PetscInt i = 0; i < m; i++) f->target[m] -= f->lower[m][i] * f->target[i];
+      f->target[m] /= f->lower[m][m];
+      f->component[m] = k;
+      f->count++;
+    } else {
+      for (PetscInt i = 0; i < 3; i++) f->fixed[i] += balance->rigid[k] * row[i];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameSetGiven(SamFrame *f, SamGrid grid, const SamBalance *balance)
+{
+  SamBalance given = *balance;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3; k++) given.force[k] = PETSC_FALSE;
+  PetscCall(SamFrameSet(f, grid, &given));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamFrameGetRigid(const SamFrame *f, const double a[3], SamBalance *balance)
+{
+  double d[3];
+
+  /* a = basis' b with b = lower' d */
+  for (PetscInt k = f->count - 1; k >= 0; k--) {
+    double b = a[0] * f->basis[k][0] + a[1] * f->basis[k][1] + a[2] * f->basis[k][2];
+
+    for (PetscInt m = k + 1; m < f->count; m++) b -= f->lower[m][k] * d[m];
+    d[k]                              = b / f->lower[k][k];
+    balance->rigid[f->component[k]] = d[k];
+  }
+}
+
+void SamFrameGetLoads(const SamFrame *f, const double sums[3], PetscReal loads[3])
+{
+  for (PetscInt k = 0; k < 3; k++) {
+    double row[3];
+
+    ComponentRow(f->grid, f->kind, k, row);
+    loads[k] = (row[0] * sums[0] + row[1] * sums[1] + row[2] * sums[2]) * f->grid->dx * f->grid->dy;
+  }
+}
+
+/* One Jacobi rotation that removes entry (i, j) of a symmetric matrix of order n; V collects the rotations. */
+static void Rotate(PetscInt n, double A[3][3], double V[3][3], PetscInt i, PetscInt j)
+{
+  double theta, t, c, s;
+
+  if (A[i][j] == 0) return;
+  theta = (A[j][j] - A[i][i]) / (2 * A[i][j]);
+  t     = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1));
+  c     = 1 / sqrt(t * t + 1);
+  s     = t * c;
+  for (PetscInt k = 0; k < n; k++) {
+    const double x = A[k][i], y = A[k][j];
+
+    A[k][i] = c * x - s * y;
+    A[k][j] = s * x + c * y;
+  }
+  for (PetscInt k = 0; k < n; k++) {
+    const double x = A[i][k], y = A[j][k], vx = V[k][i], vy = V[k][j];
+
+    A[i][k] = c * x - s * y;
+    A[j][k] = s * x + c * y;
+    V[k][i] = c * vx - s * vy;
+    V[k][j] = s * vx + c * vy;
+  }
+}
+
+/* x = pseudo-inverse of the symmetric A of order n times b. */
+static void SolveSymmetric(PetscInt n, double A[3][3], const double b[3], double x[3])
+{
+  double V[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, largest = 0;
+
+  for (PetscInt sweep = 0; sweep < 12; sweep++)
+    for (PetscInt i = 0; i < n; i++)
+      for (PetscInt j = i + 1; j < n; j++) Rotate(n, A, V, i, j);
+  for (PetscInt k = 0; k < n; k++) {
+    largest = PetscMax(largest, A[k][k]);
+    x[k]    = 0;
+  }
+  for (PetscInt k = 0; k < n; k++) {
+    double part = 0;
+
+    if (A[k][k] <= 1e-13 * largest) continue;
+    for (PetscInt i = 0; i < n; i++) part += V[i][k] * b[i];
+    for (PetscInt i = 0; i < n; i++) x[i] += V[i][k] * part / A[k][k];
+  }
+}
+
+void SamFrameSolve(const SamFrame *f, const double gram[SAM_GRAM], const double sums[3], double a[3])
+{
+  const double G[3][3] = {{gram[0], gram[1], gram[2]}, {gram[1], gram[3], gram[4]}, {gram[2], gram[4], gram[5]}};
+  double       A[3][3], b[3], x[3];
+
+  for (PetscInt k = 0; k < f->count; k++) {
+    b[k] = 0;
+    for (PetscInt i = 0; i < 3; i++) b[k] += f->basis[k][i] * sums[i];
+    for (PetscInt m = 0; m < f->count; m++) {
+      A[k][m] = 0;
+      for (PetscInt i = 0; i < 3; i++)
+        for (PetscInt j = 0; j < 3; j++) A[k][m] += f->basis[k][i] * G[i][j] * f->basis[m][j];
+    }
+  }
+  SolveSymmetric(f->count, A, b, x);
+  for (PetscInt i = 0; i < 3; i++) {
+    a[i] = 0;
+    for (PetscInt k = 0; k < f->count; k++) a[i] += f->basis[k][i] * x[k];
+  }
+}

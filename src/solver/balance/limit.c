@@ -1,0 +1,218 @@
+/*
+  What loads can be balanced at all.
+
+  Sliding: the shears |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of loads
+  is convex, and this is its support function). The least of sum b |v| dA over the v with F.v = 1 is the factor by which F
+  can grow. It is found by Newton's method on |v| smoothed near the centre of rotation, the smoothing being reduced.
+*/
+#include <petsam/private/balanceimpl.h>
+#include <math.h>
+
+/* A row's sums of t and of xi t. */
+SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict t, double xi0, double dxi, double sums[2])
+{
+  double sum = 0, turn = 0;
+
+#pragma omp simd reduction(+ : sum, turn)
+  for (PetscInt i = 0; i < n; i++) {
+    sum += t[i];
+    turn += (xi0 + (double)i * dxi) * t[i];
+  }
+  sums[0] = sum;
+  sums[1] = turn;
+}
+
+PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3])
+{
+  const SamBalance none = {.kind = kind};
+  SamFrame         f;
+  SamTotal         totals[3] = {{0, 0}};
+  double           sums[3];
+  const double    *t;
+
+  PetscFunctionBegin;
+  PetscCall(SamFrameSet(&f, grid, &none));
+  PetscCall(VecGetArrayRead(traction, &t));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k    = (ptrdiff_t)j * grid->nx;
+    const double    eta  = SamFrameEta(&f, j);
+    double          x[2] = {0, 0}, y[2] = {0, 0};
+
+    SumRow(grid->nx, t + k, f.xi0, f.dxi, x);
+    if (kind == SAM_BALANCE_TANGENTIAL) SumRow(grid->nx, t + k + grid->cells, f.xi0, f.dxi, y);
+    sums[0] = x[0];
+    sums[1] = kind == SAM_BALANCE_NORMAL ? -eta * x[0] : y[0];
+    sums[2] = kind == SAM_BALANCE_NORMAL ? x[1] : y[1] - eta * x[0];
+    SamAddAll(3, totals, sums);
+  }
+  PetscCall(VecRestoreArrayRead(traction, &t));
+  PetscCall(SamSumTotals(grid->comm, 3, totals, sums));
+  SamFrameGetLoads(&f, sums, loads);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size, PetscBool *possible)
+{
+  const PetscReal sign[3]  = {1, -1, 1}; /* lever of Mx along -y, of My along x */
+  const char     *axis[3]  = {"", "y", "x"};
+
+  PetscFunctionBegin;
+  *possible  = PETSC_TRUE;
+  message[0] = '\0';
+  if (!balance->force[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 1; k < 3 && *possible; k++) {
+    const PetscReal first = k == 1 ? SamGridY(grid, 0) : SamGridX(grid, 0);
+    const PetscReal last  = k == 1 ? SamGridY(grid, grid->ny - 1) : SamGridX(grid, grid->nx - 1);
+    const char     *name  = SamLoadNames[SAM_BALANCE_NORMAL][k];
+    PetscReal       lever;
+
+    if (!balance->force[k]) continue;
+    if (balance->load[0] == 0) {
+      *possible = balance->load[k] == 0 ? PETSC_TRUE : PETSC_FALSE;
+      if (!*possible) PetscCall(PetscSNPrintf(message, size, "%s = %g N m needs a normal force to balance it, and load_n is 0", name, (double)balance->load[k]));
+      continue;
+    }
+    lever = sign[k] * balance->load[k] / balance->load[0];
+    if (lever > first && lever < last) continue;
+    *possible = PETSC_FALSE;
+    PetscCall(PetscSNPrintf(message, size, "%s = %g N m under load_n = %g N: the resultant lies at %s = %g m, the grid's cells from %g to %g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)", name,
+                            (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever, (double)first, (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
+                            (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* sum b sqrt(|v|^2 + s^2), its gradient and Hessian with respect to the combination a of the phi. */
+typedef struct {
+  double value, gradient[3], hessian[SAM_GRAM];
+} Power;
+
+#define POWER ((PetscInt)(sizeof(Power) / sizeof(double)))
+
+static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], const double a[3], double smoothing, Power *power)
+{
+  SamTotal totals[sizeof(Power) / sizeof(double)] = {{0, 0}};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    const double eta = SamFrameEta(f, j);
+    Power        row = {0};
+
+    for (PetscInt i = 0; i < f->grid->nx; i++) {
+      const double xi = f->xi0 + (double)i * f->dxi, b = bound[j * f->grid->nx + i];
+      double       vx, vy, n, hxx, hxy, hyy;
+
+      if (b <= 0) continue;
+      vx = SamFrameX(a, eta);
+      vy = SamFrameY(a, xi);
+      n  = sqrt(vx * vx + vy * vy + smoothing * smoothing);
+      row.value += b * n;
+      vx /= n;
+      vy /= n;
+      row.gradient[0] += b * vx;
+      row.gradient[1] += b * vy;
+      row.gradient[2] += b * (xi * vy - eta * vx);
+      hxx = b / n * (1 - vx * vx);
+      hxy = -b / n * vx * vy;
+      hyy = b / n * (1 - vy * vy);
+      SamGramAddTangential(row.hessian, hxx, hxy, hyy, xi, eta);
+    }
+    SamAddAll(POWER, totals, (const double *)&row);
+  }
+  PetscCall(SamSumTotals(f->grid->comm, POWER, totals, (double *)power));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The free combinations orthogonal to the load F, as the basis of a frame for SamFrameSolve(). */
+static void OrthogonalTo(const SamFrame *f, const double F[3], SamFrame *across)
+{
+  double unit[3], norm = sqrt(F[0] * F[0] + F[1] * F[1] + F[2] * F[2]);
+
+  *across       = *f;
+  across->count = 0;
+  for (PetscInt i = 0; i < 3; i++) unit[i] = F[i] / norm;
+  for (PetscInt k = 0; k < f->count && across->count < f->count - 1; k++) {
+    double rest[3], n = 0;
+
+    for (PetscInt i = 0; i < 3; i++) rest[i] = f->basis[k][i];
+    for (PetscInt pass = 0; pass < 2; pass++) {
+      for (PetscInt m = -1; m < across->count; m++) {
+        const double *direction = m < 0 ? unit : across->basis[m];
+        const double  part      = rest[0] * direction[0] + rest[1] * direction[1] + rest[2] * direction[2];
+
+        for (PetscInt i = 0; i < 3; i++) rest[i] -= part * direction[i];
+      }
+    }
+    for (PetscInt i = 0; i < 3; i++) n += rest[i] * rest[i];
+    n = sqrt(n);
+    if (n < 1e-6) continue;
+    for (PetscInt i = 0; i < 3; i++) across->basis[across->count][i] = rest[i] / n;
+    across->count++;
+  }
+}
+
+/* Newton with halving for one smoothing, moving a within the directions of `across`. */
+static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing, double a[3], double *value)
+{
+  Power now, next;
+
+  PetscFunctionBegin;
+  PetscCall(EvaluatePower(f, bound, a, smoothing, &now));
+  for (PetscInt it = 0; it < 50 && across->count; it++) {
+    double down[3], step[3], slope = 0, t = 1, trial[3];
+
+    for (PetscInt i = 0; i < 3; i++) down[i] = -now.gradient[i];
+    SamFrameSolve(across, now.hessian, down, step);
+    for (PetscInt i = 0; i < 3; i++) slope += down[i] * step[i];
+    if (!(slope > 1e-14 * now.value)) break;
+    for (;;) {
+      for (PetscInt i = 0; i < 3; i++) trial[i] = a[i] + t * step[i];
+      PetscCall(EvaluatePower(f, bound, trial, smoothing, &next));
+      if (next.value <= now.value - 1e-4 * t * slope || t < 1e-8) break;
+      t *= 0.5;
+    }
+    if (next.value >= now.value) break;
+    for (PetscInt i = 0; i < 3; i++) a[i] = trial[i];
+    now = next;
+  }
+  *value = now.value;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, PetscReal motion[3])
+{
+  SamFrame      f, across;
+  double        F[3] = {0, 0, 0}, norm = 0, a[3], value = 0;
+  const double *b;
+
+  PetscFunctionBegin;
+  PetscCall(SamFrameSet(&f, grid, balance));
+  for (PetscInt k = 0; k < f.count; k++)
+    for (PetscInt i = 0; i < 3; i++) F[i] += f.target[k] * f.basis[k][i];
+  for (PetscInt i = 0; i < 3; i++) norm += F[i] * F[i];
+  *factor = PETSC_INFINITY;
+  if (motion)
+    for (PetscInt i = 0; i < 3; i++) motion[i] = 0;
+  if (norm == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < 3; i++) a[i] = F[i] / norm;
+  OrthogonalTo(&f, F, &across);
+  PetscCall(VecGetArrayRead(bound, &b));
+  /* the smoothed sum lies above the true one by at most smoothing * sum b */
+  for (double smoothing = 1; smoothing > 1e-9; smoothing *= 0.1) PetscCall(MinimizePower(&f, &across, b, smoothing / sqrt(norm), a, &value));
+  {
+    Power exact;
+
+    PetscCall(EvaluatePower(&f, b, a, 1e-300, &exact));
+    value = exact.value;
+  }
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  *factor = value;
+  if (motion) {
+    SamBalance sliding = *balance;
+
+    for (PetscInt i = 0; i < 3; i++) a[i] /= grid->dx * grid->dy; /* the frame's loads are per cell's area */
+    SamFrameGetRigid(&f, a, &sliding);
+    for (PetscInt k = 0; k < 3; k++) motion[k] = balance->force[k] ? sliding.rigid[k] : 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

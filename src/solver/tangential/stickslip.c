@@ -1,0 +1,242 @@
+/* What the tangential methods share: slip increment, residual, fit of the rigid motion. */
+#include <petsam/private/tangentialimpl.h>
+#include <math.h>
+
+/* A cell is on its circle from this part of the bound's square on. */
+#define ON_CIRCLE (1 - 1e-9)
+/* The error of a start from which on another motion is tried. */
+#define POOR_START 0.1
+
+/* The columns between which each row has contact. */
+static PetscErrorCode FindRows(SamStickSlip *w)
+{
+  PetscInt *first, *last;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(w->rows, &first, w->rows, &last));
+  for (PetscInt j = 0; j < w->rows; j++) SamBoundRange(w->nx, w->bound + (ptrdiff_t)j * w->nx, &first[j], &last[j]);
+  w->first = first;
+  w->last  = last;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(w, sizeof(*w)));
+  w->solver = solver;
+  w->level  = level;
+  w->frame  = &level->frame;
+  w->nx     = level->grid->nx;
+  w->rows   = level->grid->rows;
+  w->cells  = level->grid->cells;
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] = level->rigid[c];
+  PetscCall(SamElasticityGetSelfInfluence(level->elasticity, NULL, &w->self));
+  PetscCall(SamGridCreateVec(level->grid, 2, &w->vs));
+  PetscCall(VecGetArrayRead(level->bound, &w->bound));
+  if (level->offset) PetscCall(VecGetArrayRead(level->offset, &w->offset));
+  PetscCall(VecGetArray(level->q, &w->q));
+  PetscCall(VecGetArray(w->vs, &w->s));
+  PetscCall(FindRows(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipDestroy(SamStickSlip *w)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArrayRead(w->level->bound, &w->bound));
+  if (w->level->offset) PetscCall(VecRestoreArrayRead(w->level->offset, &w->offset));
+  PetscCall(VecRestoreArray(w->level->q, &w->q));
+  PetscCall(VecRestoreArray(w->vs, &w->s));
+  PetscCall(VecDestroy(&w->vs));
+  PetscCall(PetscFree2(w->first, w->last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
+{
+  const SamFrame *f = w->frame;
+
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArray(w->level->q, &w->q));
+  PetscCall(VecRestoreArray(w->vs, &w->s));
+  PetscCall(SamTangentialApply(w->solver, w->level, w->level->q, w->vs));
+  PetscCall(VecGetArray(w->level->q, &w->q));
+  PetscCall(VecGetArray(w->vs, &w->s));
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const double eta = SamFrameEta(f, j);
+
+    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
+      const PetscInt k = j * w->nx + i, l = k + w->cells;
+
+      w->s[k] += (w->offset ? w->offset[k] : 0) - SamFrameX(w->motion, eta);
+      w->s[l] += (w->offset ? w->offset[l] : 0) - SamFrameY(w->motion, f->xi0 + (double)i * f->dxi);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Part of a row, n <= SAM_CHUNK: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the
+  derivative of the projection of y = q - s/c on the disc; with `inverse` 0, of q: cells on their circles slip along them.
+*/
+SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
+{
+  double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
+
+#pragma omp simd reduction(+ : x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
+  for (PetscInt i = 0; i < n; i++) {
+    const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+    const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i];
+
+    beyond += yx * yx + yy * yy > ON_CIRCLE * b * b ? in : 0;
+    x += in * tx[i];
+    y += in * ty[i];
+    turn += in * xi * ty[i];
+    hxx += in;
+    xi_hyy += in * xi;
+    xi2_hyy += in * xi * xi;
+  }
+  hyy = hxx;
+  if (beyond > 0) {
+    x = y = turn = hxx = hyy = xi_hyy = xi2_hyy = 0;
+#pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
+    for (PetscInt i = 0; i < n; i++) {
+      const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+      const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
+      const double over = b > 0 && n2 > ON_CIRCLE * b * b ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in, g = s * over;
+      const double gxx = s - g * yx * yx, gxy = -g * yx * yy, gyy = s - g * yy * yy;
+      const double px = gxx * tx[i] + gxy * ty[i], py = gxy * tx[i] + gyy * ty[i];
+
+      SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
+    }
+  }
+  sums[0] += x;
+  sums[1] += y;
+  sums[2] += turn - eta * x;
+  SamGramTangentialRow(sums + 3, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, eta);
+}
+
+/* Subtracts the rigid motion a from a row of slips. */
+SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *restrict sy, double xi0, double dxi, double eta, const double a[3])
+{
+  const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) {
+    sx[i] -= ax;
+    sy[i] -= a1 + a2 * (xi0 + (double)i * dxi);
+  }
+}
+
+/* Adds a to the motion. */
+static void AddMotion(SamStickSlip *w, const double a[3])
+{
+  const SamFrame *f = w->frame;
+
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
+
+    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, SamFrameEta(f, j), a);
+  }
+}
+
+/* Fits the motion: least squares of s over the tangent space, the sets taken from q - inverse s. */
+static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
+{
+  const SamFrame *f                  = w->frame;
+  SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
+  double          sums[3 + SAM_GRAM], a[3];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < w->rows; j++) {
+    double row[3 + SAM_GRAM] = {0};
+
+    for (PetscInt i = w->first[j]; i < w->last[j]; i += SAM_CHUNK) {
+      const ptrdiff_t k = (ptrdiff_t)j * w->nx + i, l = k + w->cells;
+
+      FitCells(PetscMin(SAM_CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, inverse, f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
+    }
+    SamAddAll(3 + SAM_GRAM, totals, row);
+  }
+  PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
+  SamFrameSolve(f, sums + 3, sums, a);
+  AddMotion(w, a);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The error; the fit of the motion and the sets depend on each other. */
+static PetscErrorCode MeasureStart(SamStickSlip *w)
+{
+  PetscFunctionBegin;
+  w->error = 0;
+  for (PetscInt sweep = 0; sweep < 4; sweep++) {
+    const double before = w->error;
+
+    PetscCall(SamStickSlipMeasure(w));
+    if (fabs(w->error - before) <= 1e-3 * w->error) break;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipStart(SamStickSlip *w)
+{
+  double motion[3], back[3], error;
+
+  PetscFunctionBegin;
+  PetscCall(SamStickSlipComputeSlip(w));
+  PetscCall(MeasureStart(w));
+  if (w->error <= POOR_START || !w->frame->count) PetscFunctionReturn(PETSC_SUCCESS);
+  /* cells on their circles may slip along them, the others stick: does that tell the motion better? */
+  error = w->error;
+  for (PetscInt c = 0; c < 3; c++) motion[c] = w->motion[c];
+  PetscCall(FitMotion(w, 0));
+  PetscCall(MeasureStart(w));
+  if (w->error <= error) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt c = 0; c < 3; c++) back[c] = motion[c] - w->motion[c];
+  AddMotion(w, back);
+  w->error = error;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double squares[SAM_SQUARES])
+{
+  double residual = 0, shear = 0, projected = 0, least = 0;
+
+#pragma omp simd reduction(+ : residual, shear, projected, least)
+  for (PetscInt i = 0; i < n; i++) {
+    const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy, scale = SamDiscScale(n2, b);
+
+    SAM_ADD_SQUARES(qx[i], qy[i], yx, yy, scale, n2, b);
+  }
+  SamSumSquares(squares, residual, shear, projected, least);
+}
+
+PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_SQUARES])
+{
+  double sums[SAM_SQUARES];
+
+  PetscFunctionBegin;
+  PetscCall(SamSumTotals(w->level->grid->comm, SAM_SQUARES, squares, sums));
+  w->scale = sqrt(PetscMax(sums[3], PetscMax(sums[1], sums[2])));
+  w->error = sums[0] != 0 ? sqrt(sums[0]) / w->scale : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
+{
+  SamTotal squares[SAM_SQUARES] = {{0, 0}};
+
+  PetscFunctionBegin;
+  if (w->frame->count) PetscCall(FitMotion(w, 1 / w->self));
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
+    double          row[SAM_SQUARES] = {0};
+
+    MeasureRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, row);
+    SamAddAll(SAM_SQUARES, squares, row);
+  }
+  PetscCall(SamStickSlipSetError(w, squares));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
