@@ -34,7 +34,8 @@ PETSC_EXTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind
   (My/N, -Mx/N) must lie among the cell centres. When not, `message` (of that size) says which and the limit. Also
   false for moments without N. True when N is displacement-controlled.
 */
-PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size, PetscBool *possible);
+PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size,
+                                            PetscBool *possible);
 
 /*
   SamBalanceSlideLimit - the factor by which the force-controlled tangential loads can be multiplied until the whole
@@ -42,6 +43,7 @@ PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *bala
   (the kinematic limit theorem). Infinite without a load. Also the sliding motion, d_x, d_y, r_z, when not NULL.
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, PetscReal motion[3]);
+PETSC_EXTERN PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor,
+                                                 PetscReal motion[3]);
 
 #endif

@@ -40,18 +40,26 @@ typedef enum {
 } SamRange;
 
 PETSC_EXTERN PetscErrorCode SamOptionsHeading(const char title[]);
-PETSC_EXTERN PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char help[], SamRange range, PetscReal *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const char help[], SamRange range, PetscReal value[2], PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt value[2], PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char help[], PetscBool *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsString(const char prefix[], const char name[], const char help[], char value[], size_t size, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char help[], SamRange range,
+                                           PetscReal *value, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const char help[],
+                                               SamRange range, PetscReal value[2], PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char help[], PetscInt least,
+                                          PetscInt *value, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const char help[], PetscInt least,
+                                              PetscInt value[2], PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char help[], PetscBool *value,
+                                           PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsString(const char prefix[], const char name[], const char help[], char value[],
+                                             size_t size, PetscBool *set);
 /* SamOptionsEnum - one of the words of the NULL-terminated list; value is its index. */
-PETSC_EXTERN PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char help[], const char *const words[], PetscInt *value, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char help[],
+                                           const char *const words[], PetscInt *value, PetscBool *set);
 /*
   SamOptionsHasViewer - whether a viewer option is given (its viewer is made where it is used); tells the help of it and
   counts it as known. `draw` viewers are refused.
 */
-PETSC_EXTERN PetscErrorCode SamOptionsHasViewer(const char prefix[], const char name[], const char help[], PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsHasViewer(const char prefix[], const char name[], const char help[],
+                                                PetscBool *set);
 
 #endif

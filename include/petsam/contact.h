@@ -52,7 +52,7 @@ typedef enum {
 /* The numbers of one load step. */
 typedef struct {
   PetscReal  time;
-  SamBalance normal, tangential; /* loads and rigid displacements, given or found */
+  SamBalance normal, tangential;       /* loads and rigid displacements, given or found */
   PetscReal  contact_area, stick_area; /* m2 */
   SamCheck   check;
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
@@ -64,15 +64,17 @@ typedef struct {
 } SamStep;
 
 /*
-  SamContactCheck - checks a solution. In `fields` pressure and shear are read, the others are computed from them: elastic
-  displacements by the compliance (with coupling unless that is false), gap and slip from their definitions with the
-  rigid displacements of the step. `separation` (m) is of the undeformed bodies, `slip_before` (m, two components; NULL:
-  zero) the slip at the end of the step before. Reads step->normal and step->tangential: which components are force-controlled
-  and what their loads should be is given by `given_normal`, `given_tangential`. `same_pressure`: displacement_z is that of
-  the pressure already, from the check of an earlier step with the same. Collective.
+  SamContactCheck - checks a solution. In `fields` pressure and shear are read, the others are computed from them:
+  elastic displacements by the compliance (with coupling unless that is false), gap and slip from their definitions with
+  the rigid displacements of the step. `separation` (m) is of the undeformed bodies, `slip_before` (m, two components;
+  NULL: zero) the slip at the end of the step before. Reads step->normal and step->tangential: which components are
+  force-controlled and what their loads should be is given by `given_normal`, `given_tangential`. `same_pressure`:
+  displacement_z is that of the pressure already, from the check of an earlier step with the same. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactCheck(SamElasticity elasticity, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
-                                            SamCheck *check);
+PETSC_EXTERN PetscErrorCode SamContactCheck(SamElasticity elasticity, PetscBool coupling, PetscBool same_pressure,
+                                            PetscReal friction, Vec separation, Vec slip_before,
+                                            const SamBalance *given_normal, const SamBalance *given_tangential,
+                                            const SamStep *step, SamFields *fields, SamCheck *check);
 
 /*
   SamContact - the contact of two bodies through a sequence of load steps: normal problem, tangential problem, for
@@ -80,8 +82,12 @@ PETSC_EXTERN PetscErrorCode SamContactCheck(SamElasticity elasticity, PetscBool 
 */
 typedef struct _n_SamContact *SamContact;
 
-/* SamContactCreate - references the compliance and the separation (m), which must not change any more. friction >= 0. Collective. */
-PETSC_EXTERN PetscErrorCode SamContactCreate(SamElasticity elasticity, Vec separation, PetscReal friction, SamContact *contact);
+/*
+  SamContactCreate - references the compliance and the separation (m), which must not change any more. friction >= 0.
+  Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamContactCreate(SamElasticity elasticity, Vec separation, PetscReal friction,
+                                             SamContact *contact);
 PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /*
   SamContactSetFromOptions - -coupling (full or none), -coupling_rtol, -coupling_max_it, -coupling_monitor,
@@ -92,19 +98,18 @@ PETSC_EXTERN PetscErrorCode SamContactGetNormal(SamContact contact, SamNormal *n
 PETSC_EXTERN PetscErrorCode SamContactGetTangential(SamContact contact, SamTangential *tangential); /* borrowed */
 /*
   SamContactSolve - one load step: step->normal, step->tangential give what is controlled and by how much, all else of
-  the step is filled in. The slip at its end is the reference of the next one. A status other than 0 comes with a message;
-  a step without equilibrium leaves the contact as it was after the one before.
-  Collective.
+  the step is filled in. The slip at its end is the reference of the next one. A status other than 0 comes with a
+  message; a step without equilibrium leaves the contact as it was after the one before. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactSolve(SamContact contact, SamStep *step);
 /*
-  SamContactSetLast - whether the next step is the last one: what would serve further ones only is then given back as soon as it
-  can be. Another step is possible all the same, and its result the same. (Default: false.)
+  SamContactSetLast - whether the next step is the last one: what would serve further ones only is then given back as
+  soon as it can be. Another step is possible all the same, and its result the same. (Default: false.)
 */
 PETSC_EXTERN PetscErrorCode SamContactSetLast(SamContact contact, PetscBool last);
 /* SamContactGetFields - the fields of the last step that had a solution; borrowed. */
 PETSC_EXTERN PetscErrorCode SamContactGetFields(SamContact contact, SamFields *fields);
-PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);          /* borrowed */
+PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);       /* borrowed */
 PETSC_EXTERN PetscErrorCode SamContactGetCoupling(SamContact contact, PetscBool *full); /* of -coupling */
 
 /*
@@ -112,18 +117,21 @@ PETSC_EXTERN PetscErrorCode SamContactGetCoupling(SamContact contact, PetscBool 
   another goes on as that one would, to the last bit and on any number of ranks.
 */
 typedef struct {
-  PetscInt   steps;                             /* that count for the prediction of the next one */
-  SamBalance given, found;                      /* normal control of the last step, and its outcome */
-  double     values[2][6];                      /* what was controlled in the last step and in the one before */
-  double     rigid[2][3];                       /* tangential rigid displacements then */
-  PetscInt   window_first[2], window_n[2];      /* part of the compliance that the solvers use; n = 0: none */
+  PetscInt   steps;                                 /* that count for the prediction of the next one */
+  SamBalance given, found;                          /* normal control of the last step, and its outcome */
+  double     values[2][6];                          /* what was controlled in the last step and in the one before */
+  double     rigid[2][3];                           /* tangential rigid displacements then */
+  PetscInt   window_first[2], window_n[2];          /* part of the compliance that the solvers use; n = 0: none */
   Vec        pressure, shear, slip, displacement_z; /* as in SamFields, after the last step */
-  Vec        previous_pressure, previous_shear; /* of the step before it; NULL before the second */
+  Vec        previous_pressure, previous_shear;     /* of the step before it; NULL before the second */
 } SamContactState;
 
 /* SamContactGetState - after a step; the vectors are borrowed until the next one. */
 PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamContactState *state);
-/* SamContactSetState - copies the vectors; the contact has no gap and no displacement_t until its next step. Collective. */
+/*
+  SamContactSetState - copies the vectors; the contact has no gap and no displacement_t until its next step.
+  Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamContactSetState(SamContact contact, const SamContactState *state);
 
 #endif

@@ -22,16 +22,16 @@ typedef enum {
 /*
   SamFourierBlock - a few columns of spectra, handed to a filter. Phase 0 holds the even frequencies along y, phase 1
   (only in padded mode) the odd ones: entry m of phase f of column b is frequency ky = phases * m + f of phases * hy,
-  kx = first + b of phases * hx, at data[field][((f * width + b) * stride + m][re, im] in double, or single[field][...] in
-  single precision; the other is NULL.
+  kx = first + b of phases * hx, at data[field][((f * width + b) * stride + m][re, im] in double, or single[field][...]
+  in single precision; the other is NULL.
 */
 typedef struct {
   SamFourierMode mode;
-  PetscInt       phases;           /* 1 periodic, 2 padded */
+  PetscInt       phases; /* 1 periodic, 2 padded */
   PetscInt       hx, hy;
-  PetscInt       first;            /* frequency kx of the first column */
-  PetscInt       local;            /* its index among this rank's columns */
-  PetscInt       columns;          /* columns in this block, at most width */
+  PetscInt       first;   /* frequency kx of the first column */
+  PetscInt       local;   /* its index among this rank's columns */
+  PetscInt       columns; /* columns in this block, at most width */
   PetscInt       width, stride;
   double (*data[SAM_FOURIER_FIELDS])[2];
   float (*single[SAM_FOURIER_FIELDS])[2];
@@ -43,7 +43,10 @@ typedef void (*SamFourierFilter)(const SamFourierBlock *block, const void *conte
 /* SamFourierCreate - reads -fft_effort and -fft_exchange; plans are made when they are first needed. Collective. */
 PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier);
 PETSC_EXTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
-/* SamFourierTrim - frees the memory that all transforms on the communicator share, until one of them needs it again. Collective. */
+/*
+  SamFourierTrim - frees the memory that all transforms on the communicator share, until one of them needs it again.
+  Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamFourierTrim(SamFourier fourier);
 /* The periods hx, hy, without the doubling of padded mode. */
 PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
@@ -53,9 +56,15 @@ PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *h
   be the same arrays as `in`. Transforms are not normalised: the filter brings in 1/(period in x * period in y).
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, SamFourierMode mode, PetscInt n_in, const double *const in[], PetscInt n_out, double *const out[], SamFourierFilter filter, const void *context);
-/* SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective. */
-PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, SamFourierMode mode, PetscInt n_in, const float *const in[], PetscInt n_out, float *const out[], SamFourierFilter filter, const void *context);
+PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, SamFourierMode mode, PetscInt n_in,
+                                            const double *const in[], PetscInt n_out, double *const out[],
+                                            SamFourierFilter filter, const void *context);
+/*
+  SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, SamFourierMode mode, PetscInt n_in,
+                                                  const float *const in[], PetscInt n_out, float *const out[],
+                                                  SamFourierFilter filter, const void *context);
 
 /*
   SamKernel - the transform of a kernel in padded mode, for convolution without wrapping round. A kernel is even or odd
@@ -68,7 +77,8 @@ typedef struct _n_SamKernel *SamKernel;
 typedef void (*SamKernelRow)(PetscInt j, PetscInt n, double values[], const void *context);
 
 /* SamKernelCreate - tabulates and transforms a kernel. Collective. */
-PETSC_EXTERN PetscErrorCode SamKernelCreate(SamFourier fourier, PetscBool odd_x, PetscBool odd_y, SamKernelRow row, const void *context, SamKernel *kernel);
+PETSC_EXTERN PetscErrorCode SamKernelCreate(SamFourier fourier, PetscBool odd_x, PetscBool odd_y, SamKernelRow row,
+                                            const void *context, SamKernel *kernel);
 PETSC_EXTERN PetscErrorCode SamKernelDestroy(SamKernel *kernel);
 
 /*
@@ -82,12 +92,14 @@ typedef struct {
   double    scale[SAM_FOURIER_FIELDS][SAM_FOURIER_FIELDS];
 } SamKernelMatrix;
 
-PETSC_EXTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[], double *const out[]);
+PETSC_EXTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[],
+                                        double *const out[]);
 /*
   SamConvolveSingle - `factor` times the same in single precision, for one field by an even kernel or two fields by a
-  symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` brings the result to a size that floats hold.
-  Collective.
+  symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` brings the result to a size that floats
+  hold. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamConvolveSingle(SamFourier fourier, const SamKernelMatrix *matrix, double factor, const float *const in[], float *const out[]);
+PETSC_EXTERN PetscErrorCode SamConvolveSingle(SamFourier fourier, const SamKernelMatrix *matrix, double factor,
+                                              const float *const in[], float *const out[]);
 
 #endif

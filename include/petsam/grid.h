@@ -11,13 +11,13 @@
 typedef struct _n_SamGrid *SamGrid;
 struct _n_SamGrid {
   MPI_Comm  comm;
-  PetscInt  nx, ny;            /* cells */
-  PetscReal width[2];          /* full width in x, y (m) */
-  PetscReal center[2];         /* m */
-  PetscReal dx, dy;            /* cell size (m) */
-  PetscInt  row_start, rows;   /* this rank's rows */
-  PetscInt  cells;             /* this rank's cells: rows * nx */
-  PetscReal length;            /* half the larger width: the length that makes coordinates dimensionless (m) */
+  PetscInt  nx, ny;          /* cells */
+  PetscReal width[2];        /* full width in x, y (m) */
+  PetscReal center[2];       /* m */
+  PetscReal dx, dy;          /* cell size (m) */
+  PetscInt  row_start, rows; /* this rank's rows */
+  PetscInt  cells;           /* this rank's cells: rows * nx */
+  PetscReal length;          /* half the larger width: the length that makes coordinates dimensionless (m) */
   PetscInt  references;
 };
 
@@ -25,7 +25,8 @@ struct _n_SamGrid {
   SamGridCreate - n[0] * n[1] cells of full width `width` about `center` (m). Collective.
   Errors: SAM_ERR_USER when n < 2, a width is not positive and finite, or the cells cannot be counted in a PetscInt.
 */
-PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2], SamGrid *grid);
+PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
+                                          const PetscReal center[2], SamGrid *grid);
 /* SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. Collective. */
 PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(MPI_Comm comm, SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridReference(SamGrid grid);
@@ -42,8 +43,8 @@ PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, 
 /* SamVecZero - sets a field to zero without writing to what is. Collective. */
 PETSC_EXTERN PetscErrorCode SamVecZero(Vec field);
 /*
-  SamGridNorm - NORM_1 or NORM_2 of a field of one or two components, as VecNorm() has it, but to the last bit the same on any
-  number of ranks. Collective.
+  SamGridNorm - NORM_1 or NORM_2 of a field of one or two components, as VecNorm() has it, but to the last bit the same
+  on any number of ranks. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm);
 
@@ -62,8 +63,8 @@ static inline PetscReal SamGridY(SamGrid grid, PetscInt j)
   cell area exactly), Prolong interpolates linearly between cell centres (constant beyond the outermost centres).
 */
 typedef struct _n_SamTransfer *SamTransfer;
-PETSC_EXTERN PetscErrorCode SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *transfer);
-PETSC_EXTERN PetscErrorCode SamTransferDestroy(SamTransfer *transfer);
+PETSC_EXTERN PetscErrorCode    SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *transfer);
+PETSC_EXTERN PetscErrorCode    SamTransferDestroy(SamTransfer *transfer);
 /* Both take fields of any, but the same, number of components. Collective. */
 PETSC_EXTERN PetscErrorCode SamTransferRestrict(SamTransfer transfer, Vec fine, Vec coarse);
 PETSC_EXTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse, Vec fine);
@@ -73,7 +74,8 @@ PETSC_EXTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse,
 */
 typedef struct _n_SamWindow *SamWindow;
 /* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2. Collective. */
-PETSC_EXTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2], SamWindow *window);
+PETSC_EXTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2],
+                                            SamWindow *window);
 PETSC_EXTERN PetscErrorCode SamWindowDestroy(SamWindow *window);
 PETSC_EXTERN PetscErrorCode SamWindowGetGrid(SamWindow window, SamGrid *grid); /* borrowed */
 /* SamWindowGetPlace - first column and row, and their numbers. Not collective. */

@@ -9,9 +9,10 @@
   choice in all steps. Either from a file with a row a step, or the single load of the options; each row's change may be
   divided into equal increments.
 
-  The file: text, fields separated by commas; # begins a comment; empty lines count for nothing. The first line names the
-  columns: `time` and any of load_n, load_tx, load_ty, load_mx, load_my, load_mz, disp_z, disp_x, disp_y, rot_x, rot_y,
-  rot_z. Then one row a step, times increasing. Components without a column keep the value of their option, 0 without.
+  The file: text, fields separated by commas; # begins a comment; empty lines count for nothing. The first line names
+  the columns: `time` and any of load_n, load_tx, load_ty, load_mx, load_my, load_mz, disp_z, disp_x, disp_y, rot_x,
+  rot_y, rot_z. Then one row a step, times increasing. Components without a column keep the value of their option, 0
+  without.
 */
 typedef struct _n_SamHistory *SamHistory;
 
@@ -22,9 +23,9 @@ typedef struct _n_SamHistory *SamHistory;
 PETSC_EXTERN PetscErrorCode SamHistoryClaimOption(void);
 
 /*
-  SamHistoryCreateFromOptions - reads -history, -steps, and the twelve -load_, -disp_ and -rot_ options; the whole file is
-  read and checked. Collective. Errors: SAM_ERR_USER naming the option or the file and line, SAM_ERR_FILE for a file that
-  cannot be read.
+  SamHistoryCreateFromOptions - reads -history, -steps, and the twelve -load_, -disp_ and -rot_ options; the whole file
+  is read and checked. Collective. Errors: SAM_ERR_USER naming the option or the file and line, SAM_ERR_FILE for a file
+  that cannot be read.
 */
 PETSC_EXTERN PetscErrorCode SamHistoryCreateFromOptions(MPI_Comm comm, SamHistory *history);
 PETSC_EXTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);

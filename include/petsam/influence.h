@@ -53,7 +53,6 @@ double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrd
  * The numbers are those of SamIntegralCell(), to the last bit, at a fraction of the time: the
  * accuracy, signs and zeros are the same.
  */
-void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n,
-                    double *values);
+void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
 
 #endif

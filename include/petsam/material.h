@@ -13,14 +13,14 @@
   (Johnson 1985, Contact Mechanics, sections 3.2 and 3.6).
 */
 typedef struct {
-  PetscReal young[2];   /* Pa; infinite: rigid */
+  PetscReal young[2]; /* Pa; infinite: rigid */
   PetscReal poisson[2];
-  PetscReal normal;     /* sum (1 - nu)/(2 pi G), 1/Pa */
-  PetscReal shear;      /* the same */
-  PetscReal shear_xx;   /* sum nu/(2 pi G), 1/Pa */
-  PetscReal coupling;   /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
-  PetscReal modulus;    /* E* = 1/(pi normal), Pa */
-  PetscReal dundurs;    /* Dundurs' beta = coupling/normal */
+  PetscReal normal;   /* sum (1 - nu)/(2 pi G), 1/Pa */
+  PetscReal shear;    /* the same */
+  PetscReal shear_xx; /* sum nu/(2 pi G), 1/Pa */
+  PetscReal coupling; /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
+  PetscReal modulus;  /* E* = 1/(pi normal), Pa */
+  PetscReal dundurs;  /* Dundurs' beta = coupling/normal */
 } SamPair;
 
 /*

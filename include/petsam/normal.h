@@ -6,24 +6,24 @@
 #include <petsam/elasticity.h>
 
 /*
-  SamNormal - solver of: p >= 0, g >= 0, p g = 0 in every cell, where g = S p + h - (d_z - y r_x + x r_y) is the gap, S the
-  compliance and h the separation of the undeformed bodies, with the loads or rigid displacements of a balance.
-  Used like a KSP: create, set or read options, solve, ask for the reason.
+  SamNormal - solver of: p >= 0, g >= 0, p g = 0 in every cell, where g = S p + h - (d_z - y r_x + x r_y) is the gap, S
+  the compliance and h the separation of the undeformed bodies, with the loads or rigid displacements of a balance. Used
+  like a KSP: create, set or read options, solve, ask for the reason.
 */
 typedef struct _n_SamNormal *SamNormal;
 
 typedef const char *SamNormalType;
-#define SAM_NORMAL_ACTIVESET     "activeset"     /* preconditioned projected CG on an active set, nested grids */
-#define SAM_NORMAL_POLONSKYKEER  "polonskykeer"  /* the classical projected CG */
+#define SAM_NORMAL_ACTIVESET    "activeset"    /* preconditioned projected CG on an active set, nested grids */
+#define SAM_NORMAL_POLONSKYKEER "polonskykeer" /* the classical projected CG */
 
 typedef enum {
-  SAM_NORMAL_CONVERGED_RTOL         = 1,
-  SAM_NORMAL_CONVERGED_SEPARATED    = 2,  /* no contact, p = 0 */
-  SAM_NORMAL_CONVERGED_ITERATING    = 0,
-  SAM_NORMAL_DIVERGED_ITS           = -1, /* max_it reached */
-  SAM_NORMAL_DIVERGED_NAN           = -2,
-  SAM_NORMAL_DIVERGED_STAGNATED     = -3, /* rounding or no further progress */
-  SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM = -4 /* no pressure on this grid balances the loads */
+  SAM_NORMAL_CONVERGED_RTOL          = 1,
+  SAM_NORMAL_CONVERGED_SEPARATED     = 2, /* no contact, p = 0 */
+  SAM_NORMAL_CONVERGED_ITERATING     = 0,
+  SAM_NORMAL_DIVERGED_ITS            = -1, /* max_it reached */
+  SAM_NORMAL_DIVERGED_NAN            = -2,
+  SAM_NORMAL_DIVERGED_STAGNATED      = -3, /* rounding or no further progress */
+  SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM = -4  /* no pressure on this grid balances the loads */
 } SamNormalReason;
 PETSC_EXTERN const char *SamNormalReasonName(SamNormalReason reason);
 
@@ -50,7 +50,10 @@ PETSC_EXTERN PetscErrorCode SamNormalSetLevels(SamNormal normal, PetscInt levels
 */
 PETSC_EXTERN PetscErrorCode SamNormalSetFromOptions(SamNormal normal);
 
-/* A monitor gets the SamNormal and is called on the finest grid after every iteration with the relative error; monitors add up. */
+/*
+  A monitor gets the SamNormal and is called on the finest grid after every iteration with the relative error; monitors
+  add up.
+*/
 typedef PetscErrorCode (*SamNormalMonitor)(void *normal, PetscInt it, PetscReal error, void *context);
 PETSC_EXTERN PetscErrorCode SamNormalMonitorSet(SamNormal normal, SamNormalMonitor monitor, void *context);
 PETSC_EXTERN PetscErrorCode SamNormalView(SamNormal normal, PetscViewer viewer);
@@ -63,7 +66,10 @@ PETSC_EXTERN PetscErrorCode SamNormalView(SamNormal normal, PetscViewer viewer);
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
 
 PETSC_EXTERN PetscErrorCode SamNormalGetReason(SamNormal normal, SamNormalReason *reason);
-/* Relative error reached, iterations, products with the compliance and with the preconditioner, all on the finest grid. */
-PETSC_EXTERN PetscErrorCode SamNormalGetStatistics(SamNormal normal, PetscReal *error, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions);
+/*
+  Relative error reached, iterations, products with the compliance and with the preconditioner, all on the finest grid.
+*/
+PETSC_EXTERN PetscErrorCode SamNormalGetStatistics(SamNormal normal, PetscReal *error, PetscInt *iterations,
+                                                   PetscInt *applies, PetscInt *preconditions);
 
 #endif

@@ -7,11 +7,12 @@
 /* SamStepView - a step in a few lines: loads, displacements, areas, iterations, check. Collective on the viewer. */
 PETSC_EXTERN PetscErrorCode SamStepView(const SamStep *step, PetscViewer viewer);
 /*
-  SamStepViewHeading, SamStepViewLine - one line a step in fixed columns. `seconds` is what the step took, `left` what the
-  remaining steps are estimated to take. Collective on the viewer.
+  SamStepViewHeading, SamStepViewLine - one line a step in fixed columns. `seconds` is what the step took, `left` what
+  the remaining steps are estimated to take. Collective on the viewer.
 */
 PETSC_EXTERN PetscErrorCode SamStepViewHeading(PetscViewer viewer);
-PETSC_EXTERN PetscErrorCode SamStepViewLine(const SamStep *step, PetscInt number, double seconds, double left, PetscViewer viewer);
+PETSC_EXTERN PetscErrorCode SamStepViewLine(const SamStep *step, PetscInt number, double seconds, double left,
+                                            PetscViewer viewer);
 
 /*
   SamReport - tells a run on stdout, and what is wrong with a step on stderr, both from rank 0. Order of calls: Create,
@@ -26,14 +27,21 @@ typedef struct _n_SamReport *SamReport;
 */
 PETSC_EXTERN PetscErrorCode SamReportCreateFromOptions(MPI_Comm comm, SamReport *report);
 PETSC_EXTERN PetscErrorCode SamReportDestroy(SamReport *report);
-/* SamReportSetRestart - the run goes on from that checkpoint, after that step; told by the banner. The name is not copied. Not collective. */
+/*
+  SamReportSetRestart - the run goes on from that checkpoint, after that step; told by the banner. The name is not
+  copied. Not collective.
+*/
 PETSC_EXTERN PetscErrorCode SamReportSetRestart(SamReport report, const char checkpoint[], PetscInt step);
 /*
-  SamReportBanner - version, libraries, ranks, grid, memory (`bytes`: what the largest rank will need), steps, and the file
-  of the results (NULL: none). Collective.
+  SamReportBanner - version, libraries, ranks, grid, memory (`bytes`: what the largest rank will need), steps, and the
+  file of the results (NULL: none). Collective.
 */
-PETSC_EXTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, double bytes, PetscInt steps, const char output[]);
-/* SamReportBeginStep - the step of that number (from 0) begins; its progress is told by monitors of the contact's solvers. Collective. */
+PETSC_EXTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, double bytes, PetscInt steps,
+                                            const char output[]);
+/*
+  SamReportBeginStep - the step of that number (from 0) begins; its progress is told by monitors of the contact's
+  solvers. Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamReportBeginStep(SamReport report, PetscInt number, SamContact contact);
 /* SamReportEndStep - its line and its message; a run of a single step is told in full. Collective. */
 PETSC_EXTERN PetscErrorCode SamReportEndStep(SamReport report, const SamStep *step);

@@ -20,13 +20,13 @@ typedef const char *SamTangentialType;
 #define SAM_TANGENTIAL_GRADIENT "gradient" /* accelerated projected gradient: slow, sure, for comparison */
 
 typedef enum {
-  SAM_TANGENTIAL_CONVERGED_RTOL       = 1,
-  SAM_TANGENTIAL_CONVERGED_FREE       = 2,  /* no friction, no contact or no load: q = 0 */
-  SAM_TANGENTIAL_CONVERGED_ITERATING  = 0,
-  SAM_TANGENTIAL_DIVERGED_ITS         = -1,
-  SAM_TANGENTIAL_DIVERGED_NAN         = -2,
-  SAM_TANGENTIAL_DIVERGED_STAGNATED   = -3,
-  SAM_TANGENTIAL_DIVERGED_GROSS_SLIP  = -4 /* no admissible shear balances the loads */
+  SAM_TANGENTIAL_CONVERGED_RTOL      = 1,
+  SAM_TANGENTIAL_CONVERGED_FREE      = 2, /* no friction, no contact or no load: q = 0 */
+  SAM_TANGENTIAL_CONVERGED_ITERATING = 0,
+  SAM_TANGENTIAL_DIVERGED_ITS        = -1,
+  SAM_TANGENTIAL_DIVERGED_NAN        = -2,
+  SAM_TANGENTIAL_DIVERGED_STAGNATED  = -3,
+  SAM_TANGENTIAL_DIVERGED_GROSS_SLIP = -4 /* no admissible shear balances the loads */
 } SamTangentialReason;
 PETSC_EXTERN const char *SamTangentialReasonName(SamTangentialReason reason);
 
@@ -44,7 +44,8 @@ PETSC_EXTERN PetscErrorCode SamTangentialSetLevels(SamTangential tangential, Pet
 PETSC_EXTERN PetscErrorCode SamTangentialSetFromOptions(SamTangential tangential);
 /* A monitor gets the SamTangential and is called on the finest grid whenever the residual is known anew. */
 typedef PetscErrorCode (*SamTangentialMonitor)(void *tangential, PetscInt it, PetscReal error, void *context);
-PETSC_EXTERN PetscErrorCode SamTangentialMonitorSet(SamTangential tangential, SamTangentialMonitor monitor, void *context);
+PETSC_EXTERN PetscErrorCode SamTangentialMonitorSet(SamTangential tangential, SamTangentialMonitor monitor,
+                                                    void *context);
 PETSC_EXTERN PetscErrorCode SamTangentialView(SamTangential tangential, PetscViewer viewer);
 
 /*
@@ -54,17 +55,18 @@ PETSC_EXTERN PetscErrorCode SamTangentialView(SamTangential tangential, PetscVie
 #define SAM_SHEAR_FLOOR 1e-8
 
 /*
-  SamTangentialSolve - finds q (Pa, two components) for the pressure p (Pa, one component), the friction mu and the offset w - S
-  (m, two components; NULL: zero). With `guess` q and the rigid displacements in the balance are a start, and only the finest
-  grid is used. On return the balance holds all loads and rigid displacements. The residual is that of the projection
-  equation q = D(q - ds/c), D onto the discs |q| <= mu p and c
-  the self-influence of a cell, relative: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)| in the
-  2-norm. Collective.
+  SamTangentialSolve - finds q (Pa, two components) for the pressure p (Pa, one component), the friction mu and the
+  offset w - S (m, two components; NULL: zero). With `guess` q and the rigid displacements in the balance are a start,
+  and only the finest grid is used. On return the balance holds all loads and rigid displacements. The residual is that
+  of the projection equation q = D(q - ds/c), D onto the discs |q| <= mu p and c the self-influence of a cell, relative:
+  |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)| in the 2-norm. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q);
+PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec pressure, PetscReal friction, Vec offset,
+                                               SamBalance *balance, PetscBool guess, Vec q);
 
 PETSC_EXTERN PetscErrorCode SamTangentialGetReason(SamTangential tangential, SamTangentialReason *reason);
-PETSC_EXTERN PetscErrorCode SamTangentialGetStatistics(SamTangential tangential, PetscReal *error, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions);
+PETSC_EXTERN PetscErrorCode SamTangentialGetStatistics(SamTangential tangential, PetscReal *error, PetscInt *iterations,
+                                                       PetscInt *applies, PetscInt *preconditions);
 /* SamTangentialGetLimit - after DIVERGED_GROSS_SLIP: the factor on the given loads at which sliding begins. */
 PETSC_EXTERN PetscErrorCode SamTangentialGetLimit(SamTangential tangential, PetscReal *factor);
 

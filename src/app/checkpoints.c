@@ -15,10 +15,10 @@ struct _n_SamCheckpoints {
   PetscInt every;
   double   limit; /* seconds, 0: none */
   /* status */
-  double   start, before;   /* of the run, of this step (MPI_Wtime) */
-  double   recent[RECENT];  /* seconds of the last steps */
-  double   writing;         /* seconds that the slowest checkpoint took */
-  PetscInt done, last;      /* steps of this run; step of the last checkpoint */
+  double   start, before;  /* of the run, of this step (MPI_Wtime) */
+  double   recent[RECENT]; /* seconds of the last steps */
+  double   writing;        /* seconds that the slowest checkpoint took */
+  PetscInt done, last;     /* steps of this run; step of the last checkpoint */
 };
 
 /* ---- signals ---- */
@@ -47,7 +47,7 @@ static void CatchSignals(void)
 /* Seconds of "s", "m:s" or "h:m:s"; negative for anything else. */
 static double ReadDuration(const char text[])
 {
-  const char *rest = text;
+  const char *rest    = text;
   double      seconds = 0;
 
   for (PetscInt parts = 0; parts < 3; parts++) {
@@ -68,10 +68,12 @@ static PetscErrorCode ReadLimit(SamCheckpoints k, PetscBool *set)
   char text[64] = "";
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(NULL, "max_walltime", "stop before: s, m:s or h:m:s from the start", text, sizeof(text), set));
+  PetscCall(
+    SamOptionsString(NULL, "max_walltime", "stop before: s, m:s or h:m:s from the start", text, sizeof(text), set));
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   k->limit = ReadDuration(text);
-  PetscCheck(k->limit > 0, k->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s", text);
+  PetscCheck(k->limit > 0, k->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s",
+             text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,13 +89,17 @@ PetscErrorCode SamCheckpointsCreateFromOptions(MPI_Comm comm, SamCheckpoints *ch
   k->start = k->before = MPI_Wtime();
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading("Checkpoints"));
-  PetscCall(SamOptionsString(NULL, "checkpoint", "file of the checkpoints; the one before is kept as file.1", k->filename, sizeof(k->filename), &has_file));
-  PetscCall(SamOptionsInt(NULL, "checkpoint_every", "load steps between them, 0: only on signals and before the limit", 0, &k->every, &has_every));
+  PetscCall(SamOptionsString(NULL, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
+                             k->filename, sizeof(k->filename), &has_file));
+  PetscCall(SamOptionsInt(NULL, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
+                          0, &k->every, &has_every));
   PetscCall(ReadLimit(k, &has_limit));
   PetscCall(SamOptionsString(NULL, "restart", "go on from this checkpoint", k->restart, sizeof(k->restart), NULL));
   PetscCheck(has_file || !has_every || help, comm, SAM_ERR_USER, "-checkpoint_every is given without -checkpoint");
-  PetscCheck(has_file || !has_limit || help, comm, SAM_ERR_USER, "-max_walltime is given without -checkpoint: the run could not go on from where it stops");
-  PetscCheck(strlen(k->filename) + 8 < sizeof(k->filename), comm, SAM_ERR_USER, "-checkpoint: expected at most %d characters", (int)sizeof(k->filename) - 9);
+  PetscCheck(has_file || !has_limit || help, comm, SAM_ERR_USER,
+             "-max_walltime is given without -checkpoint: the run could not go on from where it stops");
+  PetscCheck(strlen(k->filename) + 8 < sizeof(k->filename), comm, SAM_ERR_USER,
+             "-checkpoint: expected at most %d characters", (int)sizeof(k->filename) - 9);
   CatchSignals();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -147,7 +153,8 @@ static PetscBool TimeIsUp(const SamCheckpoints k, double now)
   return now - k->start + MARGIN * slowest + writing > k->limit ? PETSC_TRUE : PETSC_FALSE;
 }
 
-static PetscErrorCode Write(SamCheckpoints k, SamContact contact, SamHistory history, const SamParameters *parameters, PetscInt steps, SamStatus worst)
+static PetscErrorCode Write(SamCheckpoints k, SamContact contact, SamHistory history, const SamParameters *parameters,
+                            PetscInt steps, SamStatus worst)
 {
   const double begin = MPI_Wtime();
 
@@ -158,7 +165,9 @@ static PetscErrorCode Write(SamCheckpoints k, SamContact contact, SamHistory his
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, SamHistory history, const SamParameters *parameters, PetscInt steps, SamStatus worst, PetscBool *stop)
+PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, SamHistory history,
+                                       const SamParameters *parameters, PetscInt steps, SamStatus worst,
+                                       PetscBool *stop)
 {
   const double now = MPI_Wtime();
   PetscMPIInt  rank;
@@ -168,9 +177,9 @@ PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, Sam
   PetscFunctionBegin;
   PetscCall(SamHistoryGetCount(history, &count));
   k->recent[k->done++ % RECENT] = now - k->before;
-  any[0] = wanted[0];
-  any[1] = wanted[1];
-  any[2] = TimeIsUp(k, now);
+  any[0]                        = wanted[0];
+  any[1]                        = wanted[1];
+  any[2]                        = TimeIsUp(k, now);
   PetscCall(SamMax(k->comm, 3, any));
   /* one that comes now, or is still on its way to this rank, is answered after the next step */
   if (any[0] > 0) wanted[0] = 0;
@@ -178,11 +187,14 @@ PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, Sam
   PetscCallMPI(MPI_Comm_rank(k->comm, &rank));
   *stop = (k->filename[0] && steps < count && (any[1] > 0 || any[2] > 0)) ? PETSC_TRUE : PETSC_FALSE;
   if (!k->filename[0]) {
-    if ((any[0] > 0 || any[1] > 0) && rank == 0) fprintf(stderr, "petsam: warning: a signal asks for a checkpoint, but there is no -checkpoint\n");
+    if ((any[0] > 0 || any[1] > 0) && rank == 0)
+      fprintf(stderr, "petsam: warning: a signal asks for a checkpoint, but there is no -checkpoint\n");
   } else if (*stop || any[0] > 0 || any[1] > 0 || (k->every && steps % k->every == 0)) {
     PetscCall(Write(k, contact, history, parameters, steps, worst));
   }
-  if (*stop && rank == 0) fprintf(stderr, "petsam: stopped after step %ld of %ld %s: go on with -restart %s\n", (long)steps, (long)count, any[1] > 0 ? "on a signal" : "before -max_walltime", k->filename);
+  if (*stop && rank == 0)
+    fprintf(stderr, "petsam: stopped after step %ld of %ld %s: go on with -restart %s\n", (long)steps, (long)count,
+            any[1] > 0 ? "on a signal" : "before -max_walltime", k->filename);
   k->before = MPI_Wtime();
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -17,22 +17,19 @@ typedef struct {
 } Part;
 
 /* These follow on one another, and with set-up and the rest make up the whole run. */
-static const Part parts[] = {
-  {"normal problem",     {SAM_EVENT_NORMAL_SOLVE},     1},
-  {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
-  {"check",              {SAM_EVENT_CHECK},            1},
-  {"results",            {SAM_EVENT_OUTPUT},           1},
-  {"checkpoints",        {SAM_EVENT_CHECKPOINT},       1}
-};
-static const Part files = {"files", {SAM_EVENT_OUTPUT, SAM_EVENT_CHECKPOINT}, 2};
+static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
+                             {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
+                             {"check", {SAM_EVENT_CHECK}, 1},
+                             {"results", {SAM_EVENT_OUTPUT}, 1},
+                             {"checkpoints", {SAM_EVENT_CHECKPOINT}, 1}};
+static const Part files   = {"files", {SAM_EVENT_OUTPUT, SAM_EVENT_CHECKPOINT}, 2};
 
 /* These lie within those. */
 static const Part inner[] = {
-  {"influence coefficients", {SAM_EVENT_SETUP_INFLUENCE},                                                      1},
-  {"products",               {SAM_EVENT_APPLY_NORMAL, SAM_EVENT_APPLY_TANGENTIAL, SAM_EVENT_APPLY_COUPLING},   3},
-  {"preconditioner",         {SAM_EVENT_PRECONDITION_NORMAL, SAM_EVENT_PRECONDITION_TANGENTIAL},               2},
-  {"Fourier transforms",     {SAM_EVENT_FFT_ROWS, SAM_EVENT_FFT_COLUMNS, SAM_EVENT_FFT_TRANSPOSE},             3}
-};
+  {"influence coefficients", {SAM_EVENT_SETUP_INFLUENCE}, 1},
+  {"products", {SAM_EVENT_APPLY_NORMAL, SAM_EVENT_APPLY_TANGENTIAL, SAM_EVENT_APPLY_COUPLING}, 3},
+  {"preconditioner", {SAM_EVENT_PRECONDITION_NORMAL, SAM_EVENT_PRECONDITION_TANGENTIAL}, 2},
+  {"Fourier transforms", {SAM_EVENT_FFT_ROWS, SAM_EVENT_FFT_COLUMNS, SAM_EVENT_FFT_TRANSPOSE}, 3}};
 
 enum { PARTS = sizeof(parts) / sizeof(parts[0]), INNER = sizeof(inner) / sizeof(inner[0]) };
 
@@ -62,7 +59,8 @@ PetscErrorCode SamReportGetOutputTime(SamReport r, double *seconds)
 static PetscErrorCode PrintRow(SamReport r, const char indent[], const char name[], double seconds, double total)
 {
   PetscFunctionBegin;
-  PetscCall(PetscPrintf(r->comm, "    %s%-*s %10.2f s %5.1f %%\n", indent, 26 - (int)strlen(indent), name, seconds, total > 0 ? 100 * seconds / total : 0));
+  PetscCall(PetscPrintf(r->comm, "    %s%-*s %10.2f s %5.1f %%\n", indent, 26 - (int)strlen(indent), name, seconds,
+                        total > 0 ? 100 * seconds / total : 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -98,12 +96,16 @@ static PetscErrorCode PrintFiles(SamReport r)
     struct stat status = {.st_size = 0};
 
     if (!r->rank) (void)stat(r->name[k], &status);
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %s: %s, %.3g MB\n", k ? "" : "written", r->name[k], r->content[k], 1e-6 * (double)status.st_size));
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %s: %s, %.3g MB\n", k ? "" : "written", r->name[k], r->content[k],
+                          1e-6 * (double)status.st_size));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The most memory held so far, bytes. What getrusage() tells may be the launcher's, from before this program was loaded. */
+/*
+  The most memory held so far, bytes. What getrusage() tells may be the launcher's, from before this program was
+  loaded.
+*/
 static double LargestMemory(void)
 {
   FILE         *file = fopen("/proc/self/status", "r");
@@ -128,10 +130,12 @@ static PetscErrorCode PrintResources(SamReport r)
   PetscFunctionBegin;
   getrusage(RUSAGE_SELF, &used);
   numbers[0] = MPI_Wtime() - r->start;
-  numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec + 1e-6 * (double)used.ru_stime.tv_usec;
+  numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec +
+               1e-6 * (double)used.ru_stime.tv_usec;
   numbers[2] = 1e-6 * LargestMemory();
   PetscCall(SamMax(r->comm, 3, numbers));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %.3f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used", numbers[0], numbers[1], numbers[2]));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %.3f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used",
+                        numbers[0], numbers[1], numbers[2]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -145,7 +149,8 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscCall(PetscPrintf(r->comm, "  %-10s ", "worst"));
   for (PetscInt k = 0; k < 3; k++) {
     PetscCall(PetscPrintf(r->comm, "%s %s %.2e", k ? "," : "", names[k], (double)r->worst[k].residual));
-    if (r->steps > 1 && r->worst[k].step) PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ")", r->worst[k].step));
+    if (r->steps > 1 && r->worst[k].step)
+      PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ")", r->worst[k].step));
   }
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscCall(PrintFiles(r));

@@ -12,8 +12,8 @@
 typedef struct {
   PetscInt  columns, rows;
   char      name[SAM_TABLE_COLUMNS][SAM_TABLE_NAME];
-  double   *value;       /* (rows, columns) */
-  PetscInt *line;        /* of each row in the file, from 1 */
+  double   *value; /* (rows, columns) */
+  PetscInt *line;  /* of each row in the file, from 1 */
   PetscInt  header_line;
 } SamTable;
 

@@ -2,11 +2,13 @@
 #include "runimpl.h"
 
 /*
-  Bytes a cell at the peak, shared memory counted once, and the program with its libraries. Measured at 512 to 4096 cells: in one
-  step without friction 55 to 85, with friction 115 to 130 for contact on half of the grid and 215 on all of it; 115 to 155
-  and 225 to 310 when pressure and shear are coupled. In several steps 125 to 155, 250 to 290; 215, 315.
+  Bytes a cell at the peak, shared memory counted once, and the program with its libraries. Measured at 512 to 4096
+  cells: in one step without friction 55 to 85, with friction 115 to 130 for contact on half of the grid and 215 on all
+  of it; 115 to 155 and 225 to 310 when pressure and shear are coupled. In several steps 125 to 155, 250 to 290; 215,
+  315.
 */
-static const double bytes_per_cell[2][2][2] = {{{85, 150}, {170, 270}}, {{140, 220}, {275, 320}}}; /* by steps, friction and coupling */
+static const double bytes_per_cell[2][2][2] = {{{85, 150}, {170, 270}},
+                                               {{140, 220}, {275, 320}}}; /* by steps, friction and coupling */
 #define BYTES_PROGRAM 50e6
 
 double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps)
@@ -30,9 +32,9 @@ static double AvailableMemory(void)
 
 PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps)
 {
-  double       need, worst;
-  MPI_Comm     node;
-  PetscBool    check = PETSC_TRUE;
+  double    need, worst;
+  MPI_Comm  node;
+  PetscBool check = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsBool(NULL, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
@@ -43,6 +45,9 @@ PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal
   worst = AvailableMemory();
   worst = worst > 0 ? need / worst : 0;
   PetscCall(SamMax(grid->comm, 1, &worst));
-  PetscCheck(!check || worst <= 1, grid->comm, SAM_ERR_USER, "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT ": needs about %.3g GB on a node, %.1f times what is available; use more nodes, or -memory_check false", grid->nx, grid->ny, 1e-9 * need, worst);
+  PetscCheck(!check || worst <= 1, grid->comm, SAM_ERR_USER,
+             "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT
+             ": needs about %.3g GB on a node, %.1f times what is available; use more nodes, or -memory_check false",
+             grid->nx, grid->ny, 1e-9 * need, worst);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

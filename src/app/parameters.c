@@ -15,7 +15,8 @@ static PetscErrorCode AddFiles(SamRun *run, Vec separation)
     PetscCall(PetscOptionsHasName(NULL, NULL, options[k], &set));
     if (set) {
       PetscCall(SamCheckpointChecksum(run->grid, separation, &checksum));
-      PetscCall(PetscSNPrintf(text, sizeof(text), "of checksum %08lx%08lx", (unsigned long)(checksum >> 32), (unsigned long)(checksum & 0xffffffff)));
+      PetscCall(PetscSNPrintf(text, sizeof(text), "of checksum %08lx%08lx", (unsigned long)(checksum >> 32),
+                              (unsigned long)(checksum & 0xffffffff)));
     }
     PetscCall(SamParametersAddText(&run->parameters, options[k] + 1, PETSC_TRUE, text));
   }
@@ -57,7 +58,8 @@ static PetscErrorCode AddGap(SamRun *run, Vec separation)
   PetscFunctionBegin;
   PetscCall(SamGapGetParameters(run->gap, &type, &count, &names, &values));
   PetscCall(SamParametersAddText(&run->parameters, "gap_type", PETSC_TRUE, type));
-  for (PetscInt k = 0; k < count; k++) PetscCall(SamParametersAddReals(&run->parameters, names[k], PETSC_TRUE, 1, &values[k]));
+  for (PetscInt k = 0; k < count; k++)
+    PetscCall(SamParametersAddReals(&run->parameters, names[k], PETSC_TRUE, 1, &values[k]));
   PetscCall(AddFiles(run, separation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -80,8 +82,10 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
   balances[1] = &step.tangential;
   for (PetscInt b = 0; b < 2; b++)
     for (PetscInt k = 0; k < 3; k++) {
-      if (balances[b]->force[k]) PetscCall(SamParametersAddReals(p, SamLoadNames[b][k], PETSC_FALSE, 1, &balances[b]->load[k]));
-      else PetscCall(SamParametersAddReals(p, SamRigidNames[b][k], PETSC_FALSE, 1, &balances[b]->rigid[k]));
+      if (balances[b]->force[k])
+        PetscCall(SamParametersAddReals(p, SamLoadNames[b][k], PETSC_FALSE, 1, &balances[b]->load[k]));
+      else
+        PetscCall(SamParametersAddReals(p, SamRigidNames[b][k], PETSC_FALSE, 1, &balances[b]->rigid[k]));
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,8 +2,8 @@
   The program: the command line, errors and exit codes around a run (run/run.c).
 
   Exit codes: 0 converged and checked; 2 bad usage; 3 a file; 10 not converged; 11 no equilibrium; 12 contact at the
-  grid's edge; 75 stopped with a checkpoint; others are PETSc's. Nothing is written before all of the input has been read
-  and found right.
+  grid's edge; 75 stopped with a checkpoint; others are PETSc's. Nothing is written before all of the input has been
+  read and found right.
 */
 #include "runimpl.h"
 #include <errno.h>
@@ -15,32 +15,38 @@
 
 enum { EXIT_USAGE = 2, EXIT_FILE = 3, EXIT_STOPPED = 75 };
 
-static const char usage[] = "petsam " PETSAM_VERSION ": partial-slip contact of elastic bodies by the semi-analytical method.\n"
-                            "\n"
-                            "  petsam [-option value ...]\n"
-                            "  mpirun -n 4 petsam -options_file study.opts [-option value ...]\n"
-                            "\n"
-                            "All quantities in SI units; defaults in parentheses. Required: -grid_n, -grid_size, -body1_young, -body1_poisson,\n"
-                            "-body2_young, -body2_poisson, -gap_type with its radii, and one of -load_n, -disp_z. For example, two steel spheres\n"
-                            "pressed together and pushed sideways:\n"
-                            "\n"
-                            "  petsam -grid_n 256 -grid_size 2.6e-3 -body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 \\\n"
-                            "    -body2_poisson 0.3 -gap_type sphere -gap_radius1 0.2 -gap_radius2 0.2 -friction 0.1 -load_n 1000 -load_tx 60 \\\n"
-                            "    -output sphere.h5\n"
-                            "\n"
-                            "-help prints this, -version the version. PETSc's options work too (-options_file, -log_view, ...).\n"
-                            "Exit codes: 0 converged, 2 bad usage, 3 a file, 10 not converged, 11 no equilibrium, 12 contact at the grid's edge,\n"
-                            "75 stopped with a checkpoint.\n";
+static const char usage[] =
+  "petsam " PETSAM_VERSION ": partial-slip contact of elastic bodies by the semi-analytical method.\n"
+  "\n"
+  "  petsam [-option value ...]\n"
+  "  mpirun -n 4 petsam -options_file study.opts [-option value ...]\n"
+  "\n"
+  "All quantities in SI units; defaults in parentheses. Required: -grid_n, -grid_size, -body1_young, -body1_poisson,\n"
+  "-body2_young, -body2_poisson, -gap_type with its radii, and one of -load_n, -disp_z. For example, two steel "
+  "spheres\n"
+  "pressed together and pushed sideways:\n"
+  "\n"
+  "  petsam -grid_n 256 -grid_size 2.6e-3 -body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 \\\n"
+  "    -body2_poisson 0.3 -gap_type sphere -gap_radius1 0.2 -gap_radius2 0.2 -friction 0.1 -load_n 1000 -load_tx 60 "
+  "\\\n"
+  "    -output sphere.h5\n"
+  "\n"
+  "-help prints this, -version the version. PETSc's options work too (-options_file, -log_view, ...).\n"
+  "Exit codes: 0 converged, 2 bad usage, 3 a file, 10 not converged, 11 no equilibrium, 12 contact at the grid's "
+  "edge,\n"
+  "75 stopped with a checkpoint.\n";
 
 /* ---- errors ---- */
 
 /* The user's mistakes are told in their own words by the first rank; all others as PETSc does. */
-static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type, const char *message, void *context)
+static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                                  PetscErrorType type, const char *message, void *context)
 {
   PetscMPIInt rank;
 
   (void)context;
-  if (code != SAM_ERR_USER && code != SAM_ERR_FILE) return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, NULL);
+  if (code != SAM_ERR_USER && code != SAM_ERR_FILE)
+    return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, NULL);
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (type == PETSC_ERROR_INITIAL && rank == 0) {
     fprintf(stderr, "petsam: %s\n", message);
@@ -61,7 +67,10 @@ static int ExitCode(PetscErrorCode code)
 /* What PETSc takes for an option's name: a dash and a letter (a number is a value). */
 static PetscBool IsOption(const char text[])
 {
-  return (text[0] == '-' && (text[1] == '-' || (text[1] >= 'a' && text[1] <= 'z') || (text[1] >= 'A' && text[1] <= 'Z'))) ? PETSC_TRUE : PETSC_FALSE;
+  return (text[0] == '-' &&
+          (text[1] == '-' || (text[1] >= 'a' && text[1] <= 'z') || (text[1] >= 'A' && text[1] <= 'Z')))
+           ? PETSC_TRUE
+           : PETSC_FALSE;
 }
 
 /* Takes -help, --help, -h, --version, -version out of the arguments; PETSc would answer with its own, and go on. */
@@ -70,8 +79,10 @@ static void TakeWords(int *argc, char **argv, PetscBool *help, PetscBool *versio
   int kept = 1;
 
   for (int i = 1; i < *argc; i++) {
-    const PetscBool is_help    = (!strcmp(argv[i], "-help") || !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) ? PETSC_TRUE : PETSC_FALSE;
-    const PetscBool is_version = (!strcmp(argv[i], "--version") || !strcmp(argv[i], "-version")) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool is_help =
+      (!strcmp(argv[i], "-help") || !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool is_version =
+      (!strcmp(argv[i], "--version") || !strcmp(argv[i], "-version")) ? PETSC_TRUE : PETSC_FALSE;
 
     if (is_help) *help = PETSC_TRUE;
     if (is_version) *version = PETSC_TRUE;
@@ -97,9 +108,10 @@ static int HasMoreWords(const char text[])
 /* What is wrong with an options file, before PETSc stumbles over it: a code of the two errors, or 0. */
 static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size_t size)
 {
-  FILE          *file = fopen(name, "r");
-  const size_t   length = strlen(name);
-  const int      yaml   = (length > 5 && !strcmp(name + length - 5, ".yaml")) || (length > 4 && !strcmp(name + length - 4, ".yml"));
+  FILE        *file   = fopen(name, "r");
+  const size_t length = strlen(name);
+  const int    yaml =
+    (length > 5 && !strcmp(name + length - 5, ".yaml")) || (length > 4 && !strcmp(name + length - 4, ".yml"));
   char           line[4096];
   int            number = 0, begins = 1; /* a line longer than the buffer comes in parts */
   PetscErrorCode code = 0;
@@ -115,7 +127,8 @@ static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size
 
     number += begins;
     if (begins && *text && !strchr("#!%", *text) && !IsOption(text) && strncmp(text, "alias ", 6)) {
-      snprintf(message, size, "-options_file %s, line %d: expected an option, that is a word that begins with a dash", name, number);
+      snprintf(message, size, "-options_file %s, line %d: expected an option, that is a word that begins with a dash",
+               name, number);
       code = SAM_ERR_USER;
     } else if (begins && IsOption(text) && HasMoreWords(text)) {
       snprintf(message, size, "-options_file %s, line %d: expected one option and its value a line", name, number);
@@ -130,16 +143,18 @@ static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size
 /* Takes options files that PETSc could not read out of the arguments; says what is wrong with the first. */
 static PetscErrorCode TakeBadOptionsFiles(int *argc, char **argv, char message[], size_t size)
 {
-  int            kept = 1;
+  int            kept  = 1;
   PetscErrorCode first = 0;
 
   for (int i = 1; i < *argc; i++) {
-    const int      named = i + 1 < *argc && !IsOption(argv[i + 1]);
+    const int      named     = i + 1 < *argc && !IsOption(argv[i + 1]);
     char           text[512] = "-options_file has no value: expected a file's name";
-    PetscErrorCode code  = 0;
+    PetscErrorCode code      = 0;
 
-    if (!strcmp(argv[i], "-options_file")) code = named ? ExamineOptionsFile(argv[i + 1], text, sizeof(text)) : SAM_ERR_USER;
-    if (!code) argv[kept++] = argv[i];
+    if (!strcmp(argv[i], "-options_file"))
+      code = named ? ExamineOptionsFile(argv[i + 1], text, sizeof(text)) : SAM_ERR_USER;
+    if (!code)
+      argv[kept++] = argv[i];
     else {
       i += named;
       if (!first) snprintf(message, size, "%s", text);
@@ -156,7 +171,8 @@ static PetscErrorCode RefuseStrayWords(int argc, char **argv)
 {
   PetscFunctionBegin;
   for (int i = 1; i < argc; i++) {
-    PetscCheck(IsOption(argv[i]), PETSC_COMM_WORLD, SAM_ERR_USER, "%s: expected an option, that is a word that begins with a dash", argv[i]);
+    PetscCheck(IsOption(argv[i]), PETSC_COMM_WORLD, SAM_ERR_USER,
+               "%s: expected an option, that is a word that begins with a dash", argv[i]);
     PetscCheck(argv[i][1] != '-', PETSC_COMM_WORLD, SAM_ERR_USER, "%s: options begin with one dash", argv[i]);
     if (i + 1 < argc && !IsOption(argv[i + 1])) i++;
   }
@@ -167,7 +183,19 @@ static PetscErrorCode RefuseStrayWords(int argc, char **argv)
 static PetscErrorCode RefuseUnknownOptions(void)
 {
   /* those that PETSc itself reads only when it ends */
-  static const char *const late[] = {"-malloc_dump", "-malloc_view", "-malloc_test", "-malloc_debug", "-log_view", "-log_view_memory", "-options_left", "-options_view", "-objects_dump", "-memory_view", "-get_total_flops", "-petsc_finalize_time", NULL};
+  static const char *const late[] = {"-malloc_dump",
+                                     "-malloc_view",
+                                     "-malloc_test",
+                                     "-malloc_debug",
+                                     "-log_view",
+                                     "-log_view_memory",
+                                     "-options_left",
+                                     "-options_view",
+                                     "-objects_dump",
+                                     "-memory_view",
+                                     "-get_total_flops",
+                                     "-petsc_finalize_time",
+                                     NULL};
   PetscInt                 count;
   char                   **names, **values;
   char                     first[128] = "";
@@ -179,15 +207,19 @@ static PetscErrorCode RefuseUnknownOptions(void)
     PetscCall(PetscOptionsHasName(NULL, NULL, late[k], &ignored));
   }
   PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
-  if (count) PetscCall(PetscSNPrintf(first, sizeof(first), "-%s%s%s", names[0], values[0] ? " " : "", values[0] ? values[0] : ""));
+  if (count)
+    PetscCall(
+      PetscSNPrintf(first, sizeof(first), "-%s%s%s", names[0], values[0] ? " " : "", values[0] ? values[0] : ""));
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
-  PetscCheck(!first[0], PETSC_COMM_WORLD, SAM_ERR_USER, "%s: unknown option, or one that has no meaning with the others given", first);
+  PetscCheck(!first[0], PETSC_COMM_WORLD, SAM_ERR_USER,
+             "%s: unknown option, or one that has no meaning with the others given", first);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the program ---- */
 
-static PetscErrorCode RunProgram(SamRun *run, int argc, char **argv, PetscBool help, PetscErrorCode bad_file, const char message[])
+static PetscErrorCode RunProgram(SamRun *run, int argc, char **argv, PetscBool help, PetscErrorCode bad_file,
+                                 const char message[])
 {
   PetscFunctionBegin;
   PetscCall(SamInitialize());
@@ -219,13 +251,15 @@ static void ReturnLargeFields(void)
 }
 
 /*
-  A program that nobody launched as one of several needs no network. Open MPI would look for one, and start a daemon to be found
-  by, which takes longer than a small problem and cannot be done everywhere. What the user has set stays.
+  A program that nobody launched as one of several needs no network. Open MPI would look for one, and start a daemon to
+  be found by, which takes longer than a small problem and cannot be done everywhere. What the user has set stays.
 */
 static void StartAlone(void)
 {
 #if defined(OPEN_MPI)
-  static const char *const launched[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK", "PMI_ID", "PMI_FD", "PMI_SIZE", "SLURM_STEP_ID", "ALPS_APP_PE", NULL};
+  static const char *const launched[] = {
+    "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK", "PMI_ID", "PMI_FD", "PMI_SIZE", "SLURM_STEP_ID",
+    "ALPS_APP_PE",          NULL};
 
   for (int k = 0; launched[k]; k++)
     if (getenv(launched[k])) return;

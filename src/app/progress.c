@@ -52,9 +52,13 @@ PetscErrorCode SamProgressSetFromOptions(SamReport r)
   PetscInt mode = SAM_PROGRESS_AUTO;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(NULL, "progress", "line within long steps: auto (on a terminal), always or never", mode_words, &mode, NULL));
-  r->progress.active = (!r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal()))) ? PETSC_TRUE : PETSC_FALSE;
-  r->progress.after  = mode == SAM_PROGRESS_ALWAYS ? 0 : AFTER;
+  PetscCall(SamOptionsEnum(NULL, "progress", "line within long steps: auto (on a terminal), always or never",
+                           mode_words, &mode, NULL));
+  r->progress.active =
+    (!r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal())))
+      ? PETSC_TRUE
+      : PETSC_FALSE;
+  r->progress.after = mode == SAM_PROGRESS_ALWAYS ? 0 : AFTER;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -74,7 +78,10 @@ static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
 
   if (!r->progress.active || now - r->begin < r->progress.after || now - r->progress.shown_at < INTERVAL) return;
   SamReportDuration(now - r->begin, duration, sizeof(duration));
-  length = snprintf(text, sizeof(text), "step %" PetscInt_FMT " of %" PetscInt_FMT ", %s: %s problem, iteration %" PetscInt_FMT ", residual %.1e", r->number + 1, r->steps, duration, kind, it, (double)error);
+  length =
+    snprintf(text, sizeof(text),
+             "step %" PetscInt_FMT " of %" PetscInt_FMT ", %s: %s problem, iteration %" PetscInt_FMT ", residual %.1e",
+             r->number + 1, r->steps, duration, kind, it, (double)error);
   fprintf(stdout, "\r%-*s\r", r->progress.length, text); /* a monitor's line may follow */
   fflush(stdout);
   r->progress.length   = PetscMax(length, r->progress.length);

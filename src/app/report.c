@@ -4,7 +4,10 @@
 #include <hdf5.h>
 #include <string.h>
 
-/* Whether PETSc's log can tell the time of an event: not where the user asked for a nested log, whose events are others. */
+/*
+  Whether PETSc's log can tell the time of an event: not where the user asked for a nested log, whose events are
+  others.
+*/
 static PetscErrorCode StartLog(SamReport r)
 {
   char      text[PETSC_MAX_PATH_LEN] = "";
@@ -62,12 +65,14 @@ static PetscErrorCode DescribeLibraries(char text[], size_t size)
 
   PetscFunctionBegin;
   PetscCall(PetscGetVersionNumber(&petsc[0], &petsc[1], &petsc[2], NULL));
-  PetscCheck(H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "H5get_libversion() failed");
+  PetscCheck(H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB,
+             "H5get_libversion() failed");
   PetscCallMPI(MPI_Get_library_version(mpi, &length));
   mpi[strcspn(mpi, ",\n")] = '\0'; /* the rest tells how it was built */
   snprintf(fftw, sizeof(fftw), "%s", number ? number + 1 : fftw_version);
   fftw[strcspn(fftw, "-")] = '\0';
-  snprintf(text, size, "PETSc %d.%d.%d, FFTW %s, HDF5 %u.%u.%u, %s", (int)petsc[0], (int)petsc[1], (int)petsc[2], fftw, hdf5[0], hdf5[1], hdf5[2], mpi);
+  snprintf(text, size, "PETSc %d.%d.%d, FFTW %s, HDF5 %u.%u.%u, %s", (int)petsc[0], (int)petsc[1], (int)petsc[2], fftw,
+           hdf5[0], hdf5[1], hdf5[2], mpi);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -109,10 +114,14 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt
   PetscCall(PetscPrintf(r->comm, "petsam %s: partial-slip contact by the semi-analytical method\n", PETSAM_VERSION));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "libraries", libraries));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid", grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid",
+                        grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %.3g MB a rank\n", "memory", 1e-6 * bytes));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n", "steps", steps, output ? "in " : "not kept (no -output)", output ? output : ""));
-  if (r->restart) PetscCall(PetscPrintf(r->comm, "  %-10s  after step %" PetscInt_FMT ", from %s\n", "restart", r->restart_step, r->restart));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n", "steps", steps,
+                        output ? "in " : "not kept (no -output)", output ? output : ""));
+  if (r->restart)
+    PetscCall(
+      PetscPrintf(r->comm, "  %-10s  after step %" PetscInt_FMT ", from %s\n", "restart", r->restart_step, r->restart));
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -188,7 +197,8 @@ PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
 PetscErrorCode SamReportAddFile(SamReport r, const char name[], const char content[])
 {
   PetscFunctionBegin;
-  PetscCheck(r->files < SAM_REPORT_FILES, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d files", SAM_REPORT_FILES);
+  PetscCheck(r->files < SAM_REPORT_FILES, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d files",
+             SAM_REPORT_FILES);
   PetscCall(PetscStrallocpy(name, &r->name[r->files]));
   PetscCall(PetscStrallocpy(content, &r->content[r->files]));
   r->files++;

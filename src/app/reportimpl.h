@@ -26,9 +26,9 @@ typedef struct {
 
 struct _n_SamReport {
   /* what the user set */
-  MPI_Comm  comm;
-  PetscBool quiet;
-  const char *restart;     /* the checkpoint from which the run goes on; NULL: none */
+  MPI_Comm    comm;
+  PetscBool   quiet;
+  const char *restart; /* the checkpoint from which the run goes on; NULL: none */
   PetscInt    restart_step;
   /* status */
   PetscMPIInt    rank;
@@ -37,9 +37,9 @@ struct _n_SamReport {
   double         output_before;             /* seconds of results and checkpoints in the set-up */
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
-  SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
+  SamReportWorst worst[3]; /* normal, tangential, equilibrium */
   SamProgress    progress;
-  SamContact     contact;                   /* whose monitors are set; borrowed */
+  SamContact     contact; /* whose monitors are set; borrowed */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;

@@ -11,13 +11,18 @@ static PetscBool SameFile(const char a[], const char b[])
   struct stat one, other;
 
   if (!strcmp(a, b)) return PETSC_TRUE;
-  return (!stat(a, &one) && !stat(b, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino) ? PETSC_TRUE : PETSC_FALSE;
+  return (!stat(a, &one) && !stat(b, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino) ? PETSC_TRUE
+                                                                                                          : PETSC_FALSE;
 }
 
-/* A file that is written would replace one that the run reads. A checkpoint may replace the one that the run goes on from. */
+/*
+  A file that is written would replace one that the run reads. A checkpoint may replace the one that the run goes on
+  from.
+*/
 static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
 {
-  static const char *const inputs[] = {"-gap_file", "-gap_rough_file", "-petsam_history", "-options_file", "-restart", NULL};
+  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-petsam_history",
+                                       "-options_file", "-restart",        NULL};
   static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-history", "-options_file", "-restart"};
 
   PetscFunctionBegin;
@@ -27,7 +32,8 @@ static PetscErrorCode RefuseOverwriting(const char option[], const char filename
 
     if (!restart && !strcmp(inputs[k], "-restart")) continue;
     PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
-    PetscCheck(!set || !SameFile(name, filename), PETSC_COMM_WORLD, SAM_ERR_USER, "-%s %s: is the file of %s, which it would replace", option, filename, names[k]);
+    PetscCheck(!set || !SameFile(name, filename), PETSC_COMM_WORLD, SAM_ERR_USER,
+               "-%s %s: is the file of %s, which it would replace", option, filename, names[k]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -40,7 +46,8 @@ static PetscErrorCode CheckFiles(const SamRun *run)
   PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
   if (run->has_output) PetscCall(RefuseOverwriting("output", run->filename, PETSC_TRUE));
   if (checkpoint) PetscCall(RefuseOverwriting("checkpoint", checkpoint, PETSC_FALSE));
-  PetscCheck(!checkpoint || !run->has_output || !SameFile(checkpoint, run->filename), PETSC_COMM_WORLD, SAM_ERR_USER, "-checkpoint %s: is the file of -output", checkpoint);
+  PetscCheck(!checkpoint || !run->has_output || !SameFile(checkpoint, run->filename), PETSC_COMM_WORLD, SAM_ERR_USER,
+             "-checkpoint %s: is the file of -output", checkpoint);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -58,9 +65,11 @@ static PetscErrorCode ReadOptions(SamRun *run)
   PetscCall(SamReportCreateFromOptions(PETSC_COMM_WORLD, &run->report));
   PetscCall(SamCheckpointsCreateFromOptions(PETSC_COMM_WORLD, &run->checkpoints));
   PetscCall(SamOptionsHeading("Results and resources"));
-  PetscCall(SamOptionsString(NULL, "output", "HDF5 file of the results", run->filename, sizeof(run->filename), &run->has_output));
+  PetscCall(SamOptionsString(NULL, "output", "HDF5 file of the results", run->filename, sizeof(run->filename),
+                             &run->has_output));
   run->output_every = 1;
-  PetscCall(SamOptionsInt(NULL, "output_every", "write the fields of every m-th step, and of the last", 1, &run->output_every, NULL));
+  PetscCall(SamOptionsInt(NULL, "output_every", "write the fields of every m-th step, and of the last", 1,
+                          &run->output_every, NULL));
   PetscCall(SamOutputCheckOptions(PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -110,7 +119,8 @@ static PetscErrorCode CreateResults(SamRun *run)
   PetscFunctionBegin;
   PetscCall(SamOutputCreate(run->grid, run->filename, &run->output));
   PetscCall(PetscOptionsGetAll(NULL, &all));
-  while ((alias = strstr(all, "-petsam_history"))) memmove(alias + 1, alias + 8, strlen(alias + 8) + 1); /* its given name */
+  while ((alias = strstr(all, "-petsam_history")))
+    memmove(alias + 1, alias + 8, strlen(alias + 8) + 1); /* its given name */
   PetscCall(SamOutputSetText(run->output, "options", all));
   PetscCall(PetscFree(all));
   PetscCall(SamOutputSetParameters(run->output, &run->parameters));
@@ -151,9 +161,12 @@ static PetscErrorCode Begin(SamRun *run)
     PetscCall(SamReportSetRestart(run->report, restart, run->solved));
   }
   PetscCall(SamCheckpointsBegin(run->checkpoints, run->grid));
-  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->pair, run->friction, count), count, run->has_output ? run->filename : NULL));
-  if (run->has_output && restart) PetscCall(ContinueResults(run));
-  else if (run->has_output) PetscCall(CreateResults(run));
+  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->pair, run->friction, count), count,
+                            run->has_output ? run->filename : NULL));
+  if (run->has_output && restart)
+    PetscCall(ContinueResults(run));
+  else if (run->has_output)
+    PetscCall(CreateResults(run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -177,7 +190,9 @@ static PetscErrorCode WriteLastFields(SamRun *run, PetscInt k)
 /* Results of step k. */
 static PetscErrorCode WriteStep(SamRun *run, const SamStep *step, PetscInt k, PetscInt count)
 {
-  const PetscBool due  = ((k + 1) % run->output_every == 0 || k + 1 == count || step->status == SAM_STATUS_NOT_CONVERGED) ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool due = ((k + 1) % run->output_every == 0 || k + 1 == count || step->status == SAM_STATUS_NOT_CONVERGED)
+                          ? PETSC_TRUE
+                          : PETSC_FALSE;
   const PetscBool none = step->status == SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
   SamFields       fields;
 
@@ -201,7 +216,8 @@ static PetscErrorCode FinishResults(SamRun *run)
   PetscFunctionBegin;
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputGetSaved(run->output, &steps, &saved, NULL));
-  PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, steps, steps == 1 ? "" : "s", saved));
+  PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, steps,
+                          steps == 1 ? "" : "s", saved));
   PetscCall(SamReportAddFile(run->report, run->filename, content));
   PetscCall(SamOutputGetXdmf(run->output, &xdmf));
   if (xdmf) PetscCall(SamReportAddFile(run->report, xdmf, "the same for ParaView and VisIt"));
@@ -238,7 +254,8 @@ static PetscErrorCode SolveStep(SamRun *run, PetscInt count, PetscBool *ended)
   PetscCall(SamContactSolve(run->contact, &step));
   PetscCall(WriteStep(run, &step, k, count));
   PetscCall(SamReportEndStep(run->report, &step)); /* a step that is told is in the file */
-  *ended = (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
+  *ended =
+    (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
   if (*ended || !run->status) run->status = step.status;
   run->solved++;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -256,7 +273,8 @@ static PetscErrorCode SolveSteps(SamRun *run)
     PetscCall(SolveStep(run, count, &ended));
     if (ended) break;
     run->writing = PETSC_TRUE;
-    PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, run->history, &run->parameters, run->solved, run->status, &run->stopped));
+    PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, run->history, &run->parameters, run->solved,
+                                      run->status, &run->stopped));
     run->writing = PETSC_FALSE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

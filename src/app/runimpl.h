@@ -18,10 +18,10 @@ typedef struct {
   PetscReal      friction;
   SamHistory     history;
   SamReport      report;
-  SamStatus      status;  /* the worst so far */
-  PetscBool      stopped; /* before the end, with a checkpoint */
+  SamStatus      status;               /* the worst so far */
+  PetscBool      stopped;              /* before the end, with a checkpoint */
   PetscInt       output_every, solved; /* solved: load steps so far, those before a restart included */
-  PetscBool      has_output, writing; /* writing: a collective write is under way */
+  PetscBool      has_output, writing;  /* writing: a collective write is under way */
   char           filename[PETSC_MAX_PATH_LEN];
 } SamRun;
 
@@ -35,7 +35,10 @@ PETSC_INTERN PetscErrorCode SamRunTearDown(SamRun *run);
 PETSC_INTERN PetscErrorCode SamRunCollectParameters(SamRun *run, Vec separation);
 /* SamRunMemory - what this rank will need, bytes. */
 PETSC_INTERN double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps);
-/* SamRunRefuseTooLarge - raises SAM_ERR_USER for what this node cannot hold, before the system kills the run for it. Collective. */
+/*
+  SamRunRefuseTooLarge - raises SAM_ERR_USER for what this node cannot hold, before the system kills the run for it.
+  Collective.
+*/
 PETSC_INTERN PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps);
 
 #endif

@@ -8,8 +8,11 @@ static PetscErrorCode ViewBalance(const SamBalance *balance, const char title[],
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 3; k++) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given)\n", k ? "" : title, SamLoadNames[balance->kind][k], (double)balance->load[k], load_units[balance->kind][k], SamRigidNames[balance->kind][k],
-                                     (double)balance->rigid[k], rigid_units[balance->kind][k], balance->force[k] ? "load" : "displacement"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given)\n",
+                                     k ? "" : title, SamLoadNames[balance->kind][k], (double)balance->load[k],
+                                     load_units[balance->kind][k], SamRigidNames[balance->kind][k],
+                                     (double)balance->rigid[k], rigid_units[balance->kind][k],
+                                     balance->force[k] ? "load" : "displacement"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -20,10 +23,18 @@ PetscErrorCode SamStepView(const SamStep *s, PetscViewer viewer)
   PetscCall(ViewBalance(&s->normal, "normal", viewer));
   PetscCall(ViewBalance(&s->tangential, "tangential", viewer));
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g J\n", "areas", (double)s->contact_area, (double)s->stick_area, (double)s->dissipated_energy));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  normal %" PetscInt_FMT " (%" PetscInt_FMT " products), tangential %" PetscInt_FMT " (%" PetscInt_FMT " products)", "iterations", s->normal_iterations, s->normal_applies, s->tangential_iterations, s->tangential_applies));
-    if (s->coupling_iterations > 1) PetscCall(PetscViewerASCIIPrintf(viewer, ", coupling %" PetscInt_FMT, s->coupling_iterations));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n  %-10s  normal %.2e, tangential %.2e, equilibrium %.2e, cone %.2e\n", "check", (double)s->check.normal, (double)s->check.tangential, (double)s->check.equilibrium, (double)s->check.cone));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g J\n", "areas",
+                                     (double)s->contact_area, (double)s->stick_area, (double)s->dissipated_energy));
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+                                     "  %-10s  normal %" PetscInt_FMT " (%" PetscInt_FMT
+                                     " products), tangential %" PetscInt_FMT " (%" PetscInt_FMT " products)",
+                                     "iterations", s->normal_iterations, s->normal_applies, s->tangential_iterations,
+                                     s->tangential_applies));
+    if (s->coupling_iterations > 1)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", coupling %" PetscInt_FMT, s->coupling_iterations));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n  %-10s  normal %.2e, tangential %.2e, equilibrium %.2e, cone %.2e\n",
+                                     "check", (double)s->check.normal, (double)s->check.tangential,
+                                     (double)s->check.equilibrium, (double)s->check.cone));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -38,7 +49,9 @@ void SamReportDuration(double seconds, char text[], size_t size)
 PetscErrorCode SamStepViewHeading(PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%6s %10s %10s %10s %10s %10s %10s %10s %10s %9s %4s %4s %7s %7s %8s %9s\n", "step", "time/s", "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2", "stick/m2", "it n", "it t", "res n", "res t", "s", "left"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%6s %10s %10s %10s %10s %10s %10s %10s %10s %9s %4s %4s %7s %7s %8s %9s\n",
+                                   "step", "time/s", "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2",
+                                   "stick/m2", "it n", "it t", "res n", "res t", "s", "left"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -49,7 +62,12 @@ PetscErrorCode SamStepViewLine(const SamStep *s, PetscInt number, double seconds
 
   PetscFunctionBegin;
   SamReportDuration(left, duration, sizeof(duration));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%6" PetscInt_FMT " %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9.3g %4" PetscInt_FMT " %4" PetscInt_FMT " %7.1e %7.1e %8.2f %9s\n", number, (double)s->time, (double)n[0], (double)t[0], (double)t[1], (double)n[1],
-                                   (double)n[2], (double)t[2], (double)s->contact_area, (double)s->stick_area, s->normal_iterations, s->tangential_iterations, (double)s->check.normal, (double)s->check.tangential, seconds, duration));
+  PetscCall(PetscViewerASCIIPrintf(
+    viewer,
+    "%6" PetscInt_FMT " %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9.3g %4" PetscInt_FMT
+    " %4" PetscInt_FMT " %7.1e %7.1e %8.2f %9s\n",
+    number, (double)s->time, (double)n[0], (double)t[0], (double)t[1], (double)n[1], (double)n[2], (double)t[2],
+    (double)s->contact_area, (double)s->stick_area, s->normal_iterations, s->tangential_iterations,
+    (double)s->check.normal, (double)s->check.tangential, seconds, duration));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

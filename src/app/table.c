@@ -56,9 +56,12 @@ static PetscErrorCode ReadHeader(const char file[], PetscInt line, char *text, S
   PetscFunctionBegin;
   t->header_line = line;
   while (!verdict->code && (field = NextField(&rest))) {
-    if (!*field) PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: a column has no name", file, (int)line));
-    else if (SamTableFind(t, field) >= 0) PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: two columns are named %s", file, (int)line, field));
-    else if (t->columns == SAM_TABLE_COLUMNS) PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: more than %d columns", file, (int)line, SAM_TABLE_COLUMNS));
+    if (!*field)
+      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: a column has no name", file, (int)line));
+    else if (SamTableFind(t, field) >= 0)
+      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: two columns are named %s", file, (int)line, field));
+    else if (t->columns == SAM_TABLE_COLUMNS)
+      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: more than %d columns", file, (int)line, SAM_TABLE_COLUMNS));
     else {
       strncpy(t->name[t->columns], field, SAM_TABLE_NAME - 1); /* a longer name is unknown anyway */
       t->columns++;
@@ -67,7 +70,8 @@ static PetscErrorCode ReadHeader(const char file[], PetscInt line, char *text, S
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadRow(const char file[], PetscInt line, char *text, const SamTable *t, double row[], Verdict *verdict)
+static PetscErrorCode ReadRow(const char file[], PetscInt line, char *text, const SamTable *t, double row[],
+                              Verdict *verdict)
 {
   PetscInt fields = 0;
   char    *rest   = text, *field;
@@ -77,11 +81,15 @@ static PetscErrorCode ReadRow(const char file[], PetscInt line, char *text, cons
     char  *end;
     double value = strtod(field, &end);
 
-    if (fields < t->columns && (end == field || *end || !isfinite(value))) PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: column %s: \"%s\" is not a finite number", file, (int)line, t->name[fields], field));
+    if (fields < t->columns && (end == field || *end || !isfinite(value)))
+      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: column %s: \"%s\" is not a finite number", file, (int)line,
+                      t->name[fields], field));
     if (fields < t->columns) row[fields] = value;
     fields++;
   }
-  if (!verdict->code && fields != t->columns) PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: %d fields, expected %d as in line %d", file, (int)line, (int)fields, (int)t->columns, (int)t->header_line));
+  if (!verdict->code && fields != t->columns)
+    PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: %d fields, expected %d as in line %d", file, (int)line,
+                    (int)fields, (int)t->columns, (int)t->header_line));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -128,7 +136,8 @@ static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
     PetscCall(ReadRow(file, line, text, t, t->value + t->rows * t->columns, verdict));
     t->line[t->rows++] = line;
   }
-  if (!verdict->code && ferror(stream)) PetscCall(Judge(verdict, SAM_ERR_FILE, "-history %s: cannot be read: %s", file, strerror(errno)));
+  if (!verdict->code && ferror(stream))
+    PetscCall(Judge(verdict, SAM_ERR_FILE, "-history %s: cannot be read: %s", file, strerror(errno)));
   if (!verdict->code && !t->rows) PetscCall(Judge(verdict, SAM_ERR_USER, "-history %s: has no load step", file));
   free(buffer);
   fclose(stream);

@@ -1,9 +1,9 @@
 /*
-  Memory of large arrays, in large pages where the system has them: with small ones much of the time would go into getting them,
-  and into looking up addresses where columns touch every row.
+  Memory of large arrays, in large pages where the system has them: with small ones much of the time would go into
+  getting them, and into looking up addresses where columns touch every row.
 
-  Large arrays of zeros come from the system, which clears them when they are touched; what never is takes no memory. All
-  others are the C library's, which keeps what is freed for the next ones.
+  Large arrays of zeros come from the system, which clears them when they are touched; what never is takes no memory.
+  All others are the C library's, which keeps what is freed for the next ones.
 */
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>
@@ -37,9 +37,10 @@ static void UseLargePages(void *p, size_t bytes)
 static void *MapZeros(size_t bytes)
 {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (bytes + page - 1) / page * page;
-  Mapped      *m    = (Mapped *)malloc(sizeof(*m));
-  char        *base = m ? (char *)mmap(NULL, whole + LARGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) : (char *)MAP_FAILED;
-  size_t       before;
+  Mapped      *m = (Mapped *)malloc(sizeof(*m));
+  char  *base = m ? (char *)mmap(NULL, whole + LARGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)
+                  : (char *)MAP_FAILED;
+  size_t before;
 
   if (base == (char *)MAP_FAILED) {
     free(m);
@@ -59,7 +60,8 @@ PetscErrorCode SamAllocate(size_t bytes, void *pointer)
   void *p = NULL;
 
   PetscFunctionBegin;
-  PetscCheck(!posix_memalign(&p, bytes >= LARGE_PAGE ? LARGE_PAGE : 64, PetscMax(bytes, 64)), PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for %zu bytes", bytes);
+  PetscCheck(!posix_memalign(&p, bytes >= LARGE_PAGE ? LARGE_PAGE : 64, PetscMax(bytes, 64)), PETSC_COMM_SELF,
+             PETSC_ERR_MEM, "No memory for %zu bytes", bytes);
   UseLargePages(p, bytes);
   *(void **)pointer = p;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -35,7 +35,8 @@ PetscErrorCode SamOptionsHeading(const char title[])
   long for its column has a line of its own.
 */
 #define HELP_COLUMN 40
-static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], const char help[], const char kind[], const char value[])
+static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], const char help[], const char kind[],
+                                    const char value[])
 {
   PetscBool print;
   char      option[128], shown[TEXT_SIZE + 4] = "";
@@ -45,13 +46,16 @@ static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], cons
   if (!print) PetscFunctionReturn(PETSC_SUCCESS);
   snprintf(option, sizeof(option), "-%s%s %s", prefix ? prefix : "", name, kind);
   if (value[0] && !strstr(help, "required")) snprintf(shown, sizeof(shown), " (%s)", value);
-  if (strlen(option) >= HELP_COLUMN) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n  %*s%s%s\n", option, HELP_COLUMN, "", help, shown));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-*s%s%s\n", HELP_COLUMN, option, help, shown));
+  if (strlen(option) >= HELP_COLUMN)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n  %*s%s%s\n", option, HELP_COLUMN, "", help, shown));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-*s%s%s\n", HELP_COLUMN, option, help, shown));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Fetches the text of an option; an option given without a value is an error. */
-static PetscErrorCode GetText(const char prefix[], const char name[], const char expected[], char text[], size_t size, PetscBool *set)
+static PetscErrorCode GetText(const char prefix[], const char name[], const char expected[], char text[], size_t size,
+                              PetscBool *set)
 {
   char option[128];
 
@@ -59,7 +63,8 @@ static PetscErrorCode GetText(const char prefix[], const char name[], const char
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
   text[0] = '\0';
   PetscCall(PetscOptionsGetString(NULL, prefix, option, text, size, set));
-  PetscCheck(!*set || text[0], PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s has no value: expected %s", prefix ? prefix : "", name, expected);
+  PetscCheck(!*set || text[0], PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s has no value: expected %s", prefix ? prefix : "",
+             name, expected);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -99,7 +104,8 @@ static PetscBool ReadReal(const char **text, double *value)
 }
 
 /* Reads one or two numbers separated by a comma; one stands for both. */
-static PetscErrorCode GetReals(const char prefix[], const char name[], const char expected[], PetscInt most, SamRange range, double value[], PetscBool *set)
+static PetscErrorCode GetReals(const char prefix[], const char name[], const char expected[], PetscInt most,
+                               SamRange range, double value[], PetscBool *set)
 {
   char        text[TEXT_SIZE];
   const char *rest = text;
@@ -115,13 +121,15 @@ static PetscErrorCode GetReals(const char prefix[], const char name[], const cha
     good = (good && InRange(range, v[n])) ? PETSC_TRUE : PETSC_FALSE;
     n++;
   }
-  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text, expected);
+  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "",
+             name, text, expected);
   value[0] = v[0];
   if (most > 1) value[1] = n > 1 ? v[1] : v[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char help[], SamRange range, PetscReal *value, PetscBool *set)
+PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char help[], SamRange range,
+                              PetscReal *value, PetscBool *set)
 {
   char      shown[64];
   PetscBool found;
@@ -134,7 +142,8 @@ PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const char help[], SamRange range, PetscReal value[2], PetscBool *set)
+PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const char help[], SamRange range,
+                                  PetscReal value[2], PetscBool *set)
 {
   char      shown[64], expected[96];
   PetscBool found;
@@ -148,7 +157,8 @@ PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetInts(const char prefix[], const char name[], const char expected[], PetscInt most, PetscInt least, PetscInt value[], PetscBool *set)
+static PetscErrorCode GetInts(const char prefix[], const char name[], const char expected[], PetscInt most,
+                              PetscInt least, PetscInt value[], PetscBool *set)
 {
   char        text[TEXT_SIZE];
   const char *rest = text;
@@ -165,19 +175,24 @@ static PetscErrorCode GetInts(const char prefix[], const char name[], const char
 
     errno  = 0;
     number = strtoll(rest, &end, 10);
-    good   = (end != rest && !errno && (!*end || (*end == ',' && *(end + 1))) && number >= least && number <= PETSC_MAX_INT) ? PETSC_TRUE : PETSC_FALSE;
+    good =
+      (end != rest && !errno && (!*end || (*end == ',' && *(end + 1))) && number >= least && number <= PETSC_MAX_INT)
+        ? PETSC_TRUE
+        : PETSC_FALSE;
     if (good) {
       v[n++] = (PetscInt)number;
       rest   = *end ? end + 1 : end;
     }
   }
-  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text, expected);
+  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "",
+             name, text, expected);
   value[0] = v[0];
   if (most > 1) value[1] = n > 1 ? v[1] : v[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt *value, PetscBool *set)
+PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt *value,
+                             PetscBool *set)
 {
   char      shown[64], expected[96];
   PetscBool found;
@@ -191,7 +206,8 @@ PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt value[2], PetscBool *set)
+PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const char help[], PetscInt least,
+                                 PetscInt value[2], PetscBool *set)
 {
   char      shown[64], expected[96];
   PetscBool found;
@@ -199,17 +215,19 @@ PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const c
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT ",%" PetscInt_FMT, value[0], value[1]));
   PetscCall(PrintHelpLine(prefix, name, help, "<whole>[,<whole>]", shown));
-  PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT ", or two separated by a comma", least));
+  PetscCall(PetscSNPrintf(expected, sizeof(expected),
+                          "a whole number from %" PetscInt_FMT ", or two separated by a comma", least));
   PetscCall(GetInts(prefix, name, expected, 2, least, value, &found));
   if (set) *set = found;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char help[], PetscBool *value, PetscBool *set)
+PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char help[], PetscBool *value,
+                              PetscBool *set)
 {
   static const char *const yes[] = {"1", "true", "yes", "on", NULL}, *const no[] = {"0", "false", "no", "off", NULL};
-  char                     option[128], text[TEXT_SIZE] = "";
-  PetscBool                found, good;
+  char      option[128], text[TEXT_SIZE]                                         = "";
+  PetscBool found, good;
 
   PetscFunctionBegin;
   PetscCall(PrintHelpLine(prefix, name, help, "[<bool>]", *value ? "true" : "false"));
@@ -220,14 +238,20 @@ PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char
   good = text[0] ? PETSC_FALSE : PETSC_TRUE; /* the bare option means yes */
   if (good) *value = PETSC_TRUE;
   for (PetscInt w = 0; yes[w] && !good; w++) {
-    if (!strcmp(text, yes[w])) { *value = PETSC_TRUE, good = PETSC_TRUE; }
-    if (!strcmp(text, no[w])) { *value = PETSC_FALSE, good = PETSC_TRUE; }
+    if (!strcmp(text, yes[w])) {
+      *value = PETSC_TRUE, good = PETSC_TRUE;
+    }
+    if (!strcmp(text, no[w])) {
+      *value = PETSC_FALSE, good = PETSC_TRUE;
+    }
   }
-  PetscCheck(good, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected true or false", prefix ? prefix : "", name, text);
+  PetscCheck(good, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected true or false", prefix ? prefix : "", name,
+             text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsString(const char prefix[], const char name[], const char help[], char value[], size_t size, PetscBool *set)
+PetscErrorCode SamOptionsString(const char prefix[], const char name[], const char help[], char value[], size_t size,
+                                PetscBool *set)
 {
   char      text[TEXT_SIZE];
   PetscBool found;
@@ -237,12 +261,14 @@ PetscErrorCode SamOptionsString(const char prefix[], const char name[], const ch
   PetscCall(GetText(prefix, name, "a text", text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(strlen(text) < size, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s: expected at most %d characters", prefix ? prefix : "", name, (int)size - 1);
+  PetscCheck(strlen(text) < size, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s: expected at most %d characters",
+             prefix ? prefix : "", name, (int)size - 1);
   PetscCall(PetscStrncpy(value, text, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char help[], const char *const words[], PetscInt *value, PetscBool *set)
+PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char help[], const char *const words[],
+                              PetscInt *value, PetscBool *set)
 {
   char      text[TEXT_SIZE], list[TEXT_SIZE] = "";
   PetscInt  chosen = -1;
@@ -259,7 +285,8 @@ PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt w = 0; words[w]; w++)
     if (!strcmp(text, words[w])) chosen = w;
-  PetscCheck(chosen >= 0, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text, list);
+  PetscCheck(chosen >= 0, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text,
+             list);
   *value = chosen;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -272,6 +299,7 @@ PetscErrorCode SamOptionsHasViewer(const char prefix[], const char name[], const
   PetscCall(PrintHelpLine(prefix, name, help, "[<viewer>]", ""));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
   PetscCall(PetscOptionsGetString(NULL, prefix, option, text, sizeof(text), set));
-  PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected nothing, ascii or ascii:file", prefix ? prefix : "", name, text);
+  PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', PETSC_COMM_WORLD, SAM_ERR_USER,
+             "-%s%s %s: expected nothing, ascii or ascii:file", prefix ? prefix : "", name, text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

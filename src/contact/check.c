@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscBool release, SamFields *f)
+PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscBool release,
+                                     SamFields *f)
 {
   SamGrid   grid;
   PetscReal shear;
@@ -16,8 +17,10 @@ PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscB
   if (!same_pressure) PetscCall(SamElasticityApplyNormal(C, f->pressure, f->displacement_z));
   if (release) PetscCall(SamElasticityRelease(C, PETSC_TRUE));
   PetscCall(VecNorm(f->shear, NORM_INFINITY, &shear));
-  if (shear != 0) PetscCall(SamElasticityApplyTangential(C, f->shear, f->displacement_t));
-  else PetscCall(SamVecZero(f->displacement_t));
+  if (shear != 0)
+    PetscCall(SamElasticityApplyTangential(C, f->shear, f->displacement_t));
+  else
+    PetscCall(SamVecZero(f->displacement_t));
   if (release) PetscCall(SamElasticityRelease(C, PETSC_TRUE));
   PetscCall(SamElasticityIsCoupled(C, &coupled));
   if (coupled && coupling) {
@@ -35,7 +38,8 @@ PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict uz, const double *restrict h, double xi0, double dxi, double eta, const double a[3], double *restrict gap)
+SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict uz, const double *restrict h, double xi0,
+                                  double dxi, double eta, const double a[3], double *restrict gap)
 {
   const double ax = a[0] - a[1] * eta, a2 = a[2];
 
@@ -44,7 +48,8 @@ SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict uz, const d
 }
 
 /* A row of u - a - b xi; returns the sum of sizes. */
-SAM_VECTORIZED static double SlipRow(PetscInt n, const double *restrict u, double a, double b, double xi0, double dxi, double *restrict slip)
+SAM_VECTORIZED static double SlipRow(PetscInt n, const double *restrict u, double a, double b, double xi0, double dxi,
+                                     double *restrict slip)
 {
   double sum = 0;
 
@@ -59,8 +64,10 @@ SAM_VECTORIZED static double SlipRow(PetscInt n, const double *restrict u, doubl
 /* Takes a row's slip; a row of zeros stays unwritten, and takes no memory. */
 static void TakeSlip(PetscInt n, const double row[], double size, double slip[])
 {
-  if (size != 0) (void)memcpy(slip, row, sizeof(*slip) * (size_t)n);
-  else SamZero(n, slip);
+  if (size != 0)
+    (void)memcpy(slip, row, sizeof(*slip) * (size_t)n);
+  else
+    SamZero(n, slip);
 }
 
 /* gap = u_z + h - rigid, slip = u_t - rigid. */
@@ -80,12 +87,13 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
   PetscCall(VecGetArrayWrite(f->gap, &gap));
   PetscCall(VecGetArray(f->slip, &slip));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const ptrdiff_t k   = (ptrdiff_t)j * grid->nx, l = k + grid->cells;
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx, l = k + grid->cells;
     const double    eta = SamFrameEta(&normal, j), xi0 = normal.xi0, dxi = normal.dxi;
 
     GapRow(grid->nx, uz + k, h + k, xi0, dxi, eta, normal.fixed, gap + k);
     TakeSlip(grid->nx, row, SlipRow(grid->nx, ut + k, SamFrameX(tangential.fixed, eta), 0, xi0, dxi, row), slip + k);
-    TakeSlip(grid->nx, row, SlipRow(grid->nx, ut + l, tangential.fixed[1], tangential.fixed[2], xi0, dxi, row), slip + l);
+    TakeSlip(grid->nx, row, SlipRow(grid->nx, ut + l, tangential.fixed[1], tangential.fixed[2], xi0, dxi, row),
+             slip + l);
   }
   PetscCall(VecRestoreArray(f->slip, &slip));
   PetscCall(VecRestoreArrayWrite(f->gap, &gap));
@@ -99,7 +107,8 @@ static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamS
 enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
 
 /* Largest of each kind in a row, but for the edge; a value that is not a number makes the gap infinite. */
-SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict g, const double *restrict u, double max[COUNT])
+SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict g,
+                                     const double *restrict u, double max[COUNT])
 {
   double gap = 0, tension = 0, displacement = 0, pressure = 0, opening = 0, nan = 0;
 
@@ -131,11 +140,13 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
   PetscCall(VecGetArrayRead(f->gap, &g));
   PetscCall(VecGetArrayRead(f->displacement_z, &u));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const PetscBool edge_row = (grid->row_start + j == 0 || grid->row_start + j == grid->ny - 1) ? PETSC_TRUE : PETSC_FALSE;
-    const ptrdiff_t k        = (ptrdiff_t)j * grid->nx;
+    const PetscBool edge_row =
+      (grid->row_start + j == 0 || grid->row_start + j == grid->ny - 1) ? PETSC_TRUE : PETSC_FALSE;
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
     NormalRow(grid->nx, p + k, g + k, u + k, max);
-    for (PetscInt i = 0; i < grid->nx; i += edge_row ? 1 : PetscMax(grid->nx - 1, 1)) max[EDGE] = PetscMax(max[EDGE], p[k + i]);
+    for (PetscInt i = 0; i < grid->nx; i += edge_row ? 1 : PetscMax(grid->nx - 1, 1))
+      max[EDGE] = PetscMax(max[EDGE], p[k + i]);
   }
   PetscCall(VecRestoreArrayRead(f->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(f->gap, &g));
@@ -153,14 +164,19 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
 }
 
 /* A row's squares (residual, q, D(q - ds/c), bound) and largest |q| - mu p and mu p. */
-SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, const double *restrict qx, const double *restrict qy, const double *restrict sx, const double *restrict sy, double friction, double inverse, SamTotal totals[4], double max[2])
+SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, const double *restrict qx,
+                                         const double *restrict qy, const double *restrict sx,
+                                         const double *restrict sy, double friction, double inverse, SamTotal totals[4],
+                                         double max[2])
 {
   double residual = 0, shear = 0, projected = 0, least = 0, over = max[0], most = max[1], sums[4];
 
 #pragma omp simd reduction(+ : residual, shear, projected, least) reduction(max : over, most)
   for (PetscInt i = 0; i < n; i++) {
-    const double b = friction * (p[i] > 0 ? p[i] : 0), yx = qx[i] - inverse * sx[i], yy = qy[i] - inverse * sy[i], y2 = yx * yx + yy * yy;
-    const double scale = y2 > b * b ? b / sqrt(y2) : 1, rx = qx[i] - scale * yx, ry = qy[i] - scale * yy, q2 = qx[i] * qx[i] + qy[i] * qy[i], beyond = sqrt(q2) - b;
+    const double b = friction * (p[i] > 0 ? p[i] : 0), yx = qx[i] - inverse * sx[i], yy = qy[i] - inverse * sy[i],
+                 y2    = yx * yx + yy * yy;
+    const double scale = y2 > b * b ? b / sqrt(y2) : 1, rx = qx[i] - scale * yx, ry = qy[i] - scale * yy,
+                 q2 = qx[i] * qx[i] + qy[i] * qy[i], beyond = sqrt(q2) - b;
 
     residual += rx * rx + ry * ry;
     shear += q2;
@@ -178,7 +194,8 @@ SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, c
   max[1] = most;
 }
 
-static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscReal self, const SamFields *f, Vec slip_before, SamCheck *check)
+static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscReal self, const SamFields *f,
+                                      Vec slip_before, SamCheck *check)
 {
   SamTotal      totals[4] = {{0, 0}};
   double        sums[4], max[2] = {0, 0}, *ds;
@@ -223,8 +240,9 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
   total *= grid->dx * grid->dy;
   for (PetscInt c = 0; c < 3; c++) {
     const PetscBool moment = given->kind == SAM_BALANCE_NORMAL ? c > 0 : c == 2;
-    const PetscReal arm    = moment ? grid->length + PetscMax(PetscAbsReal(grid->center[0]), PetscAbsReal(grid->center[1])) : 1;
-    const PetscReal scale  = PetscMax(total * arm, PetscAbsReal(given->load[c]));
+    const PetscReal arm =
+      moment ? grid->length + PetscMax(PetscAbsReal(grid->center[0]), PetscAbsReal(grid->center[1])) : 1;
+    const PetscReal scale = PetscMax(total * arm, PetscAbsReal(given->load[c]));
     PetscReal       error;
 
     if (!given->force[c]) continue;
@@ -234,7 +252,9 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckFields(SamElasticity C, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
+PetscErrorCode SamCheckFields(SamElasticity C, PetscReal friction, Vec separation, Vec slip_before,
+                              const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step,
+                              SamFields *fields, SamCheck *check)
 {
   SamGrid   grid;
   PetscReal self;
@@ -253,7 +273,10 @@ PetscErrorCode SamCheckFields(SamElasticity C, PetscReal friction, Vec separatio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactCheck(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscReal friction, Vec separation, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step, SamFields *fields, SamCheck *check)
+PetscErrorCode SamContactCheck(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscReal friction,
+                               Vec separation, Vec slip_before, const SamBalance *given_normal,
+                               const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
+                               SamCheck *check)
 {
   PetscFunctionBegin;
   PetscCall(SamCheckDisplacements(C, coupling, same_pressure, PETSC_FALSE, fields));

@@ -3,8 +3,8 @@
 
   Similar materials: the normal problem does not know the shear, so one pass solves the step. Dissimilar materials:
   pressure moves the surfaces tangentially and shear moves them normally; the two problems are solved in turn, each with
-  the displacement that the other's traction causes, until neither traction changes (Panagiotopoulos 1975, Ing.-Arch. 44,
-  421).
+  the displacement that the other's traction causes, until neither traction changes (Panagiotopoulos 1975, Ing.-Arch.
+  44, 421).
 */
 #include "contactimpl.h"
 #include <math.h>
@@ -14,7 +14,9 @@
 #define CHECK_EQUILIBRIUM 1e-10
 #define CHECK_CONE        1e-12
 
-/* A step is predicted when its change is across the last one's by at most this part, and at most so many times as far. */
+/*
+  A step is predicted when its change is across the last one's by at most this part, and at most so many times as far.
+*/
 #define PREDICT_ACROSS   0.3
 #define PREDICT_FARTHEST 3.0
 
@@ -34,7 +36,8 @@ PetscErrorCode SamContactCreate(SamElasticity elasticity, Vec separation, PetscR
   c->coupling_rtol   = 1e-6;
   c->coupling_max_it = 100;
   PetscCall(SamElasticityGetGrid(elasticity, &c->grid));
-  PetscCheck(friction >= 0 && isfinite(friction), c->grid->comm, SAM_ERR_USER, "-friction %g: expected a number >= 0", (double)friction);
+  PetscCheck(friction >= 0 && isfinite(friction), c->grid->comm, SAM_ERR_USER, "-friction %g: expected a number >= 0",
+             (double)friction);
   PetscCall(SamNormalCreate(elasticity, &c->normal));
   PetscCall(SamTangentialCreate(elasticity, &c->tangential));
   PetscCall(PetscObjectReference((PetscObject)separation));
@@ -49,7 +52,8 @@ PetscErrorCode SamContactCreate(SamElasticity elasticity, Vec separation, PetscR
   The fields that follow from the tractions exist from the end of a step to the beginning of the next: while the solvers
   work, their memory is the solvers'.
 */
-PetscErrorCode SamContactCheckStep(SamContact c, PetscBool same_pressure, Vec slip_before, const SamBalance *given_normal, const SamBalance *given_tangential, SamStep *step)
+PetscErrorCode SamContactCheckStep(SamContact c, PetscBool same_pressure, Vec slip_before,
+                                   const SamBalance *given_normal, const SamBalance *given_tangential, SamStep *step)
 {
   PetscFunctionBegin;
   if (c->last_step) {
@@ -58,10 +62,12 @@ PetscErrorCode SamContactCheckStep(SamContact c, PetscBool same_pressure, Vec sl
   }
   if (!c->fields.displacement_z) PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.displacement_z));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.displacement_t));
-  PetscCall(SamCheckDisplacements(c->elasticity, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->last_step, &c->fields));
+  PetscCall(SamCheckDisplacements(c->elasticity, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->last_step,
+                                  &c->fields));
   PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.gap));
   PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.slip));
-  PetscCall(SamCheckFields(c->elasticity, c->friction, c->separation, slip_before, given_normal, given_tangential, step, &c->fields, &step->check));
+  PetscCall(SamCheckFields(c->elasticity, c->friction, c->separation, slip_before, given_normal, given_tangential, step,
+                           &c->fields, &step->check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,12 +108,16 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading("Contact"));
-  PetscCall(SamOptionsEnum(NULL, "coupling", "normal-tangential coupling of dissimilar materials: full or none", coupling_words, &c->coupling, NULL));
-  PetscCall(SamOptionsReal(NULL, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE, &c->coupling_rtol, NULL));
+  PetscCall(SamOptionsEnum(NULL, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
+                           coupling_words, &c->coupling, NULL));
+  PetscCall(SamOptionsReal(NULL, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE,
+                           &c->coupling_rtol, NULL));
   PetscCall(SamOptionsInt(NULL, "coupling_max_it", "most passes", 1, &c->coupling_max_it, NULL));
   PetscCall(SamOptionsBool(NULL, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
-  PetscCall(SamOptionsBool(NULL, "warm_start", "start each step from the one before, on the finest grid only", &c->warm, NULL));
-  PetscCall(SamOptionsBool(NULL, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
+  PetscCall(
+    SamOptionsBool(NULL, "warm_start", "start each step from the one before, on the finest grid only", &c->warm, NULL));
+  PetscCall(
+    SamOptionsBool(NULL, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
   PetscCall(SamOptionsBool(NULL, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamNormalSetFromOptions(c->normal));
   PetscCall(SamTangentialSetFromOptions(c->tangential));
@@ -192,7 +202,8 @@ static double Continuation(SamContact c, const double next[6])
 
   for (PetscInt k = 0; k < 6; k++) {
     const double scale = PetscMax(fabs(next[k]), PetscMax(fabs(c->values[0][k]), fabs(c->values[1][k])));
-    const double a = scale > 0 ? (c->values[0][k] - c->values[1][k]) / scale : 0, b = scale > 0 ? (next[k] - c->values[0][k]) / scale : 0;
+    const double a     = scale > 0 ? (c->values[0][k] - c->values[1][k]) / scale : 0,
+                 b     = scale > 0 ? (next[k] - c->values[0][k]) / scale : 0;
 
     along += a * b;
     old += a * a;
@@ -208,7 +219,8 @@ static double Continuation(SamContact c, const double next[6])
   A start for the step: where the loads go on as before, the tractions are extrapolated, and the finest grid alone
   finishes the work in a few iterations. Where they turn, nested grids find the new slip zones faster.
 */
-static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamBalance *tangential, PetscBool *predicted)
+static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamBalance *tangential,
+                              PetscBool *predicted)
 {
   double next[6], alpha = 0;
 
@@ -220,7 +232,9 @@ static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamB
   if (c->steps > 1 && c->warm) alpha = Continuation(c, next);
   *predicted = alpha > 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt k = 0; k < 3; k++) c->start[k] = c->rigid[0][k] + alpha * (c->rigid[0][k] - c->rigid[1][k]);
-  if (*predicted) PetscCall(SamExtrapolate(c->grid, c->friction, alpha, c->fields.pressure, c->fields.shear, c->previous[0], c->previous[1], predicted));
+  if (*predicted)
+    PetscCall(SamExtrapolate(c->grid, c->friction, alpha, c->fields.pressure, c->fields.shear, c->previous[0],
+                             c->previous[1], predicted));
   else if (c->steps) {
     if (!c->previous[0]) PetscCall(SamGridCreateVec(c->grid, 1, &c->previous[0]));
     if (!c->previous[1]) PetscCall(SamGridCreateVec(c->grid, 2, &c->previous[1]));
@@ -234,7 +248,8 @@ static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, PetscBool same_pressure, SamStep *step)
+static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, PetscBool same_pressure,
+                                  SamStep *step)
 {
   SamNormalReason reason;
   Vec             h = c->separation, predicted = NULL;
@@ -267,10 +282,12 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
   PetscCall(SamNormalGetReason(c->normal, &reason));
   if (reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) {
     PetscCall(SamBalanceLever(c->grid, given, message, sizeof(message), &possible));
-    if (possible) PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", sizeof(message)));
+    if (possible)
+      PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", sizeof(message)));
     PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
-    PetscCall(PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamNormalReasonName(reason)));
+    PetscCall(
+      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamNormalReasonName(reason)));
     PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -289,10 +306,13 @@ static PetscErrorCode DescribeSliding(SamContact c, const SamBalance *given, cha
     char text[96];
 
     if (!given->force[k] || given->load[k] == 0) continue;
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "", SamLoadNames[SAM_BALANCE_TANGENTIAL][k], (double)given->load[k], k == 2 ? "N m" : "N", (double)(factor * given->load[k])));
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "",
+                            SamLoadNames[SAM_BALANCE_TANGENTIAL][k], (double)given->load[k], k == 2 ? "N m" : "N",
+                            (double)(factor * given->load[k])));
     PetscCall(PetscStrlcat(message, text, size));
   }
-  PetscCall(PetscStrlcat(message, c->friction == 0 ? " cannot be balanced without friction" : " cannot be balanced by |q| <= mu p", size));
+  PetscCall(PetscStrlcat(
+    message, c->friction == 0 ? " cannot be balanced without friction" : " cannot be balanced by |q| <= mu p", size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -319,7 +339,8 @@ static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, Pet
   step->tangential = *given;
   for (PetscInt k = 0; k < 3; k++)
     if (given->force[k]) step->tangential.rigid[k] = c->start[k];
-  PetscCall(SamTangentialSolve(c->tangential, c->fields.pressure, c->friction, offset, &step->tangential, guess, c->fields.shear));
+  PetscCall(SamTangentialSolve(c->tangential, c->fields.pressure, c->friction, offset, &step->tangential, guess,
+                               c->fields.shear));
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) c->start[k] = step->tangential.rigid[k]; /* of the next pass */
   PetscCall(Count(c, PETSC_TRUE, step));
@@ -328,7 +349,8 @@ static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, Pet
     PetscCall(DescribeSliding(c, given, message, sizeof(message)));
     PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
-    PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s", SamTangentialReasonName(reason)));
+    PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s",
+                            SamTangentialReasonName(reason)));
     PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -349,7 +371,8 @@ static PetscErrorCode Change(SamGrid grid, Vec now, Vec last, PetscReal *change)
 }
 
 /* Both problems, in turn when they are coupled. */
-static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential, PetscBool predicted, PetscBool same_pressure, SamStep *step)
+static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential,
+                                  PetscBool predicted, PetscBool same_pressure, SamStep *step)
 {
   PetscReal change[2] = {PETSC_INFINITY, PETSC_INFINITY};
 
@@ -363,10 +386,13 @@ static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const 
     if (!c->coupled || c->friction == 0 || step->status != SAM_STATUS_CONVERGED) break;
     PetscCall(Change(c->grid, c->fields.pressure, c->last[0], &change[0]));
     PetscCall(Change(c->grid, c->fields.shear, c->last[1], &change[1]));
-    if (c->coupling_monitor) PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass, (double)change[0], (double)change[1]));
+    if (c->coupling_monitor)
+      PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass,
+                            (double)change[0], (double)change[1]));
     if (pass > 1 && PetscMax(change[0], change[1]) <= c->coupling_rtol) break;
     if (pass >= c->coupling_max_it) {
-      PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, "the coupling of normal and tangential problem did not converge within -coupling_max_it passes"));
+      PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED,
+                     "the coupling of normal and tangential problem did not converge within -coupling_max_it passes"));
       break;
     }
   }
@@ -377,7 +403,7 @@ static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const 
 static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
 {
   const PetscInt cells = c->grid->cells, nx = c->grid->nx;
-  const double   area  = c->grid->dx * c->grid->dy;
+  const double   area      = c->grid->dx * c->grid->dy;
   SamTotal       totals[3] = {{0, 0}};
   double         sums[3];
   const double  *p, *q, *s, *before = NULL;
@@ -424,15 +450,26 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscCall(SamTangentialGetTolerances(c->tangential, &tangential_rtol, NULL));
   if (c->coupled) normal_rtol += c->coupling_rtol; /* the last shear is one pass younger than the pressure */
   if (c->print_check)
-    PetscCall(PetscPrintf(c->grid->comm, "      check: normal %.3e tangential %.3e equilibrium %.3e cone %.3e edge pressure %.3e\n", (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone, (double)check->edge));
-  if (!(check->normal <= CHECK_MARGIN * normal_rtol && check->tangential <= CHECK_MARGIN * tangential_rtol && check->equilibrium <= CHECK_EQUILIBRIUM && check->cone <= CHECK_CONE)) {
-    PetscCall(PetscSNPrintf(message, sizeof(message), "the check disagrees: normal residual %g, tangential %g, equilibrium %g, cone %g", (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone));
+    PetscCall(PetscPrintf(c->grid->comm,
+                          "      check: normal %.3e tangential %.3e equilibrium %.3e cone %.3e edge pressure %.3e\n",
+                          (double)check->normal, (double)check->tangential, (double)check->equilibrium,
+                          (double)check->cone, (double)check->edge));
+  if (!(check->normal <= CHECK_MARGIN * normal_rtol && check->tangential <= CHECK_MARGIN * tangential_rtol &&
+        check->equilibrium <= CHECK_EQUILIBRIUM && check->cone <= CHECK_CONE)) {
+    PetscCall(PetscSNPrintf(
+      message, sizeof(message), "the check disagrees: normal residual %g, tangential %g, equilibrium %g, cone %g",
+      (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone));
     PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
   if (check->edge > 0) {
-    PetscCall(PetscSNPrintf(message, sizeof(message), "the contact reached the edge of the grid (pressure there up to %.2g of the largest): the answer depends on -grid_size", (double)check->edge));
-    if (!c->allow_edge) PetscCall(Fail(step, SAM_STATUS_EDGE_CONTACT, message));
-    else if (!step->message[0]) PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
+    PetscCall(PetscSNPrintf(message, sizeof(message),
+                            "the contact reached the edge of the grid (pressure there up to %.2g of the largest): the "
+                            "answer depends on -grid_size",
+                            (double)check->edge));
+    if (!c->allow_edge)
+      PetscCall(Fail(step, SAM_STATUS_EDGE_CONTACT, message));
+    else if (!step->message[0])
+      PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

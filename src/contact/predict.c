@@ -1,12 +1,12 @@
 /*
   The tractions of the next step, extrapolated from the last two.
 
-  At the edge of the contact the pressure, and at the edge of the stick zone what the shear lacks of the bound, go to zero
-  like the square root of the distance. Edges move: extrapolating p or q cell by cell would be wrong by a part of the order
-  of one wherever an edge passes. Their squares are linear in the position of the edge, and where the extrapolated square is
-  negative the edge has passed. So p^2 is extrapolated, and for q/(mu p), which moves in the unit disc, the square of the
-  distance to the disc's edge in the direction in which it moved in the last step. On the edge, where cells slip, it goes on
-  along it.
+  At the edge of the contact the pressure, and at the edge of the stick zone what the shear lacks of the bound, go to
+  zero like the square root of the distance. Edges move: extrapolating p or q cell by cell would be wrong by a part of
+  the order of one wherever an edge passes. Their squares are linear in the position of the edge, and where the
+  extrapolated square is negative the edge has passed. So p^2 is extrapolated, and for q/(mu p), which moves in the unit
+  disc, the square of the distance to the disc's edge in the direction in which it moved in the last step. On the edge,
+  where cells slip, it goes on along it.
 */
 #include "contactimpl.h"
 #include <petsam/private/balanceimpl.h>
@@ -23,7 +23,8 @@ typedef struct {
   double *next[3];
 } Tractions;
 
-static PetscErrorCode GetTractions(Tractions *t, SamGrid grid, PetscReal friction, Vec pressure, Vec shear, Vec pressure_before, Vec shear_before)
+static PetscErrorCode GetTractions(Tractions *t, SamGrid grid, PetscReal friction, Vec pressure, Vec shear,
+                                   Vec pressure_before, Vec shear_before)
 {
   PetscFunctionBegin;
   t->grid     = grid;
@@ -52,18 +53,25 @@ static PetscErrorCode RestoreTractions(Tractions *t, Vec pressure, Vec shear, Ve
 /* The next p and q of n cells from k on, which are the columns from `first` on. */
 SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, ptrdiff_t k, PetscInt first, PetscInt n)
 {
-  const double *restrict p0 = t->before[0] + k, *restrict qx0 = t->before[1] + k, *restrict qy0 = t->before[2] + k, *restrict p1 = t->now[0] + k, *restrict qx1 = t->now[1] + k, *restrict qy1 = t->now[2] + k;
+  const double *restrict p0 = t->before[0] + k, *restrict qx0 = t->before[1] + k, *restrict qy0 = t->before[2] + k,
+                         *restrict p1 = t->now[0] + k, *restrict qx1 = t->now[1] + k, *restrict qy1 = t->now[2] + k;
   double *restrict p = t->next[0] + first, *restrict qx = t->next[1] + first, *restrict qy = t->next[2] + first;
   const double friction = t->friction;
 
 #pragma omp simd
   for (PetscInt i = 0; i < n; i++) {
-    const double square = (1 + alpha) * p1[i] * p1[i] - alpha * p0[i] * p0[i], root = sqrt(square > 0 ? square : 0), pressure = p1[i] == p0[i] ? p1[i] : root;
-    const double known = friction * (p0[i] < p1[i] ? p0[i] : p1[i]) > 0 ? 1 : 0, bound0 = friction * p0[i] + (1 - known), bound1 = friction * p1[i] + (1 - known);
-    const double rx = qx1[i] / bound1, ry = qy1[i] / bound1, x = rx - qx0[i] / bound0, y = ry - qy0[i] / bound0, way2 = x * x + y * y, n2 = rx * rx + ry * ry;
-    const double moves = way2 > 0 ? 1 : 0, inside = n2 < ON_CIRCLE * ON_CIRCLE ? 1 : 0, way = sqrt(way2), along = (rx * x + ry * y) / (way + (1 - moves)), rest = along * along + 1 - n2;
-    const double left = sqrt(rest > 0 ? rest : 0) - along, last = left + way, left2 = (1 + alpha) * left * left - alpha * last * last, go = left - sqrt(left2 > 0 ? left2 : 0);
-    const double part = inside > 0 ? moves * go / (way + (1 - moves)) : alpha, vx = rx + part * x, vy = ry + part * y, v2 = vx * vx + vy * vy;
+    const double square = (1 + alpha) * p1[i] * p1[i] - alpha * p0[i] * p0[i], root = sqrt(square > 0 ? square : 0),
+                 pressure = p1[i] == p0[i] ? p1[i] : root;
+    const double known    = friction * (p0[i] < p1[i] ? p0[i] : p1[i]) > 0 ? 1 : 0,
+                 bound0 = friction * p0[i] + (1 - known), bound1 = friction * p1[i] + (1 - known);
+    const double rx = qx1[i] / bound1, ry = qy1[i] / bound1, x = rx - qx0[i] / bound0, y = ry - qy0[i] / bound0,
+                 way2 = x * x + y * y, n2 = rx * rx + ry * ry;
+    const double moves = way2 > 0 ? 1 : 0, inside = n2 < ON_CIRCLE * ON_CIRCLE ? 1 : 0, way = sqrt(way2),
+                 along = (rx * x + ry * y) / (way + (1 - moves)), rest = along * along + 1 - n2;
+    const double left = sqrt(rest > 0 ? rest : 0) - along, last = left + way,
+                 left2 = (1 + alpha) * left * left - alpha * last * last, go = left - sqrt(left2 > 0 ? left2 : 0);
+    const double part = inside > 0 ? moves * go / (way + (1 - moves)) : alpha, vx = rx + part * x, vy = ry + part * y,
+                 v2    = vx * vx + vy * vy;
     const double scale = friction * pressure * (inside > 0 ? 1 : 1 / sqrt(v2 > 0 ? v2 : 1));
 
     p[i]  = pressure;
@@ -86,7 +94,8 @@ static void ExtrapolateRow(const Tractions *t, double alpha, PetscInt j, PetscIn
   ExtrapolateCells(t, alpha, k + *first, *first, *last - *first);
 }
 
-PetscErrorCode SamExtrapolate(SamGrid grid, PetscReal friction, PetscReal alpha, Vec pressure, Vec shear, Vec pressure_before, Vec shear_before, PetscBool *found)
+PetscErrorCode SamExtrapolate(SamGrid grid, PetscReal friction, PetscReal alpha, Vec pressure, Vec shear,
+                              Vec pressure_before, Vec shear_before, PetscBool *found)
 {
   double    most = 0;
   Tractions t;

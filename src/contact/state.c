@@ -1,7 +1,8 @@
 /* What a contact carries from step to step: taking it out, putting it back, and going back by a step. */
 #include "contactimpl.h"
 
-PetscErrorCode SamContactStepBack(SamContact c, const SamBalance *given, const SamBalance *found, PetscBool same_pressure)
+PetscErrorCode SamContactStepBack(SamContact c, const SamBalance *given, const SamBalance *found,
+                                  PetscBool same_pressure)
 {
   SamStep step;
 
@@ -48,7 +49,8 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
 static PetscErrorCode Take(Vec from, Vec *to)
 {
   PetscFunctionBegin;
-  if (!from) PetscCall(VecDestroy(to));
+  if (!from)
+    PetscCall(VecDestroy(to));
   else {
     if (!*to) PetscCall(VecDuplicate(from, to));
     PetscCall(VecCopy(from, *to));
@@ -59,7 +61,9 @@ static PetscErrorCode Take(Vec from, Vec *to)
 PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
 {
   PetscFunctionBegin;
-  PetscCheck(s->steps > 0 && s->pressure && s->shear && s->slip && s->displacement_z && (s->steps == 1 || (s->previous_pressure && s->previous_shear)), c->grid->comm, PETSC_ERR_ARG_INCOMP, "The state is not that of a contact after a step");
+  PetscCheck(s->steps > 0 && s->pressure && s->shear && s->slip && s->displacement_z &&
+               (s->steps == 1 || (s->previous_pressure && s->previous_shear)),
+             c->grid->comm, PETSC_ERR_ARG_INCOMP, "The state is not that of a contact after a step");
   c->steps        = s->steps;
   c->normal_given = s->given;
   c->normal_found = s->found;

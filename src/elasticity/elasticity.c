@@ -165,7 +165,8 @@ PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity C, PetscReal *normal,
 {
   PetscFunctionBegin;
   if (normal) *normal = SamInfluenceCoefficient(C, SAM_ZZ, 0, 0);
-  if (tangential) *tangential = PetscMax(SamInfluenceCoefficient(C, SAM_XX, 0, 0), SamInfluenceCoefficient(C, SAM_YY, 0, 0));
+  if (tangential)
+    *tangential = PetscMax(SamInfluenceCoefficient(C, SAM_XX, 0, 0), SamInfluenceCoefficient(C, SAM_YY, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -216,9 +217,7 @@ static PetscErrorCode NormalMatrix(SamElasticity C, SamKernelMatrix *matrix)
 static PetscErrorCode TangentialMatrix(SamElasticity C, SamKernelMatrix *matrix)
 {
   PetscFunctionBegin;
-  *matrix = (SamKernelMatrix){
-    .n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}
-  };
+  *matrix = (SamKernelMatrix){.n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}};
   PetscCall(SamElasticityGetKernel(C, SAM_XX, &matrix->kernel[0][0]));
   PetscCall(SamElasticityGetKernel(C, SAM_XY, &matrix->kernel[0][1]));
   PetscCall(SamElasticityGetKernel(C, SAM_YY, &matrix->kernel[1][1]));
@@ -278,9 +277,7 @@ PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity C, double factor
 
 PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity C, Vec p, Vec u_t)
 {
-  SamKernelMatrix matrix = {
-    .n_in = 1, .n_out = 2, .scale = {{1}, {1}}
-  };
+  SamKernelMatrix matrix = {.n_in = 1, .n_out = 2, .scale = {{1}, {1}}};
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetKernel(C, SAM_XZ, &matrix.kernel[0][0]));
@@ -293,9 +290,7 @@ PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity C, Vec p, Vec 
 
 PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity C, Vec q, Vec u_z)
 {
-  SamKernelMatrix matrix = {
-    .n_in = 2, .n_out = 1, .scale = {{-1, -1}}
-  };
+  SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{-1, -1}}};
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetKernel(C, SAM_XZ, &matrix.kernel[0][0]));

@@ -1,6 +1,6 @@
 /*
-  The operator on a part of the grid: where tractions act only within a rectangle and only their displacements there count,
-  the transforms need no more than its size.
+  The operator on a part of the grid: where tractions act only within a rectangle and only their displacements there
+  count, the transforms need no more than its size.
 */
 #include <petsam/private/elasticityimpl.h>
 
@@ -15,7 +15,8 @@ PetscErrorCode SamElasticitySetPart(SamElasticity C, const PetscInt first[2], co
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetPartPlace(C, old_first, old_n));
-  if (n[0] == old_n[0] && n[1] == old_n[1] && (!n[0] || (first[0] == old_first[0] && first[1] == old_first[1]))) PetscFunctionReturn(PETSC_SUCCESS);
+  if (n[0] == old_n[0] && n[1] == old_n[1] && (!n[0] || (first[0] == old_first[0] && first[1] == old_first[1])))
+    PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamWindowDestroy(&C->window));
   PetscCall(SamElasticityDestroy(&C->part));
   if (!n[0]) PetscFunctionReturn(PETSC_SUCCESS);
@@ -29,10 +30,12 @@ PetscErrorCode SamElasticitySetPart(SamElasticity C, const PetscInt first[2], co
 static PetscBool Suits(SamElasticity C, const PetscInt first[2], const PetscInt n[2])
 {
   if (!C->window || !SamWindowCovers(C->window, first, n)) return PETSC_FALSE;
-  return SLACK * (double)n[0] * (double)n[1] >= (double)C->part->grid->nx * (double)C->part->grid->ny ? PETSC_TRUE : PETSC_FALSE;
+  return SLACK * (double)n[0] * (double)n[1] >= (double)C->part->grid->nx * (double)C->part->grid->ny ? PETSC_TRUE
+                                                                                                      : PETSC_FALSE;
 }
 
-PetscErrorCode SamElasticityChoosePart(SamElasticity C, const PetscInt first[2], const PetscInt n[2], PetscBool keep, SamWindow *window, SamElasticity *part)
+PetscErrorCode SamElasticityChoosePart(SamElasticity C, const PetscInt first[2], const PetscInt n[2], PetscBool keep,
+                                       SamWindow *window, SamElasticity *part)
 {
   const PetscInt all[2] = {C->grid->nx, C->grid->ny};
   PetscInt       from[2], size[2];

@@ -1,11 +1,11 @@
 /*
   The spectral preconditioner.
 
-  On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair.normal, so
-  that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B = pair.shear_xx,
-  nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the grid made
-  periodic, which costs a quarter of a padded transform and conditions as well. The symbol is computed as it is used, all in
-  single precision: it is an approximation by itself.
+  On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair.normal,
+  so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
+  pair.shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
+  grid made periodic, which costs a quarter of a padded transform and conditions as well. The symbol is computed as it
+  is used, all in single precision: it is an approximation by itself.
 */
 #include <petsam/private/elasticityimpl.h>
 #include <math.h>
@@ -35,7 +35,8 @@ static PetscErrorCode GetSymbol(SamElasticity C, PetscBool tangential, double fa
 }
 
 /* Entries first ... last - 1 of a column: ky = step (m - origin). */
-SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, PetscInt first, PetscInt last, PetscInt origin, float (*restrict column)[2])
+SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, PetscInt first, PetscInt last, PetscInt origin,
+                                            float (*restrict column)[2])
 {
   const float gain = (float)s->gain, mean = (float)s->mean, step = (float)s->step[1];
 
@@ -49,14 +50,18 @@ SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, PetscInt 
 }
 
 /* `sign`: 1, or 0 at a Nyquist frequency, where the sign of the cross term is not defined, and none is right. */
-SAM_VECTORIZED static void FilterPartTangential(const Symbol *s, float kx, float sign, PetscInt first, PetscInt last, PetscInt origin, float (*restrict x)[2], float (*restrict y)[2])
+SAM_VECTORIZED static void FilterPartTangential(const Symbol *s, float kx, float sign, PetscInt first, PetscInt last,
+                                                PetscInt origin, float (*restrict x)[2], float (*restrict y)[2])
 {
-  const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->extra, least = mean * mean, step = (float)s->step[1];
+  const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->extra, least = mean * mean,
+              step = (float)s->step[1];
 
 #pragma omp simd
   for (PetscInt m = first; m < last; m++) {
-    const float ky = step * (float)(m - origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least, g = gain * sqrtf(some);
-    const float part = g * extra / some, cross = sign * part * kx * ky, gx = g + part * kx * kx, gy = g + part * ky * ky;
+    const float ky = step * (float)(m - origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least,
+                g    = gain * sqrtf(some);
+    const float part = g * extra / some, cross = sign * part * kx * ky, gx = g + part * kx * kx,
+                gy = g + part * ky * ky;
     const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
 
     x[m][0] = gx * x0 + cross * y0;
@@ -72,8 +77,8 @@ static void FilterNormal(const SamFourierBlock *block, const void *context)
   const PetscInt hy = block->hy, half = hy / 2 + 1;
 
   for (PetscInt b = 0; b < block->columns; b++) {
-    float (*column)[2] = block->single[0] + (ptrdiff_t)b * block->stride;
-    const float kx     = (float)(s->step[0] * (double)(block->first + b));
+    float(*column)[2] = block->single[0] + (ptrdiff_t)b * block->stride;
+    const float kx    = (float)(s->step[0] * (double)(block->first + b));
 
     FilterPartNormal(s, kx, 0, half, 0, column);
     FilterPartNormal(s, kx, half, hy, hy, column);
@@ -86,8 +91,10 @@ static void FilterTangential(const SamFourierBlock *block, const void *context)
   const PetscInt hy = block->hy, half = (hy + 1) / 2;
 
   for (PetscInt b = 0; b < block->columns; b++) {
-    float (*x)[2] = block->single[0] + (ptrdiff_t)b * block->stride, (*y)[2] = block->single[1] + (ptrdiff_t)b * block->stride;
-    const float kx = (float)(s->step[0] * (double)(block->first + b)), sign = 2 * (block->first + b) == block->hx ? 0 : 1;
+    float(*x)[2]     = block->single[0] + (ptrdiff_t)b * block->stride,
+    (*y)[2]          = block->single[1] + (ptrdiff_t)b * block->stride;
+    const float kx   = (float)(s->step[0] * (double)(block->first + b)),
+                sign = 2 * (block->first + b) == block->hx ? 0 : 1;
 
     FilterPartTangential(s, kx, sign, 0, half, 0, x, y);
     if (hy % 2 == 0) FilterPartTangential(s, kx, 0, half, half + 1, 0, x, y);
@@ -107,7 +114,8 @@ PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity C, double fac
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity C, double factor, const float residual[], float q[])
+PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity C, double factor, const float residual[],
+                                                         float q[])
 {
   const float *const in[2]  = {residual, residual + C->grid->cells};
   float *const       out[2] = {q, q + C->grid->cells};
@@ -141,8 +149,10 @@ static PetscErrorCode Precondition(SamElasticity C, PetscInt components, Vec in,
   PetscCall(VecGetArrayRead(in, &x));
   for (PetscInt k = 0; k < n; k++) work[k] = (float)(x[k] / size);
   PetscCall(VecRestoreArrayRead(in, &x));
-  if (components == 1) PetscCall(SamElasticityPreconditionNormalSingle(C, self[0], work, work));
-  else PetscCall(SamElasticityPreconditionTangentialSingle(C, self[1], work, work));
+  if (components == 1)
+    PetscCall(SamElasticityPreconditionNormalSingle(C, self[0], work, work));
+  else
+    PetscCall(SamElasticityPreconditionTangentialSingle(C, self[1], work, work));
   PetscCall(VecGetArrayWrite(out, &y));
   for (PetscInt k = 0; k < n; k++) y[k] = size / self[components - 1] * (double)work[k];
   PetscCall(VecRestoreArrayWrite(out, &y));

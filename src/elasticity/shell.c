@@ -27,7 +27,8 @@ PetscErrorCode SamElasticityCreateMat(SamElasticity C, PetscInt components, Mat 
   void (*product)(void) = components == 2 ? (void (*)(void))MatMult_Tangential : (void (*)(void))MatMult_Normal;
 
   PetscFunctionBegin;
-  PetscCheck(components == 1 || components == 2, C->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "One component for the normal part, two for the tangential one");
+  PetscCheck(components == 1 || components == 2, C->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "One component for the normal part, two for the tangential one");
   PetscCall(MatCreateShell(C->grid->comm, m, m, M, M, C, mat));
   PetscCall(MatShellSetOperation(*mat, MATOP_MULT, product));
   PetscCall(MatShellSetOperation(*mat, MATOP_MULT_TRANSPOSE, product));
@@ -58,7 +59,8 @@ static PetscErrorCode PCApply_Tangential(PC pc, Vec x, Vec y)
 PetscErrorCode SamElasticityCreatePC(SamElasticity C, PetscInt components, PC *pc)
 {
   PetscFunctionBegin;
-  PetscCheck(components == 1 || components == 2, C->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "One component for the normal part, two for the tangential one");
+  PetscCheck(components == 1 || components == 2, C->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "One component for the normal part, two for the tangential one");
   PetscCall(PCCreate(C->grid->comm, pc));
   PetscCall(PCSetType(*pc, PCSHELL));
   PetscCall(PCShellSetContext(*pc, C));

@@ -3,21 +3,22 @@
 
   A filter in the frequency domain needs the two-dimensional transform of a field that is zero beyond its ny rows and nx
   columns, and of the result only those rows and columns. So:
-    1. each of the ny rows is padded with zeros in a buffer and transformed (real to half complex), by a complex transform
-       of half the length, which FFTW plans in a fraction of the time that it takes to plan a real one, and does faster;
-    2. ranks of one node see all rows, in shared memory (workspace.c); elsewhere rows are exchanged for columns by FFTW's
-       distributed transpose;
+    1. each of the ny rows is padded with zeros in a buffer and transformed (real to half complex), by a complex
+  transform of half the length, which FFTW plans in a fraction of the time that it takes to plan a real one, and does
+  faster;
+    2. ranks of one node see all rows, in shared memory (workspace.c); elsewhere rows are exchanged for columns by
+  FFTW's distributed transpose;
     3. a few columns at a time are gathered into a buffer that stays in cache. There the padding along y is done by
        splitting the 2 hy frequencies: the even ones are the transform of length hy of the column, the odd ones that of
        the column times exp(-i pi j/hy). No zero is ever transformed. The filter acts, the way back is the same;
     4. as 2, columns becoming rows, 5. rows are transformed back and cut.
   In periodic mode rows are padded to hx instead of 2 hx only, and columns have the even frequencies only.
 
-  Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT), which
-  is what one rank has from the start, and shared memory in pieces, so that one code serves any number of ranks.
+  Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT),
+  which is what one rank has from the start, and shared memory in pieces, so that one code serves any number of ranks.
 
-  The steps stand in transform.h, on the transforms of single lines in line.h, which are compiled for double and for single
-  precision. Here is what both share.
+  The steps stand in transform.h, on the transforms of single lines in line.h, which are compiled for double and for
+  single precision. Here is what both share.
 */
 #include "fourierimpl.h"
 
@@ -34,9 +35,9 @@ static PetscBool IsSmooth(ptrdiff_t n)
 }
 
 /*
-  Cost of a length beyond its size. Those of the form 2^a and 5 2^a are fast in FFTW's estimated plans, 3 2^a is somewhat
-  slower, all others take about twice as long. The numbers are roots of the times an element of c2c transforms in both
-  precisions, since two dimensions count.
+  Cost of a length beyond its size. Those of the form 2^a and 5 2^a are fast in FFTW's estimated plans, 3 2^a is
+  somewhat slower, all others take about twice as long. The numbers are roots of the times an element of c2c transforms
+  in both precisions, since two dimensions count.
 */
 static double Weight(ptrdiff_t m)
 {
@@ -81,39 +82,44 @@ void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2])
 /* Which columns are whose, and how many reals FFTW wants for a slab. */
 static PetscErrorCode DivideColumns(SamFourier F, SamFourierMode mode, ptrdiff_t *reals)
 {
-  SamColumns     *c       = &F->columns[mode];
-  ptrdiff_t       size[2];
-  ptrdiff_t       rows, row_start;
+  SamColumns *c = &F->columns[mode];
+  ptrdiff_t   size[2];
+  ptrdiff_t   rows, row_start;
 
   PetscFunctionBegin;
-  c->n   = (mode == SAM_FOURIER_PADDED ? 2 * F->hx : F->hx) / 2 + 1;
+  c->n    = (mode == SAM_FOURIER_PADDED ? 2 * F->hx : F->hx) / 2 + 1;
   size[0] = F->grid->ny;
   size[1] = c->n;
-  *reals = fftw_mpi_local_size_many_transposed(2, size, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm, &rows, &row_start, &c->count, &c->start);
-  PetscCheck(rows == F->grid->rows, PETSC_COMM_SELF, PETSC_ERR_PLIB, "FFTW gives this rank %td rows, the grid %" PetscInt_FMT, rows, F->grid->rows);
+  *reals  = fftw_mpi_local_size_many_transposed(2, size, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK,
+                                                F->grid->comm, &rows, &row_start, &c->count, &c->start);
+  PetscCheck(rows == F->grid->rows, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+             "FFTW gives this rank %td rows, the grid %" PetscInt_FMT, rows, F->grid->rows);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns, ptrdiff_t *column_start)
+ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns,
+                                   ptrdiff_t *column_start)
 {
   const ptrdiff_t size[2] = {F->hy + 1, F->hx + 1};
 
-  return fftw_mpi_local_size_many_transposed(2, size, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm, rows, row_start, columns, column_start);
+  return fftw_mpi_local_size_many_transposed(2, size, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, F->grid->comm,
+                                             rows, row_start, columns, column_start);
 }
 
 PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
 {
-  SamFourier     F;
-  PetscInt       effort  = 0;
-  ptrdiff_t      periodic, padded, quadrant, rows, row_start, columns, column_start;
+  SamFourier         F;
+  PetscInt           effort = 0;
+  ptrdiff_t          periodic, padded, quadrant, rows, row_start, columns, column_start;
   unsigned long long bytes;
-  const unsigned flags[] = {FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
+  const unsigned     flags[] = {FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(PetscNew(&F));
   *fourier = F;
-  PetscCall(SamOptionsEnum(NULL, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
+  PetscCall(
+    SamOptionsEnum(NULL, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
   F->effort = flags[effort];

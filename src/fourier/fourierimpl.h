@@ -16,7 +16,7 @@ typedef struct {
   typedef struct { \
     ptrdiff_t n, part, shift; /* length; that of a part; parts are 2^shift */ \
     Plan      up, down; \
-    Real (*root)[2];          /* exp(-2 pi i q k/n), k < part, for q = 1, 2, 3, of four parts */ \
+    Real (*root)[2]; /* exp(-2 pi i q k/n), k < part, for q = 1, 2, 3, of four parts */ \
   } Name
 
 SAM_LINE(SamLineDouble, double, fftw_plan);
@@ -26,16 +26,17 @@ SAM_LINE(SamLineSingle, float, fftwf_plan);
 #define SAM_TRANSFORM(Name, Real, Plan, Line) \
   typedef struct { \
     PetscInt fields, version; /* for which buffers and transposes were made, and slabs of the latter */ \
-    Plan     forward[2][SAM_FOURIER_FIELDS], backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
-    Line     rows[2], column; /* one row as half as many complex numbers, by mode; one column of hy */ \
-    Real (*turn[2])[2];      /* i exp(i pi k/n), k <= n, half a row's length, by mode */ \
-    Real (*row)[2];          /* one row, padded: two reals a number */ \
-    Real (*line)[2];         /* its transform, and an entry more */ \
-    Real (*mirror)[2];       /* the same from its end to its beginning */ \
-    Real (*twiddle)[2];      /* exp(-i pi j/hy), j < ny, at the places of a column's entries */ \
-    Real (*staging)[2];      /* a block of columns as gathered */ \
-    Real (*twisted)[2];      /* one column times the twiddles */ \
-    Real (*buffer)[2];       /* a block of columns, both phases, all fields */ \
+    Plan     forward[2][SAM_FOURIER_FIELDS], \
+      backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
+    Line rows[2], column;              /* one row as half as many complex numbers, by mode; one column of hy */ \
+    Real (*turn[2])[2];                /* i exp(i pi k/n), k <= n, half a row's length, by mode */ \
+    Real (*row)[2];                    /* one row, padded: two reals a number */ \
+    Real (*line)[2];                   /* its transform, and an entry more */ \
+    Real (*mirror)[2];                 /* the same from its end to its beginning */ \
+    Real (*twiddle)[2];                /* exp(-i pi j/hy), j < ny, at the places of a column's entries */ \
+    Real (*staging)[2];                /* a block of columns as gathered */ \
+    Real (*twisted)[2];                /* one column times the twiddles */ \
+    Real (*buffer)[2];                 /* a block of columns, both phases, all fields */ \
   } Name
 
 SAM_TRANSFORM(SamTransformDouble, double, fftw_plan, SamLineDouble);
@@ -55,9 +56,9 @@ typedef struct {
   PetscMPIInt ranks, rank;
   PetscInt    references;
   PetscBool   shared;
-  PetscInt    version;    /* of the slabs' addresses */
+  PetscInt    version; /* of the slabs' addresses */
   SamSlab     slab[SAM_FOURIER_FIELDS + 1];
-} *SamWorkspace;
+} * SamWorkspace;
 
 /* SamWorkspaceGet - a reference to that of a communicator. Release gives it back. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, SamWorkspace *workspace);
@@ -76,14 +77,14 @@ static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
 
 struct _n_SamFourier {
   SamGrid            grid;
-  unsigned           effort;     /* FFTW's planning flag */
+  unsigned           effort; /* FFTW's planning flag */
   ptrdiff_t          hx, hy;
   PetscInt           stride;     /* between columns in the buffers */
   SamColumns         columns[2]; /* by mode */
   SamTransformDouble in_double;
   SamTransformSingle in_single;
-  SamWorkspace       work;       /* half spectra of the fields' rows and columns, or a kernel's on its way */
-  size_t             bytes;      /* of a slab of them on any rank, in doubles */
+  SamWorkspace       work;  /* half spectra of the fields' rows and columns, or a kernel's on its way */
+  size_t             bytes; /* of a slab of them on any rank, in doubles */
 };
 
 /* With transposes field k has its rows in slab k + 1 and its columns in slab k, else both in slab k. */
@@ -93,9 +94,9 @@ static inline void *SamFourierRows(SamFourier F, PetscInt field)
 }
 
 /*
-  SamPieces - a matrix in slabs as its columns see it: pieces of some rows each, one above the other. After a transpose, or on
-  one rank, there is one piece with this rank's columns; in shared memory one of every rank with all columns, of which
-  this rank's begin at `first`.
+  SamPieces - a matrix in slabs as its columns see it: pieces of some rows each, one above the other. After a transpose,
+  or on one rank, there is one piece with this rank's columns; in shared memory one of every rank with all columns, of
+  which this rank's begin at `first`.
 */
 typedef struct {
   PetscMPIInt count;
@@ -104,14 +105,23 @@ typedef struct {
   void      **data, *single;     /* of each piece; of the only one */
 } SamPieces;
 
-/* The columns start ... start + count - 1, this rank's, of n, of a matrix with so many rows that lies in a field's slabs. */
-static inline SamPieces SamFourierGetPieces(SamFourier F, PetscInt field, ptrdiff_t rows, ptrdiff_t n, ptrdiff_t start, ptrdiff_t count)
+/*
+  The columns start ... start + count - 1, this rank's, of n, of a matrix with so many rows that lies in a field's
+  slabs.
+*/
+static inline SamPieces SamFourierGetPieces(SamFourier F, PetscInt field, ptrdiff_t rows, ptrdiff_t n, ptrdiff_t start,
+                                            ptrdiff_t count)
 {
   const SamWorkspace w    = F->work;
   const SamSlab     *slab = &w->slab[field];
 
   if (!w->shared) return (SamPieces){.count = 1, .rows = rows, .block = rows, .row_length = count, .single = slab->own};
-  return (SamPieces){.count = w->ranks, .rows = rows, .block = (rows + w->ranks - 1) / w->ranks, .row_length = n, .first = start, .data = slab->of};
+  return (SamPieces){.count      = w->ranks,
+                     .rows       = rows,
+                     .block      = (rows + w->ranks - 1) / w->ranks,
+                     .row_length = n,
+                     .first      = start,
+                     .data       = slab->of};
 }
 /* Piece r: its rows, and its first element of this rank's columns. */
 static inline ptrdiff_t SamPieceRows(const SamPieces *p, PetscMPIInt r)
@@ -124,9 +134,12 @@ static inline void *SamPieceData(const SamPieces *p, PetscMPIInt r, size_t eleme
 }
 
 /* This rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns how many reals FFTW wants for them. */
-PETSC_INTERN ptrdiff_t SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start, ptrdiff_t *columns, ptrdiff_t *column_start);
+PETSC_INTERN ptrdiff_t      SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start,
+                                                     ptrdiff_t *columns, ptrdiff_t *column_start);
 PETSC_INTERN PetscErrorCode SamFourierCheckPlan(const void *plan);
-/* SamRootOfUnity - exp(i pi k/n), 0 <= k <= n, to the last digits: from an angle of at most pi/4, which rounds least. */
+/*
+  SamRootOfUnity - exp(i pi k/n), 0 <= k <= n, to the last digits: from an angle of at most pi/4, which rounds least.
+*/
 PETSC_INTERN void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2]);
 
 PETSC_INTERN void SamTransformDestroyDouble(SamFourier fourier);

@@ -3,9 +3,9 @@
 
   A kernel that is even or odd in x and in y has a real (or, odd in just one, imaginary) transform with the same
   symmetries. Its quadrant comes from cosine transforms (even) and sine transforms (odd) of the quadrant of its values:
-  along x for rows of lags, then, rows exchanged for columns, along y. FFTW's own (REDFT00, RODFT00) take twice as long as
-  a transform of the mirrored line, of which the real or the imaginary part is kept. A column of hy + 1 values is kept
-  with its even frequencies first and its odd ones after them, as the filter meets them.
+  along x for rows of lags, then, rows exchanged for columns, along y. FFTW's own (REDFT00, RODFT00) take twice as long
+  as a transform of the mirrored line, of which the real or the imaginary part is kept. A column of hy + 1 values is
+  kept with its even frequencies first and its odd ones after them, as the filter meets them.
 */
 #define Real   double
 #define FFT(x) fftw_##x
@@ -21,16 +21,19 @@ struct _n_SamKernel {
 /* Columns that are gathered together: two cache lines of each row are read at once. */
 #define BLOCK ((ptrdiff_t)(128 / sizeof(double)))
 
-/* The transform of lines given by their values at 0 ... n and a parity: that of half their length, which is planned in a fraction of the time of a real one. */
+/*
+  The transform of lines given by their values at 0 ... n and a parity: that of half their length, which is planned in
+  a fraction of the time of a real one.
+*/
 typedef struct {
   SamLineDouble half;
   PetscBool     odd;
-  double       *line;    /* 2 n values, of which the caller sets n + 1 */
-  double       *values;  /* n + 1 of the transform */
-  Complex      *pairs;   /* of the line's values, at the places of entries to be transformed */
-  Complex      *z;       /* transform of the even values and i times the odd ones, n + 1 */
-  Complex      *mirror;  /* the same from its end to its beginning */
-  Complex      *turn;    /* i exp(i pi k/n) */
+  double       *line;   /* 2 n values, of which the caller sets n + 1 */
+  double       *values; /* n + 1 of the transform */
+  Complex      *pairs;  /* of the line's values, at the places of entries to be transformed */
+  Complex      *z;      /* transform of the even values and i times the odd ones, n + 1 */
+  Complex      *mirror; /* the same from its end to its beginning */
+  Complex      *turn;   /* i exp(i pi k/n) */
 } Mirrored;
 
 static PetscErrorCode MirroredCreate(ptrdiff_t n, PetscBool odd, Mirrored *m)
@@ -59,13 +62,17 @@ static void MirroredDestroy(Mirrored *m)
 }
 
 /* The real part of a line's transform, all there is when it is even, or the imaginary part. */
-SAM_VECTORIZED static void RealPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, double *restrict to)
+SAM_VECTORIZED static void RealPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
+                                    const Complex *restrict m, double *restrict to)
 {
-  for (ptrdiff_t k = 0; k <= n; k++) to[k] = 0.5 * (z[k][0] + m[k][0] + turn[k][0] * (z[k][0] - m[k][0]) + turn[k][1] * (z[k][1] + m[k][1]));
+  for (ptrdiff_t k = 0; k <= n; k++)
+    to[k] = 0.5 * (z[k][0] + m[k][0] + turn[k][0] * (z[k][0] - m[k][0]) + turn[k][1] * (z[k][1] + m[k][1]));
 }
-SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, double *restrict to)
+SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
+                                         const Complex *restrict m, double *restrict to)
 {
-  for (ptrdiff_t k = 0; k <= n; k++) to[k] = 0.5 * (z[k][1] - m[k][1] + turn[k][0] * (z[k][1] + m[k][1]) - turn[k][1] * (z[k][0] - m[k][0]));
+  for (ptrdiff_t k = 0; k <= n; k++)
+    to[k] = 0.5 * (z[k][1] - m[k][1] + turn[k][0] * (z[k][1] + m[k][1]) - turn[k][1] * (z[k][0] - m[k][0]));
 }
 
 /* The transform of an even line, or the imaginary part of an odd one's: n + 1 values. */
@@ -80,13 +87,16 @@ static const double *MirroredTransform(Mirrored *m)
   LineForward(&m->half, m->pairs, m->z);
   (void)memcpy(m->z[n], m->z[0], sizeof(Complex));
   Mirror(n, (const Complex *)m->z, m->mirror);
-  if (m->odd) ImaginaryPart(n, (const Complex *)m->turn, (const Complex *)m->z, (const Complex *)m->mirror, m->values);
-  else RealPart(n, (const Complex *)m->turn, (const Complex *)m->z, (const Complex *)m->mirror, m->values);
+  if (m->odd)
+    ImaginaryPart(n, (const Complex *)m->turn, (const Complex *)m->z, (const Complex *)m->mirror, m->values);
+  else
+    RealPart(n, (const Complex *)m->turn, (const Complex *)m->z, (const Complex *)m->mirror, m->values);
   return m->values;
 }
 
 /* Rows of lags, transformed along x, into rows (local rows of hy + 1, hx + 1). */
-static PetscErrorCode TransformRows(SamFourier F, PetscBool odd, SamKernelRow row, const void *context, ptrdiff_t start, ptrdiff_t count, double rows[])
+static PetscErrorCode TransformRows(SamFourier F, PetscBool odd, SamKernelRow row, const void *context, ptrdiff_t start,
+                                    ptrdiff_t count, double rows[])
 {
   const ptrdiff_t n = F->hx + 1;
   Mirrored        m;
@@ -110,7 +120,7 @@ static void Gather(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdif
   ptrdiff_t row = 0;
 
   for (PetscMPIInt r = 0; r < pieces->count; r++) {
-    const ptrdiff_t        rows = SamPieceRows(pieces, r);
+    const ptrdiff_t rows        = SamPieceRows(pieces, r);
     const double *restrict data = (const double *)SamPieceData(pieces, r, sizeof(*data)) + k;
 
     for (ptrdiff_t j = 0; j < rows; j++, row++)
@@ -121,11 +131,12 @@ static void Gather(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdif
 /* Columns transformed along y, scaled and sorted into the kernel. */
 static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const SamPieces *pieces)
 {
-  const ptrdiff_t n     = F->hy + 1, even = F->hy / 2 + 1;
-  const double    sign  = (kernel->odd_x || kernel->odd_y) ? -1 : 1; /* odd in both: i^2; in one: Multiply's -i makes it 1 */
-  const double    scale = sign / (4.0 * (double)F->hx * (double)F->hy);
-  double         *buffer;
-  Mirrored        m;
+  const ptrdiff_t n = F->hy + 1, even = F->hy / 2 + 1;
+  const double    sign =
+    (kernel->odd_x || kernel->odd_y) ? -1 : 1; /* odd in both: i^2; in one: Multiply's -i makes it 1 */
+  const double scale = sign / (4.0 * (double)F->hx * (double)F->hy);
+  double      *buffer;
+  Mirrored     m;
 
   PetscFunctionBegin;
   PetscCall(MirroredCreate(F->hy, kernel->odd_y, &m));
@@ -151,14 +162,17 @@ static PetscErrorCode ExchangeRows(SamFourier F, double rows[], double columns[]
   fftw_plan plan;
 
   PetscFunctionBegin;
-  plan = fftw_mpi_plan_many_transpose(F->hy + 1, F->hx + 1, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, rows, columns, F->grid->comm, FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_MPI_TRANSPOSED_OUT);
+  plan =
+    fftw_mpi_plan_many_transpose(F->hy + 1, F->hx + 1, 1, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, rows, columns,
+                                 F->grid->comm, FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_MPI_TRANSPOSED_OUT);
   PetscCall(SamFourierCheckPlan(plan));
   fftw_execute(plan);
   fftw_destroy_plan(plan);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, SamKernelRow row, const void *context, SamKernel *kernel)
+PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, SamKernelRow row, const void *context,
+                               SamKernel *kernel)
 {
   ptrdiff_t count, start, columns, column_start;
   double   *rows;
@@ -195,7 +209,10 @@ PetscErrorCode SamKernelDestroy(SamKernel *kernel)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One column in one phase: the kernel's values there, those of the first `rising` entries in order, the others mirrored. */
+/*
+  One column in one phase: the kernel's values there, those of the first `rising` entries in order, the others
+  mirrored.
+*/
 typedef struct {
   const double *values;
   ptrdiff_t     rising, mirror; /* entry m >= rising has the value at mirror - m, with the parity's sign */
@@ -203,7 +220,7 @@ typedef struct {
 
 static Column GetColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b)
 {
-  const ptrdiff_t hy   = block->hy, even = hy / 2 + 1;
+  const ptrdiff_t hy = block->hy, even = hy / 2 + 1;
   const double   *base = kernel->values + (block->local + b) * (hy + 1);
 
   if (phase == 0) return (Column){base, even, hy};
@@ -211,7 +228,8 @@ static Column GetColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt
 }
 
 /* to += scale * kernel * from for one column; multiplied by -i when the kernel is odd in one direction only. */
-static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double scale, const double (*from)[2], double (*to)[2])
+static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double scale,
+                       const double (*from)[2], double (*to)[2])
 {
   const Column    c      = GetColumn(kernel, block, phase, b);
   const double    folded = kernel->odd_y ? -scale : scale;
@@ -230,7 +248,7 @@ static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt 
   whose off-diagonal one is odd in x and in y. Each column goes up the kernel's values and down again.
 */
 #define DEFINE_PRODUCTS(Real, MultiplyColumn, MultiplyPair) \
-  SAM_VECTORIZED static void MultiplyColumn(Column c, ptrdiff_t n, double factor, Real (*restrict column)[2]) \
+  SAM_VECTORIZED static void MultiplyColumn(Column c, ptrdiff_t n, double factor, Real(*restrict column)[2]) \
   { \
     for (ptrdiff_t m = 0; m < c.rising; m++) { \
       const Real k = (Real)(factor * c.values[m]); \
@@ -246,10 +264,12 @@ static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt 
     } \
   } \
 \
-  SAM_VECTORIZED static void MultiplyPair(Column xx, Column xy, Column yy, ptrdiff_t n, double factor, Real (*restrict x)[2], Real (*restrict y)[2]) \
+  SAM_VECTORIZED static void MultiplyPair(Column xx, Column xy, Column yy, ptrdiff_t n, double factor, \
+                                          Real(*restrict x)[2], Real(*restrict y)[2]) \
   { \
     for (ptrdiff_t m = 0; m < xx.rising; m++) { \
-      const Real kxx = (Real)(factor * xx.values[m]), kxy = (Real)(factor * xy.values[m]), kyy = (Real)(factor * yy.values[m]); \
+      const Real kxx = (Real)(factor * xx.values[m]), kxy = (Real)(factor * xy.values[m]), \
+                 kyy = (Real)(factor * yy.values[m]); \
       const Real x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
 \
       x[m][0] = kxx * x0 + kxy * y0; \
@@ -259,8 +279,9 @@ static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt 
     } \
     for (ptrdiff_t m = xx.rising; m < n; m++) { \
       const ptrdiff_t l   = xx.mirror - m; \
-      const Real      kxx = (Real)(factor * xx.values[l]), kxy = (Real)(-factor * xy.values[l]), kyy = (Real)(factor * yy.values[l]); \
-      const Real      x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
+      const Real      kxx = (Real)(factor * xx.values[l]), kxy = (Real)(-factor * xy.values[l]), \
+                 kyy = (Real)(factor * yy.values[l]); \
+      const Real x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
 \
       x[m][0] = kxx * x0 + kxy * y0; \
       x[m][1] = kxx * x1 + kxy * y1; \
@@ -274,7 +295,10 @@ DEFINE_PRODUCTS(float, MultiplyColumnSingle, MultiplyPairSingle)
 
 static PetscBool IsScalar(const SamKernelMatrix *M)
 {
-  return (M->n_in == 1 && M->n_out == 1 && M->scale[0][0] == 1 && M->kernel[0][0]->odd_x == M->kernel[0][0]->odd_y && !M->kernel[0][0]->odd_y) ? PETSC_TRUE : PETSC_FALSE;
+  return (M->n_in == 1 && M->n_out == 1 && M->scale[0][0] == 1 && M->kernel[0][0]->odd_x == M->kernel[0][0]->odd_y &&
+          !M->kernel[0][0]->odd_y)
+           ? PETSC_TRUE
+           : PETSC_FALSE;
 }
 
 static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
@@ -284,7 +308,8 @@ static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
     for (PetscInt i = 0; i < 2; i++) {
       const PetscBool odd = o == i ? PETSC_FALSE : PETSC_TRUE;
 
-      if (!M->kernel[o][i] || M->scale[o][i] != 1 || M->kernel[o][i]->odd_x != odd || M->kernel[o][i]->odd_y != odd) return PETSC_FALSE;
+      if (!M->kernel[o][i] || M->scale[o][i] != 1 || M->kernel[o][i]->odd_x != odd || M->kernel[o][i]->odd_y != odd)
+        return PETSC_FALSE;
     }
   return PETSC_TRUE;
 }
@@ -303,11 +328,12 @@ static void MultiplyGeneral(const Filter *filter, const SamFourierBlock *block, 
   const ptrdiff_t        offset = (phase * block->width + b) * (ptrdiff_t)block->stride;
 
   for (PetscInt o = 0; o < M->n_out; o++) {
-    double (*to)[2] = filter->column[o];
+    double(*to)[2] = filter->column[o];
 
     for (ptrdiff_t m = 0; m < block->hy; m++) to[m][0] = to[m][1] = 0;
     for (PetscInt i = 0; i < M->n_in; i++)
-      if (M->kernel[o][i]) AddProduct(M->kernel[o][i], block, phase, b, M->scale[o][i], (const double(*)[2])block->data[i] + offset, to);
+      if (M->kernel[o][i])
+        AddProduct(M->kernel[o][i], block, phase, b, M->scale[o][i], (const double(*)[2])block->data[i] + offset, to);
   }
   for (PetscInt o = 0; o < M->n_out; o++)
     for (ptrdiff_t m = 0; m < block->hy; m++)
@@ -326,14 +352,20 @@ static void Multiply(const SamFourierBlock *block, const void *context)
       if (filter->scalar) {
         const Column c = GetColumn(M->kernel[0][0], block, f, b);
 
-        if (block->data[0]) MultiplyColumn(c, n, filter->factor, block->data[0] + offset);
-        else MultiplyColumnSingle(c, n, filter->factor, block->single[0] + offset);
+        if (block->data[0])
+          MultiplyColumn(c, n, filter->factor, block->data[0] + offset);
+        else
+          MultiplyColumnSingle(c, n, filter->factor, block->single[0] + offset);
       } else if (filter->pair) {
-        const Column xx = GetColumn(M->kernel[0][0], block, f, b), xy = GetColumn(M->kernel[0][1], block, f, b), yy = GetColumn(M->kernel[1][1], block, f, b);
+        const Column xx = GetColumn(M->kernel[0][0], block, f, b), xy = GetColumn(M->kernel[0][1], block, f, b),
+                     yy = GetColumn(M->kernel[1][1], block, f, b);
 
-        if (block->data[0]) MultiplyPair(xx, xy, yy, n, filter->factor, block->data[0] + offset, block->data[1] + offset);
-        else MultiplyPairSingle(xx, xy, yy, n, filter->factor, block->single[0] + offset, block->single[1] + offset);
-      } else MultiplyGeneral(filter, block, f, b);
+        if (block->data[0])
+          MultiplyPair(xx, xy, yy, n, filter->factor, block->data[0] + offset, block->data[1] + offset);
+        else
+          MultiplyPairSingle(xx, xy, yy, n, filter->factor, block->single[0] + offset, block->single[1] + offset);
+      } else
+        MultiplyGeneral(filter, block, f, b);
     }
 }
 
@@ -343,18 +375,22 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const do
 
   PetscFunctionBegin;
   if (!filter.scalar && !filter.pair)
-    for (PetscInt o = 0; o < matrix->n_out; o++) PetscCall(SamAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
+    for (PetscInt o = 0; o < matrix->n_out; o++)
+      PetscCall(SamAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
   PetscCall(SamFourierApply(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
   for (PetscInt o = 0; o < matrix->n_out; o++) SamFree(filter.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamConvolveSingle(SamFourier F, const SamKernelMatrix *matrix, double factor, const float *const in[], float *const out[])
+PetscErrorCode SamConvolveSingle(SamFourier F, const SamKernelMatrix *matrix, double factor, const float *const in[],
+                                 float *const out[])
 {
-  const Filter filter = {.matrix = matrix, .factor = factor, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+  const Filter filter = {
+    .matrix = matrix, .factor = factor, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
 
   PetscFunctionBegin;
-  PetscCheck(filter.scalar || filter.pair, PETSC_COMM_SELF, PETSC_ERR_SUP, "Convolution in single precision: one even kernel, or a symmetric pair");
+  PetscCheck(filter.scalar || filter.pair, PETSC_COMM_SELF, PETSC_ERR_SUP,
+             "Convolution in single precision: one even kernel, or a symmetric pair");
   PetscCall(SamFourierApplySingle(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

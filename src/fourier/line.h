@@ -4,9 +4,9 @@
     FFT(x)   fftw_x or fftwf_x
     LINE     the type SamLine...
 
-  Long lines are transformed in four interleaved parts, each of a length at which FFTW's estimated plans are good ones; one
-  pass, by the formulas of Cooley and Tukey for a radix of 4, puts the parts together. So what is transformed lies in parts:
-  its entry j is at LinePlace(j). Frequencies are in order.
+  Long lines are transformed in four interleaved parts, each of a length at which FFTW's estimated plans are good ones;
+  one pass, by the formulas of Cooley and Tukey for a radix of 4, puts the parts together. So what is transformed lies
+  in parts: its entry j is at LinePlace(j). Frequencies are in order.
 */
 #include "fourierimpl.h"
 #include <string.h>
@@ -23,8 +23,11 @@ static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* For transforms forward, which keep their input, and where wanted backward, of arrays that are aligned as these are. */
-static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out, LINE *l)
+/*
+  For transforms forward, which keep their input, and where wanted backward, of arrays that are aligned as these are.
+*/
+static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out,
+                                        LINE *l)
 {
   const PetscBool parts = (effort == FFTW_ESTIMATE && n >= LONG_LINE && n % 4 == 0) ? PETSC_TRUE : PETSC_FALSE;
   const int       part  = (int)(parts ? n / 4 : n);
@@ -41,10 +44,12 @@ static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool 
       l->root[q * part + k][0] = (Real)root[0];
       l->root[q * part + k][1] = (Real)(acute < turn ? root[1] : -root[1]);
     }
-  l->up   = FFT(plan_many_dft)(1, &part, (int)(n / part), (FFT(complex) *)in, NULL, 1, part, (FFT(complex) *)out, NULL, 1, part, FFTW_FORWARD, effort);
+  l->up = FFT(plan_many_dft)(1, &part, (int)(n / part), (FFT(complex) *)in, NULL, 1, part, (FFT(complex) *)out, NULL, 1,
+                             part, FFTW_FORWARD, effort);
   PetscCall(SamFourierCheckPlan(l->up));
   if (!backward) PetscFunctionReturn(PETSC_SUCCESS);
-  l->down = FFT(plan_many_dft)(1, &part, (int)(n / part), (FFT(complex) *)in, NULL, 1, part, (FFT(complex) *)out, NULL, 1, part, FFTW_BACKWARD, effort | FFTW_DESTROY_INPUT);
+  l->down = FFT(plan_many_dft)(1, &part, (int)(n / part), (FFT(complex) *)in, NULL, 1, part, (FFT(complex) *)out, NULL,
+                               1, part, FFTW_BACKWARD, effort | FFTW_DESTROY_INPUT);
   PetscCall(SamFourierCheckPlan(l->down));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -88,7 +93,8 @@ static inline void LinePut(const LINE *l, ptrdiff_t n, const Complex *restrict f
 {
   if (!l->shift) (void)memcpy(x, from, sizeof(Complex) * (size_t)n);
   for (ptrdiff_t q = 0; l->shift && q < 4; q++)
-    for (ptrdiff_t k = 0; k < LineCount(l, n, q); k++) (void)memcpy(x[q * l->part + k], from[4 * k + q], sizeof(Complex));
+    for (ptrdiff_t k = 0; k < LineCount(l, n, q); k++)
+      (void)memcpy(x[q * l->part + k], from[4 * k + q], sizeof(Complex));
 }
 static inline void LineTake(const LINE *l, ptrdiff_t n, const Complex *restrict x, Complex *restrict to)
 {
@@ -98,7 +104,9 @@ static inline void LineTake(const LINE *l, ptrdiff_t n, const Complex *restrict 
 }
 
 /* From the transforms of the parts to that of the line. */
-SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v, const Complex *restrict w, Complex *restrict a, Complex *restrict b, Complex *restrict c, Complex *restrict d)
+SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
+                                           const Complex *restrict w, Complex *restrict a, Complex *restrict b,
+                                           Complex *restrict c, Complex *restrict d)
 {
   for (ptrdiff_t k = 0; k < n; k++) {
     const Real bx = b[k][0] * u[k][0] - b[k][1] * u[k][1], by = b[k][1] * u[k][0] + b[k][0] * u[k][1];
@@ -119,11 +127,14 @@ SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict 
 }
 
 /* The way back: what the parts' transforms have to be for that of the line. */
-SAM_VECTORIZED static inline void LineSplit(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v, const Complex *restrict w, Complex *restrict a, Complex *restrict b, Complex *restrict c, Complex *restrict d)
+SAM_VECTORIZED static inline void LineSplit(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
+                                            const Complex *restrict w, Complex *restrict a, Complex *restrict b,
+                                            Complex *restrict c, Complex *restrict d)
 {
   for (ptrdiff_t k = 0; k < n; k++) {
     const Real sx = a[k][0] + c[k][0], sy = a[k][1] + c[k][1], gx = a[k][0] - c[k][0], gy = a[k][1] - c[k][1];
-    const Real tx = b[k][0] + d[k][0], ty = b[k][1] + d[k][1], hx = d[k][1] - b[k][1], hy = b[k][0] - d[k][0]; /* h = i (b - d) */
+    const Real tx = b[k][0] + d[k][0], ty = b[k][1] + d[k][1], hx = d[k][1] - b[k][1],
+               hy = b[k][0] - d[k][0]; /* h = i (b - d) */
     const Real bx = gx + hx, by = gy + hy, cx = sx - tx, cy = sy - ty, dx = gx - hx, dy = gy - hy;
 
     a[k][0] = sx + tx;
@@ -142,7 +153,9 @@ static inline void LineForward(const LINE *l, Complex *from, Complex *to)
   const ptrdiff_t m = l->part;
 
   FFT(execute_dft)(l->up, (FFT(complex) *)from, (FFT(complex) *)to);
-  if (l->shift) LineJoin(m, (const Complex *)l->root, (const Complex *)l->root + m, (const Complex *)l->root + 2 * m, to, to + m, to + 2 * m, to + 3 * m);
+  if (l->shift)
+    LineJoin(m, (const Complex *)l->root, (const Complex *)l->root + m, (const Complex *)l->root + 2 * m, to, to + m,
+             to + 2 * m, to + 3 * m);
 }
 
 /* Times n; what it comes from is overwritten. */
@@ -150,7 +163,9 @@ static inline void LineBackward(const LINE *l, Complex *from, Complex *to)
 {
   const ptrdiff_t m = l->part;
 
-  if (l->shift) LineSplit(m, (const Complex *)l->root, (const Complex *)l->root + m, (const Complex *)l->root + 2 * m, from, from + m, from + 2 * m, from + 3 * m);
+  if (l->shift)
+    LineSplit(m, (const Complex *)l->root, (const Complex *)l->root + m, (const Complex *)l->root + 2 * m, from,
+              from + m, from + 2 * m, from + 3 * m);
   FFT(execute_dft)(l->down, (FFT(complex) *)from, (FFT(complex) *)to);
 }
 

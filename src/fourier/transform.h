@@ -30,8 +30,10 @@ static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Everything of one dimension but the plans of rows, which are made when a mode is first used: planning is what small grids
-   take most of their time for. */
+/*
+  Everything of one dimension but the plans of rows, which are made when a mode is first used: planning is what small
+  grids take most of their time for.
+*/
 static PetscErrorCode PlanLines(SamFourier F)
 {
   TRANSFORM *t = &F->PART;
@@ -101,8 +103,12 @@ static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt
   for (PetscInt k = 0; k < fields; k++) {
     Real *by_row = (Real *)F->work->slab[k + 1].own, *by_column = (Real *)F->work->slab[k].own;
 
-    t->forward[mode][k]  = FFT(mpi_plan_many_transpose)(F->grid->ny, columns, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_row, by_column, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_OUT);
-    t->backward[mode][k] = FFT(mpi_plan_many_transpose)(columns, F->grid->ny, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_column, by_row, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_IN);
+    t->forward[mode][k] =
+      FFT(mpi_plan_many_transpose)(F->grid->ny, columns, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_row,
+                                   by_column, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_OUT);
+    t->backward[mode][k] =
+      FFT(mpi_plan_many_transpose)(columns, F->grid->ny, 2, FFTW_MPI_DEFAULT_BLOCK, FFTW_MPI_DEFAULT_BLOCK, by_column,
+                                   by_row, F->grid->comm, flags | FFTW_MPI_TRANSPOSED_IN);
     PetscCall(SamFourierCheckPlan(t->forward[mode][k]));
     PetscCall(SamFourierCheckPlan(t->backward[mode][k]));
   }
@@ -132,8 +138,12 @@ static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From the transform z of the even entries of a line, and i times the odd ones, to that of the line; m is the mirror of z. */
-SAM_VECTORIZED static void Unpack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, Complex *restrict to)
+/*
+  From the transform z of the even entries of a line, and i times the odd ones, to that of the line; m is the mirror of
+  z.
+*/
+SAM_VECTORIZED static void Unpack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
+                                  const Complex *restrict m, Complex *restrict to)
 {
   const Real half = (Real)0.5;
 
@@ -146,7 +156,8 @@ SAM_VECTORIZED static void Unpack(ptrdiff_t n, const Complex *restrict turn, con
 }
 
 /* The way back, times 2. */
-SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z, const Complex *restrict m, Complex *restrict to)
+SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
+                                const Complex *restrict m, Complex *restrict to)
 {
   for (ptrdiff_t k = 0; k < n; k++) {
     const Real sum[2] = {z[k][0] + m[k][0], z[k][1] - m[k][1]}, gap[2] = {z[k][0] - m[k][0], z[k][1] + m[k][1]};
@@ -192,7 +203,8 @@ static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real 
 }
 
 /* to[j] = from[j] * exp(-i pi j/hy): the column whose transform has the odd frequencies. */
-SAM_VECTORIZED static void Twist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict from, Complex *restrict to)
+SAM_VECTORIZED static void Twist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict from,
+                                 Complex *restrict to)
 {
   for (ptrdiff_t j = 0; j < n; j++) {
     to[j][0] = from[j][0] * twiddle[j][0] - from[j][1] * twiddle[j][1];
@@ -201,7 +213,8 @@ SAM_VECTORIZED static void Twist(ptrdiff_t n, const Complex *restrict twiddle, c
 }
 
 /* even[j] += odd[j] * exp(i pi j/hy). */
-SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict odd, Complex *restrict even)
+SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict odd,
+                                   Complex *restrict even)
 {
   for (ptrdiff_t j = 0; j < n; j++) {
     even[j][0] += odd[j][0] * twiddle[j][0] + odd[j][1] * twiddle[j][1];
@@ -210,10 +223,11 @@ SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle,
 }
 
 /* Columns of a slab from the k-th of this rank's on into the buffer, one after the other. */
-static void Gather(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, Complex *restrict buffer)
+static void Gather(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride,
+                   Complex *restrict buffer)
 {
   for (PetscMPIInt r = 0; r < pieces->count; r++) {
-    const ptrdiff_t         rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
+    const ptrdiff_t rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
     const Complex *restrict slab = (const Complex *)SamPieceData(pieces, r, sizeof(Complex)) + k;
 
     for (ptrdiff_t j = 0; j < rows; j++) {
@@ -224,11 +238,12 @@ static void Gather(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdi
   }
 }
 
-static void Scatter(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, const Complex *restrict buffer)
+static void Scatter(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride,
+                    const Complex *restrict buffer)
 {
   for (PetscMPIInt r = 0; r < pieces->count; r++) {
-    const ptrdiff_t         rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
-    Complex *restrict slab       = (Complex *)SamPieceData(pieces, r, sizeof(Complex)) + k;
+    const ptrdiff_t rows = SamPieceRows(pieces, r), row_length = pieces->row_length;
+    Complex *restrict slab = (Complex *)SamPieceData(pieces, r, sizeof(Complex)) + k;
 
     for (ptrdiff_t j = 0; j < rows; j++) {
       const Complex *restrict from = buffer + LinePlace(line, r * pieces->block + j);
@@ -239,7 +254,8 @@ static void Scatter(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrd
 }
 
 /* Gathers columns, pads them and transforms them; then the way back. Out of place, which FFTW does faster. */
-static void ColumnsForward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, Complex *buffer)
+static void ColumnsForward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count,
+                           Complex *buffer)
 {
   TRANSFORM  *t    = &F->PART;
   const LINE *line = &t->column;
@@ -251,13 +267,16 @@ static void ColumnsForward(SamFourier F, PetscInt phases, const SamPieces *piece
     LineClear(line, F->grid->ny, staged);
     LineForward(line, staged, even);
     if (phases == 1) continue;
-    for (ptrdiff_t q = 0; q < LineParts(line); q++) Twist(LineCount(line, F->grid->ny, q), (const Complex *)t->twiddle + q * line->part, (const Complex *)staged + q * line->part, t->twisted + q * line->part);
+    for (ptrdiff_t q = 0; q < LineParts(line); q++)
+      Twist(LineCount(line, F->grid->ny, q), (const Complex *)t->twiddle + q * line->part,
+            (const Complex *)staged + q * line->part, t->twisted + q * line->part);
     LineClear(line, F->grid->ny, t->twisted);
     LineForward(line, t->twisted, odd);
   }
 }
 
-static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, Complex *buffer)
+static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count,
+                            Complex *buffer)
 {
   TRANSFORM  *t    = &F->PART;
   const LINE *line = &t->column;
@@ -268,19 +287,28 @@ static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *piec
     LineBackward(line, even, staged);
     if (phases == 1) continue;
     LineBackward(line, odd, t->twisted);
-    for (ptrdiff_t q = 0; q < LineParts(line); q++) Untwist(LineCount(line, F->grid->ny, q), (const Complex *)t->twiddle + q * line->part, (const Complex *)t->twisted + q * line->part, staged + q * line->part);
+    for (ptrdiff_t q = 0; q < LineParts(line); q++)
+      Untwist(LineCount(line, F->grid->ny, q), (const Complex *)t->twiddle + q * line->part,
+              (const Complex *)t->twisted + q * line->part, staged + q * line->part);
   }
   Scatter(line, pieces, k, count, F->stride, (const Complex *)t->staging);
 }
 
-static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n_out, SamFourierFilter filter, const void *context)
+static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n_out, SamFourierFilter filter,
+                    const void *context)
 {
   TRANSFORM        *t     = &F->PART;
   const SamColumns *c     = &F->columns[mode];
-  SamFourierBlock   block = {.mode = mode, .phases = mode == SAM_FOURIER_PADDED ? 2 : 1, .hx = (PetscInt)F->hx, .hy = (PetscInt)F->hy, .width = BLOCK, .stride = F->stride};
+  SamFourierBlock   block = {.mode   = mode,
+                             .phases = mode == SAM_FOURIER_PADDED ? 2 : 1,
+                             .hx     = (PetscInt)F->hx,
+                             .hy     = (PetscInt)F->hy,
+                             .width  = BLOCK,
+                             .stride = F->stride};
   SamPieces         pieces[SAM_FOURIER_FIELDS];
 
-  for (PetscInt i = 0; i < PetscMax(n_in, n_out); i++) pieces[i] = SamFourierGetPieces(F, i, F->grid->ny, c->n, c->start, c->count);
+  for (PetscInt i = 0; i < PetscMax(n_in, n_out); i++)
+    pieces[i] = SamFourierGetPieces(F, i, F->grid->ny, c->n, c->start, c->count);
   for (PetscInt k = 0; k < t->fields; k++) block.DATA[k] = t->buffer + k * 2 * BLOCK * (ptrdiff_t)F->stride;
   for (ptrdiff_t k = 0; k < c->count; k += BLOCK) {
     const ptrdiff_t count = PetscMin(BLOCK, c->count - k);
@@ -294,7 +322,8 @@ static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n
   }
 }
 
-PetscErrorCode APPLY(SamFourier F, SamFourierMode mode, PetscInt n_in, const Real *const in[], PetscInt n_out, Real *const out[], SamFourierFilter filter, const void *context)
+PetscErrorCode APPLY(SamFourier F, SamFourierMode mode, PetscInt n_in, const Real *const in[], PetscInt n_out,
+                     Real *const out[], SamFourierFilter filter, const void *context)
 {
   TRANSFORM *t = &F->PART;
   PetscBool  transposes;

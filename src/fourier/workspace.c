@@ -1,10 +1,10 @@
 /*
   The slabs of memory in which transforms keep their half spectra.
 
-  On a communicator only one transform is under way at a time, so all of them use the same slabs, as large as the largest so far
-  needed them. Where all ranks are on one node the slabs are in memory that they share: columns are gathered from where the
-  rows are, and nothing is sent. Elsewhere, or when there is no such memory, every rank has its own, and rows are exchanged
-  for columns by FFTW's transposes.
+  On a communicator only one transform is under way at a time, so all of them use the same slabs, as large as the
+  largest so far needed them. Where all ranks are on one node the slabs are in memory that they share: columns are
+  gathered from where the rows are, and nothing is sent. Elsewhere, or when there is no such memory, every rank has its
+  own, and rows are exchanged for columns by FFTW's transposes.
 */
 #include "fourierimpl.h"
 #include <fcntl.h>
@@ -31,7 +31,9 @@ static PetscErrorCode CanShare(SamWorkspace w)
   PetscMPIInt size;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(NULL, "fft_exchange", "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges, &exchange, NULL));
+  PetscCall(SamOptionsEnum(NULL, "fft_exchange",
+                           "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges,
+                           &exchange, NULL));
   PetscCallMPI(MPI_Comm_split_type(w->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
   PetscCallMPI(MPI_Comm_size(node, &size));
   PetscCallMPI(MPI_Comm_free(&node));
@@ -71,7 +73,8 @@ static PetscErrorCode FreeSlab(SamWorkspace w, SamSlab *slab)
   if (slab->mapped) {
     (void)munmap(slab->of[0], slab->mapped);
     PetscCall(PetscFree(slab->of));
-  } else SamFree(slab->own);
+  } else
+    SamFree(slab->own);
   *slab = (SamSlab){0};
   w->version++;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -99,10 +102,13 @@ PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A new shared memory object, seen by all ranks under a name that is gone again when this returns; -1 when there is none. */
+/*
+  A new shared memory object, seen by all ranks under a name that is gone again when this returns; -1 when there is
+  none.
+*/
 static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 {
-  static unsigned count = 0;
+  static unsigned count    = 0;
   char            name[64] = "";
   PetscMPIInt     good;
 
@@ -131,8 +137,8 @@ static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 }
 
 /*
-  A slab in shared memory, or none when there is no more of it. Not by MPI_Win_allocate_shared: when memory is short, Open MPI
-  tells one rank so and lets the others wait.
+  A slab in shared memory, or none when there is no more of it. Not by MPI_Win_allocate_shared: when memory is short,
+  Open MPI tells one rank so and lets the others wait.
 */
 static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab, PetscBool *done)
 {
@@ -145,7 +151,8 @@ static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab
   PetscCall(OpenShared(w, part * (size_t)w->ranks, &fd));
   *done = PETSC_FALSE;
   if (fd < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  good = posix_fallocate(fd, (off_t)(part * (size_t)w->rank), (off_t)part) == 0; /* else the first write to a full node would kill */
+  good = posix_fallocate(fd, (off_t)(part * (size_t)w->rank), (off_t)part) ==
+         0; /* else the first write to a full node would kill */
   if (good) base = mmap(NULL, part * (size_t)w->ranks, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
   (void)close(fd);
   good = base != MAP_FAILED;
@@ -165,7 +172,8 @@ static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab
 PetscErrorCode SamWorkspaceReserve(SamWorkspace w, size_t bytes, PetscInt fields)
 {
   PetscFunctionBegin;
-  PetscCheck(fields <= SAM_FOURIER_FIELDS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d fields in one pass", SAM_FOURIER_FIELDS);
+  PetscCheck(fields <= SAM_FOURIER_FIELDS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d fields in one pass",
+             SAM_FOURIER_FIELDS);
   for (PetscInt k = 0; k < fields + (SamWorkspaceTransposes(w) ? 1 : 0); k++) {
     SamSlab  *slab = &w->slab[k];
     PetscBool done = PETSC_FALSE;

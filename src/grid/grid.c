@@ -2,7 +2,8 @@
 #include "gridimpl.h"
 #include <math.h>
 
-PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2], SamGrid *grid)
+PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2],
+                             SamGrid *grid)
 {
   PetscMPIInt rank, size;
   PetscInt    end;
@@ -11,14 +12,21 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   for (PetscInt k = 0; k < 2; k++) {
-    PetscCheck(n[k] >= 2, comm, SAM_ERR_USER, "-grid_n: %" PetscInt_FMT " cells in %s, expected at least 2", n[k], k ? "y" : "x");
-    PetscCheck(width[k] > 0 && isfinite(width[k]), comm, SAM_ERR_USER, "-grid_size: a width of %g m in %s, expected a number > 0", (double)width[k], k ? "y" : "x");
+    PetscCheck(n[k] >= 2, comm, SAM_ERR_USER, "-grid_n: %" PetscInt_FMT " cells in %s, expected at least 2", n[k],
+               k ? "y" : "x");
+    PetscCheck(width[k] > 0 && isfinite(width[k]), comm, SAM_ERR_USER,
+               "-grid_size: a width of %g m in %s, expected a number > 0", (double)width[k], k ? "y" : "x");
     PetscCheck(isfinite(center[k]), comm, SAM_ERR_USER, "-grid_center: expected finite numbers");
     /* the centres must be told apart in double precision, and areas must not underflow or overflow */
-    PetscCheck(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100, comm, SAM_ERR_USER, "-grid_size: a width of %g m in %s about %g m cannot be resolved in double precision",
-               (double)width[k], k ? "y" : "x", (double)center[k]);
+    PetscCheck(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100,
+               comm, SAM_ERR_USER,
+               "-grid_size: a width of %g m in %s about %g m cannot be resolved in double precision", (double)width[k],
+               k ? "y" : "x", (double)center[k]);
   }
-  PetscCheck((double)n[0] * (double)n[1] * 2 < (double)PETSC_MAX_INT, comm, SAM_ERR_USER, "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT ": more cells than this PETSc can count; configure it with 64-bit indices", n[0], n[1]);
+  PetscCheck((double)n[0] * (double)n[1] * 2 < (double)PETSC_MAX_INT, comm, SAM_ERR_USER,
+             "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT
+             ": more cells than this PETSc can count; configure it with 64-bit indices",
+             n[0], n[1]);
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscNew(&g));
@@ -30,13 +38,13 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
     g->width[k]  = width[k];
     g->center[k] = center[k];
   }
-  g->dx        = width[0] / (PetscReal)n[0];
-  g->dy        = width[1] / (PetscReal)n[1];
-  g->length    = 0.5 * PetscMax(width[0], width[1]);
+  g->dx     = width[0] / (PetscReal)n[0];
+  g->dy     = width[1] / (PetscReal)n[1];
+  g->length = 0.5 * PetscMax(width[0], width[1]);
   SamGridRowsOf(g, size, rank, &g->row_start, &end);
   g->rows  = end - g->row_start;
   g->cells = g->rows * n[0];
-  *grid        = g;
+  *grid    = g;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -50,7 +58,8 @@ PetscErrorCode SamGridCreateFromOptions(MPI_Comm comm, SamGrid *grid)
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading("Grid"));
   PetscCall(SamOptionsIntPair(NULL, "grid_n", "cells in x[,y]: required", 2, n, &has_n));
-  PetscCall(SamOptionsRealPair(NULL, "grid_size", "full width in x[,y] (m): required", SAM_RANGE_POSITIVE, width, &has_width));
+  PetscCall(
+    SamOptionsRealPair(NULL, "grid_size", "full width in x[,y] (m): required", SAM_RANGE_POSITIVE, width, &has_width));
   PetscCall(SamOptionsRealPair(NULL, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
   PetscCall(SamPrintHelp(&help));
   if (help) { /* the defaults are listed; any grid does */
@@ -105,8 +114,10 @@ PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
   PetscFunctionBegin;
   PetscCall(SamAllocateZeros(sizeof(*array) * (size_t)n, &array));
   PetscCallMPI(MPI_Comm_size(grid->comm, &ranks));
-  if (ranks > 1) PetscCall(VecCreateMPIWithArray(grid->comm, 1, n, all, array, field));
-  else PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, array, field));
+  if (ranks > 1)
+    PetscCall(VecCreateMPIWithArray(grid->comm, 1, n, all, array, field));
+  else
+    PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, array, field));
   PetscCall(PetscContainerCreate(PETSC_COMM_SELF, &owner));
   PetscCall(PetscContainerSetPointer(owner, array));
   PetscCall(PetscContainerSetUserDestroy(owner, FreeArray));
@@ -163,7 +174,8 @@ PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *no
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[], PetscInt *components)
+PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[],
+                            PetscInt *components)
 {
   PetscInt n, m;
 
@@ -171,6 +183,7 @@ PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_fi
   PetscCall(VecGetSize(field, &n));
   PetscCall(VecGetSize(other_field, &m));
   *components = n / (grid->nx * grid->ny);
-  PetscCheck(m == *components * other->nx * other->ny, grid->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to %s", words);
+  PetscCheck(m == *components * other->nx * other->ny, grid->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to %s",
+             words);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -26,7 +26,8 @@ PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRo
   rows->grid  = grid;
   rows->first = first;
   rows->count = count;
-  PetscCall(PetscMalloc4(rows->ranks, &rows->counts[0], rows->ranks, &rows->counts[1], rows->ranks, &rows->offsets[0], rows->ranks, &rows->offsets[1]));
+  PetscCall(PetscMalloc4(rows->ranks, &rows->counts[0], rows->ranks, &rows->counts[1], rows->ranks, &rows->offsets[0],
+                         rows->ranks, &rows->offsets[1]));
   PetscCall(PetscMalloc1(2 * rows->ranks, &wanted));
   PetscCallMPI(MPI_Allgather(mine, 2, MPIU_INT64, wanted, 2, MPIU_INT64, grid->comm));
   for (PetscMPIInt r = 0; r < rows->ranks; r++) {
@@ -65,7 +66,8 @@ PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double 
   PetscCall(SamAllocate(sizeof(*array) * (size_t)rows->count * (size_t)columns, &array));
   PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)columns, MPI_DOUBLE, &row));
   PetscCallMPI(MPI_Type_commit(&row));
-  PetscCallMPI(MPI_Alltoallv(own, rows->counts[0], rows->offsets[0], row, array, rows->counts[1], rows->offsets[1], row, rows->grid->comm));
+  PetscCallMPI(MPI_Alltoallv(own, rows->counts[0], rows->offsets[0], row, array, rows->counts[1], rows->offsets[1], row,
+                             rows->grid->comm));
   PetscCallMPI(MPI_Type_free(&row));
   *wanted = array;
   PetscFunctionReturn(PETSC_SUCCESS);

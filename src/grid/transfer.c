@@ -9,13 +9,13 @@
 #include <math.h>
 
 struct _n_SamTransfer {
-  SamGrid    fine, coarse;
-  SamRows    fine_rows;        /* those that this rank's coarse rows need */
-  SamRows    coarse_rows;      /* those that its fine rows need */
-  PetscInt  *first, *count;    /* coarse column J covers the fine columns first[J] ... first[J] + count[J] - 1 */
-  double    *share;            /* with these shares, COVER_MAX a column */
-  PetscInt  *left;             /* fine column i lies between the coarse columns left[i] and left[i] + 1 */
-  double    *position;         /* there */
+  SamGrid   fine, coarse;
+  SamRows   fine_rows;     /* those that this rank's coarse rows need */
+  SamRows   coarse_rows;   /* those that its fine rows need */
+  PetscInt *first, *count; /* coarse column J covers the fine columns first[J] ... first[J] + count[J] - 1 */
+  double   *share;         /* with these shares, COVER_MAX a column */
+  PetscInt *left;          /* fine column i lies between the coarse columns left[i] and left[i] + 1 */
+  double   *position;      /* there */
 };
 
 /* A coarse cell is at most two fine cells wide, so it touches at most three. */
@@ -66,7 +66,8 @@ static PetscErrorCode TabulateColumns(SamTransfer t)
 
     Covered(J, N, n, &t->first[J], &last);
     t->count[J] = last + 1 - t->first[J];
-    PetscCheck(t->count[J] <= COVER_MAX, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "The coarse grid is more than twice as coarse");
+    PetscCheck(t->count[J] <= COVER_MAX, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
+               "The coarse grid is more than twice as coarse");
     for (PetscInt k = 0; k < t->count[J]; k++) t->share[COVER_MAX * J + k] = Share(J, N, n, t->first[J] + k);
   }
   for (PetscInt i = 0; i < n; i++) Between(i, n, N, &t->left[i], &t->position[i]);

@@ -26,7 +26,8 @@ PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const Pets
   PetscCall(SamGridReference(grid));
   w->grid = grid;
   for (PetscInt k = 0; k < 2; k++) {
-    PetscCheck(first[k] >= 0 && n[k] >= 2 && first[k] + n[k] <= all[k], grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "The window is not part of the grid");
+    PetscCheck(first[k] >= 0 && n[k] >= 2 && first[k] + n[k] <= all[k], grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+               "The window is not part of the grid");
     w->first[k] = first[k];
     width[k]    = step[k] * (PetscReal)n[k];
     center[k]   = grid->center[k] + ((PetscReal)first[k] + 0.5 * (PetscReal)n[k] - 0.5 * (PetscReal)all[k]) * step[k];
@@ -88,11 +89,13 @@ PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
-  PetscCall(SamAllocate(sizeof(*columns) * (size_t)w->grid->rows * nx, &columns)); /* of all rows; those that nobody wants stay untouched */
+  PetscCall(SamAllocate(sizeof(*columns) * (size_t)w->grid->rows * nx,
+                        &columns)); /* of all rows; those that nobody wants stay untouched */
   PetscCall(VecGetArrayRead(whole, &from));
   PetscCall(VecGetArrayWrite(part, &to));
   for (PetscInt c = 0; c < components; c++) {
-    for (PetscInt j = w->put.first + w->first[1] - w->grid->row_start, end = j + w->put.count; j < end; j++) memcpy(columns + (size_t)j * nx, from + c * w->grid->cells + j * w->grid->nx + w->first[0], row);
+    for (PetscInt j = w->put.first + w->first[1] - w->grid->row_start, end = j + w->put.count; j < end; j++)
+      memcpy(columns + (size_t)j * nx, from + c * w->grid->cells + j * w->grid->nx + w->first[0], row);
     PetscCall(SamRowsFetch(&w->taken, w->part->nx, columns, &rows));
     PetscCall(PetscArraycpy(to + c * w->part->cells, rows, w->part->cells));
     PetscCall(SamRowsRestore(&w->taken, &rows));
@@ -117,7 +120,10 @@ PetscErrorCode SamWindowPut(SamWindow w, Vec part, Vec whole)
   PetscCall(VecGetArray(whole, &to));
   for (PetscInt c = 0; c < components; c++) {
     PetscCall(SamRowsFetch(&w->put, w->part->nx, from + c * w->part->cells, &rows));
-    for (PetscInt j = 0; j < w->put.count; j++) memcpy(to + c * w->grid->cells + (w->put.first + w->first[1] + j - w->grid->row_start) * w->grid->nx + w->first[0], rows + (size_t)j * nx, sizeof(double) * nx);
+    for (PetscInt j = 0; j < w->put.count; j++)
+      memcpy(to + c * w->grid->cells + (w->put.first + w->first[1] + j - w->grid->row_start) * w->grid->nx +
+               w->first[0],
+             rows + (size_t)j * nx, sizeof(double) * nx);
     PetscCall(SamRowsRestore(&w->put, &rows));
   }
   PetscCall(VecRestoreArray(whole, &to));

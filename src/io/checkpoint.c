@@ -17,14 +17,12 @@ static const struct {
   const char *name;
   PetscInt    components;
   size_t      offset; /* of the Vec in SamContactState */
-} kept[] = {
-  {"pressure",          1, offsetof(SamContactState, pressure)         },
-  {"shear",             2, offsetof(SamContactState, shear)            },
-  {"slip",              2, offsetof(SamContactState, slip)             },
-  {"displacement_z",    1, offsetof(SamContactState, displacement_z)   },
-  {"previous_pressure", 1, offsetof(SamContactState, previous_pressure)},
-  {"previous_shear",    2, offsetof(SamContactState, previous_shear)   }
-};
+} kept[] = {{"pressure", 1, offsetof(SamContactState, pressure)},
+            {"shear", 2, offsetof(SamContactState, shear)},
+            {"slip", 2, offsetof(SamContactState, slip)},
+            {"displacement_z", 1, offsetof(SamContactState, displacement_z)},
+            {"previous_pressure", 1, offsetof(SamContactState, previous_pressure)},
+            {"previous_shear", 2, offsetof(SamContactState, previous_shear)}};
 enum { KEPT = sizeof(kept) / sizeof(kept[0]) };
 
 static Vec *FieldOf(SamContactState *state, PetscInt k)
@@ -53,7 +51,8 @@ static uint64_t Bits(double value)
 /* A sum over the cells, each mixed with its place, so that the order of the summation does not count. */
 PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum)
 {
-  const uint64_t     cells = (uint64_t)grid->nx * (uint64_t)grid->ny, first = (uint64_t)grid->nx * (uint64_t)grid->row_start;
+  const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,
+                 first = (uint64_t)grid->nx * (uint64_t)grid->row_start;
   const PetscScalar *values;
   PetscInt           n;
 
@@ -61,7 +60,9 @@ PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum
   *checksum = 0;
   PetscCall(VecGetLocalSize(field, &n));
   PetscCall(VecGetArrayRead(field, &values));
-  for (PetscInt k = 0; k < n; k++) *checksum += Mix(Bits(values[k]) + Mix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
+  for (PetscInt k = 0; k < n; k++)
+    *checksum +=
+      Mix(Bits(values[k]) + Mix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
   PetscCall(VecRestoreArrayRead(field, &values));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, checksum, 1, MPI_UINT64_T, MPI_SUM, grid->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -146,8 +147,9 @@ static void ReadNumbers(SamFile f, SamContactState *s)
 
 static PetscErrorCode WriteField(SamFile f, const char name[], PetscInt components, Vec field)
 {
-  const hsize_t      size[3]  = {(hsize_t)components, (hsize_t)f->grid->ny, (hsize_t)f->grid->nx};
-  const hid_t        space    = SamFileNote(f, H5Screate_simple(3, size, NULL)), creation = SamFileNote(f, H5Pcreate(H5P_DATASET_CREATE));
+  const hsize_t size[3] = {(hsize_t)components, (hsize_t)f->grid->ny, (hsize_t)f->grid->nx};
+  const hid_t   space   = SamFileNote(f, H5Screate_simple(3, size, NULL)),
+              creation  = SamFileNote(f, H5Pcreate(H5P_DATASET_CREATE));
   const PetscScalar *values;
   uint64_t           checksum;
   hid_t              dataset;
@@ -158,7 +160,8 @@ static PetscErrorCode WriteField(SamFile f, const char name[], PetscInt componen
   PetscCall(SamCheckpointChecksum(f->grid, field, &checksum));
   SamFileWriteAttribute(f, dataset, "checksum", H5T_STD_U64LE, H5T_NATIVE_UINT64, 1, &checksum);
   PetscCall(VecGetArrayRead(field, &values));
-  for (PetscInt c = 0; c < components; c++) SamFileWriteLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+  for (PetscInt c = 0; c < components; c++)
+    SamFileWriteLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
   PetscCall(VecRestoreArrayRead(field, &values));
   (void)SamFileNote(f, H5Dclose(dataset));
   (void)SamFileNote(f, H5Pclose(creation));
@@ -175,7 +178,8 @@ static PetscErrorCode ReadField(SamFile f, const char name[], PetscInt component
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(f->grid, components, field));
   PetscCall(VecGetArray(*field, &values));
-  for (PetscInt c = 0; c < components; c++) SamFileReadLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+  for (PetscInt c = 0; c < components; c++)
+    SamFileReadLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
   PetscCall(VecRestoreArray(*field, &values));
   SamFileReadAttribute(f, dataset, "checksum", H5T_NATIVE_UINT64, 1, &written);
   if (dataset >= 0) (void)SamFileNote(f, H5Dclose(dataset));
@@ -197,7 +201,8 @@ static PetscErrorCode DestroyFields(SamContactState *state)
 
 /* ---- writing ---- */
 
-static PetscErrorCode WriteAll(SamFile f, SamContactState *state, SamHistory history, const SamParameters *parameters, PetscInt steps, SamStatus worst)
+static PetscErrorCode WriteAll(SamFile f, SamContactState *state, SamHistory history, const SamParameters *parameters,
+                               PetscInt steps, SamStatus worst)
 {
   const int64_t format = FORMAT, progress[2] = {steps, worst};
   uint64_t      columns[COLUMNS];
@@ -221,7 +226,8 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, SamHistory his
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, SamHistory history, const SamParameters *parameters, PetscInt steps, SamStatus worst)
+PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, SamHistory history,
+                                  const SamParameters *parameters, PetscInt steps, SamStatus worst)
 {
   SamContactState state;
   SamGrid         grid;
@@ -249,7 +255,8 @@ PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, Sam
 /* ---- reading ---- */
 
 /* Whether the file may be used by this run; which option speaks against it. */
-static PetscErrorCode Judge(SamFile f, SamHistory history, const SamParameters *parameters, PetscInt steps, char message[], size_t size, PetscBool *good)
+static PetscErrorCode Judge(SamFile f, SamHistory history, const SamParameters *parameters, PetscInt steps,
+                            char message[], size_t size, PetscBool *good)
 {
   uint64_t columns[2][COLUMNS] = {{0}};
   PetscInt count;
@@ -259,15 +266,18 @@ static PetscErrorCode Judge(SamFile f, SamHistory history, const SamParameters *
   PetscFunctionBegin;
   *good = PETSC_FALSE;
   SamFileReadTextAttribute(f, f->id, "petsam_version", &version);
-  if (strcmp(version, PETSAM_VERSION)) (void)snprintf(message, size, "it was written by petsam %s, this is %s", version, PETSAM_VERSION);
-  else *good = PETSC_TRUE;
+  if (strcmp(version, PETSAM_VERSION))
+    (void)snprintf(message, size, "it was written by petsam %s, this is %s", version, PETSAM_VERSION);
+  else
+    *good = PETSC_TRUE;
   PetscCall(PetscFree(version));
   if (*good) *good = SamParametersDiffer(f, parameters, message, size) ? PETSC_FALSE : PETSC_TRUE;
   if (!*good || f->failed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamHistoryGetCount(history, &count));
   if (steps > count) {
     *good = PETSC_FALSE;
-    (void)snprintf(message, size, "-history or -steps: there are %ld load steps, and %ld were solved there", (long)count, (long)steps);
+    (void)snprintf(message, size, "-history or -steps: there are %ld load steps, and %ld were solved there",
+                   (long)count, (long)steps);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   SamFileReadAttribute(f, f->id, "load_program", H5T_NATIVE_UINT64, COLUMNS, columns[0]);
@@ -279,21 +289,26 @@ static PetscErrorCode Judge(SamFile f, SamHistory history, const SamParameters *
 
     if (columns[0][c] == columns[1][c]) continue;
     *good = PETSC_FALSE;
-    if (c == 0) (void)snprintf(message, size, "-history: the times up to step %ld are others there", (long)steps);
-    else (void)snprintf(message, size, "-%s, or its column in -history: it is another there up to step %ld", b->force[k] ? SamLoadNames[b->kind][k] : SamRigidNames[b->kind][k], (long)steps);
+    if (c == 0)
+      (void)snprintf(message, size, "-history: the times up to step %ld are others there", (long)steps);
+    else
+      (void)snprintf(message, size, "-%s, or its column in -history: it is another there up to step %ld",
+                     b->force[k] ? SamLoadNames[b->kind][k] : SamRigidNames[b->kind][k], (long)steps);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadAll(SamFile f, SamHistory history, const SamParameters *parameters, PetscInt *steps, SamStatus *worst, SamContactState *state)
+static PetscErrorCode ReadAll(SamFile f, SamHistory history, const SamParameters *parameters, PetscInt *steps,
+                              SamStatus *worst, SamContactState *state)
 {
   int64_t   format = 0, progress[2] = {0, 0};
   char      message[256] = "";
-  PetscBool good = PETSC_TRUE;
+  PetscBool good         = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(SamFileBegin(f));
-  if (H5Aexists(f->id, "checkpoint_format") > 0) SamFileReadAttribute(f, f->id, "checkpoint_format", H5T_NATIVE_INT64, 1, &format);
+  if (H5Aexists(f->id, "checkpoint_format") > 0)
+    SamFileReadAttribute(f, f->id, "checkpoint_format", H5T_NATIVE_INT64, 1, &format);
   else {
     (void)SamFileNote(f, -1);
     (void)snprintf(f->reason, sizeof(f->reason), "it is not a checkpoint");
@@ -304,11 +319,13 @@ static PetscErrorCode ReadAll(SamFile f, SamHistory history, const SamParameters
   if (!f->failed && format != FORMAT) {
     good = PETSC_FALSE;
     (void)snprintf(message, sizeof(message), "it was written by another version of petsam");
-  } else if (!f->failed) PetscCall(Judge(f, history, parameters, *steps, message, sizeof(message), &good));
+  } else if (!f->failed)
+    PetscCall(Judge(f, history, parameters, *steps, message, sizeof(message), &good));
   if (!f->failed && good) {
     ReadNumbers(f, state);
     for (PetscInt k = 0; k < KEPT; k++)
-      if (strncmp(kept[k].name, "previous", 8) || SamFileNote(f, H5Lexists(f->id, kept[k].name, H5P_DEFAULT)) > 0) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
+      if (strncmp(kept[k].name, "previous", 8) || SamFileNote(f, H5Lexists(f->id, kept[k].name, H5P_DEFAULT)) > 0)
+        PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
   }
   PetscCall(SamFileEnd(f));
   PetscCheck(good, f->grid->comm, SAM_ERR_USER, "-restart %s: cannot go on from it: %s", f->filename, message);
@@ -316,7 +333,8 @@ static PetscErrorCode ReadAll(SamFile f, SamHistory history, const SamParameters
 }
 
 /* Reads a whole checkpoint; the vectors of the state are the caller's, also after an error. */
-static PetscErrorCode ReadFile(SamGrid grid, const char filename[], SamHistory history, const SamParameters *parameters, PetscInt *steps, SamStatus *worst, SamContactState *state)
+static PetscErrorCode ReadFile(SamGrid grid, const char filename[], SamHistory history, const SamParameters *parameters,
+                               PetscInt *steps, SamStatus *worst, SamContactState *state)
 {
   SamFile        f;
   PetscErrorCode ierr;
@@ -332,7 +350,8 @@ static PetscErrorCode ReadFile(SamGrid grid, const char filename[], SamHistory h
 }
 
 /* An error's first message, kept until it is known what else is to be said. */
-static PetscErrorCode Keep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type, const char *message, void *context)
+static PetscErrorCode Keep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                           PetscErrorType type, const char *message, void *context)
 {
   (void)comm;
   (void)line;
@@ -342,12 +361,13 @@ static PetscErrorCode Keep(MPI_Comm comm, int line, const char *function, const 
   return code;
 }
 
-PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamHistory history, const SamParameters *parameters, PetscInt *steps, SamStatus *worst)
+PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamHistory history,
+                                 const SamParameters *parameters, PetscInt *steps, SamStatus *worst)
 {
   SamContactState state;
   SamGrid         grid;
-  char            message[1024] = "", ignored[1024], before[PETSC_MAX_PATH_LEN + 8], advice[2 * PETSC_MAX_PATH_LEN] = "";
-  PetscErrorCode  ierr;
+  char           message[1024] = "", ignored[1024], before[PETSC_MAX_PATH_LEN + 8], advice[2 * PETSC_MAX_PATH_LEN] = "";
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
@@ -359,7 +379,8 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamH
     PetscCall(DestroyFields(&state));
     PetscCall(PetscSNPrintf(before, sizeof(before), "%s.1", filename));
     PetscCall(PetscPushErrorHandler(Keep, ignored));
-    if (!ReadFile(grid, before, history, parameters, steps, worst, &state)) (void)snprintf(advice, sizeof(advice), "; the checkpoint before it can be read: -restart %s", before);
+    if (!ReadFile(grid, before, history, parameters, steps, worst, &state))
+      (void)snprintf(advice, sizeof(advice), "; the checkpoint before it can be read: -restart %s", before);
     PetscCall(PetscPopErrorHandler());
   }
   if (!ierr) PetscCall(SamContactSetState(contact, &state));

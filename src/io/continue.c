@@ -1,8 +1,8 @@
 /*
   Results that go on where a run was stopped.
 
-  A run may have been killed in the middle of a step. What it has told of can be read (hdf5.c), but HDF5's indices may be
-  between two states, and nothing should be written into those. So unless the file was closed in order, the steps
+  A run may have been killed in the middle of a step. What it has told of can be read (hdf5.c), but HDF5's indices may
+  be between two states, and nothing should be written into those. So unless the file was closed in order, the steps
   that count are copied to a new one beside it, which is put in its place when it is whole.
 */
 #include "ioimpl.h"
@@ -12,11 +12,11 @@
 
 /* What is found in the file. */
 typedef struct {
-  hsize_t   steps, saved; /* complete ones */
-  hsize_t   keep;         /* steps with fields among those that count */
-  PetscBool whole;        /* closed in order, with these steps and no others */
-  char      problem[256];
-  PetscErrorCode code;    /* of the problem */
+  hsize_t        steps, saved; /* complete ones */
+  hsize_t        keep;         /* steps with fields among those that count */
+  PetscBool      whole;        /* closed in order, with these steps and no others */
+  char           problem[256];
+  PetscErrorCode code; /* of the problem */
 } Found;
 
 static void Complain(Found *found, PetscErrorCode code, const char text[])
@@ -29,8 +29,10 @@ static void Complain(Found *found, PetscErrorCode code, const char text[])
 static void CountSteps(SamOutput o, Found *found)
 {
   found->steps = found->saved = HSIZE_UNDEF;
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) found->steps = PetscMin(found->steps, SamOutputLength(o, o->columns[c]));
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) found->saved = PetscMin(found->saved, SamOutputLength(o, o->fields[f]));
+  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++)
+    found->steps = PetscMin(found->steps, SamOutputLength(o, o->columns[c]));
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+    found->saved = PetscMin(found->saved, SamOutputLength(o, o->fields[f]));
   found->saved = PetscMin(found->saved, PetscMin(SamOutputLength(o, o->state), SamOutputLength(o, o->time)));
 }
 
@@ -43,15 +45,19 @@ static PetscErrorCode CompareTimes(SamOutput o, hsize_t steps, const PetscReal t
   PetscCall(PetscCalloc1(PetscMax(steps, found->saved), &values));
   SamOutputReadSeries(o, o->columns[0], H5T_NATIVE_DOUBLE, 0, steps, values);
   for (hsize_t k = 0; k < steps; k++)
-    if (values[k] != (double)times[k]) Complain(found, SAM_ERR_USER, "its times are not those of the load program (-history, -steps)");
+    if (values[k] != (double)times[k])
+      Complain(found, SAM_ERR_USER, "its times are not those of the load program (-history, -steps)");
   SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, found->saved, values);
-  for (found->keep = 0; found->keep < found->saved && steps && values[found->keep] <= (double)times[steps - 1]; found->keep++) o->saved_time = values[found->keep];
+  for (found->keep = 0; found->keep < found->saved && steps && values[found->keep] <= (double)times[steps - 1];
+       found->keep++)
+    o->saved_time = values[found->keep];
   PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Looks at a file that is open. */
-static PetscErrorCode Look(SamOutput o, const SamParameters *parameters, hsize_t steps, const PetscReal times[], Found *found)
+static PetscErrorCode Look(SamOutput o, const SamParameters *parameters, hsize_t steps, const PetscReal times[],
+                           Found *found)
 {
   char   text[192];
   int8_t closed = 0;
@@ -63,7 +69,8 @@ static PetscErrorCode Look(SamOutput o, const SamParameters *parameters, hsize_t
   CountSteps(o, found);
   if (o->f->failed || found->code) PetscFunctionReturn(PETSC_SUCCESS);
   if (found->steps < steps) {
-    (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint", (long)found->steps, (long)steps);
+    (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint", (long)found->steps,
+                   (long)steps);
     Complain(found, SAM_ERR_FILE, text);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -74,7 +81,9 @@ static PetscErrorCode Look(SamOutput o, const SamParameters *parameters, hsize_t
 }
 
 /* Opens the file and looks at it. Errors leave nothing open. */
-static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode, const SamOutputSettings *set, const SamParameters *parameters, hsize_t steps, const PetscReal times[], SamOutput *output, Found *found)
+static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode, const SamOutputSettings *set,
+                           const SamParameters *parameters, hsize_t steps, const PetscReal times[], SamOutput *output,
+                           Found *found)
 {
   SamFile        file;
   PetscErrorCode ierr;
@@ -131,7 +140,8 @@ static PetscErrorCode ReadFields(SamOutput o, hsize_t k, SamFields *fields)
     PetscScalar *values;
 
     PetscCall(VecGetArray(vec, &values));
-    SamFileReadLayer(o->f, o->fields[f], H5T_NATIVE_DOUBLE, k, values + SamOutputFields[f].component * o->f->grid->cells);
+    SamFileReadLayer(o->f, o->fields[f], H5T_NATIVE_DOUBLE, k,
+                     values + SamOutputFields[f].component * o->f->grid->cells);
     PetscCall(VecRestoreArray(vec, &values));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -169,7 +179,8 @@ static double Friction(const SamParameters *parameters)
 }
 
 /* Step by step, as a run would write them. */
-static PetscErrorCode CopySteps(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep, SamOutput to, SamFields *fields)
+static PetscErrorCode CopySteps(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep,
+                                SamOutput to, SamFields *fields)
 {
   hsize_t saved = 0;
 
@@ -198,14 +209,16 @@ static PetscErrorCode CopyOptions(SamOutput from, SamOutput to)
 
   PetscFunctionBegin;
   PetscCall(SamFileBegin(from->f));
-  if (SamFileNote(from->f, H5Aexists(from->f->id, "options")) > 0) SamFileReadTextAttribute(from->f, from->f->id, "options", &options);
+  if (SamFileNote(from->f, H5Aexists(from->f->id, "options")) > 0)
+    SamFileReadTextAttribute(from->f, from->f->id, "options", &options);
   PetscCall(SamFileEnd(from->f));
   if (options) PetscCall(SamOutputSetText(to, "options", options));
   PetscCall(PetscFree(options));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CopyAll(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep, SamOutput to)
+static PetscErrorCode CopyAll(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep,
+                              SamOutput to)
 {
   SamFields      fields;
   PetscErrorCode ierr;
@@ -226,7 +239,8 @@ static PetscErrorCode CopyAll(SamOutput from, const SamParameters *parameters, h
 }
 
 /* The steps that count, in a new file that takes the old one's place. */
-static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const SamParameters *parameters, hsize_t steps, hsize_t keep)
+static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const SamParameters *parameters,
+                              hsize_t steps, hsize_t keep)
 {
   SamOutputSettings plain = *set;
   SamOutput         to;
@@ -279,7 +293,8 @@ static PetscErrorCode MarkOpen(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamParameters *parameters, PetscInt steps, const PetscReal times[], SamOutput *output)
+PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamParameters *parameters, PetscInt steps,
+                                 const PetscReal times[], SamOutput *output)
 {
   const hsize_t     count = (hsize_t)steps;
   SamOutputSettings set;
@@ -295,7 +310,8 @@ PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamP
   PetscCall(SamOutputDestroy(output));
   PetscCall(ierr);
   PetscCall(Open(grid, filename, SAM_FILE_APPEND, &set, parameters, count, times, output, &found));
-  PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program", filename);
+  PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program",
+             filename);
   (*output)->steps = found.steps;
   (*output)->saved = found.saved;
   PetscCall(MarkOpen(*output));

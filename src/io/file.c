@@ -1,9 +1,10 @@
 /*
   An HDF5 file that all ranks write or read together through MPI-IO.
 
-  Open MPI's collective writes, and HDF5 where it flushes its administration, may hang for ever when writing fails on one
-  rank alone. So what is likely to go wrong is found before MPI-IO sees it, on rank 0: a name that cannot be written, and
-  a disk or quota that is full, by allocating the space first. The file is then in order as it is, and can be closed.
+  Open MPI's collective writes, and HDF5 where it flushes its administration, may hang for ever when writing fails on
+  one rank alone. So what is likely to go wrong is found before MPI-IO sees it, on rank 0: a name that cannot be
+  written, and a disk or quota that is full, by allocating the space first. The file is then in order as it is, and can
+  be closed.
 */
 #include "ioimpl.h"
 #include <errno.h>
@@ -58,7 +59,8 @@ PetscErrorCode SamFileEnd(SamFile f)
   Unsilence(f);
   PetscCall(PetscLogEventEnd(SamEvents[f->event], 0, 0, 0, 0));
   PetscCall(SamFileAgree(f));
-  PetscCheck(!f->failed, f->grid->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename, f->writing ? "written" : "read", f->reason);
+  PetscCheck(!f->failed, f->grid->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename,
+             f->writing ? "written" : "read", f->reason);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -173,7 +175,8 @@ static int SyncFolderOf(const char filename[])
   const char *slash = strrchr(filename, '/');
   char        folder[PETSC_MAX_PATH_LEN];
 
-  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1, slash ? filename : ".");
+  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
+                 slash ? filename : ".");
   return Sync(folder, O_RDONLY | O_DIRECTORY);
 }
 
@@ -189,7 +192,8 @@ static int KeepAs(const char filename[], const char kept[])
   return rename(filename, kept) ? errno : 0;
 }
 
-PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[], const char filename[], const char kept[])
+PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[], const char filename[],
+                              const char kept[])
 {
   PetscMPIInt rank;
   int         error = 0;
@@ -244,8 +248,10 @@ static PetscErrorCode Examine(SamFile f)
 
   PetscFunctionBegin;
   if (f->rank == 0) {
-    if (stat(f->filename, &status) || access(f->filename, f->writing ? R_OK | W_OK : R_OK)) error = errno;
-    else if (!S_ISREG(status.st_mode)) error = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
+    if (stat(f->filename, &status) || access(f->filename, f->writing ? R_OK | W_OK : R_OK))
+      error = errno;
+    else if (!S_ISREG(status.st_mode))
+      error = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
     else {
       Silence(f);
       if (H5Fis_hdf5(f->filename) <= 0) error = NOT_HDF5;
@@ -253,7 +259,8 @@ static PetscErrorCode Examine(SamFile f)
     }
   }
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, f->grid->comm));
-  PetscCheck(!error, f->grid->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename, f->writing ? "written" : "read", error == NOT_HDF5 ? "it is not an HDF5 file" : strerror(error));
+  PetscCheck(!error, f->grid->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename,
+             f->writing ? "written" : "read", error == NOT_HDF5 ? "it is not an HDF5 file" : strerror(error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -268,17 +275,21 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));
   (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
   /* the newest format has checksums of all but the data */
-  if (mode == SAM_FILE_CREATE_CHECKED) (void)SamFileNote(f, H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST));
+  if (mode == SAM_FILE_CREATE_CHECKED)
+    (void)SamFileNote(f, H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST));
   f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
   (void)SamFileNote(f, H5Pset_dxpl_mpio(f->transfer, H5FD_MPIO_COLLECTIVE));
-  if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND) f->id = SamFileNote(f, H5Fopen(f->filename, f->writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access));
-  else f->id = SamFileNote(f, H5Fcreate(f->filename, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+  if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND)
+    f->id = SamFileNote(f, H5Fopen(f->filename, f->writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access));
+  else
+    f->id = SamFileNote(f, H5Fcreate(f->filename, H5F_ACC_TRUNC, H5P_DEFAULT, access));
   (void)SamFileNote(f, H5Pclose(access));
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFileMode mode, SamFile *file)
+PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFileMode mode,
+                           SamFile *file)
 {
   PetscErrorCode ierr;
 
@@ -321,7 +332,8 @@ PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close)
 
 /* ---- attributes ---- */
 
-void SamFileWriteAttribute(SamFile f, hid_t object, const char name[], hid_t stored, hid_t type, PetscInt count, const void *values)
+void SamFileWriteAttribute(SamFile f, hid_t object, const char name[], hid_t stored, hid_t type, PetscInt count,
+                           const void *values)
 {
   const hsize_t size  = (hsize_t)count;
   const hid_t   space = SamFileNote(f, count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL));
@@ -347,11 +359,14 @@ void SamFileWriteTextAttribute(SamFile f, hid_t object, const char name[], const
 
 void SamFileReadAttribute(SamFile f, hid_t object, const char name[], hid_t type, PetscInt count, void *values)
 {
-  const hid_t attribute = SamFileNote(f, H5Aopen(object, name, H5P_DEFAULT)), space = SamFileNote(f, H5Aget_space(attribute));
+  const hid_t attribute = SamFileNote(f, H5Aopen(object, name, H5P_DEFAULT)),
+              space     = SamFileNote(f, H5Aget_space(attribute));
 
   if (attribute >= 0 && space >= 0) {
-    if (H5Sget_simple_extent_npoints(space) == count) (void)SamFileNote(f, H5Aread(attribute, type, values));
-    else (void)SamFileNote(f, -1);
+    if (H5Sget_simple_extent_npoints(space) == count)
+      (void)SamFileNote(f, H5Aread(attribute, type, values));
+    else
+      (void)SamFileNote(f, -1);
   }
   if (space >= 0) (void)SamFileNote(f, H5Sclose(space));
   if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));

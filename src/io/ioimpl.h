@@ -8,9 +8,10 @@
 #include <sys/types.h>
 
 /*
-  SamFile - an HDF5 file that all ranks have open together, and what they know of its errors. Calls of HDF5 stand between
-  Begin and End. A call that fails on one rank must not keep it from the collective calls that the others make, so failures
-  are only noted, and all ranks make all calls; End agrees on the outcome and raises SAM_ERR_FILE with the option's name.
+  SamFile - an HDF5 file that all ranks have open together, and what they know of its errors. Calls of HDF5 stand
+  between Begin and End. A call that fails on one rank must not keep it from the collective calls that the others make,
+  so failures are only noted, and all ranks make all calls; End agrees on the outcome and raises SAM_ERR_FILE with the
+  option's name.
 */
 typedef struct _n_SamFile *SamFile;
 struct _n_SamFile {
@@ -24,20 +25,22 @@ struct _n_SamFile {
   PetscMPIInt rank;
   hid_t       id, transfer; /* transfer: collective */
   /* status */
-  PetscBool   failed;       /* on this rank, until SamFileEnd() or SamFileAgree() makes it common */
-  char        reason[256];  /* of the first failure */
-  H5E_auto2_t print;        /* how HDF5 reports errors outside of these functions */
+  PetscBool   failed;      /* on this rank, until SamFileEnd() or SamFileAgree() makes it common */
+  char        reason[256]; /* of the first failure */
+  H5E_auto2_t print;       /* how HDF5 reports errors outside of these functions */
   void       *print_data;
 };
 
-#define SAM_FILE_ADMINISTRATION (1 << 20) /* bytes, more than HDF5 needs for its administration at creation or for a step */
+#define SAM_FILE_ADMINISTRATION \
+  (1 << 20) /* bytes, more than HDF5 needs for its administration at creation or for a step */
 
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_CHECKED, SAM_FILE_READ, SAM_FILE_APPEND } SamFileMode;
 /*
   SamFileOpen - opens a file, or creates it in the place of one of that name; CREATE_CHECKED: with checksums over
   its administration. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
 */
-PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFileMode mode, SamFile *file);
+PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
+                                        SamFileMode mode, SamFile *file);
 /* SamFileClose - between Begin and End. SamFileDestroy - closes (unless that would hang) and frees. Collective. */
 PETSC_INTERN void           SamFileClose(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close);
@@ -47,30 +50,40 @@ PETSC_INTERN PetscErrorCode SamFileAgree(SamFile file);
 /* SamFileNote - passes on what an HDF5 call returned, and notes a failure with HDF5's reason. Not collective. */
 PETSC_INTERN hid_t SamFileNote(SamFile file, hid_t result);
 
-/* SamFileCheckName - raises SAM_ERR_FILE unless a file of the name could be written; leaves everything as it is. Collective. */
+/*
+  SamFileCheckName - raises SAM_ERR_FILE unless a file of the name could be written; leaves everything as it is.
+  Collective.
+*/
 PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[]);
-/* SamFileReserve - room for so many bytes and their administration, by which the file becomes longer; what is not needed of it, HDF5 cuts off when it flushes. Collective. */
+/*
+  SamFileReserve - room for so many bytes and their administration, by which the file becomes longer; what is not
+  needed of it, HDF5 cuts off when it flushes. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
 /*
-  SamFileReplace - puts a finished file, once it is on the disk, in the place of another, of which `kept` (NULL: nothing) becomes the
-  name. At every moment there is a file of the name, if there was one. Collective. Errors: SAM_ERR_FILE.
+  SamFileReplace - puts a finished file, once it is on the disk, in the place of another, of which `kept` (NULL:
+  nothing) becomes the name. At every moment there is a file of the name, if there was one. Collective. Errors:
+  SAM_ERR_FILE.
 */
-PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[], const char filename[], const char kept[]);
+PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
+                                           const char filename[], const char kept[]);
 /* SamFileRaise - raises SAM_ERR_FILE for the errno that rank 0 has; does nothing for 0. Collective. */
 PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
 
 /* The following note their failures. A text that is read is the caller's to free. Collective. */
-PETSC_INTERN void SamFileWriteAttribute(SamFile file, hid_t object, const char name[], hid_t stored, hid_t type, PetscInt count, const void *values);
+PETSC_INTERN void SamFileWriteAttribute(SamFile file, hid_t object, const char name[], hid_t stored, hid_t type,
+                                        PetscInt count, const void *values);
 PETSC_INTERN void SamFileWriteTextAttribute(SamFile file, hid_t object, const char name[], const char text[]);
-PETSC_INTERN void SamFileReadAttribute(SamFile file, hid_t object, const char name[], hid_t type, PetscInt count, void *values);
+PETSC_INTERN void SamFileReadAttribute(SamFile file, hid_t object, const char name[], hid_t type, PetscInt count,
+                                       void *values);
 PETSC_INTERN void SamFileReadTextAttribute(SamFile file, hid_t object, const char name[], char **text);
 /* One layer of a dataset (layers, ny, nx): each rank has its rows. */
 PETSC_INTERN void SamFileWriteLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, const void *values);
 PETSC_INTERN void SamFileReadLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, void *values);
 
 /*
-  SamParametersWrite - all parameters as attributes of the root. SamParametersDiffer - whether one that must not differ is
-  another in the file; which one, and the values, are told. Both note failures. Collective.
+  SamParametersWrite - all parameters as attributes of the root. SamParametersDiffer - whether one that must not differ
+  is another in the file; which one, and the values, are told. Both note failures. Collective.
 */
 PETSC_INTERN void      SamParametersWrite(SamFile file, const SamParameters *parameters);
 PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *parameters, char message[], size_t size);
@@ -83,7 +96,7 @@ typedef struct {
 /* A field: one component of a Vec of SamFields. */
 typedef struct {
   SamOutputLabel label;
-  size_t         offset;    /* of the Vec in SamFields */
+  size_t         offset; /* of the Vec in SamFields */
   PetscInt       component;
 } SamOutputField;
 
@@ -130,24 +143,32 @@ struct _n_SamOutput {
 /* The following note their failures. Collective. */
 /* SamOutputCreateLayout - all datasets, without a step, and their attributes. */
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
-PETSC_INTERN void SamOutputCloseLayout(SamOutput output);
+PETSC_INTERN void           SamOutputCloseLayout(SamOutput output);
 /* SamOutputFieldBytes - what the fields of one step take uncompressed. */
 PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
-/* SamOutputCreateVTK, SamOutputOpenVTK, SamOutputCountVTK - the group VTKHDF of the file, and how many steps there are in it. */
+/*
+  SamOutputCreateVTK, SamOutputOpenVTK, SamOutputCountVTK - the group VTKHDF of the file, and how many steps there are
+  in it.
+*/
 PETSC_INTERN void SamOutputCreateVTK(SamOutput output);
 PETSC_INTERN void SamOutputOpenVTK(SamOutput output);
 PETSC_INTERN void SamOutputCountVTK(SamOutput output, hsize_t saved);
 
 /* SamOutputOpenLayout - the same datasets of a file that has them. */
 PETSC_INTERN void SamOutputOpenLayout(SamOutput output);
-/* SamOutputLength - steps in a dataset. SamOutputReadSeries - `count` numbers of a series from `first` on, on all ranks. */
+/*
+  SamOutputLength - steps in a dataset. SamOutputReadSeries - `count` numbers of a series from `first` on, on all
+  ranks.
+*/
 PETSC_INTERN hsize_t SamOutputLength(SamOutput output, hid_t dataset);
-PETSC_INTERN void    SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t type, hsize_t first, hsize_t count, void *values);
+PETSC_INTERN void    SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t type, hsize_t first, hsize_t count,
+                                         void *values);
 /* SamOutputAllocate - an object on an open file, which it takes, with no dataset open. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output);
 PETSC_INTERN PetscErrorCode SamOutputGetSettings(MPI_Comm comm, SamOutputSettings *set);
 /* SamOutputCreateWith - as SamOutputCreate() with settings for options. */
-PETSC_INTERN PetscErrorCode SamOutputCreateWith(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output);
+PETSC_INTERN PetscErrorCode SamOutputCreateWith(SamGrid grid, const char filename[], const SamOutputSettings *set,
+                                                SamOutput *output);
 
 /*
   SamXdmfCreate - a file with no step for results of that name, replacing one there is. SamXdmfAddStep - one more, which

@@ -10,47 +10,65 @@
 #define CHUNK_STEPS 256 /* of what has one number a step */
 
 const SamOutputField SamOutputFields[SAM_OUTPUT_FIELDS] = {
-  {{"pressure", "Pa", "contact pressure"},                                      offsetof(SamFields, pressure),       0},
-  {{"shear_x", "Pa", "shear traction along x"},                                 offsetof(SamFields, shear),          0},
-  {{"shear_y", "Pa", "shear traction along y"},                                 offsetof(SamFields, shear),          1},
-  {{"slip_x", "m", "relative tangential displacement along x since the start"}, offsetof(SamFields, slip),           0},
-  {{"slip_y", "m", "relative tangential displacement along y since the start"}, offsetof(SamFields, slip),           1},
-  {{"gap", "m", "gap between the deformed surfaces"},                           offsetof(SamFields, gap),            0},
-  {{"displacement_x", "m", "relative elastic displacement along x"},            offsetof(SamFields, displacement_t), 0},
-  {{"displacement_y", "m", "relative elastic displacement along y"},            offsetof(SamFields, displacement_t), 1},
-  {{"displacement_z", "m", "relative elastic displacement along z"},            offsetof(SamFields, displacement_z), 0}
-};
+  {{"pressure", "Pa", "contact pressure"}, offsetof(SamFields, pressure), 0},
+  {{"shear_x", "Pa", "shear traction along x"}, offsetof(SamFields, shear), 0},
+  {{"shear_y", "Pa", "shear traction along y"}, offsetof(SamFields, shear), 1},
+  {{"slip_x", "m", "relative tangential displacement along x since the start"}, offsetof(SamFields, slip), 0},
+  {{"slip_y", "m", "relative tangential displacement along y since the start"}, offsetof(SamFields, slip), 1},
+  {{"gap", "m", "gap between the deformed surfaces"}, offsetof(SamFields, gap), 0},
+  {{"displacement_x", "m", "relative elastic displacement along x"}, offsetof(SamFields, displacement_t), 0},
+  {{"displacement_y", "m", "relative elastic displacement along y"}, offsetof(SamFields, displacement_t), 1},
+  {{"displacement_z", "m", "relative elastic displacement along z"}, offsetof(SamFields, displacement_z), 0}};
 
 /* The order of the components is that of SamLoadNames and SamRigidNames. */
 const SamOutputColumn SamOutputColumns[SAM_OUTPUT_COLUMNS] = {
-  {{"time", "s", "time of the load step"},                                                 SAM_COLUMN_REAL,   offsetof(SamStep, time)                    },
-  {{"load_n", "N", "normal force"},                                                        SAM_COLUMN_REAL,   offsetof(SamStep, normal.load[0])          },
-  {{"load_tx", "N", "tangential force along x"},                                           SAM_COLUMN_REAL,   offsetof(SamStep, tangential.load[0])      },
-  {{"load_ty", "N", "tangential force along y"},                                           SAM_COLUMN_REAL,   offsetof(SamStep, tangential.load[1])      },
-  {{"load_mx", "N m", "moment about x"},                                                   SAM_COLUMN_REAL,   offsetof(SamStep, normal.load[1])          },
-  {{"load_my", "N m", "moment about y"},                                                   SAM_COLUMN_REAL,   offsetof(SamStep, normal.load[2])          },
-  {{"load_mz", "N m", "moment about z"},                                                   SAM_COLUMN_REAL,   offsetof(SamStep, tangential.load[2])      },
-  {{"disp_z", "m", "rigid displacement along z (approach)"},                               SAM_COLUMN_REAL,   offsetof(SamStep, normal.rigid[0])         },
-  {{"disp_x", "m", "rigid displacement along x"},                                          SAM_COLUMN_REAL,   offsetof(SamStep, tangential.rigid[0])     },
-  {{"disp_y", "m", "rigid displacement along y"},                                          SAM_COLUMN_REAL,   offsetof(SamStep, tangential.rigid[1])     },
-  {{"rot_x", "rad", "rotation about x"},                                                   SAM_COLUMN_REAL,   offsetof(SamStep, normal.rigid[1])         },
-  {{"rot_y", "rad", "rotation about y"},                                                   SAM_COLUMN_REAL,   offsetof(SamStep, normal.rigid[2])         },
-  {{"rot_z", "rad", "rotation about z"},                                                   SAM_COLUMN_REAL,   offsetof(SamStep, tangential.rigid[2])     },
-  {{"contact_area", "m2", "area in contact"},                                              SAM_COLUMN_REAL,   offsetof(SamStep, contact_area)            },
-  {{"stick_area", "m2", "area in stick"},                                                  SAM_COLUMN_REAL,   offsetof(SamStep, stick_area)              },
-  {{"normal_residual", "1", "relative error of the normal problem, by the check"},         SAM_COLUMN_REAL,   offsetof(SamStep, check.normal)            },
-  {{"tangential_residual", "1", "relative error of the tangential problem, by the check"}, SAM_COLUMN_REAL,   offsetof(SamStep, check.tangential)        },
-  {{"equilibrium_residual", "1", "relative error of the loads, by the check"},             SAM_COLUMN_REAL,   offsetof(SamStep, check.equilibrium)       },
-  {{"normal_iterations", "1", "iterations of the normal solver"},                          SAM_COLUMN_INT,    offsetof(SamStep, normal_iterations)       },
-  {{"tangential_iterations", "1", "iterations of the tangential solver"},                  SAM_COLUMN_INT,    offsetof(SamStep, tangential_iterations)   },
-  {{"normal_applies", "1", "applications of the normal influence operator"},               SAM_COLUMN_INT,    offsetof(SamStep, normal_applies)          },
-  {{"tangential_applies", "1", "applications of the tangential influence operator"},       SAM_COLUMN_INT,    offsetof(SamStep, tangential_applies)      },
-  {{"normal_preconditions", "1", "applications of the normal preconditioner"},             SAM_COLUMN_INT,    offsetof(SamStep, normal_preconditions)    },
-  {{"tangential_preconditions", "1", "applications of the tangential preconditioner"},     SAM_COLUMN_INT,    offsetof(SamStep, tangential_preconditions)},
-  {{"coupling_iterations", "1", "passes of the normal-tangential coupling"},               SAM_COLUMN_INT,    offsetof(SamStep, coupling_iterations)     },
-  {{"status", "1", "outcome of the load step"},                                            SAM_COLUMN_STATUS, offsetof(SamStep, status)                  },
-  {{"dissipated_energy", "J", "frictional work of the load step"},                         SAM_COLUMN_REAL,   offsetof(SamStep, dissipated_energy)       }
-};
+  {{"time", "s", "time of the load step"}, SAM_COLUMN_REAL, offsetof(SamStep, time)},
+  {{"load_n", "N", "normal force"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.load[0])},
+  {{"load_tx", "N", "tangential force along x"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.load[0])},
+  {{"load_ty", "N", "tangential force along y"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.load[1])},
+  {{"load_mx", "N m", "moment about x"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.load[1])},
+  {{"load_my", "N m", "moment about y"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.load[2])},
+  {{"load_mz", "N m", "moment about z"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.load[2])},
+  {{"disp_z", "m", "rigid displacement along z (approach)"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.rigid[0])},
+  {{"disp_x", "m", "rigid displacement along x"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.rigid[0])},
+  {{"disp_y", "m", "rigid displacement along y"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.rigid[1])},
+  {{"rot_x", "rad", "rotation about x"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.rigid[1])},
+  {{"rot_y", "rad", "rotation about y"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.rigid[2])},
+  {{"rot_z", "rad", "rotation about z"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.rigid[2])},
+  {{"contact_area", "m2", "area in contact"}, SAM_COLUMN_REAL, offsetof(SamStep, contact_area)},
+  {{"stick_area", "m2", "area in stick"}, SAM_COLUMN_REAL, offsetof(SamStep, stick_area)},
+  {{"normal_residual", "1", "relative error of the normal problem, by the check"},
+   SAM_COLUMN_REAL,
+   offsetof(SamStep, check.normal)},
+  {{"tangential_residual", "1", "relative error of the tangential problem, by the check"},
+   SAM_COLUMN_REAL,
+   offsetof(SamStep, check.tangential)},
+  {{"equilibrium_residual", "1", "relative error of the loads, by the check"},
+   SAM_COLUMN_REAL,
+   offsetof(SamStep, check.equilibrium)},
+  {{"normal_iterations", "1", "iterations of the normal solver"}, SAM_COLUMN_INT, offsetof(SamStep, normal_iterations)},
+  {{"tangential_iterations", "1", "iterations of the tangential solver"},
+   SAM_COLUMN_INT,
+   offsetof(SamStep, tangential_iterations)},
+  {{"normal_applies", "1", "applications of the normal influence operator"},
+   SAM_COLUMN_INT,
+   offsetof(SamStep, normal_applies)},
+  {{"tangential_applies", "1", "applications of the tangential influence operator"},
+   SAM_COLUMN_INT,
+   offsetof(SamStep, tangential_applies)},
+  {{"normal_preconditions", "1", "applications of the normal preconditioner"},
+   SAM_COLUMN_INT,
+   offsetof(SamStep, normal_preconditions)},
+  {{"tangential_preconditions", "1", "applications of the tangential preconditioner"},
+   SAM_COLUMN_INT,
+   offsetof(SamStep, tangential_preconditions)},
+  {{"coupling_iterations", "1", "passes of the normal-tangential coupling"},
+   SAM_COLUMN_INT,
+   offsetof(SamStep, coupling_iterations)},
+  {{"status", "1", "outcome of the load step"}, SAM_COLUMN_STATUS, offsetof(SamStep, status)},
+  {{"dissipated_energy", "J", "frictional work of the load step"},
+   SAM_COLUMN_REAL,
+   offsetof(SamStep, dissipated_energy)}};
 
 static const SamOutputLabel x_label        = {"x", "m", "x of the cell centres"};
 static const SamOutputLabel y_label        = {"y", "m", "y of the cell centres"};
@@ -67,10 +85,12 @@ typedef struct {
 
 static const Shape series = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
 
-static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label, hid_t type, const Shape *shape, PetscInt compress)
+static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label, hid_t type, const Shape *shape,
+                           PetscInt compress)
 {
-  const hid_t space = SamFileNote(o->f, H5Screate_simple(shape->rank, shape->size, shape->largest)), creation = SamFileNote(o->f, H5Pcreate(H5P_DATASET_CREATE));
-  hid_t       dataset;
+  const hid_t space    = SamFileNote(o->f, H5Screate_simple(shape->rank, shape->size, shape->largest)),
+              creation = SamFileNote(o->f, H5Pcreate(H5P_DATASET_CREATE));
+  hid_t dataset;
 
   if (shape->chunk[0]) (void)SamFileNote(o->f, H5Pset_chunk(creation, shape->rank, shape->chunk));
   /* all is written that is there: filling new chunks would only write them twice */
@@ -88,7 +108,8 @@ static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label
 }
 
 /* A coordinate, which CF's attributes tell by its axis and its standard name. */
-static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const char axis[], const char standard_name[], const Shape *shape)
+static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const char axis[],
+                         const char standard_name[], const Shape *shape)
 {
   const hid_t scale = CreateDataset(o, where, label, H5T_IEEE_F64LE, shape, 0);
 
@@ -109,7 +130,8 @@ static PetscErrorCode CreateAxis(SamOutput o, const SamOutputLabel *label, Petsc
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &values));
   for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->f->grid, k) : SamGridX(o->f->grid, k);
-  *scale = CreateScale(o, o->f->id, label, direction ? "Y" : "X", direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape);
+  *scale = CreateScale(o, o->f->id, label, direction ? "Y" : "X",
+                       direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape);
   space  = SamFileNote(o->f, H5Dget_space(*scale));
   if (o->f->rank) (void)SamFileNote(o->f, H5Sselect_none(space));
   (void)SamFileNote(o->f, H5Dwrite(*scale, H5T_NATIVE_DOUBLE, space, space, o->f->transfer, values));
@@ -131,7 +153,10 @@ static Shape FieldShape(SamOutput o)
 {
   const hsize_t ny = (hsize_t)o->f->grid->ny, nx = (hsize_t)o->f->grid->nx;
 
-  return (Shape){3, {0, ny, nx}, {H5S_UNLIMITED, ny, nx}, {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
+  return (Shape){3,
+                 {0, ny, nx},
+                 {H5S_UNLIMITED, ny, nx},
+                 {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
 }
 
 off_t SamOutputFieldBytes(SamOutput o)
@@ -145,20 +170,22 @@ off_t SamOutputFieldBytes(SamOutput o)
 
 static PetscErrorCode CreateFields(SamOutput o)
 {
-  const Shape    shape    = FieldShape(o);
-  const int8_t   states[] = {SAM_STATE_OPEN, SAM_STATE_STICK, SAM_STATE_SLIP};
-  hid_t          scales[3]; /* of [time, y, x] */
+  const Shape  shape    = FieldShape(o);
+  const int8_t states[] = {SAM_STATE_OPEN, SAM_STATE_STICK, SAM_STATE_SLIP};
+  hid_t        scales[3]; /* of [time, y, x] */
 
   PetscFunctionBegin;
   PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
   PetscCall(CreateAxis(o, &y_label, 1, &scales[1]));
   scales[0] = o->time = CreateScale(o, o->f->id, &time_label, "T", "time", &series);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = CreateDataset(o, o->f->id, &SamOutputFields[f].label, H5T_IEEE_F64LE, &shape, o->set.compress);
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+    o->fields[f] = CreateDataset(o, o->f->id, &SamOutputFields[f].label, H5T_IEEE_F64LE, &shape, o->set.compress);
   o->state = CreateDataset(o, o->f->id, &state_label, H5T_STD_I8LE, &shape, o->set.compress);
   SamFileWriteAttribute(o->f, o->state, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8, 3, states);
   SamFileWriteTextAttribute(o->f, o->state, "flag_meanings", state_words);
   for (unsigned d = 0; d < 3; d++) {
-    for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
+    for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+      (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
     (void)SamFileNote(o->f, H5DSattach_scale(o->state, scales[d], d));
   }
   (void)SamFileNote(o->f, H5Dclose(scales[1]));
@@ -169,14 +196,16 @@ static PetscErrorCode CreateFields(SamOutput o)
 /* The first column, the time, is the dimension scale of the others. */
 static void CreateHistory(SamOutput o)
 {
-  const int64_t statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM, SAM_STATUS_EDGE_CONTACT};
+  const int64_t statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM,
+                              SAM_STATUS_EDGE_CONTACT};
   const hid_t   group      = SamFileNote(o->f, H5Gcreate2(o->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 
   o->columns[0] = CreateScale(o, group, &SamOutputColumns[0].label, "T", "time", &series);
   for (PetscInt c = 1; c < SAM_OUTPUT_COLUMNS; c++) {
     const SamOutputColumn *column = &SamOutputColumns[c];
 
-    o->columns[c] = CreateDataset(o, group, &column->label, column->kind == SAM_COLUMN_REAL ? H5T_IEEE_F64LE : H5T_STD_I64LE, &series, 0);
+    o->columns[c] = CreateDataset(o, group, &column->label,
+                                  column->kind == SAM_COLUMN_REAL ? H5T_IEEE_F64LE : H5T_STD_I64LE, &series, 0);
     (void)SamFileNote(o->f, H5DSattach_scale(o->columns[c], o->columns[0], 0));
     if (column->kind == SAM_COLUMN_STATUS) {
       SamFileWriteAttribute(o->f, o->columns[c], "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
@@ -226,11 +255,13 @@ void SamOutputOpenLayout(SamOutput o)
 
   OpenDataset(o, o->f->id, "time", &o->time);
   OpenDataset(o, o->f->id, "state", &o->state);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) OpenDataset(o, o->f->id, SamOutputFields[f].label.name, &o->fields[f]);
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) OpenDataset(o, history, SamOutputColumns[c].label.name, &o->columns[c]);
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+    OpenDataset(o, o->f->id, SamOutputFields[f].label.name, &o->fields[f]);
+  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++)
+    OpenDataset(o, history, SamOutputColumns[c].label.name, &o->columns[c]);
   ReadChunks(o);
   SamOutputOpenVTK(o);
-  o->closed    = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
+  o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
   if (history >= 0) (void)SamFileNote(o->f, H5Gclose(history));
 }
 
@@ -258,14 +289,16 @@ hsize_t SamOutputLength(SamOutput o, hid_t dataset)
   const hid_t space   = SamFileNote(o->f, H5Dget_space(dataset));
   hsize_t     size[3] = {0, 0, 0};
 
-  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3) (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
+  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3)
+    (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
   if (space >= 0) (void)SamFileNote(o->f, H5Sclose(space));
   return size[0];
 }
 
 void SamOutputReadSeries(SamOutput o, hid_t dataset, hid_t type, hsize_t first, hsize_t count, void *values)
 {
-  const hid_t space = SamFileNote(o->f, H5Dget_space(dataset)), memory = SamFileNote(o->f, H5Screate_simple(1, &count, NULL));
+  const hid_t space  = SamFileNote(o->f, H5Dget_space(dataset)),
+              memory = SamFileNote(o->f, H5Screate_simple(1, &count, NULL));
 
   if (count) (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, NULL, &count, NULL));
   if (count) (void)SamFileNote(o->f, H5Dread(dataset, type, memory, space, o->f->transfer, values));

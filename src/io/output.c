@@ -1,8 +1,8 @@
 /*
   Results in an HDF5 file, written by all ranks together.
 
-  Datasets stay open and grow by one along time with each step; each rank writes its rows. The space of a step is reserved
-  before anything of it is written.
+  Datasets stay open and grow by one along time with each step; each rank writes its rows. The space of a step is
+  reserved before anything of it is written.
 */
 #include "ioimpl.h"
 #include <errno.h>
@@ -17,11 +17,15 @@ PetscErrorCode SamOutputGetSettings(MPI_Comm comm, SamOutputSettings *set)
 {
   PetscFunctionBegin;
   *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
-  PetscCall(SamOptionsInt(NULL, "output_compress", "level of compression of the fields, 0 (none) to 9", 0, &set->compress, NULL));
-  PetscCheck(set->compress <= 9, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", set->compress);
-  PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, comm, SAM_ERR_USER, "-output_compress %" PetscInt_FMT ": this HDF5 was built without zlib", set->compress);
+  PetscCall(SamOptionsInt(NULL, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
+                          &set->compress, NULL));
+  PetscCheck(set->compress <= 9, comm, SAM_ERR_USER,
+             "-output_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", set->compress);
+  PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, comm, SAM_ERR_USER,
+             "-output_compress %" PetscInt_FMT ": this HDF5 was built without zlib", set->compress);
   PetscCall(SamOptionsIntPair(NULL, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
-  PetscCall(SamOptionsBool(NULL, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
+  PetscCall(
+    SamOptionsBool(NULL, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -37,10 +41,11 @@ PetscErrorCode SamOutputCheckOptions(MPI_Comm comm)
 /* ---- on one rank ---- */
 
 /*
-  Moves what the superblock says is the end of the data to the end of the file, before HDF5 writes what points there: the
-  space of a step has been reserved, so that it lies before. HDF5 itself tells the end last; a run that is killed in
-  between would leave datasets that lead beyond it, and with them steps that were complete before. Version 0 of the superblock has no checksum and the end at byte 40 (HDF5 file format
-  specification, II.A); of others this is left to HDF5.
+  Moves what the superblock says is the end of the data to the end of the file, before HDF5 writes what points there:
+  the space of a step has been reserved, so that it lies before. HDF5 itself tells the end last; a run that is killed in
+  between would leave datasets that lead beyond it, and with them steps that were complete before. Version 0 of the
+  superblock has no checksum and the end at byte 40 (HDF5 file format specification, II.A); of others this is left to
+  HDF5.
 */
 #define SUPERBLOCK_VERSION 8
 #define SUPERBLOCK_OFFSETS 13 /* bytes of an address */
@@ -54,7 +59,8 @@ static int MoveEnd(const char filename[])
 
   if (file < 0) return errno;
   errno = EIO; /* of what is shorter than it should be */
-  if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status)) error = errno;
+  if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status))
+    error = errno;
   else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
     for (unsigned k = 0; k < sizeof(end); k++) end[k] = (unsigned char)((uint64_t)status.st_size >> 8 * k & 0xff);
     if (pwrite(file, end, sizeof(end), SUPERBLOCK_END) != (ssize_t)sizeof(end)) error = errno;
@@ -73,7 +79,7 @@ PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, Sam
   o->f    = file;
   o->set  = *set;
   o->time = o->state = o->vtk_steps = o->closed = -1;
-  o->saved_time = PETSC_NINFINITY;
+  o->saved_time                                 = PETSC_NINFINITY;
   for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = -1;
   for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) o->columns[c] = -1;
   PetscCall(PetscMalloc1(file->grid->cells, &o->states));
@@ -130,7 +136,8 @@ static void MarkClosed(SamOutput o)
 {
   const int8_t closed = 1;
 
-  if (o->closed >= 0 && o->f->writing && !o->unchanged) (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
+  if (o->closed >= 0 && o->f->writing && !o->unchanged)
+    (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
 }
 
 PetscErrorCode SamOutputDestroy(SamOutput *output)
@@ -228,11 +235,11 @@ static void AppendHistory(SamOutput o, const SamStep *step)
       AppendNumber(o, o->columns[c], H5T_NATIVE_DOUBLE, o->steps, &real);
       break;
     case SAM_COLUMN_INT:
-      whole = (int64_t)*(const PetscInt *)place;
+      whole = (int64_t) * (const PetscInt *)place;
       AppendNumber(o, o->columns[c], H5T_NATIVE_INT64, o->steps, &whole);
       break;
     case SAM_COLUMN_STATUS:
-      whole = (int64_t)*(const SamStatus *)place;
+      whole = (int64_t) * (const SamStatus *)place;
       AppendNumber(o, o->columns[c], H5T_NATIVE_INT64, o->steps, &whole);
       break;
     }
@@ -290,17 +297,20 @@ static PetscErrorCode Flush(SamOutput o)
   if (error) {
     o->f->failed = PETSC_TRUE;
     (void)snprintf(o->f->reason, sizeof(o->f->reason), "%s", strerror(error));
-  } else (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  } else
+    (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* A step, fields, or both, and what belongs to them; then all of it is on its way to the disk. */
-static PetscErrorCode Append(SamOutput o, const SamStep *step, PetscReal time, const SamFields *fields, PetscReal friction)
+static PetscErrorCode Append(SamOutput o, const SamStep *step, PetscReal time, const SamFields *fields,
+                             PetscReal friction)
 {
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename, o->f->reason);
+  PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename,
+             o->f->reason);
   if (!o->copying) PetscCall(SamFileReserve(o->f, fields ? SamOutputFieldBytes(o) : 0));
   PetscCall(SamFileBegin(o->f));
   if (step) AppendHistory(o, step);

@@ -5,7 +5,8 @@
 static PetscErrorCode Add(SamParameters *p, const char name[], PetscBool fixed, SamParameter **added)
 {
   PetscFunctionBegin;
-  PetscCheck(p->count < SAM_PARAMETERS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d parameters", SAM_PARAMETERS);
+  PetscCheck(p->count < SAM_PARAMETERS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d parameters",
+             SAM_PARAMETERS);
   *added = &p->list[p->count++];
   PetscCall(PetscMemzero(*added, sizeof(**added)));
   PetscCall(PetscStrncpy((*added)->name, name, sizeof((*added)->name)));
@@ -13,7 +14,8 @@ static PetscErrorCode Add(SamParameters *p, const char name[], PetscBool fixed, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamParametersAddReals(SamParameters *p, const char name[], PetscBool fixed, PetscInt count, const PetscReal values[])
+PetscErrorCode SamParametersAddReals(SamParameters *p, const char name[], PetscBool fixed, PetscInt count,
+                                     const PetscReal values[])
 {
   SamParameter *added = NULL;
 
@@ -40,8 +42,10 @@ void SamParametersWrite(SamFile f, const SamParameters *parameters)
   for (PetscInt k = 0; k < parameters->count; k++) {
     const SamParameter *const p = &parameters->list[k];
 
-    if (p->count) SamFileWriteAttribute(f, f->id, p->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, p->count, p->value);
-    else SamFileWriteTextAttribute(f, f->id, p->name, p->text);
+    if (p->count)
+      SamFileWriteAttribute(f, f->id, p->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, p->count, p->value);
+    else
+      SamFileWriteTextAttribute(f, f->id, p->name, p->text);
   }
 }
 
@@ -52,7 +56,8 @@ static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *re
 
   PetscFunctionBegin;
   *read = *like;
-  if (like->count) SamFileReadAttribute(f, f->id, like->name, H5T_NATIVE_DOUBLE, like->count, read->value);
+  if (like->count)
+    SamFileReadAttribute(f, f->id, like->name, H5T_NATIVE_DOUBLE, like->count, read->value);
   else {
     SamFileReadTextAttribute(f, f->id, like->name, &text);
     PetscCall(PetscStrncpy(read->text, text ? text : "", sizeof(read->text)));
@@ -63,9 +68,12 @@ static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *re
 
 static void Print(const SamParameter *p, char text[], size_t size)
 {
-  if (p->count == 0) (void)snprintf(text, size, "%s", p->text);
-  else if (p->count == 1) (void)snprintf(text, size, "%.15g", (double)p->value[0]);
-  else (void)snprintf(text, size, "%.15g,%.15g", (double)p->value[0], (double)p->value[1]);
+  if (p->count == 0)
+    (void)snprintf(text, size, "%s", p->text);
+  else if (p->count == 1)
+    (void)snprintf(text, size, "%.15g", (double)p->value[0]);
+  else
+    (void)snprintf(text, size, "%.15g,%.15g", (double)p->value[0], (double)p->value[1]);
 }
 
 static PetscBool Same(const SamParameter *a, const SamParameter *b)

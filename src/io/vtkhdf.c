@@ -52,11 +52,13 @@ static void Link(SamOutput o, hid_t group, const char name[], const char dataset
 
 void SamOutputCreateVTK(SamOutput o)
 {
-  const hid_t   group = CreateGroup(o, o->f->id, "VTKHDF"), cells = CreateGroup(o, group, "CellData"), steps = CreateGroup(o, group, "Steps");
+  const hid_t group = CreateGroup(o, o->f->id, "VTKHDF"), cells = CreateGroup(o, group, "CellData"),
+              steps  = CreateGroup(o, group, "Steps");
   const int64_t none = 0;
 
   WriteGeometry(o, group);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) Link(o, cells, SamOutputFields[f].label.name, SamOutputFields[f].label.name);
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+    Link(o, cells, SamOutputFields[f].label.name, SamOutputFields[f].label.name);
   Link(o, cells, "state", "state");
   Link(o, steps, "Values", "time");
   SamFileWriteAttribute(o->f, steps, "NSteps", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &none);

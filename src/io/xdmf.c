@@ -1,8 +1,8 @@
 /*
   A file beside the results that tells ParaView and VisIt what is in them (XDMF, version 2: https://xdmf.org).
 
-  Rank 0 writes it. Each step is put in the place of the closing tags, together with new ones, by one call to the system:
-  the file is whole before and after it.
+  Rank 0 writes it. Each step is put in the place of the closing tags, together with new ones, by one call to the
+  system: the file is whole before and after it.
 */
 #include "ioimpl.h"
 #include <errno.h>
@@ -74,19 +74,27 @@ static void Print(char **text, size_t *length, const char format[], ...)
   *length += (size_t)n;
 }
 
-static void PrintField(SamXdmf x, char **text, size_t *length, const char name[], const char type[], int bytes, long step)
+static void PrintField(SamXdmf x, char **text, size_t *length, const char name[], const char type[], int bytes,
+                       long step)
 {
   const long ny = (long)x->grid->ny, nx = (long)x->grid->nx;
 
-  Print(text, length, "        <Attribute Name=\"%s\" Center=\"Node\">\n          <DataItem ItemType=\"HyperSlab\" Dimensions=\"1 %ld %ld\">\n", name, ny, nx);
-  Print(text, length, "            <DataItem Dimensions=\"3 3\" Format=\"XML\">%ld 0 0 1 1 1 1 %ld %ld</DataItem>\n", step, ny, nx);
-  Print(text, length, "            <DataItem Dimensions=\"%ld %ld %ld\" NumberType=\"%s\" Precision=\"%d\" Format=\"HDF\">%s:/%s</DataItem>\n", step + 1, ny, nx, type, bytes, x->results, name);
+  Print(text, length,
+        "        <Attribute Name=\"%s\" Center=\"Node\">\n          <DataItem ItemType=\"HyperSlab\" Dimensions=\"1 "
+        "%ld %ld\">\n",
+        name, ny, nx);
+  Print(text, length, "            <DataItem Dimensions=\"3 3\" Format=\"XML\">%ld 0 0 1 1 1 1 %ld %ld</DataItem>\n",
+        step, ny, nx);
+  Print(text, length,
+        "            <DataItem Dimensions=\"%ld %ld %ld\" NumberType=\"%s\" Precision=\"%d\" "
+        "Format=\"HDF\">%s:/%s</DataItem>\n",
+        step + 1, ny, nx, type, bytes, x->results, name);
   Print(text, length, "          </DataItem>\n        </Attribute>\n");
 }
 
 /*
-  A step and the closing tags; NULL without memory. Coordinates go z, y, x. The cells' centres are the points of a plane:
-  VTK's reader finds no cells in a single layer of them.
+  A step and the closing tags; NULL without memory. Coordinates go z, y, x. The cells' centres are the points of a
+  plane: VTK's reader finds no cells in a single layer of them.
 */
 static char *StepText(SamXdmf x, long step, double time, size_t *length)
 {
@@ -95,10 +103,20 @@ static char *StepText(SamXdmf x, long step, double time, size_t *length)
 
   *length = 0;
   Print(&text, length, "      <Grid Name=\"contact\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", time);
-  Print(&text, length, "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"1 %ld %ld\"/>\n        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n", (long)g->ny, (long)g->nx);
-  Print(&text, length, "          <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">0 %.17g %.17g</DataItem>\n", (double)SamGridY(g, 0), (double)SamGridX(g, 0));
-  Print(&text, length, "          <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">%.17g %.17g %.17g</DataItem>\n        </Geometry>\n", (double)PetscMax(g->dx, g->dy), (double)g->dy, (double)g->dx);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) PrintField(x, &text, length, SamOutputFields[f].label.name, "Float", 8, step);
+  Print(&text, length,
+        "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"1 %ld %ld\"/>\n        <Geometry "
+        "GeometryType=\"ORIGIN_DXDYDZ\">\n",
+        (long)g->ny, (long)g->nx);
+  Print(&text, length,
+        "          <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">0 %.17g "
+        "%.17g</DataItem>\n",
+        (double)SamGridY(g, 0), (double)SamGridX(g, 0));
+  Print(&text, length,
+        "          <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">%.17g %.17g "
+        "%.17g</DataItem>\n        </Geometry>\n",
+        (double)PetscMax(g->dx, g->dy), (double)g->dy, (double)g->dx);
+  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+    PrintField(x, &text, length, SamOutputFields[f].label.name, "Float", 8, step);
   PrintField(x, &text, length, "state", "Char", 1, step);
   Print(&text, length, "      </Grid>\n%s", tail);
   return text;
@@ -121,7 +139,8 @@ static int WriteAt(int file, const char text[], size_t length, off_t where)
 
 static int Begin(SamXdmf x)
 {
-  static const char head[] = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid Name=\"steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  static const char head[] = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid Name=\"steps\" "
+                             "GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   int               error;
 
   x->file = open(x->filename, O_WRONLY | O_CREAT | O_TRUNC, 0666);
@@ -140,8 +159,10 @@ static int Append(SamXdmf x, long step, double time)
   if (!text) return ENOMEM;
   error = WriteAt(x->file, text, length, x->end);
   free(text);
-  if (!error) x->end += (off_t)(length - strlen(tail));
-  else if (!WriteAt(x->file, tail, strlen(tail), x->end)) error = ftruncate(x->file, x->end + (off_t)strlen(tail)) ? errno : error; /* as it was */
+  if (!error)
+    x->end += (off_t)(length - strlen(tail));
+  else if (!WriteAt(x->file, tail, strlen(tail), x->end))
+    error = ftruncate(x->file, x->end + (off_t)strlen(tail)) ? errno : error; /* as it was */
   return error;
 }
 

@@ -4,7 +4,8 @@
 PetscErrorCode SamSolverMonitorSet(SamSolver *s, SamSolverMonitor monitor, void *context)
 {
   PetscFunctionBegin;
-  PetscCheck(s->monitors < SAM_MONITORS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d monitors", SAM_MONITORS);
+  PetscCheck(s->monitors < SAM_MONITORS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d monitors",
+             SAM_MONITORS);
   s->monitor[s->monitors]           = monitor;
   s->monitor_context[s->monitors++] = context;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -32,7 +33,8 @@ PetscErrorCode SamSolverSetFromOptions(SamSolver *s, const char types[], char ty
   PetscCall(PetscStrncpy(type, s->type, size));
   PetscCall(SamOptionsString(prefix, "type", types, type, size, set_type));
   PetscCall(SamOptionsReal(prefix, "rtol", s->error_help, SAM_RANGE_POSITIVE, &s->rtol, NULL));
-  PetscCall(SamOptionsInt(prefix, "max_it", "iterations on the finest grid, 0: the type's default", 0, &s->max_it, NULL));
+  PetscCall(
+    SamOptionsInt(prefix, "max_it", "iterations on the finest grid, 0: the type's default", 0, &s->max_it, NULL));
   PetscCall(SamOptionsInt(prefix, "levels", "nested grids, 0: the type's default", 0, &s->levels, NULL));
   PetscCall(SamOptionsBool(prefix, "monitor", "print the error after each iteration", &monitor, NULL));
   PetscCall(SamOptionsBool(prefix, "error_if_not_converged", "stop with an error", &s->error_if_not_converged, NULL));
@@ -57,9 +59,12 @@ PetscErrorCode SamSolverView(const SamSolver *s, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Solver of the %s problem: type %s\n", s->kind, s->type));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  rtol %g, max_it %" PetscInt_FMT ", nested grids ", (double)s->rtol, SamSolverMaxIterations(s)));
-  if (SamSolverLevels(s) == PETSC_MAX_INT) PetscCall(PetscViewerASCIIPrintf(viewer, "as many as the grid allows\n"));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT "\n", SamSolverLevels(s)));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  rtol %g, max_it %" PetscInt_FMT ", nested grids ", (double)s->rtol,
+                                   SamSolverMaxIterations(s)));
+  if (SamSolverLevels(s) == PETSC_MAX_INT)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "as many as the grid allows\n"));
+  else
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT "\n", SamSolverLevels(s)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -79,10 +84,12 @@ PetscErrorCode SamSolverViewFromOptions(const SamSolver *s, PetscBool converged,
   }
   PetscCall(SamGetViewer(s->comm, prefix, "-converged_reason", &viewer, &format, &set));
   if (set) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "The %s solve %s due to %s iterations %" PetscInt_FMT "\n", s->kind, converged ? "converged" : "did not converge", reason, s->iterations));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "The %s solve %s due to %s iterations %" PetscInt_FMT "\n", s->kind,
+                                     converged ? "converged" : "did not converge", reason, s->iterations));
     PetscCall(PetscViewerDestroy(&viewer));
   }
-  PetscCheck(converged || !s->error_if_not_converged, s->comm, PETSC_ERR_NOT_CONVERGED, "The %s solve did not converge due to %s", s->kind, reason);
+  PetscCheck(converged || !s->error_if_not_converged, s->comm, PETSC_ERR_NOT_CONVERGED,
+             "The %s solve did not converge due to %s", s->kind, reason);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -95,6 +102,7 @@ void SamSolverStart(SamSolver *s)
 PetscErrorCode SamSolverCallMonitors(SamSolver *s, PetscReal error)
 {
   PetscFunctionBegin;
-  for (PetscInt m = 0; m < s->monitors; m++) PetscCall(s->monitor[m](s->owner, s->iterations, error, s->monitor_context[m]));
+  for (PetscInt m = 0; m < s->monitors; m++)
+    PetscCall(s->monitor[m](s->owner, s->iterations, error, s->monitor_context[m]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

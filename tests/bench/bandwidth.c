@@ -55,7 +55,8 @@ int main(int argc, char **argv)
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &ranks));
   n = megabytes * (1000000 / (3 * (PetscInt)sizeof(double))) / ranks;
   PetscCall(Best(n, repeats, &seconds));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%d ranks  %.2f GB/s\n", (int)ranks, 3e-9 * (double)sizeof(double) * (double)n * (double)ranks / seconds));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%d ranks  %.2f GB/s\n", (int)ranks,
+                        3e-9 * (double)sizeof(double) * (double)n * (double)ranks / seconds));
   PetscCall(PetscFinalize());
   return 0;
 }

@@ -42,16 +42,16 @@ static PetscErrorCode RunPruned(void *context)
 }
 
 typedef struct {
-  fftw_plan      forward, backward;
-  fftw_complex  *spectrum;
-  double        *kernel; /* real spectrum */
-  ptrdiff_t      points;
+  fftw_plan     forward, backward;
+  fftw_complex *spectrum;
+  double       *kernel; /* real spectrum */
+  ptrdiff_t     points;
 } Padded;
 
 static PetscErrorCode RunPadded(void *context)
 {
-  Padded *p              = (Padded *)context;
-  double (*spectrum)[2] = (double(*)[2])p->spectrum;
+  Padded *p            = (Padded *)context;
+  double(*spectrum)[2] = (double(*)[2])p->spectrum;
 
   PetscFunctionBegin;
   fftw_execute(p->forward);
@@ -136,8 +136,10 @@ static PetscErrorCode TimePadded(PetscInt n, PetscInt repeats, double *seconds)
 
     PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &ranks));
     if (ranks > 1) {
-      p.forward  = fftw_mpi_plan_dft_r2c_2d(N, N, field, p.spectrum, PETSC_COMM_WORLD, FFTW_MEASURE | FFTW_MPI_TRANSPOSED_OUT);
-      p.backward = fftw_mpi_plan_dft_c2r_2d(N, N, p.spectrum, field, PETSC_COMM_WORLD, FFTW_MEASURE | FFTW_MPI_TRANSPOSED_IN);
+      p.forward =
+        fftw_mpi_plan_dft_r2c_2d(N, N, field, p.spectrum, PETSC_COMM_WORLD, FFTW_MEASURE | FFTW_MPI_TRANSPOSED_OUT);
+      p.backward =
+        fftw_mpi_plan_dft_c2r_2d(N, N, p.spectrum, field, PETSC_COMM_WORLD, FFTW_MEASURE | FFTW_MPI_TRANSPOSED_IN);
     } else {
       p.forward  = fftw_plan_dft_r2c_2d((int)N, (int)N, field, p.spectrum, FFTW_MEASURE);
       p.backward = fftw_plan_dft_c2r_2d((int)N, (int)N, p.spectrum, field, FFTW_MEASURE);
@@ -174,7 +176,8 @@ int main(int argc, char **argv)
 
     PetscCall(TimePadded(sizes[k], repeats, &padded));
     PetscCall(TimePruned(sizes[k], repeats, &pruned));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%7" PetscInt_FMT "  %15.7f  %12.7f  %6.3f\n", sizes[k], padded, pruned, pruned / padded));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%7" PetscInt_FMT "  %15.7f  %12.7f  %6.3f\n", sizes[k], padded, pruned,
+                          pruned / padded));
   }
   PetscCall(SamFinalize());
   PetscCall(PetscFinalize());

@@ -40,7 +40,8 @@ static void Count(int file, off_t where)
 
 ssize_t pwrite(int file, const void *data, size_t size, off_t where)
 {
-  ssize_t (*next)(int, const void *, size_t, off_t) = (ssize_t(*)(int, const void *, size_t, off_t))dlsym(RTLD_NEXT, "pwrite");
+  ssize_t (*next)(int, const void *, size_t, off_t) =
+    (ssize_t(*)(int, const void *, size_t, off_t))dlsym(RTLD_NEXT, "pwrite");
 
   Count(file, where);
   return next(file, data, size, where);

@@ -13,7 +13,8 @@
 /* A number in [-1, 1) that depends on its arguments alone: fields made of it are the same on any number of ranks. */
 static inline double Random(PetscInt seed, PetscInt component, PetscInt i, PetscInt j)
 {
-  uint64_t z = (uint64_t)(seed + 1) * 0x9e3779b97f4a7c15u + (uint64_t)(component + 1) * 0xd1b54a32d192ed03u + (uint64_t)(i + 1) * 0x8cb92ba72f3d8dd7u + (uint64_t)(j + 1) * 0xabc98388fb8fac03u;
+  uint64_t z = (uint64_t)(seed + 1) * 0x9e3779b97f4a7c15u + (uint64_t)(component + 1) * 0xd1b54a32d192ed03u +
+               (uint64_t)(i + 1) * 0x8cb92ba72f3d8dd7u + (uint64_t)(j + 1) * 0xabc98388fb8fac03u;
 
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -21,7 +22,8 @@ static inline double Random(PetscInt seed, PetscInt component, PetscInt i, Petsc
   return (double)(z >> 11) / 4503599627370496.0 - 1;
 }
 
-static inline SamGrid NewGridOn(MPI_Comm comm, PetscInt nx, PetscInt ny, double width, double height, double x, double y)
+static inline SamGrid NewGridOn(MPI_Comm comm, PetscInt nx, PetscInt ny, double width, double height, double x,
+                                double y)
 {
   const PetscInt  n[2]      = {nx, ny};
   const PetscReal size[2]   = {width, height};
@@ -54,7 +56,8 @@ static inline Vec NewRandom(SamGrid grid, PetscInt components, PetscInt seed)
   sam_call(VecGetArray(v, &a));
   for (PetscInt c = 0; c < components; c++)
     for (PetscInt j = 0; j < grid->rows; j++)
-      for (PetscInt i = 0; i < grid->nx; i++) a[c * grid->cells + j * grid->nx + i] = Random(seed, c, i, grid->row_start + j);
+      for (PetscInt i = 0; i < grid->nx; i++)
+        a[c * grid->cells + j * grid->nx + i] = Random(seed, c, i, grid->row_start + j);
   sam_call(VecRestoreArray(v, &a));
   return v;
 }
@@ -67,7 +70,8 @@ static inline Vec NewFrom(SamGrid grid, double (*value)(double x, double y, cons
 
   sam_call(VecGetArray(v, &a));
   for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) a[j * grid->nx + i] = value(SamGridX(grid, i), SamGridY(grid, grid->row_start + j), context);
+    for (PetscInt i = 0; i < grid->nx; i++)
+      a[j * grid->nx + i] = value(SamGridX(grid, i), SamGridY(grid, grid->row_start + j), context);
   sam_call(VecRestoreArray(v, &a));
   return v;
 }
@@ -93,7 +97,8 @@ static inline double *Whole(SamGrid grid, PetscInt components, Vec v)
   for (PetscInt c = 0; c < components; c++)
     for (PetscInt k = 0; k < grid->cells; k++) w[c * all + grid->row_start * grid->nx + k] = a[c * grid->cells + k];
   sam_call(VecRestoreArrayRead(v, &a));
-  if (grid->comm != PETSC_COMM_SELF) (void)MPI_Allreduce(MPI_IN_PLACE, w, (int)(components * all), MPI_DOUBLE, MPI_SUM, grid->comm);
+  if (grid->comm != PETSC_COMM_SELF)
+    (void)MPI_Allreduce(MPI_IN_PLACE, w, (int)(components * all), MPI_DOUBLE, MPI_SUM, grid->comm);
   return w;
 }
 
@@ -114,7 +119,8 @@ static inline void AddAt(SamGrid grid, PetscInt component, PetscInt i, PetscInt 
   double *a;
 
   sam_call(VecGetArray(v, &a));
-  if (j >= grid->row_start && j < grid->row_start + grid->rows) a[component * grid->cells + (j - grid->row_start) * grid->nx + i] += value;
+  if (j >= grid->row_start && j < grid->row_start + grid->rows)
+    a[component * grid->cells + (j - grid->row_start) * grid->nx + i] += value;
   sam_call(VecRestoreArray(v, &a));
 }
 

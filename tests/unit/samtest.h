@@ -39,9 +39,10 @@ static inline void SamAssert_(int ok, const char *text, const char *file, int li
   fail();
 }
 
-#define sam_assert(cond)            SamAssert_((cond) ? 1 : 0, #cond, __FILE__, __LINE__)
-#define sam_assert_close(a, b, tol) SamAssert_(fabs((double)(a) - (double)(b)) <= (double)(tol), "|" #a " - " #b "| <= " #tol, __FILE__, __LINE__)
-#define sam_call(petsc_call_expr)   SamAssert_((petsc_call_expr) == 0, #petsc_call_expr, __FILE__, __LINE__)
+#define sam_assert(cond) SamAssert_((cond) ? 1 : 0, #cond, __FILE__, __LINE__)
+#define sam_assert_close(a, b, tol) \
+  SamAssert_(fabs((double)(a) - (double)(b)) <= (double)(tol), "|" #a " - " #b "| <= " #tol, __FILE__, __LINE__)
+#define sam_call(petsc_call_expr) SamAssert_((petsc_call_expr) == 0, #petsc_call_expr, __FILE__, __LINE__)
 
 /* Starts PETSc, runs the tests, and returns what main() returns: 0 when no test failed on any rank. */
 static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *tests, size_t n)
@@ -50,7 +51,8 @@ static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *te
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr))) MPI_Abort(PETSC_COMM_WORLD, 1);
+  if (rank && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)))
+    MPI_Abort(PETSC_COMM_WORLD, 1);
   cmocka_set_message_output(CM_OUTPUT_STDOUT);
   failed = _cmocka_run_group_tests(argv[0], tests, n, NULL, NULL);
   (void)MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);

@@ -50,7 +50,8 @@ static double Imbalance(SamGrid grid, const SamBalance *b, Vec traction, double 
   }
   for (int k = 0; k < 3; k++) {
     const int    moment = b->kind == SAM_BALANCE_NORMAL ? k > 0 : k == 2;
-    const double arm    = b->force[0] && b->force[1] ? grid->length : grid->length + fabs(grid->center[0]) + fabs(grid->center[1]);
+    const double arm =
+      b->force[0] && b->force[1] ? grid->length : grid->length + fabs(grid->center[0]) + fabs(grid->center[1]);
 
     worst = fmax(worst, fabs(error[k]) / (*size * (moment ? arm : 1)));
   }
@@ -93,7 +94,8 @@ static PetscBool Project(SamGrid grid, const SamBalance *b, Vec bound, Vec tract
 
   sam_call(SamFrameSet(&f, grid, b));
   sam_call(VecGetArray(traction, &t));
-  if (b->kind == SAM_BALANCE_NORMAL) sam_call(SamFrameProjectNormal(&f, NULL, t, &found));
+  if (b->kind == SAM_BALANCE_NORMAL)
+    sam_call(SamFrameProjectNormal(&f, NULL, t, &found));
   else {
     sam_call(VecGetArrayRead(bound, &a));
     sam_call(SamFrameProjectTangential(&f, a, PETSC_FALSE, t, &found));
@@ -111,7 +113,9 @@ static void AssertAdmissible(SamGrid grid, SamBalanceKind kind, Vec bound, Vec t
 
   sam_call(VecGetArrayRead(traction, &t));
   sam_call(VecGetArrayRead(bound, &b));
-  for (PetscInt k = 0; k < grid->cells; k++) worst = fmax(worst, kind == SAM_BALANCE_NORMAL ? -t[k] : hypot(t[k], t[k + grid->cells]) - b[k] * (1 + 4 * DBL_EPSILON));
+  for (PetscInt k = 0; k < grid->cells; k++)
+    worst =
+      fmax(worst, kind == SAM_BALANCE_NORMAL ? -t[k] : hypot(t[k], t[k + grid->cells]) - b[k] * (1 + 4 * DBL_EPSILON));
   sam_call(VecRestoreArrayRead(bound, &b));
   sam_call(VecRestoreArrayRead(traction, &t));
   sam_assert(worst <= 0);
@@ -123,8 +127,9 @@ static void AssertProjection(SamBalanceKind kind)
   const PetscInt components = kind == SAM_BALANCE_NORMAL ? 1 : 2;
 
   for (int k = 0; k < NUM_GRIDS; k++) {
-    SamGrid   grid  = Grid(k);
-    Vec       bound = NewPressure(grid, 3), known = kind == SAM_BALANCE_NORMAL ? NewPressure(grid, 4) : NewShear(grid, bound, 4, 0.9);
+    SamGrid grid  = Grid(k);
+    Vec     bound = NewPressure(grid, 3),
+        known     = kind == SAM_BALANCE_NORMAL ? NewPressure(grid, 4) : NewShear(grid, bound, 4, 0.9);
     PetscReal loads[3];
 
     sam_call(SamBalanceGetLoads(grid, kind, known, loads));
@@ -150,7 +155,8 @@ static void AssertProjection(SamBalanceKind kind)
         AssertAdmissible(grid, kind, bound, w);
         sam_call(VecAXPY(d, -1, x));
         sam_call(VecAXPY(w, -1, x));
-        sam_assert(Dot(d, w) <= 1e-9 * (far + Norm(x, NORM_2)) * (Norm(w, NORM_2) + 1e-3)); /* errors of equilibrium times the multipliers */
+        sam_assert(Dot(d, w) <= 1e-9 * (far + Norm(x, NORM_2)) *
+                                  (Norm(w, NORM_2) + 1e-3)); /* errors of equilibrium times the multipliers */
         sam_call(VecDestroy(&w));
         sam_call(VecDestroy(&d));
       }
@@ -208,15 +214,14 @@ static void test_impossible_normal_loads_are_found(void **state)
 {
   (void)state;
   for (int k = 0; k < NUM_GRIDS; k++) {
-    SamGrid         grid = Grid(k);
-    const double    x = grid->center[0], y = grid->center[1], h = 0.5 * grid->width[0] - 0.49 * grid->dx, v = 0.5 * grid->width[1] - 0.49 * grid->dy;
-    const PetscReal cases[][3] = {
-      {-1, 0,        0      },
-      {1,  -y,       x + h  }, /* the resultant just beyond the outermost centres */
-      {1,  -y,       x - h  },
-      {1,  -(y + v), x      },
-      {2,  -2 * y,   2 * x + 4 * h}
-    };
+    SamGrid      grid = Grid(k);
+    const double x = grid->center[0], y = grid->center[1], h = 0.5 * grid->width[0] - 0.49 * grid->dx,
+                 v             = 0.5 * grid->width[1] - 0.49 * grid->dy;
+    const PetscReal cases[][3] = {{-1, 0, 0},
+                                  {1, -y, x + h}, /* the resultant just beyond the outermost centres */
+                                  {1, -y, x - h},
+                                  {1, -(y + v), x},
+                                  {2, -2 * y, 2 * x + 4 * h}};
 
     for (int c = 0; c < 5; c++) {
       const SamBalance b = Balance(SAM_BALANCE_NORMAL, c ? 7 : 1, cases[c]);
@@ -283,19 +288,22 @@ static void test_torque_alone_slides_at_two_thirds_of_a_uniform_disc(void **stat
     const double     all   = Sum(bound) * grid->dx * grid->dy;
     const SamBalance b     = Forced(0, 0, 1);
 
-    sam_assert_close(Limit(grid, &b, bound), 2.0 / 3 * all * disc[2], 1.2 / (double)n * all * disc[2]); /* the rim is cells wide */
+    sam_assert_close(Limit(grid, &b, bound), 2.0 / 3 * all * disc[2],
+                     1.2 / (double)n * all * disc[2]); /* the rim is cells wide */
     sam_call(VecDestroy(&bound));
     sam_call(SamGridDestroy(&grid));
   }
 }
 
-/* Each limit load lies inside the limits of its parts, and outside the straight line between them: the set is convex. */
+/*
+  Each limit load lies inside the limits of its parts, and outside the straight line between them: the set is convex.
+*/
 static void test_combined_limit_lies_between_line_and_rectangle(void **state)
 {
   const double disc[3] = {0, 0, 0.4e-3};
   SamGrid      grid    = NewGrid(31, 31, 1e-3, 1e-3);
   Vec          bound   = NewFrom(grid, Disc, disc);
-  SamBalance   force   = Forced(1, 0, 0), torque = Forced(0, 0, 1);
+  SamBalance   force = Forced(1, 0, 0), torque = Forced(0, 0, 1);
   const double T = Limit(grid, &force, bound), M = Limit(grid, &torque, bound);
   double       last = M * (1 + 1e-9);
 
@@ -328,7 +336,7 @@ static void test_loads_are_feasible_below_the_limit_and_not_above(void **state)
       for (int mask = 1; mask < 8; mask++) {
         const double     arm = 0.3e-3, x = loads[c][0], y = loads[c][1];
         const PetscReal  given[3] = {x, y, loads[c][2] * arm + grid->center[0] * y - grid->center[1] * x};
-        const SamBalance b = Balance(SAM_BALANCE_TANGENTIAL, mask, given);
+        const SamBalance b        = Balance(SAM_BALANCE_TANGENTIAL, mask, given);
         double           f = Limit(grid, &b, bound), norm = 0;
 
         for (int i = 0; i < 3; i++) norm += b.force[i] ? fabs(given[i]) : 0;
@@ -344,7 +352,8 @@ static void test_loads_are_feasible_below_the_limit_and_not_above(void **state)
           Vec             q     = NewField(grid, 2);
           const PetscBool found = Project(grid, &near, bound, q);
 
-          if (getenv("SAM_SHOW") && (int)found == above) print_message("# grid %d load %d mask %d above %d limit %.15g\n", k, c, mask, above, f);
+          if (getenv("SAM_SHOW") && (int)found == above)
+            print_message("# grid %d load %d mask %d above %d limit %.15g\n", k, c, mask, above, f);
           sam_assert(found == (above ? PETSC_FALSE : PETSC_TRUE));
           sam_call(VecDestroy(&q));
         }
@@ -359,10 +368,10 @@ static void test_sliding_motion_dissipates_what_the_limit_says(void **state)
 {
   (void)state;
   for (int k = 0; k < NUM_GRIDS; k++) {
-    SamGrid         grid  = Grid(k);
-    Vec             bound = NewPressure(grid, 9);
+    SamGrid         grid     = Grid(k);
+    Vec             bound    = NewPressure(grid, 9);
     const PetscReal given[3] = {1, -0.5, 0.4e-3 - 0.5 * grid->center[0] - grid->center[1]};
-    SamBalance      b = Balance(SAM_BALANCE_TANGENTIAL, 7, given);
+    SamBalance      b        = Balance(SAM_BALANCE_TANGENTIAL, 7, given);
     PetscReal       factor, v[3];
     const double   *a;
     double          power = 0;
@@ -370,7 +379,9 @@ static void test_sliding_motion_dissipates_what_the_limit_says(void **state)
     sam_call(SamBalanceSlideLimit(grid, &b, bound, &factor, v));
     sam_call(VecGetArrayRead(bound, &a));
     for (PetscInt j = 0; j < grid->rows; j++)
-      for (PetscInt i = 0; i < grid->nx; i++) power += a[j * grid->nx + i] * grid->dx * grid->dy * hypot(v[0] - SamGridY(grid, grid->row_start + j) * v[2], v[1] + SamGridX(grid, i) * v[2]);
+      for (PetscInt i = 0; i < grid->nx; i++)
+        power += a[j * grid->nx + i] * grid->dx * grid->dy *
+                 hypot(v[0] - SamGridY(grid, grid->row_start + j) * v[2], v[1] + SamGridX(grid, i) * v[2]);
     sam_call(VecRestoreArrayRead(bound, &a));
     (void)MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
     /* only the direction of v is told; far away the parts of the velocity cancel by a factor of 1000 */
@@ -391,19 +402,17 @@ static void test_lever_must_lie_among_the_cell_centres(void **state)
     const struct {
       double Mx, My;
       int    possible;
-    } cases[] = {
-      {-N * grid->center[1], N * grid->center[0], 1},
-      {-N * grid->center[1], N * (right - d),     1},
-      {-N * grid->center[1], N * (right + d),     0},
-      {-N * (low + d),       N * grid->center[0], 1},
-      {-N * (low - d),       N * grid->center[0], 0}
-    };
+    } cases[] = {{-N * grid->center[1], N * grid->center[0], 1},
+                 {-N * grid->center[1], N * (right - d), 1},
+                 {-N * grid->center[1], N * (right + d), 0},
+                 {-N * (low + d), N * grid->center[0], 1},
+                 {-N * (low - d), N * grid->center[0], 0}};
     char      message[256];
     PetscBool possible;
 
     for (int c = 0; c < 5; c++) {
       const PetscReal  loads[3] = {N, cases[c].Mx, cases[c].My};
-      const SamBalance b        = Balance(SAM_BALANCE_NORMAL, 7, loads), other = Balance(SAM_BALANCE_NORMAL, 6, loads);
+      const SamBalance b = Balance(SAM_BALANCE_NORMAL, 7, loads), other = Balance(SAM_BALANCE_NORMAL, 6, loads);
 
       sam_call(SamBalanceLever(grid, &b, message, sizeof(message), &possible));
       sam_assert(possible == (PetscBool)cases[c].possible);
@@ -444,14 +453,17 @@ static void test_loads_are_conjugate_to_displacements(void **state)
           const double   x = SamGridX(grid, i), y = SamGridY(grid, grid->row_start + j);
           const PetscInt c = j * grid->nx + i;
 
-          if (kind == 0) power += a[c] * (rigid[0] - y * rigid[1] + x * rigid[2]);
-          else power += a[c] * (rigid[0] - y * rigid[2]) + a[c + grid->cells] * (rigid[1] + x * rigid[2]);
+          if (kind == 0)
+            power += a[c] * (rigid[0] - y * rigid[1] + x * rigid[2]);
+          else
+            power += a[c] * (rigid[0] - y * rigid[2]) + a[c + grid->cells] * (rigid[1] + x * rigid[2]);
         }
       sam_call(VecRestoreArrayRead(t, &a));
       (void)MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
       power *= grid->dx * grid->dy;
       sam_call(SamBalanceGetLoads(grid, kind ? SAM_BALANCE_TANGENTIAL : SAM_BALANCE_NORMAL, t, loads));
-      sam_assert_close(loads[0] * rigid[0] + loads[1] * rigid[1] + loads[2] * rigid[2], power, 1e-13 * Norm(t, NORM_1) * grid->dx * grid->dy); /* rounding of sums */
+      sam_assert_close(loads[0] * rigid[0] + loads[1] * rigid[1] + loads[2] * rigid[2], power,
+                       1e-13 * Norm(t, NORM_1) * grid->dx * grid->dy); /* rounding of sums */
       sam_call(VecDestroy(&t));
     }
     sam_call(SamGridDestroy(&grid));

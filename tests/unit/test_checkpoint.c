@@ -1,6 +1,6 @@
 /*
- * The state of a contact in a file: what is read is what was written, on all ranks; a checksum sees what changes and not
- * where it lies.
+ * The state of a contact in a file: what is read is what was written, on all ranks; a checksum sees what changes and
+ * not where it lies.
  */
 #include "fields.h"
 
@@ -25,7 +25,7 @@ static void Remove(void)
 
 static uint64_t ChecksumOn(MPI_Comm comm, int swap)
 {
-  SamGrid  grid = NewGridOn(comm, 13, 7, 1, 1, 0, 0);
+  SamGrid  grid  = NewGridOn(comm, 13, 7, 1, 1, 0, 0);
   Vec      field = NewField(grid, 2);
   uint64_t checksum;
   double  *values;
@@ -34,7 +34,8 @@ static uint64_t ChecksumOn(MPI_Comm comm, int swap)
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt j = 0; j < grid->rows; j++)
       for (PetscInt i = 0; i < grid->nx; i++) {
-        const PetscInt row = grid->row_start + j, other = swap && row == 3 && i < 2 ? 1 - i : i; /* two cells change places */
+        const PetscInt row   = grid->row_start + j,
+                       other = swap && row == 3 && i < 2 ? 1 - i : i; /* two cells change places */
 
         values[c * grid->cells + j * grid->nx + i] = Random(1, c, other, row);
       }
@@ -65,8 +66,8 @@ typedef struct {
 static Body NewBody(PetscInt ny)
 {
   const double young[2] = {210e9, 70e9}, poisson[2] = {0.3, 0.2};
-  Body         b        = {.grid = NewGrid(37, ny, 6e-3, 6e-3)};
-  Vec          h        = NewField(b.grid, 1);
+  Body         b = {.grid = NewGrid(37, ny, 6e-3, 6e-3)};
+  Vec          h = NewField(b.grid, 1);
   SamPair      pair;
   double      *values;
 
@@ -140,7 +141,8 @@ static void test_contact_that_is_read_goes_on_as_the_one_that_was_written(void *
 
       sam_call(SamContactGetFields(one.contact, &f[0]));
       sam_call(SamContactGetFields(other.contact, &f[1]));
-      sam_assert(Same(f[0].pressure, f[1].pressure) && Same(f[0].shear, f[1].shear) && Same(f[0].slip, f[1].slip) && Same(f[0].gap, f[1].gap));
+      sam_assert(Same(f[0].pressure, f[1].pressure) && Same(f[0].shear, f[1].shear) && Same(f[0].slip, f[1].slip) &&
+                 Same(f[0].gap, f[1].gap));
       sam_assert(a.normal_iterations == b.normal_iterations && a.tangential_iterations == b.tangential_iterations);
     }
     sam_call(SamHistoryDestroy(&history));

@@ -36,9 +36,10 @@ static SamStep Loaded(const Case *c, double N, double x, double y, double z)
 {
   const double  T    = c->friction > 0 ? c->friction * c->s.N : c->s.N;
   const SamStep step = {
-    .normal     = {.kind = SAM_BALANCE_NORMAL,     .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {N * c->s.N, 0, 0}            },
-    .tangential = {.kind = SAM_BALANCE_TANGENTIAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {x * T, y * T, z * T * c->s.a}}
-  };
+    .normal = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {N * c->s.N, 0, 0}},
+    .tangential = {.kind  = SAM_BALANCE_TANGENTIAL,
+                   .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
+                   .load  = {x * T, y * T, z * T * c->s.a}}};
 
   return step;
 }
@@ -47,7 +48,9 @@ static void Solve(Case *c, SamStep *step)
 {
   sam_call(SamContactSolve(c->contact, step));
   if (getenv("SAM_SHOW"))
-    print_message("# status %d passes %d check %g %g %g %g %g %s\n", (int)step->status, (int)step->coupling_iterations, step->check.normal, step->check.tangential, step->check.equilibrium, step->check.cone, step->check.edge, step->message);
+    print_message("# status %d passes %d check %g %g %g %g %g %s\n", (int)step->status, (int)step->coupling_iterations,
+                  step->check.normal, step->check.tangential, step->check.equilibrium, step->check.cone,
+                  step->check.edge, step->message);
 }
 
 static SamPair Steel(void)
@@ -94,7 +97,8 @@ static void test_second_step_with_the_same_load_dissipates_nothing(void **state)
   Solve(&c, &first);
   Solve(&c, &second);
   AssertGood(&second);
-  sam_assert_close(second.dissipated_energy, 0, 1e-5 * first.dissipated_energy); /* rtol of the shear, times the condition */
+  sam_assert_close(second.dissipated_energy, 0,
+                   1e-5 * first.dissipated_energy); /* rtol of the shear, times the condition */
   sam_assert_close(second.tangential.rigid[0], first.tangential.rigid[0], 1e-5 * first.tangential.rigid[0]);
   DestroyCase(&c);
 }
@@ -139,7 +143,9 @@ static void AssertSameFields(const SamFields *a, const SamFields *b, double rest
   sam_call(VecEqual(a->shear, b->shear, &same[1]));
   sam_call(VecEqual(a->slip, b->slip, &same[2]));
   sam_assert(same[0] && same[1] && same[2]);
-  sam_assert(Difference(a->gap, b->gap, NORM_INFINITY) <= rest && Difference(a->displacement_z, b->displacement_z, NORM_INFINITY) <= rest && Difference(a->displacement_t, b->displacement_t, NORM_INFINITY) <= rest);
+  sam_assert(Difference(a->gap, b->gap, NORM_INFINITY) <= rest &&
+             Difference(a->displacement_z, b->displacement_z, NORM_INFINITY) <= rest &&
+             Difference(a->displacement_t, b->displacement_t, NORM_INFINITY) <= rest);
 }
 
 /* Loads of a sequence in which N stays for a while and T turns. */
@@ -284,7 +290,8 @@ static void test_dissimilar_bodies_without_friction_need_one_pass(void **state)
 /* Exchanging the bodies is looking from below: shear, slip and tangential loads change their sign. */
 static void test_exchanged_bodies_have_the_same_pressure_and_opposite_shear(void **state)
 {
-  Case      c = NewCase(NewPair(210e9, 0.3, 70e9, 0.33), 48, 1.5, 0.2, ""), d = NewCase(NewPair(70e9, 0.33, 210e9, 0.3), 48, 1.5, 0.2, "");
+  Case c        = NewCase(NewPair(210e9, 0.3, 70e9, 0.33), 48, 1.5, 0.2, ""),
+       d        = NewCase(NewPair(70e9, 0.33, 210e9, 0.3), 48, 1.5, 0.2, "");
   SamStep   one = Loaded(&c, 1, 0.2, 0.1, 0), two = Loaded(&d, 1, -0.2, -0.1, 0);
   SamFields f, g;
 
@@ -321,8 +328,8 @@ typedef void (*Spoil)(const Case *c, SamStep *step, SamFields *f);
 /* Solves, spoils the solution, and checks what is left. */
 static SamCheck CheckSpoilt(Spoil spoil)
 {
-  Case       c     = NewCase(Steel(), 48, 1.5, mu, "");
-  SamStep    step  = Loaded(&c, 1, 0.5, 0.2, 0.1);
+  Case       c        = NewCase(Steel(), 48, 1.5, mu, "");
+  SamStep    step     = Loaded(&c, 1, 0.5, 0.2, 0.1);
   SamBalance given[2] = {step.normal, step.tangential};
   SamFields  f;
   SamCheck   check;
@@ -331,8 +338,11 @@ static SamCheck CheckSpoilt(Spoil spoil)
   AssertGood(&step);
   sam_call(SamContactGetFields(c.contact, &f));
   if (spoil) spoil(&c, &step, &f);
-  sam_call(SamContactCheck(c.s.elasticity, PETSC_TRUE, PETSC_FALSE, mu, c.s.h, NULL, &given[0], &given[1], &step, &f, &check));
-  if (getenv("SAM_SHOW")) print_message("# spoilt: %g %g %g %g %g\n", check.normal, check.tangential, check.equilibrium, check.cone, check.edge);
+  sam_call(
+    SamContactCheck(c.s.elasticity, PETSC_TRUE, PETSC_FALSE, mu, c.s.h, NULL, &given[0], &given[1], &step, &f, &check));
+  if (getenv("SAM_SHOW"))
+    print_message("# spoilt: %g %g %g %g %g\n", check.normal, check.tangential, check.equilibrium, check.cone,
+                  check.edge);
   DestroyCase(&c);
   return check;
 }
@@ -342,7 +352,8 @@ static void test_check_agrees_with_itself(void **state)
   const SamCheck check = CheckSpoilt(NULL);
 
   (void)state;
-  sam_assert(check.normal < 2e-8 && check.tangential < 2e-6 && check.equilibrium < 1e-11 && check.cone < 1e-13 && check.edge == 0);
+  sam_assert(check.normal < 2e-8 && check.tangential < 2e-6 && check.equilibrium < 1e-11 && check.cone < 1e-13 &&
+             check.edge == 0);
 }
 
 static void AddPressure(const Case *c, SamStep *step, SamFields *f)
@@ -428,7 +439,8 @@ static void test_check_finds_shear_beyond_the_cone(void **state)
   const SamCheck check = CheckSpoilt(StretchShear);
 
   (void)state;
-  sam_assert(check.cone > 5e-3 && check.cone < 1.01e-2); /* 1 % where it slips, where mu p is somewhat below its largest */
+  sam_assert(check.cone > 5e-3 &&
+             check.cone < 1.01e-2); /* 1 % where it slips, where mu p is somewhat below its largest */
   sam_assert(check.tangential > 1e-4);
   sam_assert(check.equilibrium > 5e-3);
 }
@@ -517,7 +529,10 @@ static void test_nan_is_no_equilibrium(void **state)
 
 /* ---- the prediction of the next step ---- */
 
-/* Hertz's pressure of radius a, and of Cattaneo's shear under T = (1 - (c/a)^3) mu N: mu times it less that of radius c. */
+/*
+  Hertz's pressure of radius a, and of Cattaneo's shear under T = (1 - (c/a)^3) mu N: mu times it less that of radius
+  c.
+*/
 typedef struct {
   double a, c;
 } Stage;

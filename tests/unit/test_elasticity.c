@@ -31,7 +31,10 @@ static SamElasticity NewDissimilar(SamGrid grid)
   return NewCompliance(grid, NewPair(young[0], poisson[0], young[1], poisson[1]));
 }
 
-/* Displacement along `row` at lag (i, j) from unit traction along `column` (0, 1, 2: x, y, z), body by body (Johnson 1985). */
+/*
+  Displacement along `row` at lag (i, j) from unit traction along `column` (0, 1, 2: x, y, z), body by body (Johnson
+  1985).
+*/
 static double Influence(SamGrid grid, int row, int column, PetscInt i, PetscInt j)
 {
   double sum = 0;
@@ -40,13 +43,20 @@ static double Influence(SamGrid grid, int row, int column, PetscInt i, PetscInt 
     const double G = young[b] / (2 * (1 + poisson[b])), nu = poisson[b];
     /* tangential tractions and displacements of body 1 are both reversed, normal ones are the same for both */
     const double side = b == 0 ? -1 : 1;
-    const double at_r = (1 - nu) / (2 * PETSC_PI * G), at_xx = nu / (2 * PETSC_PI * G), at_x = (1 - 2 * nu) / (4 * PETSC_PI * G);
+    const double at_r = (1 - nu) / (2 * PETSC_PI * G), at_xx = nu / (2 * PETSC_PI * G),
+                 at_x = (1 - 2 * nu) / (4 * PETSC_PI * G);
 
-    if (row == 2 && column == 2) sum += at_r * SamIntegralCell(SAM_INTEGRAL_R, grid->dx, grid->dy, i, j);
-    else if (column == 2) sum -= side * at_x * SamIntegralCell(row == 0 ? SAM_INTEGRAL_X : SAM_INTEGRAL_Y, grid->dx, grid->dy, i, j);
-    else if (row == 2) sum += side * at_x * SamIntegralCell(column == 0 ? SAM_INTEGRAL_X : SAM_INTEGRAL_Y, grid->dx, grid->dy, i, j);
-    else if (row != column) sum += at_xx * SamIntegralCell(SAM_INTEGRAL_XY, grid->dx, grid->dy, i, j);
-    else sum += at_r * SamIntegralCell(SAM_INTEGRAL_R, grid->dx, grid->dy, i, j) + at_xx * SamIntegralCell(row == 0 ? SAM_INTEGRAL_XX : SAM_INTEGRAL_YY, grid->dx, grid->dy, i, j);
+    if (row == 2 && column == 2)
+      sum += at_r * SamIntegralCell(SAM_INTEGRAL_R, grid->dx, grid->dy, i, j);
+    else if (column == 2)
+      sum -= side * at_x * SamIntegralCell(row == 0 ? SAM_INTEGRAL_X : SAM_INTEGRAL_Y, grid->dx, grid->dy, i, j);
+    else if (row == 2)
+      sum += side * at_x * SamIntegralCell(column == 0 ? SAM_INTEGRAL_X : SAM_INTEGRAL_Y, grid->dx, grid->dy, i, j);
+    else if (row != column)
+      sum += at_xx * SamIntegralCell(SAM_INTEGRAL_XY, grid->dx, grid->dy, i, j);
+    else
+      sum += at_r * SamIntegralCell(SAM_INTEGRAL_R, grid->dx, grid->dy, i, j) +
+             at_xx * SamIntegralCell(row == 0 ? SAM_INTEGRAL_XX : SAM_INTEGRAL_YY, grid->dx, grid->dy, i, j);
   }
   return sum;
 }
@@ -64,7 +74,9 @@ static Vec SumDirectly(SamGrid grid, int first_in, PetscInt n_in, int first_out,
         for (PetscInt c = 0; c < n_in; c++)
           for (PetscInt l = 0; l < grid->ny; l++)
             for (PetscInt k = 0; k < grid->nx; k++)
-              a[o * grid->cells + j * grid->nx + i] += Influence(grid, first_out + (int)o, first_in + (int)c, i - k, grid->row_start + j - l) * whole[(c * grid->ny + l) * grid->nx + k];
+              a[o * grid->cells + j * grid->nx + i] +=
+                Influence(grid, first_out + (int)o, first_in + (int)c, i - k, grid->row_start + j - l) *
+                whole[(c * grid->ny + l) * grid->nx + k];
   sam_call(VecRestoreArray(u, &a));
   free(whole);
   return u;
@@ -125,7 +137,8 @@ static void test_normal_displacement_from_shear(void **state)
 typedef PetscErrorCode (*SingleProduct)(SamElasticity, double, const float[], float[]);
 
 /* `factor` times the product in double precision, to the rounding of floats. */
-static void AssertSingleProduct(PetscInt components, PetscErrorCode (*product)(SamElasticity, Vec, Vec), SingleProduct single)
+static void AssertSingleProduct(PetscInt      components, PetscErrorCode (*product)(SamElasticity, Vec, Vec),
+                                SingleProduct single)
 {
   for (int k = 0; k < NUM_SIZES; k++) {
     SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 3e-3, 1e-3);
@@ -283,7 +296,8 @@ static void test_uniform_pressure_lowers_the_centre_as_love_says(void **state)
     sam_call(VecSet(u, 1));
     sam_call(SamElasticityApplyNormal(C, u, u));
     whole = Whole(grid, 1, u);
-    sam_assert_close(whole[(n[k][1] / 2) * n[k][0] + n[k][0] / 2] * PETSC_PI * pair.modulus, expected, 1e-12 * expected); /* closed forms to 1e-14, and transforms */
+    sam_assert_close(whole[(n[k][1] / 2) * n[k][0] + n[k][0] / 2] * PETSC_PI * pair.modulus, expected,
+                     1e-12 * expected); /* closed forms to 1e-14, and transforms */
     free(whole);
     sam_call(VecDestroy(&u));
     sam_call(SamElasticityDestroy(&C));
@@ -326,8 +340,8 @@ static double HertzError(PetscInt n)
 }
 
 /*
-  Pressure sampled at the centres of cells: second order but for the cells at the contact's edge, where the root makes it
-  h^(3/2) and irregular; so the order is taken over a factor of 8.
+  Pressure sampled at the centres of cells: second order but for the cells at the contact's edge, where the root makes
+  it h^(3/2) and irregular; so the order is taken over a factor of 8.
 */
 static void test_hertz_pressure_gives_the_hertz_displacement(void **state)
 {
@@ -344,7 +358,8 @@ static void test_hertz_pressure_gives_the_hertz_displacement(void **state)
 /* Differences of the four products of two compliances, the second scaled by factors. */
 static void AssertRelated(SamGrid grid, SamPair first, SamPair second, double factor, double coupling_factor)
 {
-  const Product products[4] = {SamElasticityApplyNormal, SamElasticityApplyTangential, SamElasticityApplyNormalToTangential, SamElasticityApplyTangentialToNormal};
+  const Product  products[4] = {SamElasticityApplyNormal, SamElasticityApplyTangential,
+                                SamElasticityApplyNormalToTangential, SamElasticityApplyTangentialToNormal};
   const PetscInt n_in[4] = {1, 2, 1, 2}, n_out[4] = {1, 2, 2, 1};
   SamElasticity  A = NewCompliance(grid, first), B = NewCompliance(grid, second);
 
@@ -368,7 +383,8 @@ static void test_swapping_the_bodies_reverses_the_coupling_alone(void **state)
   SamGrid grid = NewGrid(11, 7, 3e-3, 1e-3);
 
   (void)state;
-  AssertRelated(grid, NewPair(young[0], poisson[0], young[1], poisson[1]), NewPair(young[1], poisson[1], young[0], poisson[0]), 1, -1);
+  AssertRelated(grid, NewPair(young[0], poisson[0], young[1], poisson[1]),
+                NewPair(young[1], poisson[1], young[0], poisson[0]), 1, -1);
   sam_call(SamGridDestroy(&grid));
 }
 
@@ -377,17 +393,21 @@ static void test_displacement_is_inverse_to_young(void **state)
   SamGrid grid = NewGrid(11, 7, 3e-3, 1e-3);
 
   (void)state;
-  AssertRelated(grid, NewPair(young[0], poisson[0], young[1], poisson[1]), NewPair(3 * young[0], poisson[0], 3 * young[1], poisson[1]), 3, 3);
+  AssertRelated(grid, NewPair(young[0], poisson[0], young[1], poisson[1]),
+                NewPair(3 * young[0], poisson[0], 3 * young[1], poisson[1]), 3, 3);
   sam_call(SamGridDestroy(&grid));
 }
 
-/* A rigid body adds nothing, and its Poisson's ratio does not matter: alone, a body gives half of what two of it give. */
+/*
+  A rigid body adds nothing, and its Poisson's ratio does not matter: alone, a body gives half of what two of it give.
+*/
 static void test_rigid_body_contributes_nothing(void **state)
 {
   SamGrid       grid = NewGrid(11, 7, 3e-3, 1e-3);
-  SamElasticity one = NewCompliance(grid, NewPair(INFINITY, 0.1, 70e9, 0.33)), two = NewCompliance(grid, NewPair(70e9, 0.33, 70e9, 0.33));
-  Vec           q = NewRandom(grid, 2, 1), p = NewRandom(grid, 1, 1), a, b;
-  PetscBool     coupled;
+  SamElasticity one  = NewCompliance(grid, NewPair(INFINITY, 0.1, 70e9, 0.33)),
+                two  = NewCompliance(grid, NewPair(70e9, 0.33, 70e9, 0.33));
+  Vec       q = NewRandom(grid, 2, 1), p = NewRandom(grid, 1, 1), a, b;
+  PetscBool coupled;
 
   (void)state;
   AssertRelated(grid, NewPair(70e9, 0.33, INFINITY, 0.5), NewPair(70e9, 0.33, INFINITY, 0), 1, 1);
@@ -426,8 +446,10 @@ static void test_impossible_bodies_are_refused(void **state)
   SamPair         pair;
 
   (void)state;
-  for (size_t k = 0; k < sizeof(wrong_young) / sizeof(wrong_young[0]); k++) sam_fails(SamPairSet(&pair, wrong_young[k], good_poisson), SAM_ERR_USER);
-  for (size_t k = 0; k < sizeof(wrong_poisson) / sizeof(wrong_poisson[0]); k++) sam_fails(SamPairSet(&pair, good_young, wrong_poisson[k]), SAM_ERR_USER);
+  for (size_t k = 0; k < sizeof(wrong_young) / sizeof(wrong_young[0]); k++)
+    sam_fails(SamPairSet(&pair, wrong_young[k], good_poisson), SAM_ERR_USER);
+  for (size_t k = 0; k < sizeof(wrong_poisson) / sizeof(wrong_poisson[0]); k++)
+    sam_fails(SamPairSet(&pair, good_young, wrong_poisson[k]), SAM_ERR_USER);
   sam_call(SamPairSet(&pair, good_young, good_poisson));
 }
 
@@ -450,7 +472,7 @@ static void test_self_influence_is_that_of_one_cell(void **state)
 static void test_coarser_operators_end_below_32_cells(void **state)
 {
   SamGrid       grid = NewGrid(129, 67, 3e-3, 1e-3), coarse_grid;
-  SamElasticity C = NewDissimilar(grid), coarse, again;
+  SamElasticity C    = NewDissimilar(grid), coarse, again;
   SamTransfer   transfer;
 
   (void)state;
@@ -459,7 +481,8 @@ static void test_coarser_operators_end_below_32_cells(void **state)
   sam_call(SamElasticityGetCoarse(C, &again, &transfer));
   sam_assert(again == coarse);
   sam_call(SamElasticityGetGrid(coarse, &coarse_grid));
-  sam_assert(coarse_grid->nx == 65 && coarse_grid->ny == 34 && coarse_grid->width[0] == 3e-3 && coarse_grid->width[1] == 1e-3);
+  sam_assert(coarse_grid->nx == 65 && coarse_grid->ny == 34 && coarse_grid->width[0] == 3e-3 &&
+             coarse_grid->width[1] == 1e-3);
   sam_call(SamElasticityGetCoarse(coarse, &coarse, &transfer));
   sam_assert(coarse && transfer);
   sam_call(SamElasticityGetGrid(coarse, &coarse_grid));
@@ -481,7 +504,7 @@ static void AssertPreconditioner(PetscInt components, Product precondition)
     SamElasticity C    = NewDissimilar(grid);
 
     for (PetscInt seed = 0; seed < 5; seed++) {
-      Vec    x = NewRandom(grid, components, seed), y = NewRandom(grid, components, seed + 50), mx = Copy(x), my = Copy(y);
+      Vec x = NewRandom(grid, components, seed), y = NewRandom(grid, components, seed + 50), mx = Copy(x), my = Copy(y);
       double size;
 
       if (seed == 4) sam_call(VecSet(x, 1)); /* the mean has a gain as well */
@@ -559,9 +582,11 @@ static void test_krylov_method_gains_by_the_preconditioner(void **state)
 {
   (void)state;
   for (PetscInt components = 1; components <= 2; components++) {
-    const PetscInt with = Iterations(components, 48, 37, PETSC_TRUE), without = Iterations(components, 48, 37, PETSC_FALSE);
+    const PetscInt with    = Iterations(components, 48, 37, PETSC_TRUE),
+                   without = Iterations(components, 48, 37, PETSC_FALSE);
 
-    if (getenv("SAM_SHOW")) print_message("# CG %d components: %d with, %d without\n", (int)components, (int)with, (int)without);
+    if (getenv("SAM_SHOW"))
+      print_message("# CG %d components: %d with, %d without\n", (int)components, (int)with, (int)without);
     sam_assert(2 * with < without);
   }
 }
@@ -570,9 +595,11 @@ static void test_preconditioned_iterations_do_not_grow_with_the_grid(void **stat
 {
   (void)state;
   for (PetscInt components = 1; components <= 2; components++) {
-    const PetscInt coarse = Iterations(components, 24, 16, PETSC_TRUE), fine = Iterations(components, 96, 64, PETSC_TRUE);
+    const PetscInt coarse = Iterations(components, 24, 16, PETSC_TRUE),
+                   fine   = Iterations(components, 96, 64, PETSC_TRUE);
 
-    if (getenv("SAM_SHOW")) print_message("# CG %d components: %d at 24, %d at 96\n", (int)components, (int)coarse, (int)fine);
+    if (getenv("SAM_SHOW"))
+      print_message("# CG %d components: %d at 24, %d at 96\n", (int)components, (int)coarse, (int)fine);
     sam_assert(fine < coarse + 8); /* without it, twice as many for four times the cells */
   }
 }

@@ -6,16 +6,23 @@
 #include <petsam/fourier.h>
 
 /* Sizes that do not divide, odd, prime, square, and fewer rows than ranks. */
-static const PetscInt sizes[][2] = {{7, 5}, {13, 11}, {16, 9}, {2, 3}, {17, 17}, {9, 2}, {5, 13}, {2563, 2}, {3, 2810}, {4096, 4}};
-enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]), NUM_SHORT = 7 }; /* the last ones have lines that are transformed in parts */
+static const PetscInt sizes[][2] = {{7, 5}, {13, 11}, {16, 9},   {2, 3},    {17, 17},
+                                    {9, 2}, {5, 13},  {2563, 2}, {3, 2810}, {4096, 4}};
+enum {
+  NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]),
+  NUM_SHORT = 7
+}; /* the last ones have lines that are transformed in parts */
 
 /*
-  Rounding of transforms grows as the logarithm of their length: some 10 eps of the largest value for these, while the sums
-  of n^2 products differ by up to 20 eps of theirs.
+  Rounding of transforms grows as the logarithm of their length: some 10 eps of the largest value for these, while the
+  sums of n^2 products differ by up to 20 eps of theirs.
 */
 static const double tolerance = 1e-13;
 
-/* A kernel without any smoothness, also at lags that no pair of cells has and, when odd, at lag 0: none of that may count. */
+/*
+  A kernel without any smoothness, also at lags that no pair of cells has and, when odd, at lag 0: none of that may
+  count.
+*/
 typedef struct {
   PetscInt  seed;
   PetscBool odd_x, odd_y;
@@ -49,7 +56,8 @@ static SamKernel NewKernel(SamFourier fourier, const Shape *shape)
 }
 
 /* out[o] of this rank's cells by summation. */
-static void SumDirectly(SamGrid grid, PetscInt n_in, PetscInt n_out, const Shape shape[3][3], const SamKernelMatrix *matrix, const double in[], double out[])
+static void SumDirectly(SamGrid grid, PetscInt n_in, PetscInt n_out, const Shape shape[3][3],
+                        const SamKernelMatrix *matrix, const double in[], double out[])
 {
   const PetscInt nx = grid->nx, ny = grid->ny;
 
@@ -61,14 +69,17 @@ static void SumDirectly(SamGrid grid, PetscInt n_in, PetscInt n_out, const Shape
         for (PetscInt c = 0; c < n_in; c++) {
           if (!matrix->kernel[o][c]) continue;
           for (PetscInt l = 0; l < ny; l++)
-            for (PetscInt k = 0; k < nx; k++) sum += matrix->scale[o][c] * AtLag(&shape[o][c], i - k, grid->row_start + j - l) * in[(c * ny + l) * nx + k];
+            for (PetscInt k = 0; k < nx; k++)
+              sum +=
+                matrix->scale[o][c] * AtLag(&shape[o][c], i - k, grid->row_start + j - l) * in[(c * ny + l) * nx + k];
         }
         out[o * grid->cells + j * nx + i] = sum;
       }
 }
 
 /* A matrix of kernels; bit 1 of a parity: odd in x, bit 2: odd in y, negative: no kernel there. */
-static void AssertConvolution(SamGrid grid, SamFourier fourier, PetscInt n_in, PetscInt n_out, const int parity[3][3], PetscBool in_place)
+static void AssertConvolution(SamGrid grid, SamFourier fourier, PetscInt n_in, PetscInt n_out, const int parity[3][3],
+                              PetscBool in_place)
 {
   SamKernelMatrix matrix = {.n_in = n_in, .n_out = n_out};
   Shape           shape[3][3];
@@ -78,7 +89,9 @@ static void AssertConvolution(SamGrid grid, SamFourier fourier, PetscInt n_in, P
 
   for (PetscInt o = 0; o < n_out; o++)
     for (PetscInt c = 0; c < n_in; c++) {
-      const Shape s = {.seed = 3 * o + c, .odd_x = parity[o][c] & 1 ? PETSC_TRUE : PETSC_FALSE, .odd_y = parity[o][c] & 2 ? PETSC_TRUE : PETSC_FALSE};
+      const Shape s = {.seed  = 3 * o + c,
+                       .odd_x = parity[o][c] & 1 ? PETSC_TRUE : PETSC_FALSE,
+                       .odd_y = parity[o][c] & 2 ? PETSC_TRUE : PETSC_FALSE};
 
       shape[o][c]        = s;
       matrix.scale[o][c] = 1 + 0.5 * (double)(o - 2 * c);
@@ -110,7 +123,8 @@ static void AssertConvolution(SamGrid grid, SamFourier fourier, PetscInt n_in, P
   sam_call(VecDestroy(&exact));
 }
 
-static void AssertConvolutionOn(const PetscInt n[2], PetscInt n_in, PetscInt n_out, const int parity[3][3], PetscBool in_place)
+static void AssertConvolutionOn(const PetscInt n[2], PetscInt n_in, PetscInt n_out, const int parity[3][3],
+                                PetscBool in_place)
 {
   SamGrid    grid = NewGrid(n[0], n[1], 1, 1);
   SamFourier fourier;
@@ -176,10 +190,7 @@ static void test_one_field_to_two(void **state)
 
 static void test_two_fields_to_two(void **state)
 {
-  const int parity[3][3] = {
-    {0, 3},
-    {3, 0}
-  };
+  const int parity[3][3] = {{0, 3}, {3, 0}};
 
   (void)state;
   AssertConvolutions(2, 2, parity, PETSC_FALSE);
@@ -187,11 +198,7 @@ static void test_two_fields_to_two(void **state)
 
 static void test_three_fields_to_three(void **state)
 {
-  const int parity[3][3] = {
-    {0, 3, 1},
-    {3, 0, 2},
-    {1, 2, 0}
-  };
+  const int parity[3][3] = {{0, 3, 1}, {3, 0, 2}, {1, 2, 0}};
 
   (void)state;
   AssertConvolutions(3, 3, parity, PETSC_FALSE);
@@ -210,11 +217,7 @@ static void test_long_lines(void **state)
 
 static void test_missing_kernel_is_zero(void **state)
 {
-  const int parity[3][3] = {
-    {-1, 1, 0 },
-    {2,  0, -1},
-    {0,  -1, 3}
-  };
+  const int parity[3][3] = {{-1, 1, 0}, {2, 0, -1}, {0, -1, 3}};
 
   (void)state;
   AssertConvolutions(3, 3, parity, PETSC_FALSE);
@@ -222,11 +225,7 @@ static void test_missing_kernel_is_zero(void **state)
 
 static void test_output_may_be_the_input(void **state)
 {
-  const int parity[3][3] = {
-    {0, 3, 1},
-    {3, 0, 2},
-    {1, 2, 0}
-  };
+  const int parity[3][3] = {{0, 3, 1}, {3, 0, 2}, {1, 2, 0}};
 
   (void)state;
   for (PetscInt n = 1; n <= 3; n++) AssertConvolutions(n, n, parity, PETSC_TRUE);
@@ -237,17 +236,14 @@ static void test_output_may_be_the_input(void **state)
 /* Work space grows with the number of fields, and then serves fewer as well. */
 static void test_one_transform_serves_any_number_of_fields(void **state)
 {
-  const int parity[3][3] = {
-    {0, 3, 1},
-    {3, 0, 2},
-    {1, 2, 0}
-  };
-  SamGrid    grid = NewGrid(11, 7, 1, 1);
+  const int  parity[3][3] = {{0, 3, 1}, {3, 0, 2}, {1, 2, 0}};
+  SamGrid    grid         = NewGrid(11, 7, 1, 1);
   SamFourier fourier;
 
   (void)state;
   sam_call(SamFourierCreate(grid, &fourier));
-  for (PetscInt n = 1; n <= 5; n++) AssertConvolution(grid, fourier, n > 3 ? 6 - n : n, n > 3 ? 6 - n : n, parity, PETSC_FALSE);
+  for (PetscInt n = 1; n <= 5; n++)
+    AssertConvolution(grid, fourier, n > 3 ? 6 - n : n, n > 3 ? 6 - n : n, parity, PETSC_FALSE);
   sam_call(SamFourierDestroy(&fourier));
   sam_call(SamGridDestroy(&grid));
 }
@@ -259,12 +255,13 @@ static void test_impulse_response_is_the_kernel(void **state)
   for (int k = 0; k < NUM_SIZES; k++) {
     const PetscInt nx = sizes[k][0], ny = sizes[k][1];
     const PetscInt at[5][2] = {{0, 0}, {nx - 1, 0}, {0, ny - 1}, {nx - 1, ny - 1}, {nx / 2, ny / 3}};
-    SamGrid        grid = NewGrid(nx, ny, 1, 1);
+    SamGrid        grid     = NewGrid(nx, ny, 1, 1);
     SamFourier     fourier;
 
     sam_call(SamFourierCreate(grid, &fourier));
     for (int parity = 0; parity < 4; parity++) {
-      const Shape     shape  = {.seed = parity, .odd_x = parity & 1 ? PETSC_TRUE : PETSC_FALSE, .odd_y = parity & 2 ? PETSC_TRUE : PETSC_FALSE};
+      const Shape shape = {
+        .seed = parity, .odd_x = parity & 1 ? PETSC_TRUE : PETSC_FALSE, .odd_y = parity & 2 ? PETSC_TRUE : PETSC_FALSE};
       SamKernelMatrix matrix = {.n_in = 1, .n_out = 1, .kernel = {{NewKernel(fourier, &shape)}}, .scale = {{1}}};
 
       for (int d = 0; d < 5; d++) {
@@ -278,7 +275,8 @@ static void test_impulse_response_is_the_kernel(void **state)
         from[0] = to[0] = a;
         sam_call(SamConvolve(fourier, &matrix, from, to));
         for (PetscInt j = 0; j < grid->rows; j++)
-          for (PetscInt i = 0; i < nx; i++) error = fmax(error, fabs(a[j * nx + i] - AtLag(&shape, i - at[d][0], grid->row_start + j - at[d][1])));
+          for (PetscInt i = 0; i < nx; i++)
+            error = fmax(error, fabs(a[j * nx + i] - AtLag(&shape, i - at[d][0], grid->row_start + j - at[d][1])));
         sam_call(VecRestoreArray(v, &a));
         sam_assert_close(error, 0, tolerance); /* the kernel's largest value is between 1/2 and 3 */
         sam_call(VecDestroy(&v));
@@ -347,7 +345,8 @@ static void OneWave(const SamFourierBlock *block, const void *context)
   (void)context;
   for (PetscInt b = 0; b < block->columns; b++)
     for (PetscInt m = 0; m < block->hy; m++)
-      if (block->first + b != 1 || m != 2) block->data[0][b * block->stride + m][0] = block->data[0][b * block->stride + m][1] = 0;
+      if (block->first + b != 1 || m != 2)
+        block->data[0][b * block->stride + m][0] = block->data[0][b * block->stride + m][1] = 0;
 }
 
 /* The filter meets the frequencies where the header says they are. */
@@ -408,7 +407,10 @@ static int NoTranspose(void **state)
   return 0;
 }
 
-#define TEST_TRANSPOSED(f) {#f "_transposed", f, Transpose, NoTranspose, NULL}
+#define TEST_TRANSPOSED(f) \
+  { \
+    #f "_transposed", f, Transpose, NoTranspose, NULL \
+  }
 
 int main(int argc, char **argv)
 {

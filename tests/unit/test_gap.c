@@ -180,16 +180,18 @@ static double Stored(PetscInt i, PetscInt j)
 }
 
 /* Rank 0 writes a dataset of the given shape, stored as `type`. */
-static void WriteDataset(const char *file, const char *name, hid_t type, int rank, const hsize_t shape[], PetscBool chunked, double corner)
+static void WriteDataset(const char *file, const char *name, hid_t type, int rank, const hsize_t shape[],
+                         PetscBool chunked, double corner)
 {
   int me;
 
   MPI_Comm_rank(PETSC_COMM_WORLD, &me);
   if (me == 0) {
-    const hid_t   f = H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), space = H5Screate_simple(rank, shape, NULL), creation = H5Pcreate(H5P_DATASET_CREATE);
+    const hid_t f     = H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                space = H5Screate_simple(rank, shape, NULL), creation = H5Pcreate(H5P_DATASET_CREATE);
     const hsize_t chunk[2] = {2, 3}, count = (hsize_t)H5Sget_simple_extent_npoints(space);
-    const hsize_t columns  = shape[rank - 1];
-    double       *values   = (double *)malloc(count * sizeof(*values));
+    const hsize_t columns = shape[rank - 1];
+    double       *values  = (double *)malloc(count * sizeof(*values));
     hid_t         dataset;
 
     for (hsize_t k = 0; k < count; k++) values[k] = Stored((PetscInt)(k % columns), (PetscInt)(k / columns));
@@ -227,7 +229,9 @@ static int HasStored(SamGrid grid, Vec h, double (*added)(double, double))
   sam_call(VecGetArrayRead(h, &array));
   for (PetscInt j = 0; j < grid->rows; j++)
     for (PetscInt i = 0; i < grid->nx; i++)
-      if (array[j * grid->nx + i] != Stored(i, grid->row_start + j) + added(SamGridX(grid, i), SamGridY(grid, grid->row_start + j))) good = 0;
+      if (array[j * grid->nx + i] !=
+          Stored(i, grid->row_start + j) + added(SamGridX(grid, i), SamGridY(grid, grid->row_start + j)))
+        good = 0;
   sam_call(VecRestoreArrayRead(h, &array));
   return good;
 }
@@ -268,13 +272,16 @@ static void test_roughness_is_added_to_any_shape(void **state)
     h = Fill(grid, "-gap_type flat -gap_rough_file test_gap_good.h5 -gap_rough_dataset rough");
     sam_assert(HasStored(grid, h, Flat));
     sam_call(VecDestroy(&h));
-    h = Fill(grid, "-gap_type file -gap_file test_gap_good.h5 -gap_dataset /rough -gap_rough_file test_gap_good.h5 -gap_rough_dataset /rough");
+    h = Fill(grid, "-gap_type file -gap_file test_gap_good.h5 -gap_dataset /rough -gap_rough_file test_gap_good.h5 "
+                   "-gap_rough_dataset /rough");
     sam_call(VecScale(h, 0.5));
     sam_assert(HasStored(grid, h, Flat));
     sam_call(VecDestroy(&h));
-    h = Fill(grid, "-gap_type ellipsoid -gap_radius_x 1e-6 -gap_radius_y inf -gap_rough_file test_gap_good.h5 -gap_rough_dataset /rough");
+    h = Fill(grid, "-gap_type ellipsoid -gap_radius_x 1e-6 -gap_radius_y inf -gap_rough_file test_gap_good.h5 "
+                   "-gap_rough_dataset /rough");
     {
-      Vec shape_only = Fill(grid, "-gap_type ellipsoid -gap_radius_x 1e-6 -gap_radius_y inf"), rough = Fill(grid, "-gap_type file -gap_file test_gap_good.h5 -gap_dataset rough");
+      Vec shape_only = Fill(grid, "-gap_type ellipsoid -gap_radius_x 1e-6 -gap_radius_y inf"),
+          rough      = Fill(grid, "-gap_type file -gap_file test_gap_good.h5 -gap_dataset rough");
 
       sam_call(VecAXPY(shape_only, 1, rough));
       sam_call(VecAXPY(shape_only, -1, h));
@@ -294,7 +301,8 @@ static void test_roughness_is_added_to_any_shape(void **state)
 /* Keeps the first message of an error instead of printing it. */
 static char message[4096];
 
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type, const char *text, void *context)
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                                  PetscErrorType type, const char *text, void *context)
 {
   (void)comm;
   (void)line;
@@ -334,28 +342,28 @@ static void AssertError(const char *options, PetscErrorCode expected, const char
 static void test_wrong_options_are_named(void **state)
 {
   static const char *const cases[][3] = {
-    {"-gap_radius1 1",                                             "-gap_type",          "missing"            },
-    {"-gap_type cone",                                             "-gap_type cone",     "ellipsoid, file, flat, punch or sphere"},
-    {"-gap_type",                                                  "-gap_type",          "no value"           },
-    {"-gap_type sphere -gap_radius1 1",                            "-gap_radius2",       "missing"            },
-    {"-gap_type sphere -gap_radius1 -1 -gap_radius2 1",            "-gap_radius1",       "> 0"                },
-    {"-gap_type sphere -gap_radius1 0 -gap_radius2 1",             "-gap_radius1",       "> 0"                },
-    {"-gap_type sphere -gap_radius1 1 -gap_radius2 -inf",          "-gap_radius2",       "inf"                },
-    {"-gap_type sphere -gap_radius1 1mm -gap_radius2 1",           "-gap_radius1",       "1mm"                },
-    {"-gap_type sphere -gap_radius1 1e-320 -gap_radius2 1",        "-gap_type sphere",   "finite"             },
-    {"-gap_type ellipsoid -gap_radius_x 1",                        "-gap_radius_y",      "missing"            },
-    {"-gap_type ellipsoid -gap_radius_x 1 -gap_radius_y nan",      "-gap_radius_y",      "nan"                },
-    {"-gap_type punch -gap_edge_radius 1",                         "-gap_flat_radius",   "missing"            },
-    {"-gap_type punch -gap_flat_radius -1 -gap_edge_radius 1",     "-gap_flat_radius",   ">= 0"               },
-    {"-gap_type punch -gap_flat_radius 1 -gap_edge_radius inf",    "-gap_edge_radius",   "inf"                },
-    {"-gap_type punch -gap_flat_radius inf -gap_edge_radius 1",    "-gap_flat_radius",   "inf"                },
-    {"-gap_type file",                                             "-gap_file",          "missing"            },
-    {"-gap_type file -gap_dataset /height",                        "-gap_file",          "-gap_dataset"       },
-    {"-gap_type flat -gap_rough_dataset /height",                  "-gap_rough_dataset", "-gap_rough_file"    }
-  };
+    {"-gap_radius1 1", "-gap_type", "missing"},
+    {"-gap_type cone", "-gap_type cone", "ellipsoid, file, flat, punch or sphere"},
+    {"-gap_type", "-gap_type", "no value"},
+    {"-gap_type sphere -gap_radius1 1", "-gap_radius2", "missing"},
+    {"-gap_type sphere -gap_radius1 -1 -gap_radius2 1", "-gap_radius1", "> 0"},
+    {"-gap_type sphere -gap_radius1 0 -gap_radius2 1", "-gap_radius1", "> 0"},
+    {"-gap_type sphere -gap_radius1 1 -gap_radius2 -inf", "-gap_radius2", "inf"},
+    {"-gap_type sphere -gap_radius1 1mm -gap_radius2 1", "-gap_radius1", "1mm"},
+    {"-gap_type sphere -gap_radius1 1e-320 -gap_radius2 1", "-gap_type sphere", "finite"},
+    {"-gap_type ellipsoid -gap_radius_x 1", "-gap_radius_y", "missing"},
+    {"-gap_type ellipsoid -gap_radius_x 1 -gap_radius_y nan", "-gap_radius_y", "nan"},
+    {"-gap_type punch -gap_edge_radius 1", "-gap_flat_radius", "missing"},
+    {"-gap_type punch -gap_flat_radius -1 -gap_edge_radius 1", "-gap_flat_radius", ">= 0"},
+    {"-gap_type punch -gap_flat_radius 1 -gap_edge_radius inf", "-gap_edge_radius", "inf"},
+    {"-gap_type punch -gap_flat_radius inf -gap_edge_radius 1", "-gap_flat_radius", "inf"},
+    {"-gap_type file", "-gap_file", "missing"},
+    {"-gap_type file -gap_dataset /height", "-gap_file", "-gap_dataset"},
+    {"-gap_type flat -gap_rough_dataset /height", "-gap_rough_dataset", "-gap_rough_file"}};
 
   (void)state;
-  for (size_t c = 0; c < sizeof(cases) / sizeof(cases[0]); c++) AssertError(cases[c][0], SAM_ERR_USER, cases[c][1], cases[c][2]);
+  for (size_t c = 0; c < sizeof(cases) / sizeof(cases[0]); c++)
+    AssertError(cases[c][0], SAM_ERR_USER, cases[c][1], cases[c][2]);
 }
 
 static void test_unusable_files_are_named_on_all_ranks(void **state)
@@ -373,10 +381,13 @@ static void test_unusable_files_are_named_on_all_ranks(void **state)
     }
   }
   (void)MPI_Barrier(PETSC_COMM_WORLD);
-  AssertError("-gap_type file -gap_file test_gap_none.h5", SAM_ERR_FILE, "-gap_file test_gap_none.h5", "cannot be read");
+  AssertError("-gap_type file -gap_file test_gap_none.h5", SAM_ERR_FILE, "-gap_file test_gap_none.h5",
+              "cannot be read");
   AssertError("-gap_type file -gap_file .", SAM_ERR_FILE, "-gap_file .", "cannot be read");
-  AssertError("-gap_type file -gap_file test_gap_text.txt", SAM_ERR_FILE, "-gap_file test_gap_text.txt", "is not an HDF5 file");
-  AssertError("-gap_type flat -gap_rough_file test_gap_none.h5", SAM_ERR_FILE, "-gap_rough_file test_gap_none.h5", "cannot be read");
+  AssertError("-gap_type file -gap_file test_gap_text.txt", SAM_ERR_FILE, "-gap_file test_gap_text.txt",
+              "is not an HDF5 file");
+  AssertError("-gap_type flat -gap_rough_file test_gap_none.h5", SAM_ERR_FILE, "-gap_rough_file test_gap_none.h5",
+              "cannot be read");
   Remove(text_file);
 }
 
@@ -395,16 +406,20 @@ static void test_truncated_file_is_refused(void **state)
 
 static void test_unfit_datasets_are_named_on_all_ranks(void **state)
 {
-  const hsize_t good[2] = {(hsize_t)sizes[0][1], (hsize_t)sizes[0][0]}, turned[2] = {good[1], good[0]}, deep[3] = {1, good[0], good[1]};
-  const char   *options = "-gap_type file -gap_file test_gap_bad.h5";
-  hid_t         text;
+  const hsize_t good[2] = {(hsize_t)sizes[0][1], (hsize_t)sizes[0][0]}, turned[2] = {good[1], good[0]},
+                deep[3] = {1, good[0], good[1]};
+  const char *options   = "-gap_type file -gap_file test_gap_bad.h5";
+  hid_t       text;
 
   (void)state;
   WriteDataset(bad_file, "/height", H5T_NATIVE_DOUBLE, 2, turned, PETSC_FALSE, 0);
   AssertError(options, SAM_ERR_FILE, "(13, 7)", "(7, 13)");
-  AssertError("-gap_type file -gap_file test_gap_bad.h5 -gap_dataset /z", SAM_ERR_FILE, "has no dataset /z", "-gap_dataset");
-  AssertError("-gap_type file -gap_file test_gap_bad.h5 -gap_dataset /", SAM_ERR_FILE, "has no dataset /", "-gap_dataset");
-  AssertError("-gap_type flat -gap_rough_file test_gap_bad.h5 -gap_rough_dataset /a/b", SAM_ERR_FILE, "has no dataset /a/b", "-gap_rough_dataset");
+  AssertError("-gap_type file -gap_file test_gap_bad.h5 -gap_dataset /z", SAM_ERR_FILE, "has no dataset /z",
+              "-gap_dataset");
+  AssertError("-gap_type file -gap_file test_gap_bad.h5 -gap_dataset /", SAM_ERR_FILE, "has no dataset /",
+              "-gap_dataset");
+  AssertError("-gap_type flat -gap_rough_file test_gap_bad.h5 -gap_rough_dataset /a/b", SAM_ERR_FILE,
+              "has no dataset /a/b", "-gap_rough_dataset");
   WriteDataset(bad_file, "/height", H5T_NATIVE_DOUBLE, 3, deep, PETSC_FALSE, 0);
   AssertError(options, SAM_ERR_FILE, "3 dimension", "(7, 13)");
   WriteDataset(bad_file, "/height", H5T_NATIVE_DOUBLE, 2, good, PETSC_FALSE, NAN);
@@ -423,8 +438,9 @@ static void test_unfit_datasets_are_named_on_all_ranks(void **state)
 
 static void test_help_lists_the_options_of_all_shapes(void **state)
 {
-  static const char *const names[] = {"-gap_type",        "-gap_radius1",     "-gap_radius2", "-gap_radius_x", "-gap_radius_y",     "-gap_flat_radius",
-                                      "-gap_edge_radius", "-gap_file",        "-gap_dataset", "-gap_rough_file", "-gap_rough_dataset"};
+  static const char *const names[] = {"-gap_type",     "-gap_radius1",     "-gap_radius2",      "-gap_radius_x",
+                                      "-gap_radius_y", "-gap_flat_radius", "-gap_edge_radius",  "-gap_file",
+                                      "-gap_dataset",  "-gap_rough_file",  "-gap_rough_dataset"};
   static char              text[16384];
   FILE                    *usual = PETSC_STDOUT, *file = tmpfile();
   size_t                   length;

@@ -36,7 +36,8 @@ static void test_rows_fill_the_grid_in_blocks_of_ceil_ny_over_ranks(void **state
       sam_call(VecGetSize(v, &global));
       sam_call(VecGetLocalSize(v, &local));
       sam_call(VecGetOwnershipRange(v, &start, NULL));
-      sam_assert(global == components * 5 * ny && local == components * grid->cells && (!local || start == components * 5 * grid->row_start));
+      sam_assert(global == components * 5 * ny && local == components * grid->cells &&
+                 (!local || start == components * 5 * grid->row_start));
       sam_call(VecDestroy(&v));
     }
     sam_call(SamGridDestroy(&grid));
@@ -63,7 +64,8 @@ static void test_coarse_grid_has_half_the_cells_of_the_same_rectangle(void **sta
     if (sizes[k][1] > 2) {
       sam_call(SamGridCoarsen(fine, &coarse));
       sam_assert(coarse->nx == (fine->nx + 1) / 2 && coarse->ny == (fine->ny + 1) / 2);
-      sam_assert(coarse->width[0] == 3 && coarse->width[1] == 1.5 && coarse->center[0] == 10 && coarse->center[1] == -2);
+      sam_assert(coarse->width[0] == 3 && coarse->width[1] == 1.5 && coarse->center[0] == 10 &&
+                 coarse->center[1] == -2);
       sam_call(SamGridDestroy(&coarse));
     }
     sam_call(SamGridDestroy(&fine));
@@ -85,7 +87,7 @@ static void test_impossible_grids_are_refused(void **state)
 
 static void test_more_cells_than_can_be_counted_are_refused(void **state)
 {
-  const PetscInt  n[2] = {65536, 65536};
+  const PetscInt  n[2]    = {65536, 65536};
   const PetscReal size[2] = {1, 1}, origin[2] = {0, 0};
   SamGrid         grid;
 
@@ -96,7 +98,14 @@ static void test_more_cells_than_can_be_counted_are_refused(void **state)
 
 static void test_grid_from_options(void **state)
 {
-  const char *const wrong[] = {"", "-grid_n 8", "-grid_size 1", "-grid_n 1 -grid_size 1", "-grid_n 8 -grid_size 0", "-grid_n 8,8,8 -grid_size 1", "-grid_n 8.5 -grid_size 1", "-grid_n 8 -grid_size 1 -grid_center nan"};
+  const char *const wrong[] = {"",
+                               "-grid_n 8",
+                               "-grid_size 1",
+                               "-grid_n 1 -grid_size 1",
+                               "-grid_n 8 -grid_size 0",
+                               "-grid_n 8,8,8 -grid_size 1",
+                               "-grid_n 8.5 -grid_size 1",
+                               "-grid_n 8 -grid_size 1 -grid_center nan"};
   SamGrid           grid;
 
   (void)state;
@@ -108,7 +117,8 @@ static void test_grid_from_options(void **state)
   sam_call(PetscOptionsClear(NULL));
   sam_call(PetscOptionsInsertString(NULL, "-grid_n 8,5 -grid_size 2 -grid_center 1,-1"));
   sam_call(SamGridCreateFromOptions(PETSC_COMM_WORLD, &grid));
-  sam_assert(grid->nx == 8 && grid->ny == 5 && grid->width[0] == 2 && grid->width[1] == 2 && grid->center[0] == 1 && grid->center[1] == -1);
+  sam_assert(grid->nx == 8 && grid->ny == 5 && grid->width[0] == 2 && grid->width[1] == 2 && grid->center[0] == 1 &&
+             grid->center[1] == -1);
   sam_call(SamGridDestroy(&grid));
   sam_call(PetscOptionsClear(NULL));
 }
@@ -124,8 +134,10 @@ static Pair NewPairOn(MPI_Comm comm, int k)
 {
   Pair p = {.fine = NewGridOn(comm, sizes[k][0], sizes[k][1], 3, 1.5, 0.2, -0.1)};
 
-  if (sizes[k][1] > 2) sam_call(SamGridCoarsen(p.fine, &p.coarse));
-  else p.coarse = NewGridOn(comm, (sizes[k][0] + 1) / 2, 2, 3, 1.5, 0.2, -0.1);
+  if (sizes[k][1] > 2)
+    sam_call(SamGridCoarsen(p.fine, &p.coarse));
+  else
+    p.coarse = NewGridOn(comm, (sizes[k][0] + 1) / 2, 2, 3, 1.5, 0.2, -0.1);
   sam_call(SamTransferCreate(p.fine, p.coarse, &p.transfer));
   return p;
 }
@@ -160,7 +172,9 @@ static void test_restriction_keeps_the_integral(void **state)
 
       sam_call(VecSet(coarse, NAN)); /* all of it is overwritten */
       sam_call(SamTransferRestrict(p.transfer, fine, coarse));
-      for (PetscInt c = 0; c < components; c++) sam_assert_close(SumOf(p.coarse, coarse, c), SumOf(p.fine, fine, c), rounding * Norm(fine, NORM_1) * p.fine->dx * p.fine->dy);
+      for (PetscInt c = 0; c < components; c++)
+        sam_assert_close(SumOf(p.coarse, coarse, c), SumOf(p.fine, fine, c),
+                         rounding * Norm(fine, NORM_1) * p.fine->dx * p.fine->dy);
       sam_call(VecDestroy(&fine));
       sam_call(VecDestroy(&coarse));
       DestroyPair(&p);
@@ -208,12 +222,15 @@ static Vec NewLinear(SamGrid grid)
   sam_call(VecGetArray(v, &a));
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt j = 0; j < grid->rows; j++)
-      for (PetscInt i = 0; i < grid->nx; i++) a[c * grid->cells + j * grid->nx + i] = Linear(SamGridX(grid, i), SamGridY(grid, grid->row_start + j), c);
+      for (PetscInt i = 0; i < grid->nx; i++)
+        a[c * grid->cells + j * grid->nx + i] = Linear(SamGridX(grid, i), SamGridY(grid, grid->row_start + j), c);
   sam_call(VecRestoreArray(v, &a));
   return v;
 }
 
-/* Between the outermost coarse centres linear functions are reproduced; beyond, the value on the way to them is kept. */
+/*
+  Between the outermost coarse centres linear functions are reproduced; beyond, the value on the way to them is kept.
+*/
 static void test_prolongation_is_linear_inside_and_constant_beyond(void **state)
 {
   (void)state;
@@ -229,7 +246,8 @@ static void test_prolongation_is_linear_inside_and_constant_beyond(void **state)
       for (PetscInt j = 0; j < p.fine->rows; j++)
         for (PetscInt i = 0; i < p.fine->nx; i++) {
           const double x = fmin(fmax(SamGridX(p.fine, i), SamGridX(p.coarse, 0)), SamGridX(p.coarse, p.coarse->nx - 1));
-          const double y = fmin(fmax(SamGridY(p.fine, p.fine->row_start + j), SamGridY(p.coarse, 0)), SamGridY(p.coarse, p.coarse->ny - 1));
+          const double y = fmin(fmax(SamGridY(p.fine, p.fine->row_start + j), SamGridY(p.coarse, 0)),
+                                SamGridY(p.coarse, p.coarse->ny - 1));
 
           error = fmax(error, fabs(a[c * p.fine->cells + j * p.fine->nx + i] - Linear(x, y, c)));
         }
@@ -246,8 +264,9 @@ static void test_transfer_does_not_depend_on_the_ranks(void **state)
 {
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
-    Pair    all = NewPairOn(PETSC_COMM_WORLD, k), own = NewPairOn(PETSC_COMM_SELF, k);
-    Vec     fine[2] = {NewRandom(all.fine, 2, k), NewRandom(own.fine, 2, k)}, coarse[2] = {NewField(all.coarse, 2), NewField(own.coarse, 2)};
+    Pair all = NewPairOn(PETSC_COMM_WORLD, k), own = NewPairOn(PETSC_COMM_SELF, k);
+    Vec  fine[2]  = {NewRandom(all.fine, 2, k), NewRandom(own.fine, 2, k)},
+        coarse[2] = {NewField(all.coarse, 2), NewField(own.coarse, 2)};
     double *a, *b;
 
     sam_call(SamTransferRestrict(all.transfer, fine[0], coarse[0]));
@@ -304,7 +323,9 @@ static void test_window_takes_its_cells_and_puts_them_back(void **state)
     sam_call(VecGetArrayRead(part, &a));
     for (PetscInt c = 0; c < 2; c++)
       for (PetscInt j = 0; j < inner->rows; j++)
-        for (PetscInt i = 0; i < inner->nx; i++) wrong += a[c * inner->cells + j * inner->nx + i] != Random(w, c, first[0] + i, first[1] + inner->row_start + j);
+        for (PetscInt i = 0; i < inner->nx; i++)
+          wrong +=
+            a[c * inner->cells + j * inner->nx + i] != Random(w, c, first[0] + i, first[1] + inner->row_start + j);
     sam_call(VecRestoreArrayRead(part, &a));
     sam_assert(wrong == 0);
     sam_call(SamWindowPut(window, part, back));

@@ -102,7 +102,8 @@ static double ValueOf(const SamStep *step, PetscInt component)
 /* Keeps the first message of an error instead of printing it. */
 static char message[4096];
 
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *source, PetscErrorCode code, PetscErrorType type, const char *text, void *context)
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *source,
+                                  PetscErrorCode code, PetscErrorType type, const char *text, void *context)
 {
   (void)comm;
   (void)line;
@@ -128,7 +129,9 @@ static void AssertRefused(const char *options, PetscErrorCode code, const char *
   SetOptions("");
   if (h) sam_call(SamHistoryDestroy(&h));
   good = ierr == code && strstr(message, one) && strstr(message, other) && !strchr(message, '\n');
-  if (!good) print_error("%s: error %d, expected %d with '%s' and '%s': '%s'\n", options, (int)ierr, (int)code, one, other, message);
+  if (!good)
+    print_error("%s: error %d, expected %d with '%s' and '%s': '%s'\n", options, (int)ierr, (int)code, one, other,
+                message);
   sam_assert(good);
 }
 
@@ -155,7 +158,8 @@ static void AssertPlain(const char *text)
   for (PetscInt k = 0; k < 3; k++) {
     const SamStep step = StepOf(h, k);
 
-    good = good && step.time == expected[k][0] && step.normal.load[0] == expected[k][1] && step.tangential.load[0] == expected[k][2];
+    good = good && step.time == expected[k][0] && step.normal.load[0] == expected[k][1] &&
+           step.tangential.load[0] == expected[k][2];
   }
   if (!good) print_error("read wrongly: %s\n", text);
   sam_assert(good);
@@ -179,7 +183,8 @@ static void test_columns_may_stand_in_any_order(void **state)
 static void test_comments_and_empty_lines_count_for_nothing(void **state)
 {
   (void)state;
-  AssertPlain("# fretting, a study, of things\n\n   \n#\ntime,load_n,load_tx # the columns, and more\n\n1,100,0#first\n # 3,1,2\n2.5,100,25 # nan\n\t\n4,120,-30.5\n\n# end\n");
+  AssertPlain("# fretting, a study, of things\n\n   \n#\ntime,load_n,load_tx # the columns, and "
+              "more\n\n1,100,0#first\n # 3,1,2\n2.5,100,25 # nan\n\t\n4,120,-30.5\n\n# end\n");
 }
 
 static void test_white_space_around_fields_counts_for_nothing(void **state)
@@ -215,8 +220,10 @@ static void test_numbers_are_read_to_the_last_digit(void **state)
   (void)state;
   Write("time,load_n,load_tx\n-1.2345678901234567e-300,0.1,4.9e-324\n1.7976931348623157e308,9007199254740993,-0\n");
   h = Read("-history test_history.csv");
-  sam_assert(StepOf(h, 0).time == -1.2345678901234567e-300 && StepOf(h, 0).normal.load[0] == 0.1 && StepOf(h, 0).tangential.load[0] == 4.9e-324);
-  sam_assert(StepOf(h, 1).time == 1.7976931348623157e308 && StepOf(h, 1).normal.load[0] == 9007199254740993.0 && StepOf(h, 1).tangential.load[0] == 0);
+  sam_assert(StepOf(h, 0).time == -1.2345678901234567e-300 && StepOf(h, 0).normal.load[0] == 0.1 &&
+             StepOf(h, 0).tangential.load[0] == 4.9e-324);
+  sam_assert(StepOf(h, 1).time == 1.7976931348623157e308 && StepOf(h, 1).normal.load[0] == 9007199254740993.0 &&
+             StepOf(h, 1).tangential.load[0] == 0);
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -238,7 +245,8 @@ static void test_long_files_and_lines_are_read_whole(void **state)
   free(text);
   h = Read("-history test_history.csv");
   sam_assert(CountOf(h) == ROWS);
-  for (PetscInt r = 0; r < ROWS; r++) good = good && StepOf(h, r).time == 0.1 * ((double)r + 1) && StepOf(h, r).normal.load[0] == 7.0 * (double)r;
+  for (PetscInt r = 0; r < ROWS; r++)
+    good = good && StepOf(h, r).time == 0.1 * ((double)r + 1) && StepOf(h, r).normal.load[0] == 7.0 * (double)r;
   sam_assert(good);
   sam_call(SamHistoryDestroy(&h));
 }
@@ -289,12 +297,13 @@ static void test_components_without_a_column_keep_their_option(void **state)
 
 static void test_step_holds_nothing_but_time_and_control(void **state)
 {
-  SamHistory h = Read("-load_n 3 -disp_x 1e-6 -steps 2");
+  SamHistory h    = Read("-load_n 3 -disp_x 1e-6 -steps 2");
   SamStep    step = StepOf(h, 1), clear;
 
   (void)state;
   memset(&clear, 0, sizeof(clear));
-  sam_assert(step.status == SAM_STATUS_CONVERGED && step.message[0] == '\0' && step.contact_area == 0 && step.dissipated_energy == 0 && step.coupling_iterations == 0);
+  sam_assert(step.status == SAM_STATUS_CONVERGED && step.message[0] == '\0' && step.contact_area == 0 &&
+             step.dissipated_energy == 0 && step.coupling_iterations == 0);
   sam_assert(step.tangential.load[0] == 0 && step.normal.rigid[0] == 0);
   sam_assert(!memcmp(&step.check, &clear.check, sizeof(clear.check)));
   sam_call(SamHistoryDestroy(&h));
@@ -339,7 +348,7 @@ static void test_increments_lie_on_the_line_between_rows(void **state)
 static void test_increments_end_on_the_row_exactly(void **state)
 {
   static const double n[3] = {0.1, 0.7, 1.0 / 3}, time[3] = {0.3, 0.4, 1e9};
-  char                text[256], *end = text;
+  char                text[256], *end                     = text;
   SamHistory          h;
 
   (void)state;
@@ -347,7 +356,9 @@ static void test_increments_end_on_the_row_exactly(void **state)
   for (int k = 0; k < 3; k++) end += sprintf(end, "%.17g,%.17g\n", time[k], n[k]);
   Write(text);
   h = Read("-history test_history.csv -steps 7 -load_ty 0.1");
-  for (int k = 0; k < 3; k++) sam_assert(StepOf(h, 7 * k + 6).time == time[k] && StepOf(h, 7 * k + 6).normal.load[0] == n[k] && StepOf(h, 7 * k + 6).tangential.load[1] == 0.1);
+  for (int k = 0; k < 3; k++)
+    sam_assert(StepOf(h, 7 * k + 6).time == time[k] && StepOf(h, 7 * k + 6).normal.load[0] == n[k] &&
+               StepOf(h, 7 * k + 6).tangential.load[1] == 0.1);
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -358,7 +369,8 @@ static void test_constant_load_does_not_change_between_rows(void **state)
   (void)state;
   Write("time,load_n,load_tx\n1,0.1,0\n2,0.1,0.7\n3,0.1,0\n");
   h = Read("-history test_history.csv -steps 7 -load_ty 0.3");
-  for (PetscInt k = 7; k < 21; k++) sam_assert(StepOf(h, k).normal.load[0] == 0.1 && StepOf(h, k).tangential.load[1] == 0.3); /* not even by rounding */
+  for (PetscInt k = 7; k < 21; k++)
+    sam_assert(StepOf(h, k).normal.load[0] == 0.1 && StepOf(h, k).tangential.load[1] == 0.3); /* not even by rounding */
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -384,15 +396,10 @@ static void test_first_row_has_a_start(void **state)
   const struct {
     const char *text;
     double      start, end;
-  } cases[] = {
-    {"time,load_n\n3,10\n4,10\n",   0,    3   },
-    {"time,load_n\n3,10\n",         0,    3   },
-    {"time,load_n\n0,10\n0.5,10\n", -0.5, 0   },
-    {"time,load_n\n0,10\n",         -1,   0   },
-    {"time,load_n\n-2,10\n1,10\n",  -5,   -2  },
-    {"time,load_n\n-2,10\n",        -3,   -2  },
-    {"time,load_n\n1e-9,10\n9,1\n", 0,    1e-9}
-  };
+  } cases[] = {{"time,load_n\n3,10\n4,10\n", 0, 3},      {"time,load_n\n3,10\n", 0, 3},
+               {"time,load_n\n0,10\n0.5,10\n", -0.5, 0}, {"time,load_n\n0,10\n", -1, 0},
+               {"time,load_n\n-2,10\n1,10\n", -5, -2},   {"time,load_n\n-2,10\n", -3, -2},
+               {"time,load_n\n1e-9,10\n9,1\n", 0, 1e-9}};
 
   (void)state;
   for (size_t c = 0; c < sizeof(cases) / sizeof(cases[0]); c++) {
@@ -404,7 +411,8 @@ static void test_first_row_has_a_start(void **state)
     for (PetscInt k = 0; k < 4; k++) {
       const SamStep step = StepOf(h, k);
 
-      sam_assert_close(step.time, cases[c].start + (cases[c].end - cases[c].start) * ((double)k + 1) / 4, 1e-15 * PetscMax(1, fabs(cases[c].start)));
+      sam_assert_close(step.time, cases[c].start + (cases[c].end - cases[c].start) * ((double)k + 1) / 4,
+                       1e-15 * PetscMax(1, fabs(cases[c].start)));
       sam_assert(step.time > last);
       sam_assert_close(step.normal.load[0], 2.5 * ((double)k + 1), 1e-14);
       last = step.time;
@@ -425,7 +433,8 @@ static void test_unknown_columns_are_refused(void **state)
   AssertMalformed("time,\"load_tx\"\n1,2\n", 1, "load_tx");
   AssertMalformed("time,load_tx load_ty\n1,2\n", 1, "load_tx load_ty");
   AssertMalformed("time,load_txx\n1,2\n", 1, "load_txx");
-  AssertMalformed("time,a_name_that_is_longer_than_any_of_the_columns_that_there_are\n1,2\n", 1, "a_name_that_is_longer");
+  AssertMalformed("time,a_name_that_is_longer_than_any_of_the_columns_that_there_are\n1,2\n", 1,
+                  "a_name_that_is_longer");
 }
 
 static void test_columns_without_a_name_are_refused(void **state)
@@ -484,7 +493,8 @@ static void test_ragged_rows_are_refused(void **state)
 
 static void test_text_for_a_number_is_refused(void **state)
 {
-  static const char *const texts[] = {"abc", "1x", "1 2", "1e", "--1", "1.2.3", "5N", "1;2", "\"1\"", "1/2", "e5", "1_000", "-"};
+  static const char *const texts[] = {"abc", "1x",    "1 2", "1e", "--1",   "1.2.3", "5N",
+                                      "1;2", "\"1\"", "1/2", "e5", "1_000", "-"};
 
   (void)state;
   for (size_t k = 0; k < sizeof(texts) / sizeof(texts[0]); k++) {
@@ -558,7 +568,8 @@ static void test_both_columns_of_a_pair_are_refused(void **state)
 
     (void)snprintf(text, sizeof(text), "# pair\ntime,%s,%s\n1,1,0\n", NameOf(k, PETSC_FALSE), NameOf(k, PETSC_TRUE));
     Write(text);
-    AssertRefused(k ? "-history test_history.csv -load_n 1" : "-history test_history.csv", SAM_ERR_USER, "test_history.csv, line 2:", NameOf(k, PETSC_FALSE));
+    AssertRefused(k ? "-history test_history.csv -load_n 1" : "-history test_history.csv", SAM_ERR_USER,
+                  "test_history.csv, line 2:", NameOf(k, PETSC_FALSE));
     sam_assert(strstr(message, NameOf(k, PETSC_TRUE)));
   }
 }
@@ -569,8 +580,9 @@ static void test_names_in_options_and_file_are_refused(void **state)
   for (PetscInt k = 0; k < 6; k++)
     for (int by_column = 0; by_column < 2; by_column++)
       for (int by_option = 0; by_option < 2; by_option++) {
-        const char *column = NameOf(k, by_column ? PETSC_TRUE : PETSC_FALSE), *option = NameOf(k, by_option ? PETSC_TRUE : PETSC_FALSE);
-        char        text[64], options[96], dashed[32];
+        const char *column = NameOf(k, by_column ? PETSC_TRUE : PETSC_FALSE),
+                   *option = NameOf(k, by_option ? PETSC_TRUE : PETSC_FALSE);
+        char text[64], options[96], dashed[32];
 
         (void)snprintf(text, sizeof(text), "time,%s\n1,1\n", column);
         (void)snprintf(options, sizeof(options), "-history test_history.csv -%s 1%s", option, k ? " -load_n 1" : "");
@@ -598,7 +610,8 @@ static void test_neither_normal_force_nor_approach_is_refused(void **state)
 
 static void test_files_without_a_step_are_refused(void **state)
 {
-  static const char *const texts[] = {"", "\n\n", "# nothing\n", "time,load_n\n", "time,load_n", "time,load_n\n# 1,2\n\n"};
+  static const char *const texts[] = {
+    "", "\n\n", "# nothing\n", "time,load_n\n", "time,load_n", "time,load_n\n# 1,2\n\n"};
 
   (void)state;
   for (size_t k = 0; k < sizeof(texts) / sizeof(texts[0]); k++) {
@@ -610,7 +623,8 @@ static void test_files_without_a_step_are_refused(void **state)
 /* Blocks of zeros are what a crash may leave of a file; text behind one must not be lost in silence. */
 static void test_zero_bytes_are_refused(void **state)
 {
-  static const char inside[] = "time,load_tx\n1,2\0 000\n", block[] = "time,load_tx\n1,2\n\0\0\0\0\0\0\0\0\n3,4\n", header[] = "time,load_tx\0,load_ty\n1,2\n";
+  static const char inside[] = "time,load_tx\n1,2\0 000\n", block[] = "time,load_tx\n1,2\n\0\0\0\0\0\0\0\0\n3,4\n",
+                    header[] = "time,load_tx\0,load_ty\n1,2\n";
 
   (void)state;
   WriteBytes(inside, sizeof(inside) - 1);
@@ -624,9 +638,11 @@ static void test_zero_bytes_are_refused(void **state)
 static void test_files_that_cannot_be_read_are_told(void **state)
 {
   (void)state;
-  AssertRefused("-history test_history_none.csv -load_n 1", SAM_ERR_FILE, "-history test_history_none.csv", "cannot be read");
+  AssertRefused("-history test_history_none.csv -load_n 1", SAM_ERR_FILE, "-history test_history_none.csv",
+                "cannot be read");
   AssertRefused("-history . -load_n 1", SAM_ERR_FILE, "-history .", "cannot be read");
-  AssertRefused("-history test_history_none/a.csv -load_n 1", SAM_ERR_FILE, "-history test_history_none/a.csv", "cannot be read");
+  AssertRefused("-history test_history_none/a.csv -load_n 1", SAM_ERR_FILE, "-history test_history_none/a.csv",
+                "cannot be read");
 }
 
 static void test_history_without_a_name_is_refused(void **state)
@@ -711,7 +727,8 @@ static void test_history_on_one_rank_is_its_own(void **state)
   if (stream) (void)fclose(stream);
   sam_assert(good);
   SetOptions(options);
-  good = !SamHistoryCreateFromOptions(PETSC_COMM_SELF, &h) && !SamHistoryGetCount(h, &steps) && steps == Rank() + 1 && !SamHistoryDestroy(&h);
+  good = !SamHistoryCreateFromOptions(PETSC_COMM_SELF, &h) && !SamHistoryGetCount(h, &steps) && steps == Rank() + 1 &&
+         !SamHistoryDestroy(&h);
   SetOptions("");
   (void)unlink(name);
   sam_assert(good);

@@ -16,9 +16,9 @@ enum { NUM_KINDS = 6, NUM_REFERENCES = sizeof(references) / sizeof(references[0]
 /* What the header promises: 5e-15 that the bound allows for truncation, and rounding. Observed is up to 1.2e-15. */
 static const double promised = 1e-14;
 
-static const char *const names[] = {"R", "XX", "YY", "XY", "X", "Y"};
+static const char *const names[]    = {"R", "XX", "YY", "XY", "X", "Y"};
 static const double      sides[][2] = {{1, 1}, {3, 1}, {0.7e-6, 1.1e-6}, {1, 40}, {50, 1}, {1, 50}};
-static const ptrdiff_t   lags[]  = {0, 1, 2, 3, 5, 11, 40, 63, 64, 65, 500, 2200, 16383};
+static const ptrdiff_t   lags[]     = {0, 1, 2, 3, 5, 11, 40, 63, 64, 65, 500, 2200, 16383};
 
 enum { NUM_SIDES = sizeof(sides) / sizeof(sides[0]), NUM_LAGS = sizeof(lags) / sizeof(lags[0]) };
 
@@ -37,8 +37,8 @@ static void AssertNear(const char *what, int kind, const double side[2], ptrdiff
                        double expected, double tolerance)
 {
   if (fabs(value - expected) <= tolerance) return;
-  fail_msg("%s: %s of %g x %g at (%td, %td) is %.17g, not %.17g (tolerance %.1e)", what, names[kind], side[0],
-           side[1], i, j, value, expected, tolerance);
+  fail_msg("%s: %s of %g x %g at (%td, %td) is %.17g, not %.17g (tolerance %.1e)", what, names[kind], side[0], side[1],
+           i, j, value, expected, tolerance);
 }
 
 static void test_values_match_50_digit_arithmetic(void **state)
@@ -182,8 +182,8 @@ static void CheckRow(int kind, const double side[2], ptrdiff_t j, ptrdiff_t i0, 
 /* Rows that begin and end inside blocks of lags, cross the axis, or hold one cell or none. */
 static void test_row_equals_cells_to_the_last_bit(void **state)
 {
-  static const ptrdiff_t rows[][2] = {{-150, 300}, {0, 200}, {-7, 7}, {-64, 65}, {5, 59}, {63, 2},
-                                      {2100, 250}, {-16383, 200}, {0, 1}, {1, 1}, {17, 0}};
+  static const ptrdiff_t rows[][2] = {{-150, 300}, {0, 200},      {-7, 7}, {-64, 65}, {5, 59}, {63, 2},
+                                      {2100, 250}, {-16383, 200}, {0, 1},  {1, 1},    {17, 0}};
   static const ptrdiff_t heights[] = {0, 1, -2, 9, -130, 2200, 16383};
 
   (void)state;

@@ -4,7 +4,16 @@
 #include <string.h>
 
 /* around the sizes from which arrays are in large pages, and come from the system */
-static const size_t sizes[] = {0, 1, 65, 4096, ((size_t)2 << 20) - 1, (size_t)2 << 20, ((size_t)8 << 20) - 1, (size_t)8 << 20, ((size_t)8 << 20) + 1, ((size_t)23 << 20) + 4097};
+static const size_t sizes[] = {0,
+                               1,
+                               65,
+                               4096,
+                               ((size_t)2 << 20) - 1,
+                               (size_t)2 << 20,
+                               ((size_t)8 << 20) - 1,
+                               (size_t)8 << 20,
+                               ((size_t)8 << 20) + 1,
+                               ((size_t)23 << 20) + 4097};
 #define SIZES (sizeof(sizes) / sizeof(sizes[0]))
 
 static int IsAll(const unsigned char *p, size_t bytes, unsigned char value)
@@ -36,8 +45,10 @@ static void test_arrays_do_not_overlap_and_may_be_freed_in_any_order(void **stat
 
   (void)state;
   for (size_t k = 0; k < SIZES; k++) {
-    if (k % 2) sam_call(SamAllocate(sizes[k], &array[k]));
-    else sam_call(SamAllocateZeros(sizes[k], &array[k]));
+    if (k % 2)
+      sam_call(SamAllocate(sizes[k], &array[k]));
+    else
+      sam_call(SamAllocateZeros(sizes[k], &array[k]));
     memset(array[k], (int)k + 1, sizes[k]);
   }
   for (size_t k = 0; k < SIZES; k++) {

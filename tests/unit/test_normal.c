@@ -39,7 +39,9 @@ static Outcome Solve(SamElasticity elasticity, Vec h, SamNormalType type, double
   sam_call(SamNormalGetReason(normal, &o.reason));
   sam_call(SamNormalGetStatistics(normal, &o.error, &o.iterations, &o.applies, &o.preconditions));
   sam_call(SamNormalDestroy(&normal));
-  if (getenv("SAM_SHOW")) print_message("# %s %s error %g its %d S %d M %d\n", type ? type : "", SamNormalReasonName(o.reason), o.error, (int)o.iterations, (int)o.applies, (int)o.preconditions);
+  if (getenv("SAM_SHOW"))
+    print_message("# %s %s error %g its %d S %d M %d\n", type ? type : "", SamNormalReasonName(o.reason), o.error,
+                  (int)o.iterations, (int)o.applies, (int)o.preconditions);
   return o;
 }
 
@@ -57,7 +59,8 @@ static double RelativeToHertz(const Sphere *s, Vec p)
 
   sam_call(VecGetArray(hertz, &a));
   for (PetscInt j = 0; j < s->grid->rows; j++)
-    for (PetscInt i = 0; i < s->grid->nx; i++) a[j * s->grid->nx + i] = Hertz(s, hypot(SamGridX(s->grid, i), SamGridY(s->grid, s->grid->row_start + j)));
+    for (PetscInt i = 0; i < s->grid->nx; i++)
+      a[j * s->grid->nx + i] = Hertz(s, hypot(SamGridX(s->grid, i), SamGridY(s->grid, s->grid->row_start + j)));
   sam_call(VecRestoreArray(hertz, &a));
   error = Difference(p, hertz, NORM_2);
   sam_call(VecDestroy(&hertz));
@@ -77,7 +80,8 @@ static void HertzErrors(PetscInt n, SamNormalType type, double *pressure, double
   if (getenv("SAM_SHOW")) print_message("# hertz %s %d pressure %g approach %g\n", type, (int)n, *pressure, *approach);
   sam_assert_close(balance.load[0], s.N, 1e-12 * s.N); /* equilibrium holds to rounding of a sum */
   sam_assert_close(hypot(balance.load[1], balance.load[2]), 0, 1e-12 * s.N * s.a);
-  sam_assert_close(hypot(balance.rigid[1], balance.rigid[2]), 0, 1e-6 * s.a / s.R); /* symmetric: the tolerance of the gap */
+  sam_assert_close(hypot(balance.rigid[1], balance.rigid[2]), 0,
+                   1e-6 * s.a / s.R); /* symmetric: the tolerance of the gap */
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -88,7 +92,10 @@ static void AssertHertz(SamNormalType type)
 
   HertzErrors(64, type, &coarse[0], &coarse[1]);
   HertzErrors(256, type, &fine[0], &fine[1]);
-  /* linear; the circle cuts the cells at the edge in ever other ways, which makes the fall from one grid to the next irregular */
+  /*
+    linear; the circle cuts the cells at the edge in ever other ways, which makes the fall from one grid to the next
+    irregular
+  */
   sam_assert(coarse[0] < 6e-3);
   sam_assert(fine[0] < 0.35 * coarse[0]);
   sam_assert(coarse[1] < 1e-3 && fine[1] < 5e-4);
@@ -132,7 +139,8 @@ static double Rough(double x, double y, const void *context)
 
   for (PetscInt k = 1; k <= 6; k++)
     for (PetscInt l = -6; l <= 6; l++)
-      h += 0.02 * s->a * s->a / s->R * pow((double)(k * k + l * l), -0.8) * 8 * cos(PETSC_PI * ((double)k * x + (double)l * y) / (1.5 * s->a) + PETSC_PI * Random(5, 0, k, l));
+      h += 0.02 * s->a * s->a / s->R * pow((double)(k * k + l * l), -0.8) * 8 *
+           cos(PETSC_PI * ((double)k * x + (double)l * y) / (1.5 * s->a) + PETSC_PI * Random(5, 0, k, l));
   return h;
 }
 
@@ -204,8 +212,10 @@ static void test_force_and_displacement_control_agree(void **state)
 
     for (int k = 0; k < 3; k++) {
       mixed.force[k] = mask & (1 << k) ? PETSC_TRUE : PETSC_FALSE;
-      if (mixed.force[k]) mixed.rigid[k] = NAN; /* what is a result must not be read */
-      else mixed.load[k] = NAN;
+      if (mixed.force[k])
+        mixed.rigid[k] = NAN; /* what is a result must not be read */
+      else
+        mixed.load[k] = NAN;
     }
     SolveWell(s.elasticity, h, NULL, 1e-10, &mixed, q);
     sam_assert_close(Difference(q, p, NORM_2), 0, 1e-6); /* rtol times the condition, about n, twice */
@@ -248,7 +258,7 @@ static void test_start_from_the_solution_ends_at_once(void **state)
 /* A needle far from the contact, one cell wide, is not seen by the coarser grids, whose heights are averages. */
 static void test_contact_outside_the_window_is_found(void **state)
 {
-  Sphere         s       = NewSphere(96, 3, 0.3);
+  Sphere         s = NewSphere(96, 3, 0.3);
   const PetscInt i = 88, j = 47;
   SamBalance     balance = Forced(s.N, 0, 0), other = balance;
   Vec            p = NewField(s.grid, 1), q = NewField(s.grid, 1), alone = NewField(s.grid, 1);
@@ -296,16 +306,17 @@ static void test_contact_grows_beyond_the_window_of_its_start(void **state)
 /* ---- moments, places, units ---- */
 
 /*
-  A paraboloid that is turned is a paraboloid that is shifted: a moment moves the pressure, by (My, -Mx)/N. A whole number
-  of cells makes that exact on the grid.
+  A paraboloid that is turned is a paraboloid that is shifted: a moment moves the pressure, by (My, -Mx)/N. A whole
+  number of cells makes that exact on the grid.
 */
 static void test_moments_shift_the_pressure_of_a_paraboloid(void **state)
 {
   const PetscInt shift_x = 5, shift_y = -3;
-  Sphere         s    = NewSphere(48, 1.8, 0.3);
-  SamBalance     centred = Forced(s.N, 0, 0), moved = Forced(s.N, -s.N * (double)shift_y * s.grid->dy, s.N * (double)shift_x * s.grid->dx);
-  Vec            p = NewField(s.grid, 1), q = NewField(s.grid, 1);
-  double        *from, *to;
+  Sphere         s       = NewSphere(48, 1.8, 0.3);
+  SamBalance     centred = Forced(s.N, 0, 0),
+             moved       = Forced(s.N, -s.N * (double)shift_y * s.grid->dy, s.N * (double)shift_x * s.grid->dx);
+  Vec     p = NewField(s.grid, 1), q = NewField(s.grid, 1);
+  double *from, *to;
 
   (void)state;
   SolveWell(s.elasticity, s.h, NULL, 1e-10, &centred, p);
@@ -333,18 +344,19 @@ static void test_moments_shift_the_pressure_of_a_paraboloid(void **state)
 /* A grid that lies elsewhere, with the body, has the same answer. */
 static void test_place_of_the_grid_does_not_matter(void **state)
 {
-  const double   x = 0.7, y = -1.3;
-  Sphere         s       = NewSphere(40, 1.5, 0.3);
-  SamGrid        away    = NewGridOn(PETSC_COMM_WORLD, 40, 40, s.grid->width[0], s.grid->width[1], x, y);
-  SamBalance     balance = Forced(s.N, 0, 0.1 * s.N * s.a), moved = Forced(s.N, -s.N * y, s.N * (x + 0.1 * s.a));
-  SamElasticity  elasticity;
-  Vec            p = NewField(s.grid, 1), q = NewField(away, 1);
+  const double  x = 0.7, y = -1.3;
+  Sphere        s       = NewSphere(40, 1.5, 0.3);
+  SamGrid       away    = NewGridOn(PETSC_COMM_WORLD, 40, 40, s.grid->width[0], s.grid->width[1], x, y);
+  SamBalance    balance = Forced(s.N, 0, 0.1 * s.N * s.a), moved = Forced(s.N, -s.N * y, s.N * (x + 0.1 * s.a));
+  SamElasticity elasticity;
+  Vec           p = NewField(s.grid, 1), q = NewField(away, 1);
 
   (void)state;
   sam_call(SamElasticityCreate(away, &s.pair, &elasticity));
   SolveWell(s.elasticity, s.h, NULL, 1e-9, &balance, p);
   SolveWell(elasticity, s.h, NULL, 1e-9, &moved, q);
-  sam_assert_close(Difference(q, p, NORM_2), 0, 1e-6); /* rtol times the condition; the lever is known to 1e-16 m of 1e-3 m */
+  sam_assert_close(Difference(q, p, NORM_2), 0,
+                   1e-6); /* rtol times the condition; the lever is known to 1e-16 m of 1e-3 m */
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
   sam_call(SamElasticityDestroy(&elasticity));
@@ -363,7 +375,8 @@ static void test_eight_times_the_load_doubles_sphere_contact_and_pressure(void *
   SolveWell(small.elasticity, small.h, NULL, 0, &one, p);
   SolveWell(large.elasticity, large.h, NULL, 0, &eight, q);
   sam_call(VecScale(p, 2));
-  sam_assert_close(Difference(q, p, NORM_INFINITY), 0, 1e-7); /* all numbers are scaled: the same iterations, but for rounding */
+  sam_assert_close(Difference(q, p, NORM_INFINITY), 0,
+                   1e-7); /* all numbers are scaled: the same iterations, but for rounding */
   sam_assert_close(eight.rigid[0], 4 * one.rigid[0], 1e-9 * eight.rigid[0]);
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
@@ -422,11 +435,13 @@ static void test_bodies_without_load_or_overlap_are_separated(void **state)
 static void test_moment_beyond_the_grid_has_no_equilibrium(void **state)
 {
   Sphere     s        = NewSphere(33, 1.5, 0.3);
-  SamBalance cases[4] = {Forced(s.N, 0, 1.6 * s.N * s.a), Forced(s.N, -1.6 * s.N * s.a, 0), Forced(0, 0, 1), Forced(s.N, 0, -1.49 * s.N * s.a)};
+  SamBalance cases[4] = {Forced(s.N, 0, 1.6 * s.N * s.a), Forced(s.N, -1.6 * s.N * s.a, 0), Forced(0, 0, 1),
+                         Forced(s.N, 0, -1.49 * s.N * s.a)};
   Vec        p        = NewField(s.grid, 1);
 
   (void)state;
-  for (int k = 0; k < 4; k++) sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM);
+  for (int k = 0; k < 4; k++)
+    sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM);
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -472,7 +487,7 @@ static void test_nan_in_the_separation_is_reported(void **state)
 {
   Sphere     s       = NewSphere(33, 1.5, 0.3);
   SamBalance balance = Forced(s.N, 0, 0), other = balance;
-  Vec        p       = NewField(s.grid, 1);
+  Vec        p = NewField(s.grid, 1);
 
   (void)state;
   AddAt(s.grid, 0, 16, 16, NAN, s.h);
@@ -526,9 +541,9 @@ static PetscErrorCode Remember(void *normal, PetscInt it, PetscReal error, void 
 
 static void test_monitors_add_up_and_see_every_iteration(void **state)
 {
-  Sphere     s       = NewSphere(33, 1.5, 0.3);
-  SamBalance balance = Forced(s.N, 0, 0);
-  Vec        p       = NewField(s.grid, 1);
+  Sphere     s          = NewSphere(33, 1.5, 0.3);
+  SamBalance balance    = Forced(s.N, 0, 0);
+  Vec        p          = NewField(s.grid, 1);
   double     seen[2][3] = {{0}};
   SamNormal  normal;
   PetscInt   its;

@@ -46,7 +46,8 @@ static void SetText(const char *text)
 /* Keeps the first message of an error instead of printing it. */
 static char message[4096];
 
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type, const char *text, void *context)
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                                  PetscErrorType type, const char *text, void *context)
 {
   (void)comm;
   (void)line;
@@ -89,7 +90,8 @@ static Value Read(Getter getter, int range, const char *text)
 
 /* ---- numbers ---- */
 
-static const char *const not_reals[] = {"", " ", "x", "1x", "1 2", "1,,2", ",1", "1,", "nan", "-nan", "1e", "1e999", "-1e999", "--1", "1;2", "1,x", "0x", "1.2.3", "1mm", "inf ity"};
+static const char *const not_reals[] = {"",   " ",     "x",      "1x",  "1 2", "1,,2", ",1", "1,",    "nan", "-nan",
+                                        "1e", "1e999", "-1e999", "--1", "1;2", "1,x",  "0x", "1.2.3", "1mm", "inf ity"};
 enum { NOT_REALS = sizeof(not_reals) / sizeof(not_reals[0]) };
 
 static void test_malformed_reals_are_refused(void **state)
@@ -107,19 +109,10 @@ static void test_reals_outside_their_range_are_refused(void **state)
   const struct {
     SamRange    range;
     const char *text;
-  } cases[] = {
-    {SAM_RANGE_ANY,          "inf"  },
-    {SAM_RANGE_ANY,          "-inf" },
-    {SAM_RANGE_NONNEGATIVE,  "inf"  },
-    {SAM_RANGE_NONNEGATIVE,  "-1e-9"},
-    {SAM_RANGE_POSITIVE,     "inf"  },
-    {SAM_RANGE_POSITIVE,     "0"    },
-    {SAM_RANGE_POSITIVE,     "-0"   },
-    {SAM_RANGE_POSITIVE,     "-1"   },
-    {SAM_RANGE_POSITIVE_INF, "-inf" },
-    {SAM_RANGE_POSITIVE_INF, "0"    },
-    {SAM_RANGE_POSITIVE_INF, "-1"   }
-  };
+  } cases[] = {{SAM_RANGE_ANY, "inf"},           {SAM_RANGE_ANY, "-inf"},       {SAM_RANGE_NONNEGATIVE, "inf"},
+               {SAM_RANGE_NONNEGATIVE, "-1e-9"}, {SAM_RANGE_POSITIVE, "inf"},   {SAM_RANGE_POSITIVE, "0"},
+               {SAM_RANGE_POSITIVE, "-0"},       {SAM_RANGE_POSITIVE, "-1"},    {SAM_RANGE_POSITIVE_INF, "-inf"},
+               {SAM_RANGE_POSITIVE_INF, "0"},    {SAM_RANGE_POSITIVE_INF, "-1"}};
 
   (void)state;
   for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
@@ -145,7 +138,23 @@ static void test_too_many_numbers_are_refused(void **state)
 
 static void test_malformed_and_huge_ints_are_refused(void **state)
 {
-  const char *const cases[] = {"", " ", "x", "1x", "1.5", "1e3", "1,", ",1", "1,,2", "nan", "inf", "99999999999999999999", "-99999999999999999999", "9223372036854775808", "1 2", "-1", "1"};
+  const char *const cases[] = {"",
+                               " ",
+                               "x",
+                               "1x",
+                               "1.5",
+                               "1e3",
+                               "1,",
+                               ",1",
+                               "1,,2",
+                               "nan",
+                               "inf",
+                               "99999999999999999999",
+                               "-99999999999999999999",
+                               "9223372036854775808",
+                               "1 2",
+                               "-1",
+                               "1"};
 
   (void)state;
   for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
@@ -204,7 +213,8 @@ static void test_good_ints_are_read(void **state)
 
 static void test_booleans(void **state)
 {
-  const char *const yes[] = {"1", "true", "yes", "on", ""}, *const no[] = {"0", "false", "no", "off"}, *const wrong[] = {"2", "maybe", "truee", "-1", "1.0", "y es"};
+  const char *const yes[] = {"1", "true", "yes", "on", ""}, *const no[] = {"0", "false", "no", "off"},
+                    *const wrong[] = {"2", "maybe", "truee", "-1", "1.0", "y es"};
 
   (void)state;
   for (int k = 0; k < 5; k++) sam_assert(Read(BOOL, 0, yes[k]).truth == PETSC_TRUE);

@@ -22,7 +22,8 @@ enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]), STEPS = 3, SAVED = 2 };
 static const char      filename[] = "test_output.h5";
 static const PetscReal friction   = 0.5;
 
-static const char *const field_names[] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "displacement_x", "displacement_y", "displacement_z"};
+static const char *const field_names[] = {"pressure", "shear_x",        "shear_y",        "slip_x",        "slip_y",
+                                          "gap",      "displacement_x", "displacement_y", "displacement_z"};
 static const char *const field_units[] = {"Pa", "Pa", "Pa", "m", "m", "m", "m", "m", "m"};
 enum { NUM_FIELDS = sizeof(field_names) / sizeof(field_names[0]) };
 
@@ -51,8 +52,8 @@ static SamGrid CreateGrid(int k)
 }
 
 /*
-  The value of a field at a step and a cell, different for each. Pressure and shear make all three states: columns of open
-  cells, and elsewhere |q| below or beyond mu p by the row.
+  The value of a field at a step and a cell, different for each. Pressure and shear make all three states: columns of
+  open cells, and elsewhere |q| below or beyond mu p by the row.
 */
 static double Value(int field, int step, PetscInt i, PetscInt j)
 {
@@ -77,7 +78,8 @@ static void FillComponent(SamGrid grid, Vec vec, int component, int field, int s
 
   sam_call(VecGetArray(vec, &array));
   for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) array[component * grid->cells + j * grid->nx + i] = Value(field, step, i, grid->row_start + j);
+    for (PetscInt i = 0; i < grid->nx; i++)
+      array[component * grid->cells + j * grid->nx + i] = Value(field, step, i, grid->row_start + j);
   sam_call(VecRestoreArray(vec, &array));
 }
 
@@ -117,7 +119,11 @@ static void DestroyFields(SamFields *fields)
 /* Numbers of a step, all different. */
 static SamStep MakeStep(int step)
 {
-  SamStep s = {.time = 0.5 + step, .contact_area = 20 + step, .stick_area = 30 + step, .status = step == 1 ? SAM_STATUS_EDGE_CONTACT : SAM_STATUS_CONVERGED, .dissipated_energy = 40 + step};
+  SamStep s = {.time              = 0.5 + step,
+               .contact_area      = 20 + step,
+               .stick_area        = 30 + step,
+               .status            = step == 1 ? SAM_STATUS_EDGE_CONTACT : SAM_STATUS_CONVERGED,
+               .dissipated_energy = 40 + step};
 
   for (int k = 0; k < 3; k++) {
     s.normal.load[k]      = 100 + 10 * k + step;
@@ -178,7 +184,8 @@ static int HasText(hid_t object, const char *name, const char *expected)
   if (H5Aexists(object, name) <= 0) return 0;
   attribute = H5Aopen(object, name, H5P_DEFAULT);
   type      = H5Aget_type(attribute);
-  good      = H5Tis_variable_str(type) > 0 && H5Aread(attribute, type, &text) >= 0 && text && (expected ? !strcmp(text, expected) : text[0] != '\0');
+  good      = H5Tis_variable_str(type) > 0 && H5Aread(attribute, type, &text) >= 0 && text &&
+         (expected ? !strcmp(text, expected) : text[0] != '\0');
   if (text) H5free_memory(text);
   H5Tclose(type);
   H5Aclose(attribute);
@@ -202,7 +209,8 @@ static int HasShape(hid_t dataset, int rank, const hsize_t expected[], int unlim
   int         good = H5Sget_simple_extent_ndims(space) == rank;
 
   if (good) H5Sget_simple_extent_dims(space, size, largest);
-  for (int d = 0; d < rank && good; d++) good = size[d] == expected[d] && largest[d] == (d == 0 && unlimited ? H5S_UNLIMITED : expected[d]);
+  for (int d = 0; d < rank && good; d++)
+    good = size[d] == expected[d] && largest[d] == (d == 0 && unlimited ? H5S_UNLIMITED : expected[d]);
   H5Sclose(space);
   return good;
 }
@@ -212,10 +220,12 @@ static int HasAxis(hid_t file, const char *name, SamGrid grid, int along_y)
   const hid_t   dataset = H5Dopen2(file, name, H5P_DEFAULT);
   const hsize_t n       = (hsize_t)(along_y ? grid->ny : grid->nx);
   double       *values  = (double *)malloc(n * sizeof(*values));
-  int           good    = HasShape(dataset, 1, &n, 0) && H5DSis_scale(dataset) > 0 && HasText(dataset, "units", "m") && HasText(dataset, "long_name", NULL);
+  int           good    = HasShape(dataset, 1, &n, 0) && H5DSis_scale(dataset) > 0 && HasText(dataset, "units", "m") &&
+             HasText(dataset, "long_name", NULL);
 
   H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-  for (hsize_t k = 0; k < n; k++) good = good && values[k] == (along_y ? SamGridY(grid, (PetscInt)k) : SamGridX(grid, (PetscInt)k));
+  for (hsize_t k = 0; k < n; k++)
+    good = good && values[k] == (along_y ? SamGridY(grid, (PetscInt)k) : SamGridX(grid, (PetscInt)k));
   free(values);
   H5Dclose(dataset);
   return good;
@@ -238,13 +248,15 @@ static int HasScales(hid_t file, hid_t dataset)
 /* field < 0: the state */
 static int HasField(hid_t file, int field, SamGrid grid, int saved)
 {
-  const char   *name     = field < 0 ? "state" : field_names[field];
-  const hid_t   dataset  = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(dataset);
+  const char   *name    = field < 0 ? "state" : field_names[field];
+  const hid_t   dataset = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(dataset);
   const hsize_t shape[3] = {(hsize_t)saved, (hsize_t)grid->ny, (hsize_t)grid->nx}, cells = shape[1] * shape[2];
-  double       *values   = (double *)malloc((size_t)saved * cells * sizeof(*values));
-  int           good     = HasShape(dataset, 3, shape, 1) && HasScales(file, dataset) && HasText(dataset, "units", field < 0 ? "1" : field_units[field]) && HasText(dataset, "long_name", NULL);
+  double       *values = (double *)malloc((size_t)saved * cells * sizeof(*values));
+  int           good   = HasShape(dataset, 3, shape, 1) && HasScales(file, dataset) &&
+             HasText(dataset, "units", field < 0 ? "1" : field_units[field]) && HasText(dataset, "long_name", NULL);
 
-  good = good && H5Tequal(type, field < 0 ? H5T_STD_I8LE : H5T_IEEE_F64LE) > 0 && H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+  good = good && H5Tequal(type, field < 0 ? H5T_STD_I8LE : H5T_IEEE_F64LE) > 0 &&
+         H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
   for (hsize_t k = 0; good && k < (hsize_t)saved * cells; k++) {
     const int      step = k < cells ? 0 : 2;
     const PetscInt j = (PetscInt)(k % cells / shape[2]), i = (PetscInt)(k % shape[2]);
@@ -260,12 +272,14 @@ static int HasField(hid_t file, int field, SamGrid grid, int saved)
 
 static int HasColumn(hid_t file, const char *name, const char *units, const double expected[], int steps, int whole)
 {
-  const hid_t   group = H5Gopen2(file, "history", H5P_DEFAULT), dataset = H5Dopen2(group, name, H5P_DEFAULT), time = H5Dopen2(group, "time", H5P_DEFAULT), type = H5Dget_type(dataset);
+  const hid_t group = H5Gopen2(file, "history", H5P_DEFAULT), dataset = H5Dopen2(group, name, H5P_DEFAULT),
+              time = H5Dopen2(group, "time", H5P_DEFAULT), type = H5Dget_type(dataset);
   const hsize_t n = (hsize_t)steps;
   double        values[STEPS];
-  int           good = HasShape(dataset, 1, &n, 1) && HasText(dataset, "units", units) && HasText(dataset, "long_name", NULL);
+  int good = HasShape(dataset, 1, &n, 1) && HasText(dataset, "units", units) && HasText(dataset, "long_name", NULL);
 
-  good = good && H5Tget_class(type) == (whole ? H5T_INTEGER : H5T_FLOAT) && H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+  good = good && H5Tget_class(type) == (whole ? H5T_INTEGER : H5T_FLOAT) &&
+         H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
   for (int k = 0; k < steps; k++) good = good && values[k] == expected[k];
   good = good && (strcmp(name, "time") ? H5DSis_attached(dataset, time, 0) > 0 : H5DSis_scale(dataset) > 0);
   if (!good) print_error("%s: /history/%s is not what was written\n", filename, name);
@@ -302,22 +316,20 @@ static int HasHistory(hid_t file, int steps)
     const char *name, *units;
     double      first;
     int         whole;
-  } columns[] = {
-    {"time", "s", 0.5, 0},
-    {"contact_area", "m2", 20, 0},
-    {"stick_area", "m2", 30, 0},
-    {"normal_residual", "1", 1e-9, 0},
-    {"tangential_residual", "1", 2e-9, 0},
-    {"equilibrium_residual", "1", 3e-9, 0},
-    {"normal_iterations", "1", 50, 1},
-    {"normal_applies", "1", 60, 1},
-    {"normal_preconditions", "1", 70, 1},
-    {"tangential_iterations", "1", 80, 1},
-    {"tangential_applies", "1", 90, 1},
-    {"tangential_preconditions", "1", 110, 1},
-    {"coupling_iterations", "1", 120, 1},
-    {"dissipated_energy", "J", 40, 0}
-  };
+  } columns[]                = {{"time", "s", 0.5, 0},
+                                {"contact_area", "m2", 20, 0},
+                                {"stick_area", "m2", 30, 0},
+                                {"normal_residual", "1", 1e-9, 0},
+                                {"tangential_residual", "1", 2e-9, 0},
+                                {"equilibrium_residual", "1", 3e-9, 0},
+                                {"normal_iterations", "1", 50, 1},
+                                {"normal_applies", "1", 60, 1},
+                                {"normal_preconditions", "1", 70, 1},
+                                {"tangential_iterations", "1", 80, 1},
+                                {"tangential_applies", "1", 90, 1},
+                                {"tangential_preconditions", "1", 110, 1},
+                                {"coupling_iterations", "1", 120, 1},
+                                {"dissipated_energy", "J", 40, 0}};
   const double status[STEPS] = {0, 12, 0};
   int          good          = HasLoads(file, steps);
 
@@ -405,7 +417,8 @@ static void test_root_has_the_attributes_that_were_set(void **state)
   if (Rank() == 0) {
     const hid_t file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT), cells = H5Dopen2(file, "state", H5P_DEFAULT);
 
-    good = HasReal(file, "friction", friction) && HasText(file, "options", "-a 1\n-b \xc2\xb5m") && HasText(file, "empty", "") && HasText(cells, "flag_meanings", "open stick slip");
+    good = HasReal(file, "friction", friction) && HasText(file, "options", "-a 1\n-b \xc2\xb5m") &&
+           HasText(file, "empty", "") && HasText(cells, "flag_meanings", "open stick slip");
     H5Dclose(cells);
     H5Fclose(file);
   }
@@ -424,7 +437,8 @@ static void test_file_without_steps_is_good(void **state)
   sam_call(SamOutputCreate(grid, filename, &output));
   sam_call(SamOutputDestroy(&output));
   if (Rank() == 0) {
-    const hid_t   file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT), pressure = H5Dopen2(file, "pressure", H5P_DEFAULT);
+    const hid_t file       = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT),
+                pressure   = H5Dopen2(file, "pressure", H5P_DEFAULT);
     const hsize_t shape[3] = {0, (hsize_t)grid->ny, (hsize_t)grid->nx};
 
     good = HasShape(pressure, 3, shape, 1) && HasAxis(file, "x", grid, 0);
@@ -485,7 +499,8 @@ static void test_file_is_complete_after_each_step(void **state)
 /* Keeps the first message of an error instead of printing it. */
 static char message[4096];
 
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType type, const char *text, void *context)
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                                  PetscErrorType type, const char *text, void *context)
 {
   (void)comm;
   (void)line;
@@ -563,7 +578,9 @@ static void AssertNoRoom(SamOutput output, const SamStep *step, const SamFields 
   sam_assert(good);
 }
 
-/* A limit on the size of files stands for a full disk. What there was remains, and more can follow when there is room. */
+/*
+  A limit on the size of files stands for a full disk. What there was remains, and more can follow when there is room.
+*/
 static void test_full_disk_is_an_error_on_all_ranks_and_costs_nothing(void **state)
 {
   (void)state;

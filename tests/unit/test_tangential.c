@@ -20,8 +20,9 @@ typedef struct {
 static Case NewCase(PetscInt n, double poisson)
 {
   Case       c      = {.s = NewSphere(n, 1.5, poisson)};
-  SamBalance normal = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {c.s.N, 0, 0}};
-  SamNormal  solver;
+  SamBalance normal = {
+    .kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {c.s.N, 0, 0}};
+  SamNormal solver;
 
   c.p = NewField(c.s.grid, 1);
   sam_call(SamNormalCreate(c.s.elasticity, &solver));
@@ -44,7 +45,9 @@ static void DestroyCase(Case *c)
 /* Loads in units of mu N and of the limit torque. */
 static SamBalance Loaded(const Case *c, double x, double y, double z)
 {
-  const SamBalance b = {.kind = SAM_BALANCE_TANGENTIAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {x * c->T, y * c->T, z * c->torque}};
+  const SamBalance b = {.kind  = SAM_BALANCE_TANGENTIAL,
+                        .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
+                        .load  = {x * c->T, y * c->T, z * c->torque}};
 
   return b;
 }
@@ -55,7 +58,8 @@ typedef struct {
   PetscInt            iterations, applies, preconditions;
 } Outcome;
 
-static Outcome Solve(const Case *c, Vec bound, Vec offset, SamTangentialType type, double rtol, SamBalance *balance, Vec q)
+static Outcome Solve(const Case *c, Vec bound, Vec offset, SamTangentialType type, double rtol, SamBalance *balance,
+                     Vec q)
 {
   SamTangential t;
   Outcome       o;
@@ -68,7 +72,10 @@ static Outcome Solve(const Case *c, Vec bound, Vec offset, SamTangentialType typ
   sam_call(SamTangentialGetLimit(t, &o.limit));
   sam_call(SamTangentialGetStatistics(t, &o.error, &o.iterations, &o.applies, &o.preconditions));
   sam_call(SamTangentialDestroy(&t));
-  if (getenv("SAM_SHOW")) print_message("# %s %s error %g its %d C %d M %d limit %.12g\n", type ? type : "", SamTangentialReasonName(o.reason), o.error, (int)o.iterations, (int)o.applies, (int)o.preconditions, o.limit);
+  if (getenv("SAM_SHOW"))
+    print_message("# %s %s error %g its %d C %d M %d limit %.12g\n", type ? type : "",
+                  SamTangentialReasonName(o.reason), o.error, (int)o.iterations, (int)o.applies, (int)o.preconditions,
+                  o.limit);
   return o;
 }
 
@@ -120,7 +127,8 @@ static double CattaneoError(const Case *c, double first, double second, Vec q)
     for (PetscInt i = 0; i < grid->nx; i++) {
       const double r = hypot(SamGridX(grid, i), SamGridY(grid, grid->row_start + j));
 
-      a[j * grid->nx + i] = Cattaneo(&c->s, first, r) - (second < first ? 2 * Cattaneo(&c->s, (first - second) / 2, r) : 0);
+      a[j * grid->nx + i] =
+        Cattaneo(&c->s, first, r) - (second < first ? 2 * Cattaneo(&c->s, (first - second) / 2, r) : 0);
     }
   sam_call(VecRestoreArray(exact, &a));
   error = Difference(q, exact, NORM_2);
@@ -130,9 +138,10 @@ static double CattaneoError(const Case *c, double first, double second, Vec q)
 
 static void test_cattaneo_mindlin_at_zero_poisson_ratio(void **state)
 {
-  const double ratio[3] = {0.3, 0.6, 0.9}, tolerance[3] = {3e-2, 2.5e-2, 1e-2}; /* 1.7, 0.7 and 0.5 % as a prototype measured */
-  Case         c        = NewCase(128, 0);
-  Vec          q        = NewField(c.s.grid, 2);
+  const double ratio[3]     = {0.3, 0.6, 0.9},
+               tolerance[3] = {3e-2, 2.5e-2, 1e-2}; /* 1.7, 0.7 and 0.5 % as a prototype measured */
+  Case c                    = NewCase(128, 0);
+  Vec  q                    = NewField(c.s.grid, 2);
 
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -143,7 +152,9 @@ static void test_cattaneo_mindlin_at_zero_poisson_ratio(void **state)
     error = CattaneoError(&c, ratio[k], ratio[k], q);
     if (getenv("SAM_SHOW")) print_message("# Cattaneo T %g: %g\n", ratio[k], error);
     sam_assert(error < tolerance[k]);
-    /* Mindlin: d_x = d_0 (1 - (1 - T/mu N)^(2/3)); at nu = 0 shear meets the stiffness of pressure, and d_0 = mu a^2/R */
+    /*
+      Mindlin: d_x = d_0 (1 - (1 - T/mu N)^(2/3)); at nu = 0 shear meets the stiffness of pressure, and d_0 = mu a^2/R
+    */
     expected = 0.75 * c.T / (c.s.a * c.s.pair.modulus) * (1 - pow(1 - ratio[k], 2.0 / 3));
     if (getenv("SAM_SHOW")) print_message("# d_x/Mindlin %g\n", balance.rigid[0] / expected);
     sam_assert_close(balance.rigid[0], expected, 0.01 * expected); /* of the order of the error of q */
@@ -186,7 +197,8 @@ static void AssertConditions(const Case *c, const SamBalance *balance, const Sam
   sam_call(SamElasticityGetSelfInfluence(c->s.elasticity, NULL, &self));
   sam_call(SamBalanceGetLoads(grid, SAM_BALANCE_TANGENTIAL, q, loads));
   for (int k = 0; k < 3; k++)
-    if (given->force[k]) sam_assert_close(loads[k], given->load[k], 1e-10 * c->T * (k == 2 ? c->s.a : 1)); /* kept by projection */
+    if (given->force[k])
+      sam_assert_close(loads[k], given->load[k], 1e-10 * c->T * (k == 2 ? c->s.a : 1)); /* kept by projection */
   sam_call(VecGetArrayRead(c->bound, &b));
   sam_call(VecGetArrayRead(q, &t));
   sam_call(VecGetArrayRead(slip, &s));
@@ -196,7 +208,8 @@ static void AssertConditions(const Case *c, const SamBalance *balance, const Sam
 
     cone = fmax(cone, n - b[k]);
     if (b[k] <= 0) continue;
-    if (n < (1 - 1e-5) * b[k]) stick = fmax(stick, ds);
+    if (n < (1 - 1e-5) * b[k])
+      stick = fmax(stick, ds);
     else {
       uphill = fmax(uphill, (s[k] * t[k] + s[l] * t[l]) / n);
       across = fmax(across, fabs(s[k] * t[l] - s[l] * t[k]) / n / (1 + ds / (self * b[k])));
@@ -245,8 +258,10 @@ static void test_force_and_displacement_control_agree(void **state)
 
     for (int k = 0; k < 3; k++) {
       mixed.force[k] = mask & (1 << k) ? PETSC_TRUE : PETSC_FALSE;
-      if (mixed.force[k]) mixed.rigid[k] = NAN; /* what is a result must not be read */
-      else mixed.load[k] = NAN;
+      if (mixed.force[k])
+        mixed.rigid[k] = NAN; /* what is a result must not be read */
+      else
+        mixed.load[k] = NAN;
     }
     SolveWell(&c, NULL, NULL, 1e-8, &mixed, other);
     sam_assert_close(Difference(other, q, NORM_2), 0, 1e-5); /* two solutions to 1e-8 times the condition, about n */
@@ -272,7 +287,9 @@ static void test_both_types_agree(void **state)
     SolveWell(&c, NULL, SAM_TANGENTIAL_NEWTON, 0, &newton, q);
     SolveWell(&c, NULL, SAM_TANGENTIAL_GRADIENT, 0, &gradient, other);
     sam_assert_close(Difference(q, other, NORM_2), 0, 1e-4); /* rtol 1e-6 times the condition, about n */
-    for (int i = 0; i < 3; i++) sam_assert_close(newton.rigid[i], gradient.rigid[i], 1e-4 * c.T / (c.s.a * c.s.pair.modulus) / (i == 2 ? c.s.a : 1));
+    for (int i = 0; i < 3; i++)
+      sam_assert_close(newton.rigid[i], gradient.rigid[i],
+                       1e-4 * c.T / (c.s.a * c.s.pair.modulus) / (i == 2 ? c.s.a : 1));
     sam_call(VecDestroy(&q));
     sam_call(VecDestroy(&other));
     DestroyCase(&c);
@@ -288,7 +305,8 @@ static void test_combined_loads_need_few_products(void **state)
   for (int k = 0; k < 2; k++) {
     SamBalance balance = k ? Loaded(&c, 0.6, 0.5, 0.3) : Loaded(&c, 0.4, 0.3, 0.4);
 
-    sam_assert(SolveWell(&c, NULL, NULL, 0, &balance, q).applies <= 60); /* 22 to 54 as a prototype measured at 256 and 512 */
+    sam_assert(SolveWell(&c, NULL, NULL, 0, &balance, q).applies <=
+               60); /* 22 to 54 as a prototype measured at 256 and 512 */
   }
   sam_call(VecDestroy(&q));
   DestroyCase(&c);
@@ -353,7 +371,9 @@ static void test_torque_alone_turns_the_shear_about_the_centre(void **state)
   a    = Whole(c.s.grid, 2, q);
   /* a quarter turn maps (q_x, q_y) at (x, y) to (-q_y, q_x) at (-y, x) */
   for (PetscInt j = 0; j < 40; j++)
-    for (PetscInt i = 0; i < 40; i++) error = fmax(error, fmax(fabs(a[i * 40 + 39 - j] + a[1600 + j * 40 + i]), fabs(a[1600 + i * 40 + 39 - j] - a[j * 40 + i])));
+    for (PetscInt i = 0; i < 40; i++)
+      error = fmax(error, fmax(fabs(a[i * 40 + 39 - j] + a[1600 + j * 40 + i]),
+                               fabs(a[1600 + i * 40 + 39 - j] - a[j * 40 + i])));
   sam_assert_close(error, 0, 1e-5 * most); /* as above, in one cell */
   sam_assert_close(hypot(balance.rigid[0], balance.rigid[1]), 0, 1e-6 * balance.rigid[2] * c.s.a);
   free(a);
@@ -375,7 +395,8 @@ static void test_same_load_again_changes_nothing(void **state)
   sam_call(VecScale(offset, -1));
   SolveWell(&c, offset, NULL, 1e-8, &second, r);
   sam_assert_close(Difference(r, q, NORM_2), 0, 1e-5); /* as above */
-  for (int k = 0; k < 3; k++) sam_assert_close(second.rigid[k], first.rigid[k], 1e-5 * c.T / (c.s.a * c.s.pair.modulus) / (k == 2 ? c.s.a : 1));
+  for (int k = 0; k < 3; k++)
+    sam_assert_close(second.rigid[k], first.rigid[k], 1e-5 * c.T / (c.s.a * c.s.pair.modulus) / (k == 2 ? c.s.a : 1));
   sam_call(VecDestroy(&offset));
   sam_call(VecDestroy(&q));
   sam_call(VecDestroy(&r));
@@ -385,8 +406,8 @@ static void test_same_load_again_changes_nothing(void **state)
 /* A rigid offset is a rigid displacement. */
 static void test_rigid_offset_moves_the_bodies_alone(void **state)
 {
-  Case       c      = NewCase(33, 0.3);
-  SamBalance plain  = Loaded(&c, 0.5, 0, 0.2), moved = plain;
+  Case       c     = NewCase(33, 0.3);
+  SamBalance plain = Loaded(&c, 0.5, 0, 0.2), moved = plain;
   Vec        q = NewField(c.s.grid, 2), r = NewField(c.s.grid, 2), offset = NewField(c.s.grid, 2);
   SamBalance shift = {.kind = SAM_BALANCE_TANGENTIAL, .rigid = {-1e-6, 2e-6, 1e-3}};
 
@@ -396,7 +417,8 @@ static void test_rigid_offset_moves_the_bodies_alone(void **state)
   SolveWell(&c, NULL, NULL, 1e-8, &plain, q);
   SolveWell(&c, offset, NULL, 1e-8, &moved, r);
   sam_assert_close(Difference(r, q, NORM_2), 0, 1e-5); /* as above */
-  for (int k = 0; k < 3; k++) sam_assert_close(moved.rigid[k] + shift.rigid[k], plain.rigid[k], 1e-5 * fabs(shift.rigid[k]));
+  for (int k = 0; k < 3; k++)
+    sam_assert_close(moved.rigid[k] + shift.rigid[k], plain.rigid[k], 1e-5 * fabs(shift.rigid[k]));
   sam_call(VecDestroy(&offset));
   sam_call(VecDestroy(&q));
   sam_call(VecDestroy(&r));
@@ -443,9 +465,10 @@ static void test_load_just_below_friction_is_balanced(void **state)
 
 static void test_large_displacement_slides_everywhere(void **state)
 {
-  Case          c = NewCase(33, 0);
-  SamBalance    balance = {.kind = SAM_BALANCE_TANGENTIAL, .rigid = {1e-3, 0, 0}}; /* the contact sticks up to some 1e-6 m */
-  Vec           q = NewField(c.s.grid, 2);
+  Case          c       = NewCase(33, 0);
+  SamBalance    balance = {.kind  = SAM_BALANCE_TANGENTIAL,
+                           .rigid = {1e-3, 0, 0}}; /* the contact sticks up to some 1e-6 m */
+  Vec           q       = NewField(c.s.grid, 2);
   const double *b, *t;
   double        error = 0;
 
@@ -457,7 +480,7 @@ static void test_large_displacement_slides_everywhere(void **state)
   sam_call(VecRestoreArrayRead(q, &t));
   sam_call(VecRestoreArrayRead(c.bound, &b));
   sam_assert_close(error, 0, 1e-12 * Norm(c.bound, NORM_INFINITY)); /* rounding: all lie on their circles */
-  sam_assert_close(balance.load[0], c.T, 1e-6 * c.T);             /* at nu = 0 all shear is along x */
+  sam_assert_close(balance.load[0], c.T, 1e-6 * c.T);               /* at nu = 0 all shear is along x */
   sam_assert_close(balance.load[1], 0, 1e-6 * c.T);
   sam_call(VecDestroy(&q));
   DestroyCase(&c);
@@ -466,17 +489,21 @@ static void test_large_displacement_slides_everywhere(void **state)
 static void test_without_friction_only_no_load_is_balanced(void **state)
 {
   Case       c    = NewCase(33, 0.3);
-  SamBalance none = Loaded(&c, 0, 0, 0), load = Loaded(&c, 0, 0.1, 0), moved = {.kind = SAM_BALANCE_TANGENTIAL, .rigid = {1e-6, 0, 0}};
-  Vec        q = NewField(c.s.grid, 2), zero = NewField(c.s.grid, 1);
-  Outcome    o;
+  SamBalance none = Loaded(&c, 0, 0, 0), load = Loaded(&c, 0, 0.1, 0),
+             moved = {.kind = SAM_BALANCE_TANGENTIAL, .rigid = {1e-6, 0, 0}};
+  Vec     q = NewField(c.s.grid, 2), zero = NewField(c.s.grid, 1);
+  Outcome o;
 
   (void)state;
-  sam_assert(Solve(&c, zero, NULL, NULL, 0, &none, q).reason == SAM_TANGENTIAL_CONVERGED_FREE && Norm(q, NORM_INFINITY) == 0);
-  sam_assert(Solve(&c, zero, NULL, NULL, 0, &moved, q).reason == SAM_TANGENTIAL_CONVERGED_FREE && Norm(q, NORM_INFINITY) == 0);
+  sam_assert(Solve(&c, zero, NULL, NULL, 0, &none, q).reason == SAM_TANGENTIAL_CONVERGED_FREE &&
+             Norm(q, NORM_INFINITY) == 0);
+  sam_assert(Solve(&c, zero, NULL, NULL, 0, &moved, q).reason == SAM_TANGENTIAL_CONVERGED_FREE &&
+             Norm(q, NORM_INFINITY) == 0);
   sam_assert(moved.load[0] == 0 && moved.rigid[0] == 1e-6);
   o = Solve(&c, zero, NULL, NULL, 0, &load, q);
   sam_assert(o.reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP && o.limit == 0);
-  sam_assert(Solve(&c, c.bound, NULL, NULL, 0, &none, q).reason == SAM_TANGENTIAL_CONVERGED_FREE && Norm(q, NORM_INFINITY) == 0);
+  sam_assert(Solve(&c, c.bound, NULL, NULL, 0, &none, q).reason == SAM_TANGENTIAL_CONVERGED_FREE &&
+             Norm(q, NORM_INFINITY) == 0);
   sam_call(VecDestroy(&q));
   sam_call(VecDestroy(&zero));
   DestroyCase(&c);

@@ -69,8 +69,8 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
 #define SAM_CHUNK 256
 
 /*
-  Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. Which stretches
-  count is kept as one char each, those of a row together.
+  Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. Which
+  stretches count is kept as one char each, those of a row together.
 */
 #define SAM_STRETCH 64
 
@@ -79,7 +79,10 @@ static inline PetscInt SamStretches(SamGrid grid)
   return (grid->nx + SAM_STRETCH - 1) / SAM_STRETCH;
 }
 
-/* The next cells first ... last - 1 of a row of nx, from `last` on, whose stretches all count; `busy` NULL: the whole row. */
+/*
+  The next cells first ... last - 1 of a row of nx, from `last` on, whose stretches all count; `busy` NULL: the whole
+  row.
+*/
 static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *first, PetscInt *last)
 {
   PetscInt i = *last;
@@ -120,7 +123,8 @@ static inline void SamGramNormalRow(double gram[SAM_GRAM], double count, double 
 }
 
 /* Adds a cell to the Gram matrix of the tangential phi, weighted by the symmetric 2 x 2 matrix hxx, hxy, hyy. */
-static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi, double eta)
+static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi,
+                                        double eta)
 {
   gram[0] += hxx;
   gram[1] += hxy;
@@ -131,14 +135,16 @@ static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, doubl
 }
 
 /*
-  Adds a cell to the sums of a vectorised row, which are variables of these names: a projected vector (px, py) with the phi,
-  and the parts of the weighted Gram matrix for SamGramTangentialRow().
+  Adds a cell to the sums of a vectorised row, which are variables of these names: a projected vector (px, py) with the
+  phi, and the parts of the weighted Gram matrix for SamGramTangentialRow().
 */
 #define SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi) \
-  x += (px), y += (py), turn += (xi) * (py), hxx += (gxx), hxy += (gxy), hyy += (gyy), xi_hxy += (xi) * (gxy), xi_hyy += (xi) * (gyy), xi2_hyy += (xi) * (xi) * (gyy)
+  x += (px), y += (py), turn += (xi) * (py), hxx += (gxx), hxy += (gxy), hyy += (gyy), xi_hxy += (xi) * (gxy), \
+    xi_hyy += (xi) * (gyy), xi2_hyy += (xi) * (xi) * (gyy)
 
 /* The same for the cells of a row, from their sums of hxx, hxy, hyy, xi hxy, xi hyy and xi^2 hyy. */
-static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi_hxy, double xi_hyy, double xi2_hyy, double eta)
+static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi_hxy,
+                                        double xi_hyy, double xi2_hyy, double eta)
 {
   gram[0] += hxx;
   gram[1] += hxy;
@@ -155,19 +161,22 @@ static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, doubl
 PETSC_INTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3], double a[3]);
 
 /*
-  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 elsewhere, where it is 0,
-  with the a for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when there is
-  none (p is then left as it was). Collective.
+  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 elsewhere, where it is
+  0, with the a for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when
+  there is none (p is then left as it was). Collective.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[], PetscBool *found);
+PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[],
+                                                  PetscBool *found);
 
 /*
-  SamFrameProjectNormalStep - the same for p + by step, which nearly carries the loads: p becomes an admissible pressure, the
-  nearest where one step of Newton's method finds it, else one as near, and `made` is `scale` times its change, in single
-  precision like the step. `busy`: the stretches that have cells in the mask, or pressure. Not found: p is as it was, to the
-  rounding of `made`.
+  SamFrameProjectNormalStep - the same for p + by step, which nearly carries the loads: p becomes an admissible
+  pressure, the nearest where one step of Newton's method finds it, else one as near, and `made` is `scale` times its
+  change, in single precision like the step. `busy`: the stretches that have cells in the mask, or pressure. Not found:
+  p is as it was, to the rounding of `made`.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const float mask[], const char busy[], double p[], double by, const float step[], double scale, float made[], PetscBool *found);
+PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const float mask[], const char busy[],
+                                                      double p[], double by, const float step[], double scale,
+                                                      float made[], PetscBool *found);
 
 /*
   SamFrameProjectNormalOnContact - the same on the cells that have pressure, if those can carry the loads, else on all.
@@ -177,10 +186,11 @@ PETSC_INTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
 
 /*
   SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear on the disc of radius bound, with
-  the a for which the force-controlled loads are exact. `found` is false when there is none (q is then of no use). The result is
-  admissible to rounding in any case; with `nearest` it is the nearest such shear too, without it, which is faster, that
-  may hold to 1e-6 of the change only. Collective.
+  the a for which the force-controlled loads are exact. `found` is false when there is none (q is then of no use). The
+  result is admissible to rounding in any case; with `nearest` it is the nearest such shear too, without it, which is
+  faster, that may hold to 1e-6 of the change only. Collective.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], PetscBool nearest, double q[], PetscBool *found);
+PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], PetscBool nearest,
+                                                      double q[], PetscBool *found);
 
 #endif

@@ -13,16 +13,19 @@
   #define PETSC_SUCCESS 0
 #endif
 #if PETSC_VERSION_LT(3, 22, 0)
-  #define SamGetViewer(comm, prefix, name, viewer, format, set) PetscOptionsGetViewer(comm, NULL, prefix, name, viewer, format, set)
+  #define SamGetViewer(comm, prefix, name, viewer, format, set) \
+    PetscOptionsGetViewer(comm, NULL, prefix, name, viewer, format, set)
 #else
-  #define SamGetViewer(comm, prefix, name, viewer, format, set) PetscOptionsCreateViewer(comm, NULL, prefix, name, viewer, format, set)
+  #define SamGetViewer(comm, prefix, name, viewer, format, set) \
+    PetscOptionsCreateViewer(comm, NULL, prefix, name, viewer, format, set)
 #endif
 
 /*
   Loops over contiguous doubles, compiled for several generations of x86 and chosen at start, so that an installed
   program needs no -march=native. Only the order of no sum is changed.
 */
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
+  !defined(__SANITIZE_ADDRESS__)
   #define SAM_VECTORIZED __attribute__((target_clones("default", "avx2", "avx512f")))
 #else
   #define SAM_VECTORIZED
@@ -51,8 +54,8 @@ PETSC_INTERN PetscClassId  SAM_CLASSID;
 
 /* ---- memory ---- */
 /*
-  SamAllocate, SamAllocateZeros - arrays of any size, in large pages where they are large, to be freed by SamFree(). PETSC_ERR_MEM
-  with the size when there is no memory.
+  SamAllocate, SamAllocateZeros - arrays of any size, in large pages where they are large, to be freed by SamFree().
+  PETSC_ERR_MEM with the size when there is no memory.
 */
 PETSC_INTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
 PETSC_INTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
@@ -62,8 +65,8 @@ PETSC_INTERN void           SamFree(void *pointer);
 PETSC_INTERN void SamZero(PetscInt n, double x[]);
 
 /*
-  SamReturnMemory - gives the system back what was freed and the C library keeps. What is allocated next has to be mapped anew,
-  which costs time: for the end of long stages.
+  SamReturnMemory - gives the system back what was freed and the C library keeps. What is allocated next has to be
+  mapped anew, which costs time: for the end of long stages.
 */
 PETSC_INTERN void SamReturnMemory(void);
 
@@ -72,9 +75,9 @@ PETSC_INTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_INTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
 
 /*
-  SamTotal - a sum kept in twice the digits of a double. Solvers add up a grid row by row, and a row is on one rank whole:
-  summed like this the result does not depend on which rows are where, and what follows from it is the same on any number
-  of ranks. Source: Knuth's exact addition; Hida, Li and Bailey 2001.
+  SamTotal - a sum kept in twice the digits of a double. Solvers add up a grid row by row, and a row is on one rank
+  whole: summed like this the result does not depend on which rows are where, and what follows from it is the same on
+  any number of ranks. Source: Knuth's exact addition; Hida, Li and Bailey 2001.
 */
 typedef struct {
   double sum, rest;

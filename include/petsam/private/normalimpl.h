@@ -18,16 +18,19 @@ typedef struct {
 } SamNormalLevel;
 
 struct _n_SamNormal {
-  SamSolver       solver;
-  PetscErrorCode (*solve)(SamNormal, SamNormalLevel *); /* the method: solves one level, sets the reason and the error */
+  SamSolver solver;
+  PetscErrorCode (*solve)(SamNormal,
+                          SamNormalLevel *); /* the method: solves one level, sets the reason and the error */
   SamElasticity   elasticity;
   SamNormalReason reason;
 };
 
 /* Counted products: only those on the finest grid count. */
 PETSC_INTERN PetscErrorCode SamNormalApply(SamNormal normal, SamNormalLevel *level, Vec p, Vec u);
-PETSC_INTERN PetscErrorCode SamNormalApplySingle(SamNormal normal, SamNormalLevel *level, double factor, const float p[], float u[]);
-PETSC_INTERN PetscErrorCode SamNormalPreconditionSingle(SamNormal normal, SamNormalLevel *level, double factor, const float r[], float z[]);
+PETSC_INTERN PetscErrorCode SamNormalApplySingle(SamNormal normal, SamNormalLevel *level, double factor,
+                                                 const float p[], float u[]);
+PETSC_INTERN PetscErrorCode SamNormalPreconditionSingle(SamNormal normal, SamNormalLevel *level, double factor,
+                                                        const float r[], float z[]);
 /* Counts an iteration, calls the monitors. */
 PETSC_INTERN PetscErrorCode SamNormalIterated(SamNormal normal, SamNormalLevel *level, PetscReal error);
 

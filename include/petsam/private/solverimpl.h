@@ -13,7 +13,7 @@ typedef struct {
   /* fixed at creation */
   MPI_Comm    comm;
   void       *owner;
-  const char *kind;  /* "normal", "tangential": between the user's prefix and the option's name */
+  const char *kind; /* "normal", "tangential": between the user's prefix and the option's name */
   const char *error_help;
   /* what the user set; 0 stands for the type's default */
   char      type[32];
@@ -34,12 +34,13 @@ typedef struct {
 
 PETSC_INTERN PetscErrorCode SamSolverMonitorSet(SamSolver *solver, SamSolverMonitor monitor, void *context);
 /* Reads all options but the type, which is returned when given. */
-PETSC_INTERN PetscErrorCode SamSolverSetFromOptions(SamSolver *solver, const char types[], char type[], size_t size, PetscBool *set_type);
+PETSC_INTERN PetscErrorCode SamSolverSetFromOptions(SamSolver *solver, const char types[], char type[], size_t size,
+                                                    PetscBool *set_type);
 PETSC_INTERN PetscErrorCode SamSolverView(const SamSolver *solver, PetscViewer viewer);
 /* -view and -converged_reason, after a solve. */
 PETSC_INTERN PetscErrorCode SamSolverViewFromOptions(const SamSolver *solver, PetscBool converged, const char reason[]);
 /* Clears the counts. */
-PETSC_INTERN void SamSolverStart(SamSolver *solver);
+PETSC_INTERN void     SamSolverStart(SamSolver *solver);
 PETSC_INTERN PetscInt SamSolverMaxIterations(const SamSolver *solver);
 PETSC_INTERN PetscInt SamSolverLevels(const SamSolver *solver);
 /* Calls the monitors with the number of iterations so far. */

@@ -66,12 +66,8 @@ typedef struct {
 } Kernel;
 
 static const Kernel kernels[] = {
-  [SAM_INTEGRAL_R]  = {0, 0, 0, 0, 1},
-  [SAM_INTEGRAL_XX] = {0, 0, 0, 1, 1},
-  [SAM_INTEGRAL_YY] = {1, 0, 0, 1, 1},
-  [SAM_INTEGRAL_XY] = {0, 1, 1, 0, 3},
-  [SAM_INTEGRAL_X]  = {0, 1, 0, 0, 2},
-  [SAM_INTEGRAL_Y]  = {1, 1, 0, 0, 2},
+  [SAM_INTEGRAL_R] = {0, 0, 0, 0, 1},  [SAM_INTEGRAL_XX] = {0, 0, 0, 1, 1}, [SAM_INTEGRAL_YY] = {1, 0, 0, 1, 1},
+  [SAM_INTEGRAL_XY] = {0, 1, 1, 0, 3}, [SAM_INTEGRAL_X] = {0, 1, 0, 0, 2},  [SAM_INTEGRAL_Y] = {1, 1, 0, 0, 2},
 };
 
 /*
@@ -148,7 +144,7 @@ static void Expand(Expansion *e, int order)
 static int SelectOrder(const Expansion *e, double x, double y)
 {
   const Kernel *kernel = &e->kernel;
-  const double  ss     = (x * x + y * y) / (e->a * e->a + e->b * e->b), s = sqrt(ss);
+  const double  ss = (x * x + y * y) / (e->a * e->a + e->b * e->b), s = sqrt(ss);
   const double  beside_x = 1 + s * e->a / fmax(x, e->a), beside_y = 1 + s * e->b / fmax(y, e->b);
   const double  u = kernel->exchanged ? beside_y : beside_x, v = kernel->exchanged ? beside_x : beside_y;
   const int     power = kernel->root + 2 * kernel->square;
@@ -168,7 +164,8 @@ static int SelectOrder(const Expansion *e, double x, double y)
  * The integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order.
  * The index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
  */
-SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, int n, double *restrict values)
+SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, int n,
+                                    double *restrict values)
 {
   const int square = e->kernel.square;
   double    x[BLOCK], q[BLOCK], w[BLOCK], term[BLOCK];
@@ -212,8 +209,10 @@ static void MakeShapes(SamIntegral kind, double a, double b, double scale, Expan
     shapes[k].scale   = scale;
     shapes[k].slender = slender;
     shapes[k].order   = -1;
-    if (a > b) a /= 2;
-    else b /= 2;
+    if (a > b)
+      a /= 2;
+    else
+      b /= 2;
   }
 }
 
@@ -239,10 +238,14 @@ static double Rectangle(Expansion *e, double i, double j)
 static double OriginIntegral(SamIntegral kind, double hx, double hy)
 {
   switch (kind) {
-  case SAM_INTEGRAL_R: return 2 * (hx * asinh(hy / hx) + hy * asinh(hx / hy));
-  case SAM_INTEGRAL_XX: return 2 * hy * asinh(hx / hy);
-  case SAM_INTEGRAL_YY: return 2 * hx * asinh(hy / hx);
-  default: return 0; /* the odd kernels */
+  case SAM_INTEGRAL_R:
+    return 2 * (hx * asinh(hy / hx) + hy * asinh(hx / hy));
+  case SAM_INTEGRAL_XX:
+    return 2 * hy * asinh(hx / hy);
+  case SAM_INTEGRAL_YY:
+    return 2 * hx * asinh(hy / hx);
+  default:
+    return 0; /* the odd kernels */
   }
 }
 
@@ -274,8 +277,7 @@ static void BlockIntegrals(Expansion *e, ptrdiff_t j, ptrdiff_t i, ptrdiff_t n, 
   }
 }
 
-void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n,
-                    double *values)
+void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values)
 {
   const int    unit = ilogb(fmax(dx, dy));
   const double hx = scalbn(dx, -unit), hy = scalbn(dy, -unit);

@@ -7,8 +7,7 @@
 
 static const SamGapParameter parameters[] = {
   {"gap_radius_x", "relative radius of curvature along x (m, inf: straight)", SAM_RANGE_POSITIVE_INF},
-  {"gap_radius_y", "relative radius of curvature along y (m, inf: straight)", SAM_RANGE_POSITIVE_INF}
-};
+  {"gap_radius_y", "relative radius of curvature along y (m, inf: straight)", SAM_RANGE_POSITIVE_INF}};
 
 static PetscReal Height_Ellipsoid(const PetscReal radius[], PetscReal x, PetscReal y)
 {

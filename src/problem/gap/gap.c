@@ -107,7 +107,8 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
   PetscCall(PetscMemzero(&gap->ops, sizeof(gap->ops)));
   PetscCall(PetscMemzero(gap->values, sizeof(gap->values)));
   PetscCall(create(gap));
-  PetscCheck(gap->ops.count <= SAM_GAP_PARAMETERS, gap->comm, PETSC_ERR_PLIB, "Gap type %s has more than %d parameters", type, SAM_GAP_PARAMETERS);
+  PetscCheck(gap->ops.count <= SAM_GAP_PARAMETERS, gap->comm, PETSC_ERR_PLIB, "Gap type %s has more than %d parameters",
+             type, SAM_GAP_PARAMETERS);
   PetscCheck(gap->ops.height || gap->ops.fill, gap->comm, PETSC_ERR_PLIB, "Gap type %s set no method", type);
   for (PetscInt k = 0; k < gap->ops.count; k++) gap->names[k] = gap->ops.parameters[k].name;
   PetscCall(PetscStrncpy(gap->type, type, sizeof(gap->type)));
@@ -125,7 +126,8 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
 
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required by %s", parameter->help, gap->type));
     PetscCall(SamOptionsReal(NULL, parameter->name, text, parameter->range, &gap->values[k], &set));
-    PetscCheck(set || help, gap->comm, SAM_ERR_USER, "-%s is missing: %s, required by -gap_type %s", parameter->name, parameter->help, gap->type);
+    PetscCheck(set || help, gap->comm, SAM_ERR_USER, "-%s is missing: %s, required by -gap_type %s", parameter->name,
+               parameter->help, gap->type);
   }
   if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -181,7 +183,8 @@ static PetscErrorCode FillHeight(SamGap gap, SamGrid grid, Vec h)
   for (PetscInt j = 0; j < grid->rows; j++) {
     const PetscReal y = SamGridY(grid, grid->row_start + j);
 
-    for (PetscInt i = 0; i < grid->nx; i++) array[j * grid->nx + i] = gap->ops.height(gap->values, SamGridX(grid, i), y);
+    for (PetscInt i = 0; i < grid->nx; i++)
+      array[j * grid->nx + i] = gap->ops.height(gap->values, SamGridX(grid, i), y);
   }
   PetscCall(VecRestoreArrayWrite(h, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -200,7 +203,9 @@ static PetscErrorCode CheckFinite(SamGap gap, SamGrid grid, Vec h)
   PetscCall(VecRestoreArrayRead(h, &array));
   bad = isnan(bad) ? 1 : 0;
   PetscCall(SamMax(grid->comm, 1, &bad));
-  PetscCheck(bad == 0, gap->comm, SAM_ERR_USER, "-gap_type %s: the separation is not finite everywhere on the grid: look at the values of its options", gap->type);
+  PetscCheck(bad == 0, gap->comm, SAM_ERR_USER,
+             "-gap_type %s: the separation is not finite everywhere on the grid: look at the values of its options",
+             gap->type);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -222,14 +227,17 @@ PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
 {
   PetscFunctionBegin;
   PetscCheck(gap->type[0], gap->comm, PETSC_ERR_ORDER, "Call SamGapSetType() or SamGapSetFromOptions() first");
-  if (gap->ops.fill) PetscCall(gap->ops.fill(gap, grid, h));
-  else PetscCall(FillHeight(gap, grid, h));
+  if (gap->ops.fill)
+    PetscCall(gap->ops.fill(gap, grid, h));
+  else
+    PetscCall(FillHeight(gap, grid, h));
   if (gap->rough.file[0]) PetscCall(AddRoughness(gap, grid, h));
   PetscCall(CheckFinite(gap, grid, h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count, const char *const **names, const PetscReal **values)
+PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count, const char *const **names,
+                                   const PetscReal **values)
 {
   PetscFunctionBegin;
   if (type) *type = gap->type;

@@ -46,9 +46,11 @@ PetscErrorCode SamGapSourceSetFromOptions(SamGapSource *source, const char file_
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(source->dataset, "/height", sizeof(source->dataset)));
   PetscCall(SamOptionsString(NULL, source->file_option, file_help, source->file, sizeof(source->file), NULL));
-  PetscCall(SamOptionsString(NULL, source->dataset_option, "dataset in it: (ny, nx), m", source->dataset, sizeof(source->dataset), &set));
+  PetscCall(SamOptionsString(NULL, source->dataset_option, "dataset in it: (ny, nx), m", source->dataset,
+                             sizeof(source->dataset), &set));
   PetscCall(SamPrintHelp(&help));
-  PetscCheck(!set || source->file[0] || help, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s is given without -%s", source->dataset_option, source->file_option);
+  PetscCheck(!set || source->file[0] || help, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s is given without -%s",
+             source->dataset_option, source->file_option);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -110,28 +112,36 @@ static Verdict Judge(const SamGapSource *source, SamGrid grid)
 static PetscErrorCode Raise(const SamGapSource *source, SamGrid grid, const Verdict *verdict)
 {
   const char *const file = source->file, *const dataset = source->dataset;
-  const long long   ny = grid->ny, nx = grid->nx, *const detail = verdict->detail;
+  const long long ny = grid->ny, nx = grid->nx, *const detail = verdict->detail;
 
   PetscFunctionBegin;
   switch (verdict->kind) {
   case GOOD:
     PetscFunctionReturn(PETSC_SUCCESS);
   case UNREADABLE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: cannot be read: %s", source->file_option, file, strerror((int)detail[0]));
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: cannot be read: %s", source->file_option, file,
+            strerror((int)detail[0]));
   case NOT_HDF5:
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: is not an HDF5 file", source->file_option, file);
   case NO_DATASET:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s (-%s)", source->file_option, file, dataset, source->dataset_option);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s (-%s)", source->file_option, file, dataset,
+            source->dataset_option);
   case WRONG_TYPE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s does not hold real or whole numbers", source->file_option, file, dataset);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s does not hold real or whole numbers", source->file_option, file,
+            dataset);
   case WRONG_RANK:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s has %lld dimension(s), expected shape (ny, nx) = (%lld, %lld), rows are y", source->file_option, file, dataset, detail[0], ny, nx);
+    SETERRQ(grid->comm, SAM_ERR_FILE,
+            "-%s %s: %s has %lld dimension(s), expected shape (ny, nx) = (%lld, %lld), rows are y", source->file_option,
+            file, dataset, detail[0], ny, nx);
   case WRONG_SHAPE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y", source->file_option, file, dataset, detail[0], detail[1], ny, nx);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y",
+            source->file_option, file, dataset, detail[0], detail[1], ny, nx);
   case NOT_FINITE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is not a finite number", source->file_option, file, dataset, detail[0], detail[1]);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is not a finite number", source->file_option, file,
+            dataset, detail[0], detail[1]);
   default: /* DAMAGED */
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s cannot be read: the file is damaged or in use", source->file_option, file, dataset);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s cannot be read: the file is damaged or in use", source->file_option,
+            file, dataset);
   }
 }
 
@@ -154,7 +164,8 @@ static void Open(const SamGapSource *source, SamGrid grid, hid_t *file, hid_t *d
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
 
   *file = *dataset = -1;
-  if (access >= 0 && H5Pset_fapl_mpio(access, grid->comm, MPI_INFO_NULL) >= 0) *file = H5Fopen(source->file, H5F_ACC_RDONLY, access);
+  if (access >= 0 && H5Pset_fapl_mpio(access, grid->comm, MPI_INFO_NULL) >= 0)
+    *file = H5Fopen(source->file, H5F_ACC_RDONLY, access);
   if (*file >= 0) *dataset = H5Dopen2(*file, source->dataset, H5P_DEFAULT);
   if (access >= 0) (void)H5Pclose(access);
 }
@@ -163,15 +174,17 @@ static void Open(const SamGapSource *source, SamGrid grid, hid_t *file, hid_t *d
 static PetscBool ReadRows(SamGrid grid, hid_t dataset, double array[])
 {
   const hsize_t start[2] = {(hsize_t)grid->row_start, 0}, count[2] = {(hsize_t)grid->rows, (hsize_t)grid->nx};
-  const hid_t   space = H5Dget_space(dataset), memory = H5Screate_simple(2, count, NULL), transfer = H5Pcreate(H5P_DATASET_XFER);
-  double        nothing;
-  PetscBool     good = PETSC_TRUE;
-  herr_t        status;
+  const hid_t   space = H5Dget_space(dataset), memory = H5Screate_simple(2, count, NULL),
+              transfer = H5Pcreate(H5P_DATASET_XFER);
+  double    nothing;
+  PetscBool good = PETSC_TRUE;
+  herr_t    status;
 
   status = grid->rows ? H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) : H5Sselect_none(space);
   if (status < 0) good = PETSC_FALSE;
   if (H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE) < 0) good = PETSC_FALSE;
-  if (H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, transfer, grid->rows ? array : &nothing) < 0) good = PETSC_FALSE;
+  if (H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, transfer, grid->rows ? array : &nothing) < 0)
+    good = PETSC_FALSE;
   if (H5Pclose(transfer) < 0) good = PETSC_FALSE;
   if (H5Sclose(memory) < 0) good = PETSC_FALSE;
   if (H5Sclose(space) < 0) good = PETSC_FALSE;

@@ -81,7 +81,7 @@ void SamFrameGetRigid(const SamFrame *f, const double a[3], SamBalance *balance)
     double b = a[0] * f->basis[k][0] + a[1] * f->basis[k][1] + a[2] * f->basis[k][2];
 
     for (PetscInt m = k + 1; m < f->count; m++) b -= f->lower[m][k] * d[m];
-    d[k]                              = b / f->lower[k][k];
+    d[k]                            = b / f->lower[k][k];
     balance->rigid[f->component[k]] = d[k];
   }
 }

@@ -1,9 +1,10 @@
 /*
   What loads can be balanced at all.
 
-  Sliding: the shears |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of loads
-  is convex, and this is its support function). The least of sum b |v| dA over the v with F.v = 1 is the factor by which F
-  can grow. It is found by Newton's method on |v| smoothed near the centre of rotation, the smoothing being reduced.
+  Sliding: the shears |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of
+  loads is convex, and this is its support function). The least of sum b |v| dA over the v with F.v = 1 is the factor by
+  which F can grow. It is found by Newton's method on |v| smoothed near the centre of rotation, the smoothing being
+  reduced.
 */
 #include <petsam/private/balanceimpl.h>
 #include <math.h>
@@ -51,10 +52,11 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size, PetscBool *possible)
+PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size,
+                               PetscBool *possible)
 {
-  const PetscReal sign[3]  = {1, -1, 1}; /* lever of Mx along -y, of My along x */
-  const char     *axis[3]  = {"", "y", "x"};
+  const PetscReal sign[3] = {1, -1, 1}; /* lever of Mx along -y, of My along x */
+  const char     *axis[3] = {"", "y", "x"};
 
   PetscFunctionBegin;
   *possible  = PETSC_TRUE;
@@ -69,14 +71,19 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
     if (!balance->force[k]) continue;
     if (balance->load[0] == 0) {
       *possible = balance->load[k] == 0 ? PETSC_TRUE : PETSC_FALSE;
-      if (!*possible) PetscCall(PetscSNPrintf(message, size, "%s = %g N m needs a normal force to balance it, and load_n is 0", name, (double)balance->load[k]));
+      if (!*possible)
+        PetscCall(PetscSNPrintf(message, size, "%s = %g N m needs a normal force to balance it, and load_n is 0", name,
+                                (double)balance->load[k]));
       continue;
     }
     lever = sign[k] * balance->load[k] / balance->load[0];
     if (lever > first && lever < last) continue;
     *possible = PETSC_FALSE;
-    PetscCall(PetscSNPrintf(message, size, "%s = %g N m under load_n = %g N: the resultant lies at %s = %g m, the grid's cells from %g to %g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)", name,
-                            (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever, (double)first, (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
+    PetscCall(PetscSNPrintf(message, size,
+                            "%s = %g N m under load_n = %g N: the resultant lies at %s = %g m, the grid's cells from "
+                            "%g to %g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)",
+                            name, (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever,
+                            (double)first, (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
                             (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -89,7 +96,8 @@ typedef struct {
 
 #define POWER ((PetscInt)(sizeof(Power) / sizeof(double)))
 
-static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], const double a[3], double smoothing, Power *power)
+static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], const double a[3], double smoothing,
+                                    Power *power)
 {
   SamTotal totals[sizeof(Power) / sizeof(double)] = {{0, 0}};
 
@@ -152,7 +160,8 @@ static void OrthogonalTo(const SamFrame *f, const double F[3], SamFrame *across)
 }
 
 /* Newton with halving for one smoothing, moving a within the directions of `across`. */
-static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing, double a[3], double *value)
+static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing,
+                                    double a[3], double *value)
 {
   Power now, next;
 
@@ -179,7 +188,8 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, PetscReal motion[3])
+PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor,
+                                    PetscReal motion[3])
 {
   SamFrame      f, across;
   double        F[3] = {0, 0, 0}, norm = 0, a[3], value = 0;
@@ -198,7 +208,8 @@ PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec
   OrthogonalTo(&f, F, &across);
   PetscCall(VecGetArrayRead(bound, &b));
   /* the smoothed sum lies above the true one by at most smoothing * sum b */
-  for (double smoothing = 1; smoothing > 1e-9; smoothing *= 0.1) PetscCall(MinimizePower(&f, &across, b, smoothing / sqrt(norm), a, &value));
+  for (double smoothing = 1; smoothing > 1e-9; smoothing *= 0.1)
+    PetscCall(MinimizePower(&f, &across, b, smoothing / sqrt(norm), a, &value));
   {
     Power exact;
 

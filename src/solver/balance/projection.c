@@ -6,17 +6,19 @@
   minimise the dual
       sum phi_b(|v + phi a|) - a.F,     phi_b(n) = n^2/2 up to the bound b, b n - b^2/2 beyond
   (for pressures: half the square of the positive part). Its gradient is sum phi'P(v + phi a) - F, the error of
-  equilibrium; Newton's method with a line search on the dual needs a few passes over the cells and no transform. When no
-  admissible traction carries F the dual has no minimum and a runs away.
+  equilibrium; Newton's method with a line search on the dual needs a few passes over the cells and no transform. When
+  no admissible traction carries F the dual has no minimum and a runs away.
 */
 #include <petsam/private/balanceimpl.h>
 #include <math.h>
 
-#define NEWTON_MAX 60
+#define NEWTON_MAX   60
 #define HALVINGS_MAX 40
 #define PROJECT_MAX  4
-/* Relative errors of equilibrium: rounding at best, rounding at worst, nearly none, and what one step of Newton's method takes
-   from there to the first for shears, whose equations are not linear. */
+/*
+  Relative errors of equilibrium: rounding at best, rounding at worst, nearly none, and what one step of Newton's
+  method takes from there to the first for shears, whose equations are not linear.
+*/
 #define EXACT  1e-14
 #define ENOUGH 1e-11
 #define CLOSE  1e-3
@@ -62,17 +64,19 @@ static double Imbalance(const SamFrame *f, const Dual *dual, double error[3])
   return load > 0 ? size / load : 0;
 }
 
-/* Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer improve it; `near`: it
-   nearly holds. With an error of less than `once` at the start one step is made, and what comes of it is for the caller to see. */
-static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void *context, double once, double a[3], PetscBool *found, PetscBool *near)
+/* Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer improve it; `near`:
+   it nearly holds. With an error of less than `once` at the start one step is made, and what comes of it is for the
+   caller to see. */
+static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void *context, double once, double a[3],
+                                   PetscBool *found, PetscBool *near)
 {
-  Dual         now, next;
-  double       error[3], size;
+  Dual   now, next;
+  double error[3], size;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 3; i++) a[i] = 0;
   PetscCall(Evaluate(f, pass, context, a, &now));
-  size = Imbalance(f, &now, error);
+  size   = Imbalance(f, &now, error);
   *found = PETSC_FALSE;
   *near  = PETSC_TRUE;
   if (size > EXACT && size <= once) {
@@ -95,7 +99,8 @@ static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void 
       PetscCall(Evaluate(f, pass, context, trial, &next));
       trial_size = Imbalance(f, &next, error);
       /* near the minimum rounding hides the fall of the value, but not that of the gradient */
-      if (next.value <= now.value - 1e-4 * t * slope || trial_size < 0.5 * size || t * slope <= 1e-13 * fabs(now.value) || h == HALVINGS_MAX) {
+      if (next.value <= now.value - 1e-4 * t * slope || trial_size < 0.5 * size ||
+          t * slope <= 1e-13 * fabs(now.value) || h == HALVINGS_MAX) {
         size = trial_size;
         break;
       }
@@ -120,7 +125,7 @@ typedef struct {
   float        *row;     /* then: a row of ones, or room for a row */
   const char   *busy;    /* stretches with cells that count, or pressure; NULL: all */
   const double *field;
-  const float  *step;    /* normal: added to the field with the factor `by` */
+  const float  *step; /* normal: added to the field with the factor `by` */
   double        by;
   const double *bound;
 } Cells;
@@ -140,14 +145,17 @@ static const char *BusyOfRow(const Cells *c, SamGrid grid, PetscInt j)
 }
 
 /* Some pressures x = max(0, field + by step + phi a) of the cells that count. */
-SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field, const float *restrict step, double by, const float *restrict mask, double xi0, double dxi, double eta, const double a[3], Dual *row)
+SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field, const float *restrict step, double by,
+                                        const float *restrict mask, double xi0, double dxi, double eta,
+                                        const double a[3], Dual *row)
 {
   const double ax = a[0] - a[1] * eta, a2 = a[2];
   double       value = 0, x = 0, turn = 0, count = 0, sum_xi = 0, xi2 = 0;
 
 #pragma omp simd reduction(+ : value, x, turn, count, sum_xi, xi2)
   for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi), in = v > 0 ? (double)mask[i] : 0, p = in * v;
+    const double xi = xi0 + (double)i * dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi),
+                 in = v > 0 ? (double)mask[i] : 0, p = in * v;
 
     value += 0.5 * p * p;
     x += p;
@@ -175,20 +183,27 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
     const char   *busy = BusyOfRow(c, f->grid, j);
     Dual          row  = {0};
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) AddPressures(end - i, field + i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);)
+      AddPressures(end - i, field + i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi,
+                   SamFrameEta(f, j), a, &row);
     SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
 
-/* p = max(0, p + by step + phi a) on cells of a row that count, 0 on others; the change times `scale` is added to made. */
-SAM_VECTORIZED static void ApplyNormal(PetscInt n, const float *restrict step, double by, const float *restrict mask, double xi0, double dxi, double eta, const double a[3], double scale, double *restrict p, float *restrict made, Dual *row)
+/*
+  p = max(0, p + by step + phi a) on cells of a row that count, 0 on others; the change times `scale` is added to made.
+*/
+SAM_VECTORIZED static void ApplyNormal(PetscInt n, const float *restrict step, double by, const float *restrict mask,
+                                       double xi0, double dxi, double eta, const double a[3], double scale,
+                                       double *restrict p, float *restrict made, Dual *row)
 {
   const double ax = a[0] - a[1] * eta, a2 = a[2];
   double       sum = 0, turn = 0;
 
 #pragma omp simd reduction(+ : sum, turn)
   for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, v = p[i] + by * (double)step[i] + (ax + a2 * xi), x = v > 0 ? (double)mask[i] * v : 0;
+    const double xi = xi0 + (double)i * dxi, v = p[i] + by * (double)step[i] + (ax + a2 * xi),
+                 x = v > 0 ? (double)mask[i] * v : 0;
 
     made[i] += (float)(scale * (x - p[i]));
     p[i] = x;
@@ -202,7 +217,8 @@ SAM_VECTORIZED static void ApplyNormal(PetscInt n, const float *restrict step, d
 }
 
 /* The projection that belongs to a, in place of the field, and the moments of what it is then. */
-static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], double scale, double p[], float made[], float ignored[], SamTotal dual[])
+static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], double scale, double p[], float made[],
+                      float ignored[], SamTotal dual[])
 {
   const PetscInt nx = f->grid->nx;
 
@@ -213,7 +229,9 @@ static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], doub
     float          *to   = made ? made + k : ignored;
     Dual            row  = {0};
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) ApplyNormal(end - i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, scale, p + k + i, to + i, &row);
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);)
+      ApplyNormal(end - i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, scale,
+                  p + k + i, to + i, &row);
     SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
@@ -231,11 +249,12 @@ static PetscErrorCode IsBalanced(const SamFrame *f, const SamTotal totals[], dou
 }
 
 /*
-  The projection of the field p + by step, for a step that nearly carries the loads in few passes: one for the step of Newton's
-  method, and one that makes it and sees whether that was all. One row of zeros stands for no step, and takes what nobody wants
-  to know of the change.
+  The projection of the field p + by step, for a step that nearly carries the loads in few passes: one for the step of
+  Newton's method, and one that makes it and sees whether that was all. One row of zeros stands for no step, and takes
+  what nobody wants to know of the change.
 */
-static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], double scale, float made[], PetscBool *found)
+static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], double scale, float made[],
+                                    PetscBool *found)
 {
   const PetscInt nx     = f->grid->nx;
   double        *before = NULL;
@@ -249,14 +268,18 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
   cells.field = p;
   if (cells.by == 0) cells.step = zeros;
   *found = PETSC_FALSE;
-  /* pressures far above the load leave it to rounding; once projected they are of its size, and a second time is exact */
+  /*
+    pressures far above the load leave it to rounding; once projected they are of its size, and a second time is exact
+  */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
     const PetscBool once         = (made && time == 0) ? PETSC_TRUE : PETSC_FALSE;
     SamTotal        totals[DUAL] = {{0, 0}};
     double          a[3]         = {0, 0, 0};
 
-    if (f->count) PetscCall(MinimizeDual(f, PassNormal, &cells, once ? CLOSE : 0, a, found, &near));
-    else *found = PETSC_TRUE;
+    if (f->count)
+      PetscCall(MinimizeDual(f, PassNormal, &cells, once ? CLOSE : 0, a, found, &near));
+    else
+      *found = PETSC_TRUE;
     if (!*found && near && !before && !made) {
       PetscCall(PetscMalloc1(f->grid->cells, &before));
       PetscCall(PetscArraycpy(before, p, f->grid->cells));
@@ -281,7 +304,8 @@ PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const float mask[], doub
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const float mask[], const char busy[], double p[], double by, const float step[], double scale, float made[], PetscBool *found)
+PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const float mask[], const char busy[], double p[],
+                                         double by, const float step[], double scale, float made[], PetscBool *found)
 {
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(made, f->grid->cells));
@@ -297,11 +321,17 @@ PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Part of a row of shears, n <= SAM_CHUNK: v = field + phi a, projected on its disc, x = D(v), and the derivative h of D. */
-SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict bound, double xi0, double dxi, double eta, const double a[3], Dual *row)
+/*
+  Part of a row of shears, n <= SAM_CHUNK: v = field + phi a, projected on its disc, x = D(v), and the derivative h of
+  D.
+*/
+SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, const double *restrict qy,
+                                     const double *restrict bound, double xi0, double dxi, double eta,
+                                     const double a[3], Dual *row)
 {
   const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
-  double       value = 0, scale = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
+  double value = 0, scale = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0,
+         beyond = 0;
 
 #pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
   for (PetscInt i = 0; i < n; i++) {
@@ -324,14 +354,16 @@ SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, cons
     for (PetscInt i = 0; i < n; i++) {
       const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
       const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy, size = sqrt(n2);
-      const double inverse = 1 / n2, s = n2 > b * b ? b * size * inverse : in, g = n2 > b * b ? s * inverse : 0; /* one division */
+      const double inverse = 1 / n2, s = n2 > b * b ? b * size * inverse : in,
+                   g  = n2 > b * b ? s * inverse : 0; /* one division */
       const double px = s * vx, py = s * vy, gxx = s - g * vx * vx, gxy = -g * vx * vy, gyy = s - g * vy * vy;
 
       value += n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2;
       scale += fabs(px) + fabs(py);
       SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
     }
-  } else hyy = hxx;
+  } else
+    hyy = hxx;
   row->value += value;
   row->scale += scale;
   row->sums[0] += x;
@@ -351,13 +383,17 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
     Dual          row = {0};
 
     SamBoundRange(nx, b, &first, &last);
-    for (PetscInt i = first; i < last; i += SAM_CHUNK) AddShears(PetscMin(SAM_CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
+    for (PetscInt i = first; i < last; i += SAM_CHUNK)
+      AddShears(PetscMin(SAM_CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi,
+                SamFrameEta(f, j), a, &row);
     SamAddAll(DUAL, dual, (const double *)&row);
   }
 }
 
 /* A row's projection in place of the field, and its moments. */
-SAM_VECTORIZED static void ApplyShears(PetscInt n, double *restrict qx, double *restrict qy, const double *restrict bound, double xi0, double dxi, double eta, const double a[3], Dual *row)
+SAM_VECTORIZED static void ApplyShears(PetscInt n, double *restrict qx, double *restrict qy,
+                                       const double *restrict bound, double xi0, double dxi, double eta,
+                                       const double a[3], Dual *row)
 {
   const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
   double       scale = 0, x = 0, y = 0, turn = 0;
@@ -365,7 +401,8 @@ SAM_VECTORIZED static void ApplyShears(PetscInt n, double *restrict qx, double *
 #pragma omp simd reduction(+ : scale, x, y, turn)
   for (PetscInt i = 0; i < n; i++) {
     const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
-    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy, s = n2 > b * b ? b / sqrt(n2) : in;
+    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy,
+                 s  = n2 > b * b ? b / sqrt(n2) : in;
     const double px = s * vx, py = s * vy;
 
     qx[i] = px;
@@ -382,13 +419,14 @@ SAM_VECTORIZED static void ApplyShears(PetscInt n, double *restrict qx, double *
 }
 
 /* The projection that belongs to a, in place of q, and the moments of what it is then. */
-static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const double a[3], double q[], SamTotal dual[])
+static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const double a[3], double q[],
+                                      SamTotal dual[])
 {
   const PetscInt nx = f->grid->nx;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double *b = bound + (ptrdiff_t)j * nx;
+    const double *b  = bound + (ptrdiff_t)j * nx;
     double       *qx = q + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells;
     PetscInt      first, last;
     Dual          row = {0};
@@ -396,7 +434,8 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
     SamBoundRange(nx, b, &first, &last);
     PetscCall(PetscArrayzero(qx, first));
     PetscCall(PetscArrayzero(qy, first));
-    ApplyShears(last - first, qx + first, qy + first, b + first, f->xi0 + (double)first * f->dxi, f->dxi, SamFrameEta(f, j), a, &row);
+    ApplyShears(last - first, qx + first, qy + first, b + first, f->xi0 + (double)first * f->dxi, f->dxi,
+                SamFrameEta(f, j), a, &row);
     PetscCall(PetscArrayzero(qx + last, nx - last));
     PetscCall(PetscArrayzero(qy + last, nx - last));
     SamAddAll(DUAL, dual, (const double *)&row);
@@ -405,10 +444,11 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
 }
 
 /*
-  At first, where that is likely to do, one step of Newton's method is made without looking; what comes of it is a start if it
-  does not, and then the result is the nearest shear to this start.
+  At first, where that is likely to do, one step of Newton's method is made without looking; what comes of it is a start
+  if it does not, and then the result is the nearest shear to this start.
 */
-PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[], PetscBool *found)
+PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[],
+                                         PetscBool *found)
 {
   const Cells cells = {.field = q, .bound = bound};
   PetscBool   near  = PETSC_TRUE;
@@ -419,8 +459,10 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
     SamTotal totals[DUAL] = {{0, 0}};
     double   a[3]         = {0, 0, 0};
 
-    if (f->count) PetscCall(MinimizeDual(f, PassTangential, &cells, time == 0 ? SMOOTH : 0, a, found, &near));
-    else *found = PETSC_TRUE;
+    if (f->count)
+      PetscCall(MinimizeDual(f, PassTangential, &cells, time == 0 ? SMOOTH : 0, a, found, &near));
+    else
+      *found = PETSC_TRUE;
     if (!*found && (!near || time > 0)) break;
     PetscCall(ApplyTangential(f, bound, a, q, totals));
     if (!*found) PetscCall(IsBalanced(f, totals, EXACT, found));

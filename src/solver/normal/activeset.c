@@ -3,35 +3,40 @@
 
   Problem: minimise p.S p/2 + h.p over the admissible p: p >= 0, in equilibrium (or with given rigid displacements).
   An iteration, with one product:
-    1. A: the cells where pressure is, or is to be: those without that penetrate are in A, those with little that are to part
-       are not. The rigid displacements (the multipliers of equilibrium) make the gap g on A smallest. The residual is -g on A.
+    1. A: the cells where pressure is, or is to be: those without that penetrate are in A, those with little that are to
+  part are not. The rigid displacements (the multipliers of equilibrium) make the gap g on A smallest. The residual is
+  -g on A.
     2. Direction: the preconditioned residual, with the part of the last step that makes the two conjugate. Both stay
        meaningful when A changes, as the last step is the difference of two pressures, whose product is known.
-    3. Trial: the pressure on A, 0 outside, admissible and nearest to p + alpha times the direction, alpha as last was best.
-    4. The product of trial - p gives the best point between p and the trial, or beyond as long as p >= 0. When no cell meets
-       its bound that is the step of linear conjugate gradients.
-  So p is admissible and the energy falls throughout, cells enter and leave by the thousand without a product of their own, and
-  conjugacy is kept. If the trial is uphill, or the error has not fallen for several iterations, the direction is the residual
-  itself: projected gradient steps with the best length converge whatever is between them.
-  Stops when |g| under pressure and -g elsewhere are below the tolerance, relative to the largest displacement.
+    3. Trial: the pressure on A, 0 outside, admissible and nearest to p + alpha times the direction, alpha as last was
+  best.
+    4. The product of trial - p gives the best point between p and the trial, or beyond as long as p >= 0. When no cell
+  meets its bound that is the step of linear conjugate gradients. So p is admissible and the energy falls throughout,
+  cells enter and leave by the thousand without a product of their own, and conjugacy is kept. If the trial is uphill,
+  or the error has not fallen for several iterations, the direction is the residual itself: projected gradient steps
+  with the best length converge whatever is between them. Stops when |g| under pressure and -g elsewhere are below the
+  tolerance, relative to the largest displacement.
 
   Preconditioner: |k| on A, less half its loss. |k| = |k|' + loss on A: |k|' is what the differences of a field within A
   cost, loss = |k| 1_A what it costs that the field ends at the edge of A. The inverse of S on A lies between the two:
   the field outside is free, not zero. The loss grows at edges like 1/distance, which |k| alone has too much.
 
-  Steps and their products are in single precision, at half the cost; p and g are not. What rounding g collects is a part of
-  about 1e-7 of the largest error since the last product in double precision; before it matters there is another one. Coarse
-  grids, solved roughly, need none.
-  References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
-  Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum);
-  Bogdan, Burdzy and Chen 2003, Probab. Theory Relat. Fields 127, 89-152 (|k| on a part of the plane, with and without loss).
+  Steps and their products are in single precision, at half the cost; p and g are not. What rounding g collects is a
+  part of about 1e-7 of the largest error since the last product in double precision; before it matters there is another
+  one. Coarse grids, solved roughly, need none. References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for
+  contact); Dostal 2009, Optimal Quadratic Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997,
+  J. Tribol. 119, 481-485 (the spectrum); Bogdan, Burdzy and Chen 2003, Probab. Theory Relat. Fields 127, 89-152 (|k| on
+  a part of the plane, with and without loss).
 */
 #include <petsam/private/normalimpl.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* A cell parts when the gap is more than its own pressure and that of its neighbours displace it, in units of the former. */
+/*
+  A cell parts when the gap is more than its own pressure and that of its neighbours displace it, in units of the
+  former.
+*/
 #define PATCH 6.0
 /* The part of the loss that is taken off, and that of A that may change before the loss is computed anew. */
 #define LOSS_OFF 0.5
@@ -40,13 +45,17 @@
 #define DESCENT 0.1
 /* The trial's length follows the best one by at most this factor's root. */
 #define FOLLOW 2.0
-/* Rounding of g as a part of the largest error since it was computed in double precision, the part of the tolerance that it
-   may be at the end, and the fall of the error after which g is computed anew in any case. */
+/*
+  Rounding of g as a part of the largest error since it was computed in double precision, the part of the tolerance
+  that it may be at the end, and the fall of the error after which g is computed anew in any case.
+*/
 #define SINGLE_ROUNDING 3e-7
 #define DOUBT           0.03
 #define FALL            1e-3
-/* Iterations without progress before a gradient step, and before giving up: then it is rounding that stands in the way. */
-#define PATIENCE 10
+/*
+  Iterations without progress before a gradient step, and before giving up: then it is rounding that stands in the way.
+*/
+#define PATIENCE   10
 #define STAGNATION 100
 
 typedef struct {
@@ -55,24 +64,25 @@ typedef struct {
   const SamFrame *frame;
   PetscInt        nx, rows, cells;
   Vec             vg;
-  double         *p, *g;         /* pressure; gap */
-  float          *z, *s, *u;     /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
-  float          *loss;          /* what is taken off the preconditioner; 0 on cells that were not in A then */
-  float          *xi;            /* of the columns */
-  double          unit;          /* m, of the iteration */
+  double         *p, *g;     /* pressure; gap */
+  float          *z, *s, *u; /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
+  float          *loss;      /* what is taken off the preconditioner; 0 on cells that were not in A then */
+  float          *xi;        /* of the columns */
+  double          unit;      /* m, of the iteration */
   const double   *h;
-  float          *active;        /* 1 on cells of A, else 0 */
-  PetscInt        stretches;     /* of a row */
-  char           *busy;          /* stretches with cells of A, or pressure */
-  double         *least;         /* of others: the least gap when p went its last step; none known: -infinity */
+  float          *active;         /* 1 on cells of A, else 0 */
+  PetscInt        stretches;      /* of a row */
+  char           *busy;           /* stretches with cells of A, or pressure */
+  double         *least;          /* of others: the least gap when p went its last step; none known: -infinity */
   double          gram[SAM_GRAM]; /* of A */
-  double          motion[3];     /* rigid displacement in g, fixed part included */
-  double          displacement;  /* largest |S p| */
-  double          self;          /* influence of a cell on itself, m/Pa */
-  double          error, worst;  /* largest complementarity error, m: now, and since g was a product (in single precision: its displacement) */
-  double          slope, shrink; /* of the step: s.g; largest part of its pressure that a cell loses */
-  double          curvature;     /* s.u; 0: no step yet */
-  double          alpha;         /* length of the trial */
+  double          motion[3];      /* rigid displacement in g, fixed part included */
+  double          displacement;   /* largest |S p| */
+  double          self;           /* influence of a cell on itself, m/Pa */
+  double error, worst;  /* largest complementarity error, m: now, and since g was a product (in single precision: its
+                          displacement) */
+  double slope, shrink; /* of the step: s.g; largest part of its pressure that a cell loses */
+  double curvature;     /* s.u; 0: no step yet */
+  double alpha;         /* length of the trial */
 } Work;
 
 #define FLOATS 5
@@ -124,7 +134,8 @@ static PetscErrorCode DestroyWork(Work *w)
 }
 
 /* A row of gaps: g + h - motion; returns the largest |g| before. */
-SAM_VECTORIZED static double GapRow(PetscInt n, double *restrict g, const double *restrict h, double xi0, double dxi, double eta, const double motion[3])
+SAM_VECTORIZED static double GapRow(PetscInt n, double *restrict g, const double *restrict h, double xi0, double dxi,
+                                    double eta, const double motion[3])
 {
   const double a = motion[0] - motion[1] * eta, b = motion[2];
   double       max = 0;
@@ -180,8 +191,10 @@ static PetscErrorCode ComputeGap(Work *w)
   double          max = 0;
 
   PetscFunctionBegin;
-  if (IsSingleEnough(w)) PetscCall(ApplySingle(w));
-  else PetscCall(Apply(w));
+  if (IsSingleEnough(w))
+    PetscCall(ApplySingle(w));
+  else
+    PetscCall(Apply(w));
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k    = (ptrdiff_t)j * w->nx;
     const double    size = GapRow(w->nx, w->g + k, w->h + k, f->xi0, f->dxi, SamFrameEta(f, j), w->motion);
@@ -199,8 +212,13 @@ typedef struct {
   double count, xi, xi2, g, xi_g;
 } RowSums;
 
-/* A in a stretch of a row: the cells with p > ease times the gap, which `motion` moves back first; adds to their sums. Whether any is, or has pressure. */
-SAM_VECTORIZED static PetscBool ChooseStretch(PetscInt n, const double *restrict p, const double *restrict g, double ease, double xi0, double dxi, double eta, const double motion[3], float *restrict active, RowSums *sums)
+/*
+  A in a stretch of a row: the cells with p > ease times the gap, which `motion` moves back first; adds to their sums.
+  Whether any is, or has pressure.
+*/
+SAM_VECTORIZED static PetscBool ChooseStretch(PetscInt n, const double *restrict p, const double *restrict g,
+                                              double ease, double xi0, double dxi, double eta, const double motion[3],
+                                              float *restrict active, RowSums *sums)
 {
   const double a = motion[0] - motion[1] * eta, b = motion[2];
   double       count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0, pressure = 0;
@@ -251,7 +269,7 @@ static PetscBool IsClear(const Work *w, PetscInt stretch, PetscInt i, PetscInt n
 {
   const SamFrame *f = w->frame;
   const double    a = motion[0] - motion[1] * eta, b = motion[2];
-  const double    most = PetscMax(a + b * (f->xi0 + (double)i * f->dxi), a + b * (f->xi0 + (double)(i + n - 1) * f->dxi));
+  const double most = PetscMax(a + b * (f->xi0 + (double)i * f->dxi), a + b * (f->xi0 + (double)(i + n - 1) * f->dxi));
 
   return !w->busy[stretch] && w->least[stretch] > most ? PETSC_TRUE : PETSC_FALSE;
 }
@@ -268,7 +286,10 @@ static RowSums ChooseRow(Work *w, PetscInt j, double ease, const double motion[3
     const ptrdiff_t k = (ptrdiff_t)j * w->nx + i;
 
     if (IsClear(w, stretch, i, n, eta, motion)) continue; /* what was not busy has no cell of A */
-    w->busy[stretch] = ChooseStretch(n, w->p + k, w->g + k, ease, f->xi0 + (double)i * f->dxi, f->dxi, eta, motion, w->active + k, &row) ? 1 : 0;
+    w->busy[stretch] =
+      ChooseStretch(n, w->p + k, w->g + k, ease, f->xi0 + (double)i * f->dxi, f->dxi, eta, motion, w->active + k, &row)
+        ? 1
+        : 0;
   }
   return row;
 }
@@ -288,8 +309,12 @@ static PetscErrorCode Choose(Work *w, double ease, double motion[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A row of gaps moved by the rigid displacement -motion; returns the largest complementarity error: |g| under pressure, -g elsewhere. */
-SAM_VECTORIZED static double MoveRow(PetscInt n, double *restrict g, const double *restrict p, double xi0, double dxi, double eta, const double motion[3])
+/*
+  A row of gaps moved by the rigid displacement -motion; returns the largest complementarity error: |g| under pressure,
+  -g elsewhere.
+*/
+SAM_VECTORIZED static double MoveRow(PetscInt n, double *restrict g, const double *restrict p, double xi0, double dxi,
+                                     double eta, const double motion[3])
 {
   const double a = motion[0] - motion[1] * eta, b = motion[2];
   double       sum = 0, error = 0;
@@ -306,8 +331,8 @@ SAM_VECTORIZED static double MoveRow(PetscInt n, double *restrict g, const doubl
 }
 
 /*
-  Chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures it. `contact`: the sums over the
-  cells with pressure, when they are known.
+  Chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures it. `contact`: the sums
+  over the cells with pressure, when they are known.
 */
 static PetscErrorCode ChooseSet(Work *w, SamTotal contact[])
 {
@@ -315,8 +340,10 @@ static PetscErrorCode ChooseSet(Work *w, SamTotal contact[])
   double          motion[3] = {0, 0, 0}, error = 0;
 
   PetscFunctionBegin;
-  if (contact) PetscCall(Fit(w, contact, motion));
-  else PetscCall(Choose(w, 0, motion));
+  if (contact)
+    PetscCall(Fit(w, contact, motion));
+  else
+    PetscCall(Choose(w, 0, motion));
   PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -366,11 +393,13 @@ static PetscErrorCode UpdateLoss(Work *w)
   double changed = 0;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < w->rows; j++) changed += CountChanged(w->nx, w->loss + (ptrdiff_t)j * w->nx, w->active + (ptrdiff_t)j * w->nx);
+  for (PetscInt j = 0; j < w->rows; j++)
+    changed += CountChanged(w->nx, w->loss + (ptrdiff_t)j * w->nx, w->active + (ptrdiff_t)j * w->nx);
   PetscCall(SamSum(w->level->grid->comm, 1, &changed));
   if (changed <= LOSS_OLD * w->gram[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamNormalPreconditionSingle(w->normal, w->level, w->self, w->active, w->loss));
-  for (PetscInt j = 0; j < w->rows; j++) LossRow(w->nx, w->active + (ptrdiff_t)j * w->nx, w->loss + (ptrdiff_t)j * w->nx);
+  for (PetscInt j = 0; j < w->rows; j++)
+    LossRow(w->nx, w->active + (ptrdiff_t)j * w->nx, w->loss + (ptrdiff_t)j * w->nx);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -381,7 +410,8 @@ static const char *BusyOfRow(const Work *w, PetscInt j)
 }
 
 /* The residual, in units. */
-SAM_VECTORIZED static void ResidualRow(PetscInt n, const double *restrict g, const float *restrict active, double inverse, float *restrict z)
+SAM_VECTORIZED static void ResidualRow(PetscInt n, const double *restrict g, const float *restrict active,
+                                       double   inverse, float *restrict z)
 {
 #pragma omp simd
   for (PetscInt i = 0; i < n; i++) z[i] = active[i] * (float)(-inverse * g[i]);
@@ -394,18 +424,25 @@ static PetscErrorCode ComputeResidual(Work *w)
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);) ResidualRow(end - i, w->g + k + i, w->active + k + i, 1 / w->unit, w->z + k + i);
+    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);)
+      ResidualRow(end - i, w->g + k + i, w->active + k + i, 1 / w->unit, w->z + k + i);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a stretch of a row adds to a direction's sums over A: moments of z and of u (without the factor of eta); z.r, z.u, s.r. */
+/*
+  What a stretch of a row adds to a direction's sums over A: moments of z and of u (without the factor of eta); z.r,
+  z.u, s.r.
+*/
 typedef struct {
   double z, z_turn, u, u_turn, zr, zu, sr;
 } Products;
 
 /* z = |k| r less the loss of r, and its products, added to `sums`. */
-SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict s, const float *restrict u, const float *restrict loss, const float *restrict active, const float *restrict xi, double inverse, float *restrict z, Products *sums)
+SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict g, const float *restrict s,
+                                             const float *restrict u, const float *restrict loss,
+                                             const float *restrict active, const float *restrict xi, double inverse,
+                                             float *restrict z, Products *sums)
 {
   float  z_sum = 0, z_turn = 0, u_sum = 0, u_turn = 0, zu = 0;
   double zr = 0, sr = 0;
@@ -433,7 +470,8 @@ SAM_VECTORIZED static void PreconditionedRow(PetscInt n, const double *restrict 
 }
 
 /* Where a cell is not in A, z is of no use, and stays what it is. */
-SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict s, const float *restrict xi, double eta, const double motion[3], float beta, float *restrict z)
+SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict s, const float *restrict xi, double eta,
+                                        const double motion[3], float beta, float *restrict z)
 {
   const float a = (float)(motion[0] - motion[1] * eta), b = (float)motion[2];
 
@@ -444,7 +482,7 @@ SAM_VECTORIZED static void DirectionRow(PetscInt n, const float *restrict s, con
 /* z = P M r + beta s on A, conjugate to the last step. */
 static PetscErrorCode NewDirection(Work *w)
 {
-  const SamFrame *f = w->frame;
+  const SamFrame *f         = w->frame;
   SamTotal        totals[9] = {{0, 0}};
   double          sums[9], a[3], beta = 0;
 
@@ -461,9 +499,13 @@ static PetscErrorCode NewDirection(Work *w)
       const PetscInt  n = PetscMin(SAM_STRETCH, w->nx - i);
       const ptrdiff_t m = k + i;
 
-      if (BusyOfRow(w, j)[i / SAM_STRETCH]) PreconditionedRow(n, w->g + m, w->s + m, w->u + m, w->loss + m, w->active + m, w->xi + i, 1 / w->unit, w->z + m, &row);
+      if (BusyOfRow(w, j)[i / SAM_STRETCH])
+        PreconditionedRow(n, w->g + m, w->s + m, w->u + m, w->loss + m, w->active + m, w->xi + i, 1 / w->unit, w->z + m,
+                          &row);
     }
-    SamAddAll(9, totals, (const double[9]){row.z, -eta * row.z, row.z_turn, row.u, -eta * row.u, row.u_turn, row.zr, row.zu, row.sr});
+    SamAddAll(9, totals,
+              (const double[9]){row.z, -eta * row.z, row.z_turn, row.u, -eta * row.u, row.u_turn, row.zr, row.zu,
+                                row.sr});
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 9, totals, sums));
   SamFrameSolve(f, w->gram, sums, a);
@@ -472,13 +514,15 @@ static PetscErrorCode NewDirection(Work *w)
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx;
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);) DirectionRow(end - i, w->s + k + i, w->xi + i, SamFrameEta(f, j), a, (float)beta, w->z + k + i);
+    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);)
+      DirectionRow(end - i, w->s + k + i, w->xi + i, SamFrameEta(f, j), a, (float)beta, w->z + k + i);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The slope of the step to the trial p, in some cells of a row; raises `shrink`. */
-SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, const double *restrict g, const float *restrict s, double pressure, double *shrink)
+SAM_VECTORIZED static double TrialRow(PetscInt n, const double *restrict p, const double *restrict g,
+                                      const float *restrict s, double pressure, double *shrink)
 {
   double slope = 0, most = 0;
 
@@ -500,14 +544,16 @@ static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
   SamTotal     total    = {0, 0};
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectNormalStep(w->frame, w->active, w->busy, w->p, alpha * pressure, w->z, 1 / pressure, w->s, found));
+  PetscCall(
+    SamFrameProjectNormalStep(w->frame, w->active, w->busy, w->p, alpha * pressure, w->z, 1 / pressure, w->s, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   w->shrink = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k   = (ptrdiff_t)j * w->nx;
     double          row = 0;
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);) row += TrialRow(end - i, w->p + k + i, w->g + k + i, w->s + k + i, pressure, &w->shrink);
+    for (PetscInt i = 0, end = 0; SamNextBusy(BusyOfRow(w, j), w->nx, &i, &end);)
+      row += TrialRow(end - i, w->p + k + i, w->g + k + i, w->s + k + i, pressure, &w->shrink);
     SamAdd(&total, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->slope));
@@ -543,8 +589,13 @@ SAM_VECTORIZED static double CurvatureStretch(PetscInt n, const float *restrict 
   return (double)sum;
 }
 
-/* From the trial, where p has gone by s, by so much more: what is left to rounding of a pressure is none. Adds to the sums over cells with pressure. */
-SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s, double rounding, double by_u, double xi0, double dxi, double *restrict p, double *restrict g, RowSums *sums)
+/*
+  From the trial, where p has gone by s, by so much more: what is left to rounding of a pressure is none. Adds to the
+  sums over cells with pressure.
+*/
+SAM_VECTORIZED static void StepRow(PetscInt n, const float *restrict s, const float *restrict u, double by_s,
+                                   double rounding, double by_u, double xi0, double dxi, double *restrict p,
+                                   double *restrict g, RowSums *sums)
 {
   double count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0;
 
@@ -595,9 +646,13 @@ static void SetLength(Work *w, double t, SamTotal contact[])
     const char     *busy = BusyOfRow(w, j);
     RowSums         row  = {0};
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(busy, w->nx, &i, &end);) StepRow(end - i, w->s + k + i, w->u + k + i, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit, f->xi0 + (double)i * f->dxi, f->dxi, w->p + k + i, w->g + k + i, &row);
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, w->nx, &i, &end);)
+      StepRow(end - i, w->s + k + i, w->u + k + i, (t - 1) * pressure, SINGLE_ROUNDING * pressure, t * w->unit,
+              f->xi0 + (double)i * f->dxi, f->dxi, w->p + k + i, w->g + k + i, &row);
     for (PetscInt i = 0, m = 0; i < w->nx; i += SAM_STRETCH, m++) {
-      if (!busy[m]) w->least[(ptrdiff_t)j * w->stretches + m] = OpenStretch(PetscMin(SAM_STRETCH, w->nx - i), w->u + k + i, t * w->unit, w->g + k + i);
+      if (!busy[m])
+        w->least[(ptrdiff_t)j * w->stretches + m] =
+          OpenStretch(PetscMin(SAM_STRETCH, w->nx - i), w->u + k + i, t * w->unit, w->g + k + i);
     }
     AddRow(row, SamFrameEta(f, j), contact);
   }
@@ -614,14 +669,17 @@ static PetscErrorCode ComputeCurvature(Work *w)
     double          row = 0;
 
     for (PetscInt i = 0; i < w->nx; i += SAM_STRETCH)
-      if (BusyOfRow(w, j)[i / SAM_STRETCH]) row += CurvatureStretch(PetscMin(SAM_STRETCH, w->nx - i), w->s + k + i, w->u + k + i);
+      if (BusyOfRow(w, j)[i / SAM_STRETCH])
+        row += CurvatureStretch(PetscMin(SAM_STRETCH, w->nx - i), w->s + k + i, w->u + k + i);
     SamAdd(&total, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->curvature));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The least energy between where the step begins and where a pressure vanishes. `best`: its length without that bound. */
+/*
+  The least energy between where the step begins and where a pressure vanishes. `best`: its length without that bound.
+*/
 static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {
   PetscFunctionBegin;
@@ -647,8 +705,10 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *good, Pets
     if (*found && gradient) SetLength(w, 0, ignored);
   }
   if (gradient) PetscCall(TryGradient(w, found));
-  if (*found && w->slope < 0) PetscCall(Step(w, &best, contact));
-  else if (*found) SetLength(w, 0, ignored);
+  if (*found && w->slope < 0)
+    PetscCall(Step(w, &best, contact));
+  else if (*found)
+    SetLength(w, 0, ignored);
   *good = best > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (!*good) PetscFunctionReturn(PETSC_SUCCESS);
   w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
@@ -668,14 +728,19 @@ static PetscBool IsTrusted(const Work *w)
   return SINGLE_ROUNDING * w->worst <= DOUBT * Tolerance(w) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* g is to be computed anew: when that makes it trusted to the end, or is the least that can be done about its rounding. */
+/*
+  g is to be computed anew: when that makes it trusted to the end, or is the least that can be done about its rounding.
+*/
 static PetscBool IsStale(const Work *w)
 {
-  return (!IsTrusted(w) && (SINGLE_ROUNDING * w->error <= DOUBT * Tolerance(w) || w->error <= FALL * w->worst)) ? PETSC_TRUE : PETSC_FALSE;
+  return (!IsTrusted(w) && (SINGLE_ROUNDING * w->error <= DOUBT * Tolerance(w) || w->error <= FALL * w->worst))
+           ? PETSC_TRUE
+           : PETSC_FALSE;
 }
 
 /* A row's largest |S p|. */
-SAM_VECTORIZED static double DisplacementRow(PetscInt n, const double *restrict g, const double *restrict h, double xi0, double dxi, double eta, const double motion[3])
+SAM_VECTORIZED static double DisplacementRow(PetscInt n, const double *restrict g, const double *restrict h, double xi0,
+                                             double dxi, double eta, const double motion[3])
 {
   const double a = motion[0] - motion[1] * eta, b = motion[2];
   double       max = 0;
@@ -717,13 +782,18 @@ static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool good, Pets
 
   PetscFunctionBegin;
   *reason = SAM_NORMAL_CONVERGED_ITERATING;
-  if (!found) *reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
-  else if (!isfinite(w->error)) *reason = SAM_NORMAL_DIVERGED_NAN;
+  if (!found)
+    *reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
+  else if (!isfinite(w->error))
+    *reason = SAM_NORMAL_DIVERGED_NAN;
   if (*reason) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(IsSolved(w, &solved));
-  if (solved) *reason = SAM_NORMAL_CONVERGED_RTOL;
-  else if (w->level->finest && solver->iterations >= SamSolverMaxIterations(solver)) *reason = SAM_NORMAL_DIVERGED_ITS;
-  else if (stagnant > STAGNATION || !good) *reason = SAM_NORMAL_DIVERGED_STAGNATED;
+  if (solved)
+    *reason = SAM_NORMAL_CONVERGED_RTOL;
+  else if (w->level->finest && solver->iterations >= SamSolverMaxIterations(solver))
+    *reason = SAM_NORMAL_DIVERGED_ITS;
+  else if (stagnant > STAGNATION || !good)
+    *reason = SAM_NORMAL_DIVERGED_STAGNATED;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,15 +1,19 @@
-/* The normal solver's class: types, tolerances, monitors, nested grids, windows. The methods are in files of their own. */
+/*
+  The normal solver's class: types, tolerances, monitors, nested grids, windows. The methods are in files of their own.
+*/
 #include <petsam/private/normalimpl.h>
 
 /*
   Coarse grids need to be solved only as well as they approximate the fine one; beyond that their iterations are wasted.
 */
 #define COARSE_RTOL 1e-4
-/* Gaps outside a window, relative to the largest displacement, that rounding in single precision cannot be blamed for. */
+/*
+  Gaps outside a window, relative to the largest displacement, that rounding in single precision cannot be blamed for.
+*/
 #define CLEARANCE 1e-5
 
-static PetscFunctionList SamNormalList  = NULL;
-static PetscBool         registered = PETSC_FALSE;
+static PetscFunctionList SamNormalList = NULL;
+static PetscBool         registered    = PETSC_FALSE;
 
 const char *SamNormalReasonName(SamNormalReason reason)
 {
@@ -94,7 +98,8 @@ PetscErrorCode SamNormalSetType(SamNormal n, SamNormalType type)
 
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamNormalList, type, &create));
-  PetscCheck(create, n->solver.comm, SAM_ERR_USER, "-%snormal_type %s: expected %s or %s", n->solver.prefix, type, SAM_NORMAL_ACTIVESET, SAM_NORMAL_POLONSKYKEER);
+  PetscCheck(create, n->solver.comm, SAM_ERR_USER, "-%snormal_type %s: expected %s or %s", n->solver.prefix, type,
+             SAM_NORMAL_ACTIVESET, SAM_NORMAL_POLONSKYKEER);
   PetscCall(create(n));
   PetscCall(PetscStrncpy(n->solver.type, type, sizeof(n->solver.type)));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -178,7 +183,8 @@ PetscErrorCode SamNormalApplySingle(SamNormal n, SamNormalLevel *level, double f
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamNormalPreconditionSingle(SamNormal n, SamNormalLevel *level, double factor, const float r[], float z[])
+PetscErrorCode SamNormalPreconditionSingle(SamNormal n, SamNormalLevel *level, double factor, const float r[],
+                                           float z[])
 {
   PetscFunctionBegin;
   n->solver.preconditions += level->finest ? 1 : 0;
@@ -202,7 +208,8 @@ PetscErrorCode SamNormalGetReason(SamNormal n, SamNormalReason *reason)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamNormalGetStatistics(SamNormal n, PetscReal *error, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions)
+PetscErrorCode SamNormalGetStatistics(SamNormal n, PetscReal *error, PetscInt *iterations, PetscInt *applies,
+                                      PetscInt *preconditions)
 {
   PetscFunctionBegin;
   if (error) *error = n->solver.error;
@@ -213,8 +220,9 @@ PetscErrorCode SamNormalGetStatistics(SamNormal n, PetscReal *error, PetscInt *i
 }
 
 /*
-  A start from nothing: the bodies on a bed of springs, as stiff as the half-space is under a pressure over half the grid,
-  which has about the right cells in contact. The admissible pressure nearest to -stiffness (h - fixed) is just that.
+  A start from nothing: the bodies on a bed of springs, as stiff as the half-space is under a pressure over half the
+  grid, which has about the right cells in contact. The admissible pressure nearest to -stiffness (h - fixed) is just
+  that.
 */
 static PetscErrorCode StartAsFoundation(SamNormalLevel *level, PetscBool *found)
 {
@@ -256,15 +264,16 @@ static PetscErrorCode MakeAdmissible(SamNormalLevel *level, PetscBool *found)
 }
 
 /*
-  The pressure of the coarse `grid` on the fine one: linear interpolation of its values, but not of its support, which that would
-  widen by half a coarse cell; a cell has pressure where the interpolated indicator of the coarse contact exceeds 1/2.
+  The pressure of the coarse `grid` on the fine one: linear interpolation of its values, but not of its support, which
+  that would widen by half a coarse cell; a cell has pressure where the interpolated indicator of the coarse contact
+  exceeds 1/2.
 */
 static PetscErrorCode Prolong(SamGrid grid, SamTransfer transfer, Vec coarse, Vec fine)
 {
-  PetscInt      cells, coarse_cells;
-  Vec           indicator;
-  double       *p, *c;
-  float        *mask;
+  PetscInt cells, coarse_cells;
+  Vec      indicator;
+  double  *p, *c;
+  float   *mask;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(fine, &cells));
@@ -290,20 +299,24 @@ static PetscErrorCode Prolong(SamGrid grid, SamTransfer transfer, Vec coarse, Ve
 }
 
 /* The method on this grid from the start in p. */
-static PetscErrorCode SolveHere(SamNormal n, SamNormalLevel *level, const SamBalance *balance, PetscErrorCode (*start)(SamNormalLevel *, PetscBool *))
+static PetscErrorCode SolveHere(SamNormal n, SamNormalLevel *level, const SamBalance *balance,
+                                PetscErrorCode (*start)(SamNormalLevel *, PetscBool *))
 {
   PetscBool found;
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&level->frame, level->grid, balance));
   PetscCall(start(level, &found));
-  if (found) PetscCall(n->solve(n, level));
-  else n->reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
+  if (found)
+    PetscCall(n->solve(n, level));
+  else
+    n->reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The same on a window: fields taken out, the pressure put back. */
-static PetscErrorCode SolveInWindow(SamNormal n, SamNormalLevel *whole, const SamBalance *balance, SamWindow window, SamElasticity part)
+static PetscErrorCode SolveInWindow(SamNormal n, SamNormalLevel *whole, const SamBalance *balance, SamWindow window,
+                                    SamElasticity part)
 {
   SamNormalLevel level = {.elasticity = part, .rtol = whole->rtol, .finest = whole->finest};
 
@@ -332,7 +345,8 @@ static void GetRigid(const SamNormalLevel *level, SamBalance *balance)
 }
 
 /* Raises the largest displacement v = scale u, and what is nearest to touching: motion - h - v. */
-SAM_VECTORIZED static void NearestStretch(PetscInt n, const float *restrict u, const double *restrict h, double scale, double xi0, double dxi, double eta, const double motion[3], double max[2])
+SAM_VECTORIZED static void NearestStretch(PetscInt n, const float *restrict u, const double *restrict h, double scale,
+                                          double xi0, double dxi, double eta, const double motion[3], double max[2])
 {
   const double a = motion[0] - motion[1] * eta, b = motion[2];
   double       displacement = max[0], nearest = max[1];
@@ -355,7 +369,8 @@ SAM_VECTORIZED static void ToSingle(PetscInt n, const double *restrict p, double
 }
 
 /* Whether in single precision no cell outside the window comes near to touching. */
-static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window, PetscBool *clear)
+static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window,
+                              PetscBool *clear)
 {
   const SamGrid grid = level->grid;
   PetscInt      first[2], size[2];
@@ -376,14 +391,16 @@ static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame
   PetscCall(SamNormalApplySingle(n, level, 1 / self, u, u));
   PetscCall(VecGetArrayRead(level->h, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const PetscBool inside   = (grid->row_start + j >= first[1] && grid->row_start + j < first[1] + size[1]) ? PETSC_TRUE : PETSC_FALSE;
-    const PetscInt  begin[3] = {0, first[0], first[0] + size[0]}, end[3] = {first[0], first[0] + size[0], grid->nx};
-    double          within[2] = {0, 0}; /* of the window only the displacement counts */
+    const PetscBool inside =
+      (grid->row_start + j >= first[1] && grid->row_start + j < first[1] + size[1]) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscInt begin[3] = {0, first[0], first[0] + size[0]}, end[3] = {first[0], first[0] + size[0], grid->nx};
+    double         within[2] = {0, 0}; /* of the window only the displacement counts */
 
     for (PetscInt part = 0; part < 3; part++) {
       const ptrdiff_t k = (ptrdiff_t)j * grid->nx + begin[part];
 
-      NearestStretch(end[part] - begin[part], u + k, h + k, scale, frame->xi0 + (double)begin[part] * frame->dxi, frame->dxi, SamFrameEta(frame, j), frame->fixed, inside && part == 1 ? within : max);
+      NearestStretch(end[part] - begin[part], u + k, h + k, scale, frame->xi0 + (double)begin[part] * frame->dxi,
+                     frame->dxi, SamFrameEta(frame, j), frame->fixed, inside && part == 1 ? within : max);
     }
     max[0] = PetscMax(max[0], within[0]);
   }
@@ -395,7 +412,8 @@ static PetscErrorCode IsClear(SamNormal n, SamNormalLevel *level, const SamFrame
 }
 
 /* The smallest rectangle that holds the contact and all cells that penetrate outside the window. */
-static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window, PetscInt first[2], PetscInt size[2])
+static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const SamFrame *frame, SamWindow window,
+                                   PetscInt first[2], PetscInt size[2])
 {
   const SamGrid grid = level->grid;
   PetscReal     most;
@@ -413,8 +431,9 @@ static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const Sam
   for (PetscInt j = 0; j < grid->rows; j++)
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt  cell[2] = {i, grid->row_start + j}, one[2] = {1, 1};
-      const ptrdiff_t k       = (ptrdiff_t)j * grid->nx + i;
-      const double    gap     = u[k] + h[k] - SamFrameNormal(frame->fixed, frame->xi0 + (double)i * frame->dxi, SamFrameEta(frame, j));
+      const ptrdiff_t k = (ptrdiff_t)j * grid->nx + i;
+      const double    gap =
+        u[k] + h[k] - SamFrameNormal(frame->fixed, frame->xi0 + (double)i * frame->dxi, SamFrameEta(frame, j));
 
       u[k] = p[k] > 0 || (gap < -level->rtol * most && !SamWindowCovers(window, cell, one));
     }
@@ -427,7 +446,8 @@ static PetscErrorCode FindTouching(SamNormal n, SamNormalLevel *level, const Sam
 }
 
 /* Whether the bodies are apart outside the window; if not, the rectangle that holds all contact. */
-static PetscErrorCode LookOutside(SamNormal n, SamNormalLevel *level, const SamBalance *balance, SamWindow window, PetscInt first[2], PetscInt size[2], PetscBool *apart)
+static PetscErrorCode LookOutside(SamNormal n, SamNormalLevel *level, const SamBalance *balance, SamWindow window,
+                                  PetscInt first[2], PetscInt size[2], PetscBool *apart)
 {
   SamBalance found = *balance;
   SamFrame   frame;
@@ -443,8 +463,8 @@ static PetscErrorCode LookOutside(SamNormal n, SamNormalLevel *level, const SamB
 }
 
 /*
-  On this grid from the start in p, on a window about the contact while that is small. On the finest grid what lies outside
-  is looked at in the end, and the window widened until nothing touches there.
+  On this grid from the start in p, on a window about the contact while that is small. On the finest grid what lies
+  outside is looked at in the end, and the window widened until nothing touches there.
 */
 static PetscErrorCode SolveNear(SamNormal n, SamNormalLevel *level, const SamBalance *balance)
 {
@@ -469,7 +489,8 @@ static PetscErrorCode SolveNear(SamNormal n, SamNormalLevel *level, const SamBal
 }
 
 /* Solves on this grid, after the coarser ones when depth > 1; with guess from p. */
-static PetscErrorCode SolveLevel(SamNormal n, SamNormalLevel *level, PetscInt depth, const SamBalance *balance, PetscBool guess)
+static PetscErrorCode SolveLevel(SamNormal n, SamNormalLevel *level, PetscInt depth, const SamBalance *balance,
+                                 PetscBool guess)
 {
   SamNormalLevel lower = {.rtol = PetscMax(n->solver.rtol, COARSE_RTOL)};
   SamTransfer    transfer;
@@ -486,8 +507,10 @@ static PetscErrorCode SolveLevel(SamNormal n, SamNormalLevel *level, PetscInt de
     PetscCall(VecDestroy(&lower.h));
     PetscCall(VecDestroy(&lower.p));
   }
-  if (lower.elasticity || guess) PetscCall(SolveNear(n, level, balance));
-  else PetscCall(SolveHere(n, level, balance, StartAsFoundation));
+  if (lower.elasticity || guess)
+    PetscCall(SolveNear(n, level, balance));
+  else
+    PetscCall(SolveHere(n, level, balance, StartAsFoundation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -500,7 +523,9 @@ static PetscErrorCode Clearance(SamGrid grid, Vec h, const SamFrame *f, double *
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(h, &array));
   for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) overlap = PetscMax(overlap, SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) - array[j * grid->nx + i]);
+    for (PetscInt i = 0; i < grid->nx; i++)
+      overlap = PetscMax(overlap, SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) -
+                                    array[j * grid->nx + i]);
   PetscCall(VecRestoreArrayRead(h, &array));
   PetscCall(SamMax(grid->comm, 1, &overlap));
   *clearance = -overlap;
@@ -521,7 +546,8 @@ static PetscErrorCode IsSeparated(SamNormal n, Vec h, const SamBalance *balance,
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   *separated = PETSC_FALSE;
-  if ((balance->force[1] && balance->load[1] != 0) || (balance->force[2] && balance->load[2] != 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  if ((balance->force[1] && balance->load[1] != 0) || (balance->force[2] && balance->load[2] != 0))
+    PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamFrameSet(&frame, grid, balance));
   PetscCall(Clearance(grid, h, &frame, &clearance));
   *separated = clearance >= 0 ? PETSC_TRUE : PETSC_FALSE;
@@ -560,8 +586,10 @@ PetscErrorCode SamNormalSolve(SamNormal n, Vec h, SamBalance *balance, PetscBool
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetGrid(n->elasticity, &grid));
-  PetscCheck(balance->kind == SAM_BALANCE_NORMAL, grid->comm, PETSC_ERR_ARG_WRONG, "The normal solver wants a normal balance");
-  PetscCheck(!balance->force[0] || balance->load[0] >= 0, grid->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0", (double)balance->load[0]);
+  PetscCheck(balance->kind == SAM_BALANCE_NORMAL, grid->comm, PETSC_ERR_ARG_WRONG,
+             "The normal solver wants a normal balance");
+  PetscCheck(!balance->force[0] || balance->load[0] >= 0, grid->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0",
+             (double)balance->load[0]);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_NORMAL_SOLVE], 0, 0, 0, 0));
   SamSolverStart(&n->solver);
   n->reason = SAM_NORMAL_CONVERGED_ITERATING;
@@ -573,7 +601,8 @@ PetscErrorCode SamNormalSolve(SamNormal n, Vec h, SamBalance *balance, PetscBool
   } else if (separated) {
     PetscCall(SetSeparated(n, h, balance, p));
   } else {
-    SamNormalLevel level = {.elasticity = n->elasticity, .grid = grid, .h = h, .p = p, .rtol = n->solver.rtol, .finest = PETSC_TRUE};
+    SamNormalLevel level = {
+      .elasticity = n->elasticity, .grid = grid, .h = h, .p = p, .rtol = n->solver.rtol, .finest = PETSC_TRUE};
 
     PetscCall(SolveLevel(n, &level, SamSolverLevels(&n->solver), balance, guess));
     GetRigid(&level, balance);
@@ -581,6 +610,7 @@ PetscErrorCode SamNormalSolve(SamNormal n, Vec h, SamBalance *balance, PetscBool
   }
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_NORMAL_SOLVE], 0, 0, 0, 0));
   PetscCheck(n->reason, grid->comm, PETSC_ERR_PLIB, "Method %s set no reason", n->solver.type);
-  PetscCall(SamSolverViewFromOptions(&n->solver, n->reason > 0 ? PETSC_TRUE : PETSC_FALSE, SamNormalReasonName(n->reason)));
+  PetscCall(
+    SamSolverViewFromOptions(&n->solver, n->reason > 0 ? PETSC_TRUE : PETSC_FALSE, SamNormalReasonName(n->reason)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

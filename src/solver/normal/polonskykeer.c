@@ -1,12 +1,12 @@
 /*
   The classical projected conjugate gradients of Polonsky and Keer, for comparison.
 
-  In each iteration: 1. g = S p + h less the rigid displacement that fits it on the contact cells {p > 0}; 2. a conjugate
-  direction on these cells from g; 3. the exact step along it; 4. p < 0 set to 0; cells without pressure that penetrate get
-  some, and the direction starts anew; 5. p is put in equilibrium again. Two products with the compliance an iteration, one
-  grid, no preconditioner: the number of iterations grows with the grid.
-  The original scales p to keep N; here the nearest admissible pressure keeps N and the moments alike.
-  Reference: Polonsky and Keer 1999, Wear 231, 206-219.
+  In each iteration: 1. g = S p + h less the rigid displacement that fits it on the contact cells {p > 0}; 2. a
+  conjugate direction on these cells from g; 3. the exact step along it; 4. p < 0 set to 0; cells without pressure that
+  penetrate get some, and the direction starts anew; 5. p is put in equilibrium again. Two products with the compliance
+  an iteration, one grid, no preconditioner: the number of iterations grows with the grid. The original scales p to keep
+  N; here the nearest admissible pressure keeps N and the moments alike. Reference: Polonsky and Keer 1999, Wear 231,
+  206-219.
 */
 #include <petsam/private/normalimpl.h>
 #include <math.h>
@@ -22,14 +22,14 @@ typedef struct {
 /* The rigid displacement that fits x best on the contact, of the free ones. */
 static PetscErrorCode FitOnContact(const Work *w, const double p[], const double x[], double a[3])
 {
-  const SamFrame *f                   = &w->level->frame;
-  const PetscInt  nx                  = w->level->grid->nx;
+  const SamFrame *f                    = &w->level->frame;
+  const PetscInt  nx                   = w->level->grid->nx;
   SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
   double          sums[3 + SAM_GRAM];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->level->grid->rows; j++) {
-    const double eta                = SamFrameEta(f, j);
+    const double eta               = SamFrameEta(f, j);
     double       row[3 + SAM_GRAM] = {0};
 
     for (PetscInt i = 0; i < nx; i++) {
@@ -55,7 +55,7 @@ static PetscErrorCode ComputeGap(Work *w)
   const SamFrame *f     = &w->level->frame;
   const PetscInt  nx    = w->level->grid->nx;
   SamTotal        total = {0, 0};
-  double          a[3]  = {0, 0, 0}, max[2] = {0, 0};
+  double          a[3] = {0, 0, 0}, max[2] = {0, 0};
   const double   *p, *h;
   double         *g;
 
@@ -100,7 +100,8 @@ static PetscErrorCode ComputeGap(Work *w)
 }
 
 /* The exact step along d among pressures in equilibrium: S d counts less its rigid part. */
-static PetscErrorCode StepLength(const Work *w, const double p[], const double g[], const double d[], const double s[], double *tau)
+static PetscErrorCode StepLength(const Work *w, const double p[], const double g[], const double d[], const double s[],
+                                 double *tau)
 {
   const SamFrame *f         = &w->level->frame;
   const PetscInt  nx        = w->level->grid->nx;
@@ -146,7 +147,8 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   PetscCall(VecGetArray(w->s, &s));
   PetscCall(StepLength(w, p, g, d, s, &tau));
   for (PetscInt k = 0; k < cells; k++) {
-    if (p[k] > 0) p[k] = PetscMax(0, p[k] - tau * d[k]);
+    if (p[k] > 0)
+      p[k] = PetscMax(0, p[k] - tau * d[k]);
     else if (g[k] < 0) {
       p[k] = -tau * g[k];
       entered += 1;
@@ -167,7 +169,7 @@ static PetscErrorCode SamNormalSolve_PolonskyKeer(SamNormal normal, SamNormalLev
   Work            w         = {.normal = normal, .level = level};
   SamNormalReason reason    = SAM_NORMAL_CONVERGED_ITERATING;
   PetscBool       conjugate = PETSC_FALSE, found = PETSC_TRUE;
-  double          norm_old  = 0;
+  double          norm_old = 0;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(level->p, &w.g));
@@ -176,15 +178,18 @@ static PetscErrorCode SamNormalSolve_PolonskyKeer(SamNormal normal, SamNormalLev
   for (PetscInt it = 0; !reason; it++) {
     PetscCall(ComputeGap(&w));
     if (it) PetscCall(SamNormalIterated(normal, level, w.error / w.displacement));
-    if (!isfinite(w.error)) reason = SAM_NORMAL_DIVERGED_NAN;
-    else if (w.error <= level->rtol * w.displacement) reason = SAM_NORMAL_CONVERGED_RTOL;
-    else if (it >= SamSolverMaxIterations(&normal->solver)) reason = SAM_NORMAL_DIVERGED_ITS;
+    if (!isfinite(w.error))
+      reason = SAM_NORMAL_DIVERGED_NAN;
+    else if (w.error <= level->rtol * w.displacement)
+      reason = SAM_NORMAL_CONVERGED_RTOL;
+    else if (it >= SamSolverMaxIterations(&normal->solver))
+      reason = SAM_NORMAL_DIVERGED_ITS;
     if (reason) break;
     PetscCall(Step(&w, norm_old, &conjugate, &found));
     norm_old = w.norm;
     if (!found) reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
   }
-  normal->reason = reason;
+  normal->reason       = reason;
   normal->solver.error = w.error / w.displacement;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = w.motion[c];
   PetscCall(VecDestroy(&w.g));

@@ -1,10 +1,10 @@
 /*
   Accelerated projected gradients, for comparison and as a second opinion.
 
-  q_new = P(y - s(y)/L), y the extrapolation from the last two iterates, P the projection on discs and equilibrium at once,
-  L an upper bound of the compliance's eigenvalues found as it goes; the extrapolation starts anew when the energy rises.
-  Sure to converge, at a rate that worsens with the grid.
-  References: Nesterov 1983; Beck and Teboulle 2009, SIAM J. Imaging Sci. 2, 183; O'Donoghue and Candes 2015 (restart).
+  q_new = P(y - s(y)/L), y the extrapolation from the last two iterates, P the projection on discs and equilibrium at
+  once, L an upper bound of the compliance's eigenvalues found as it goes; the extrapolation starts anew when the energy
+  rises. Sure to converge, at a rate that worsens with the grid. References: Nesterov 1983; Beck and Teboulle 2009, SIAM
+  J. Imaging Sci. 2, 183; O'Donoghue and Candes 2015 (restart).
 */
 #include <petsam/private/tangentialimpl.h>
 #include <math.h>
@@ -12,7 +12,7 @@
 /* Energy q.C q/2 + (offset - fixed).q from q and s. */
 static PetscErrorCode ComputeEnergy(const SamStickSlip *w, double *energy)
 {
-  const SamFrame *f = w->frame;
+  const SamFrame *f     = w->frame;
   SamTotal        total = {0, 0};
   double          a[3];
 
@@ -56,7 +56,9 @@ static PetscErrorCode ComputeBend(const SamStickSlip *w, const double y[], const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One step from y = w->q with slip w->s: doubles L until the quadratic bound holds. On return q and s are the new ones. */
+/*
+  One step from y = w->q with slip w->s: doubles L until the quadratic bound holds. On return q and s are the new ones.
+*/
 static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], double sy[], PetscBool *found)
 {
   double sums[2];
@@ -104,9 +106,12 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamTangential solver, SamTange
     for (PetscInt c = 0; c < 2; c++) PetscCall(SamStickSlipMeasure(&w));
     SamTangentialIterated(solver, level);
     PetscCall(SamTangentialMeasured(solver, level, w.error));
-    if (!isfinite(w.error)) reason = SAM_TANGENTIAL_DIVERGED_NAN;
-    else if (w.error <= level->rtol) reason = SAM_TANGENTIAL_CONVERGED_RTOL;
-    else if (it >= SamSolverMaxIterations(&solver->solver)) reason = SAM_TANGENTIAL_DIVERGED_ITS;
+    if (!isfinite(w.error))
+      reason = SAM_TANGENTIAL_DIVERGED_NAN;
+    else if (w.error <= level->rtol)
+      reason = SAM_TANGENTIAL_CONVERGED_RTOL;
+    else if (it >= SamSolverMaxIterations(&solver->solver))
+      reason = SAM_TANGENTIAL_DIVERGED_ITS;
     if (reason) break;
     if (energy > before) t = 1;
     before = energy;
@@ -114,13 +119,13 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamTangential solver, SamTange
     for (PetscInt k = 0; k < 2 * w.cells; k++) {
       const double q = w.q[k], extrapolated = q + (t - 1) / next * (q - last[k]);
 
-      last[k]  = q;
-      w.q[k]   = extrapolated;
+      last[k] = q;
+      w.q[k]  = extrapolated;
     }
     PetscCall(SamStickSlipComputeSlip(&w));
     t = next;
   }
-  solver->reason = reason;
+  solver->reason       = reason;
   solver->solver.error = w.error;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = w.motion[c];
   PetscCall(PetscFree4(y, sy, last, slast));

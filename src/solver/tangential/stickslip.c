@@ -78,9 +78,12 @@ PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
 
 /*
   Part of a row, n <= SAM_CHUNK: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the
-  derivative of the projection of y = q - s/c on the disc; with `inverse` 0, of q: cells on their circles slip along them.
+  derivative of the projection of y = q - s/c on the disc; with `inverse` 0, of q: cells on their circles slip along
+  them.
 */
-SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
+SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy,
+                                    const double *restrict tx, const double *restrict ty, const double *restrict bound,
+                                    double inverse, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
 {
   double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
 
@@ -104,7 +107,8 @@ SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const
     for (PetscInt i = 0; i < n; i++) {
       const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
       const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
-      const double over = b > 0 && n2 > ON_CIRCLE * b * b ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in, g = s * over;
+      const double over = b > 0 && n2 > ON_CIRCLE * b * b ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in,
+                   g   = s * over;
       const double gxx = s - g * yx * yx, gxy = -g * yx * yy, gyy = s - g * yy * yy;
       const double px = gxx * tx[i] + gxy * ty[i], py = gxy * tx[i] + gyy * ty[i];
 
@@ -118,7 +122,8 @@ SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const
 }
 
 /* Subtracts the rigid motion a from a row of slips. */
-SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *restrict sy, double xi0, double dxi, double eta, const double a[3])
+SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *restrict sy, double xi0, double dxi,
+                                       double eta, const double a[3])
 {
   const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
 
@@ -138,14 +143,15 @@ static void AddMotion(SamStickSlip *w, const double a[3])
   for (PetscInt j = 0; j < w->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
 
-    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, SamFrameEta(f, j), a);
+    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, SamFrameEta(f, j),
+                a);
   }
 }
 
 /* Fits the motion: least squares of s over the tangent space, the sets taken from q - inverse s. */
 static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
 {
-  const SamFrame *f                  = w->frame;
+  const SamFrame *f                    = w->frame;
   SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
   double          sums[3 + SAM_GRAM], a[3];
 
@@ -156,7 +162,8 @@ static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
     for (PetscInt i = w->first[j]; i < w->last[j]; i += SAM_CHUNK) {
       const ptrdiff_t k = (ptrdiff_t)j * w->nx + i, l = k + w->cells;
 
-      FitCells(PetscMin(SAM_CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, inverse, f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
+      FitCells(PetscMin(SAM_CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, inverse,
+               f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
     }
     SamAddAll(3 + SAM_GRAM, totals, row);
   }
@@ -200,13 +207,16 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, const double *restrict qy, const double *restrict tx, const double *restrict ty, const double *restrict bound, double inverse, double squares[SAM_SQUARES])
+SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, const double *restrict qy,
+                                      const double *restrict tx, const double *restrict ty,
+                                      const double *restrict bound, double inverse, double squares[SAM_SQUARES])
 {
   double residual = 0, shear = 0, projected = 0, least = 0;
 
 #pragma omp simd reduction(+ : residual, shear, projected, least)
   for (PetscInt i = 0; i < n; i++) {
-    const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy, scale = SamDiscScale(n2, b);
+    const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy,
+                 scale = SamDiscScale(n2, b);
 
     SAM_ADD_SQUARES(qx[i], qy[i], yx, yy, scale, n2, b);
   }

@@ -5,8 +5,8 @@
 /* Coarse grids need to be solved only as well as they approximate the fine one. */
 #define COARSE_RTOL 1e-3
 
-static PetscFunctionList SamTangentialList  = NULL;
-static PetscBool         registered = PETSC_FALSE;
+static PetscFunctionList SamTangentialList = NULL;
+static PetscBool         registered        = PETSC_FALSE;
 
 const char *SamTangentialReasonName(SamTangentialReason reason)
 {
@@ -91,7 +91,8 @@ PetscErrorCode SamTangentialSetType(SamTangential t, SamTangentialType type)
 
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamTangentialList, type, &create));
-  PetscCheck(create, t->solver.comm, SAM_ERR_USER, "-%stangential_type %s: expected %s or %s", t->solver.prefix, type, SAM_TANGENTIAL_NEWTON, SAM_TANGENTIAL_GRADIENT);
+  PetscCheck(create, t->solver.comm, SAM_ERR_USER, "-%stangential_type %s: expected %s or %s", t->solver.prefix, type,
+             SAM_TANGENTIAL_NEWTON, SAM_TANGENTIAL_GRADIENT);
   PetscCall(create(t));
   PetscCall(PetscStrncpy(t->solver.type, type, sizeof(t->solver.type)));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -167,7 +168,8 @@ PetscErrorCode SamTangentialApply(SamTangential t, SamTangentialLevel *level, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialApplySingle(SamTangential t, SamTangentialLevel *level, double factor, const float q[], float u[])
+PetscErrorCode SamTangentialApplySingle(SamTangential t, SamTangentialLevel *level, double factor, const float q[],
+                                        float u[])
 {
   PetscFunctionBegin;
   t->solver.applies += level->finest ? 1 : 0;
@@ -175,7 +177,8 @@ PetscErrorCode SamTangentialApplySingle(SamTangential t, SamTangentialLevel *lev
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialPreconditionSingle(SamTangential t, SamTangentialLevel *level, double factor, const float r[], float z[])
+PetscErrorCode SamTangentialPreconditionSingle(SamTangential t, SamTangentialLevel *level, double factor,
+                                               const float r[], float z[])
 {
   PetscFunctionBegin;
   t->solver.preconditions += level->finest ? 1 : 0;
@@ -202,7 +205,8 @@ PetscErrorCode SamTangentialGetReason(SamTangential t, SamTangentialReason *reas
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialGetStatistics(SamTangential t, PetscReal *error, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions)
+PetscErrorCode SamTangentialGetStatistics(SamTangential t, PetscReal *error, PetscInt *iterations, PetscInt *applies,
+                                          PetscInt *preconditions)
 {
   PetscFunctionBegin;
   if (error) *error = t->solver.error;
@@ -252,7 +256,7 @@ static PetscErrorCode UseRatios(SamTangentialLevel *fine, Vec ratios[4])
     const double n    = sqrt(r[0][k] * r[0][k] + r[1][k] * r[1][k]);
     const double size = r[3][k] > 0 ? PetscMin(1, r[2][k] / r[3][k]) : 0;
     /* a cell that slips is put beyond its circle, where the projection brings it back to */
-    const double s    = (b[k] > 0 && n > 0) ? b[k] * (size > 1 - 1e-6 ? 2 : size) / n : 0;
+    const double s = (b[k] > 0 && n > 0) ? b[k] * (size > 1 - 1e-6 ? 2 : size) / n : 0;
 
     q[k]         = s * r[0][k];
     q[k + cells] = s * r[1][k];
@@ -282,10 +286,12 @@ static PetscErrorCode Prolong(SamTransfer transfer, SamTangentialLevel *coarse, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, PetscInt depth, const SamBalance *balance, PetscBool guess);
+static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, PetscInt depth, const SamBalance *balance,
+                                 PetscBool guess);
 
 /* The start of a level from the next coarser grid. */
-static PetscErrorCode StartFromCoarse(SamTangential t, SamTangentialLevel *level, SamElasticity elasticity, SamTransfer transfer, PetscInt depth, const SamBalance *balance)
+static PetscErrorCode StartFromCoarse(SamTangential t, SamTangentialLevel *level, SamElasticity elasticity,
+                                      SamTransfer transfer, PetscInt depth, const SamBalance *balance)
 {
   SamTangentialLevel coarse = {.elasticity = elasticity, .rtol = PetscMax(t->solver.rtol, COARSE_RTOL)};
 
@@ -309,7 +315,8 @@ static PetscErrorCode StartFromCoarse(SamTangential t, SamTangentialLevel *level
 }
 
 /* Solves on this grid, after the coarser ones when depth > 1. */
-static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, PetscInt depth, const SamBalance *balance, PetscBool guess)
+static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, PetscInt depth, const SamBalance *balance,
+                                 PetscBool guess)
 {
   SamElasticity coarse   = NULL;
   SamTransfer   transfer = NULL;
@@ -323,8 +330,10 @@ static PetscErrorCode SolveLevel(SamTangential t, SamTangentialLevel *level, Pet
   PetscCall(SamFrameSetGiven(&start, level->grid, balance));
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = guess ? start.fixed[c] : level->frame.fixed[c];
   if (depth > 1 && !guess) PetscCall(SamElasticityGetCoarse(level->elasticity, &coarse, &transfer));
-  if (coarse) PetscCall(StartFromCoarse(t, level, coarse, transfer, depth - 1, balance));
-  else if (!level->finest) PetscCall(SamVecZero(level->q));
+  if (coarse)
+    PetscCall(StartFromCoarse(t, level, coarse, transfer, depth - 1, balance));
+  else if (!level->finest)
+    PetscCall(SamVecZero(level->q));
   if (coarse || !level->finest) { /* otherwise the start is what IsPossible() left */
     PetscCall(VecGetArrayRead(level->bound, &bound));
     PetscCall(VecGetArray(level->q, &q));
@@ -355,16 +364,22 @@ static PetscErrorCode SolveFree(SamTangential t, SamBalance *balance, Vec q)
   PetscCall(SamVecZero(q));
   for (PetscInt k = 0; k < 3; k++) {
     if (balance->force[k] && balance->load[k] != 0) loaded = PETSC_TRUE;
-    if (balance->force[k]) balance->rigid[k] = 0; /* not determined by anything */
-    else balance->load[k] = 0;
+    if (balance->force[k])
+      balance->rigid[k] = 0; /* not determined by anything */
+    else
+      balance->load[k] = 0;
   }
   t->limit  = 0;
   t->reason = loaded ? SAM_TANGENTIAL_DIVERGED_GROSS_SLIP : SAM_TANGENTIAL_CONVERGED_FREE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether any admissible shear carries the loads: the projection of any shear tells, that of a guess is the start as well. */
-static PetscErrorCode IsPossible(const SamTangentialLevel *level, const SamBalance *balance, PetscBool guess, PetscBool *possible)
+/*
+  Whether any admissible shear carries the loads: the projection of any shear tells, that of a guess is the start as
+  well.
+*/
+static PetscErrorCode IsPossible(const SamTangentialLevel *level, const SamBalance *balance, PetscBool guess,
+                                 PetscBool *possible)
 {
   SamFrame      frame;
   const double *bound;
@@ -424,7 +439,8 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
 }
 
 /* The problem on a window around the contact: fields taken out, the solution put back. */
-static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamElasticity part, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamElasticity part, Vec pressure,
+                                    PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
 {
   SamTangentialLevel level = {.elasticity = part, .finest = PETSC_TRUE, .rtol = t->solver.rtol};
 
@@ -449,9 +465,11 @@ static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamElasti
 }
 
 /* The same on the whole grid. */
-static PetscErrorCode SolveWhole(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+static PetscErrorCode SolveWhole(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance,
+                                 PetscBool guess, Vec q)
 {
-  SamTangentialLevel level = {.elasticity = t->elasticity, .finest = PETSC_TRUE, .offset = offset, .q = q, .rtol = t->solver.rtol};
+  SamTangentialLevel level = {
+    .elasticity = t->elasticity, .finest = PETSC_TRUE, .offset = offset, .q = q, .rtol = t->solver.rtol};
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetGrid(t->elasticity, &level.grid));
@@ -462,20 +480,23 @@ static PetscErrorCode SolveWhole(SamTangential t, Vec pressure, PetscReal fricti
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialSolve(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+PetscErrorCode SamTangentialSolve(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance,
+                                  PetscBool guess, Vec q)
 {
   SamGrid   grid;
   PetscReal most;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetGrid(t->elasticity, &grid));
-  PetscCheck(balance->kind == SAM_BALANCE_TANGENTIAL, grid->comm, PETSC_ERR_ARG_WRONG, "The tangential solver wants a tangential balance");
+  PetscCheck(balance->kind == SAM_BALANCE_TANGENTIAL, grid->comm, PETSC_ERR_ARG_WRONG,
+             "The tangential solver wants a tangential balance");
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_TANGENTIAL_SOLVE], 0, 0, 0, 0));
   SamSolverStart(&t->solver);
   t->limit  = PETSC_INFINITY;
   t->reason = SAM_TANGENTIAL_CONVERGED_ITERATING;
   PetscCall(VecMax(pressure, NULL, &most));
-  if (friction * most <= 0 || IsUnloaded(balance, offset)) PetscCall(SolveFree(t, balance, q));
+  if (friction * most <= 0 || IsUnloaded(balance, offset))
+    PetscCall(SolveFree(t, balance, q));
   else {
     PetscInt      first[2], n[2];
     SamWindow     window;
@@ -484,12 +505,15 @@ PetscErrorCode SamTangentialSolve(SamTangential t, Vec pressure, PetscReal frict
     /* shear acts only where there is contact, and only there its displacement counts */
     PetscCall(SamGridGetSupport(grid, pressure, first, n));
     PetscCall(SamElasticityChoosePart(t->elasticity, first, n, PETSC_TRUE, &window, &part));
-    if (window) PetscCall(SolveInWindow(t, window, part, pressure, friction, offset, balance, guess, q));
-    else PetscCall(SolveWhole(t, pressure, friction, offset, balance, guess, q));
+    if (window)
+      PetscCall(SolveInWindow(t, window, part, pressure, friction, offset, balance, guess, q));
+    else
+      PetscCall(SolveWhole(t, pressure, friction, offset, balance, guess, q));
   }
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_TANGENTIAL_SOLVE], 0, 0, 0, 0));
   PetscCheck(t->reason, grid->comm, PETSC_ERR_PLIB, "Method %s set no reason", t->solver.type);
-  PetscCall(SamSolverViewFromOptions(&t->solver, t->reason > 0 ? PETSC_TRUE : PETSC_FALSE, SamTangentialReasonName(t->reason)));
+  PetscCall(
+    SamSolverViewFromOptions(&t->solver, t->reason > 0 ? PETSC_TRUE : PETSC_FALSE, SamTangentialReasonName(t->reason)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
