@@ -39,7 +39,7 @@ BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
-HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h))
+HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
 .PHONY: all help units bench bench-programs peers venv test check-sanitize check-valgrind lint install clean
 .DELETE_ON_ERROR:

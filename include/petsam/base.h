@@ -27,10 +27,21 @@ PETSC_EXTERN PetscErrorCode SamInitialize(void);
 PETSC_EXTERN PetscErrorCode SamFinalize(void);
 
 /*
-  Options. Each getter looks up `-<prefix><name>` in PETSc's options database, checks that the whole text is a value
-  of the type and lies in the range, and raises SAM_ERR_USER with the option's name otherwise. When the help is being
-  printed, it prints its line. `value` holds the default on entry and is left alone when the option is absent; `set`
-  may be NULL. Collective on PETSC_COMM_WORLD, since the database is the same on all ranks.
+  SamOptions - who reads options: the communicator on which errors are raised and the help is printed, and the prefix
+  that stands before the names. Several objects of a kind in one program are told apart by their prefixes.
+*/
+typedef struct {
+  MPI_Comm    comm;
+  const char *prefix; /* without dash; NULL: none */
+} SamOptions;
+/* SamOptionsPrefix - the prefix, empty where there is none. Not collective. */
+PETSC_EXTERN const char *SamOptionsPrefix(const SamOptions *from);
+
+/*
+  The getters of options. Each looks up `-<prefix><name>` in PETSc's options database, checks that the whole text is a
+  value of the type and lies in the range, and raises SAM_ERR_USER with the option's name otherwise. While the help is
+  being printed, it prints its line. `value` holds the default on entry and is left alone when the option is absent;
+  `set` may be NULL. Collective on the communicator; the database must be the same on all its ranks.
 */
 typedef enum {
   SAM_RANGE_ANY,         /* any finite number */
@@ -39,27 +50,27 @@ typedef enum {
   SAM_RANGE_POSITIVE_INF /* > 0, `inf` allowed */
 } SamRange;
 
-PETSC_EXTERN PetscErrorCode SamOptionsHeading(const char title[]);
-PETSC_EXTERN PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char help[], SamRange range,
+PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[]);
+PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                                            PetscReal *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const char help[],
+PETSC_EXTERN PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[],
                                                SamRange range, PetscReal value[2], PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char help[], PetscInt least,
+PETSC_EXTERN PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
                                           PetscInt *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const char help[], PetscInt least,
-                                              PetscInt value[2], PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char help[], PetscBool *value,
-                                           PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsString(const char prefix[], const char name[], const char help[], char value[],
+PETSC_EXTERN PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], const char help[],
+                                              PetscInt least, PetscInt value[2], PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const char help[],
+                                           PetscBool *value, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[],
                                              size_t size, PetscBool *set);
 /* SamOptionsEnum - one of the words of the NULL-terminated list; value is its index. */
-PETSC_EXTERN PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char help[],
+PETSC_EXTERN PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[],
                                            const char *const words[], PetscInt *value, PetscBool *set);
 /*
   SamOptionsHasViewer - whether a viewer option is given (its viewer is made where it is used); tells the help of it and
   counts it as known. `draw` viewers are refused.
 */
-PETSC_EXTERN PetscErrorCode SamOptionsHasViewer(const char prefix[], const char name[], const char help[],
+PETSC_EXTERN PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], const char help[],
                                                 PetscBool *set);
 
 #endif

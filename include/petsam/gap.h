@@ -21,6 +21,8 @@ PETSC_EXTERN PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap);
 PETSC_EXTERN PetscErrorCode SamGapDestroy(SamGap *gap);
 /* SamGapRegister - adds a type, or replaces one of that name; `create` sets the methods. Not collective. */
 PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap));
+/* SamGapSetOptionsPrefix - what stands before `gap_` in the names of the options. */
+PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
 PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 /*
   SamGapSetFromOptions - -gap_type (required), the options of that type, and -gap_rough_file, -gap_rough_dataset for

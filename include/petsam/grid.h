@@ -28,7 +28,7 @@ struct _n_SamGrid {
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
 /* SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. Collective. */
-PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(MPI_Comm comm, SamGrid *grid);
+PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridReference(SamGrid grid);
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 /* SamGridCoarsen - the same rectangle with half the cells in each direction, rounded up. Collective. */

@@ -28,7 +28,7 @@ typedef struct {
   Errors: SAM_ERR_USER for a modulus that is not positive, a ratio outside (-1, 0.5], or two rigid bodies.
 */
 PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2]);
-/* SamPairSetFromOptions - from -body1_young -body1_poisson -body2_young -body2_poisson. */
-PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair);
+/* SamPairSetFromOptions - from -body1_young, -body1_poisson, -body2_young, -body2_poisson. Collective. */
+PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);
 
 #endif

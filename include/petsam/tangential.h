@@ -55,14 +55,15 @@ PETSC_EXTERN PetscErrorCode SamTangentialView(SamTangential tangential, PetscVie
 #define SAM_SHEAR_FLOOR 1e-8
 
 /*
-  SamTangentialSolve - finds q (Pa, two components) for the pressure p (Pa, one component), the friction mu and the
-  offset w - S (m, two components; NULL: zero). With `guess` q and the rigid displacements in the balance are a start,
-  and only the finest grid is used. On return the balance holds all loads and rigid displacements. The residual is that
-  of the projection equation q = D(q - ds/c), D onto the discs |q| <= mu p and c the self-influence of a cell, relative:
-  |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)| in the 2-norm. Collective.
+  SamTangentialSolve - finds q (Pa, two components) for the bound mu p of each cell's shear (Pa, one component, >= 0) and
+  the offset w - S (m, two components; NULL: zero). With `guess` q and the rigid displacements in the balance are a
+  start, and only the finest grid is used. On return the balance holds all loads and rigid displacements. The residual
+  is that of the projection equation q = D(q - ds/c), D onto the discs |q| <= bound and c the self-influence of a cell,
+  relative: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)| in the 2-norm. Collective. Not converging is a
+  reason, not an error, unless asked for.
 */
-PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec pressure, PetscReal friction, Vec offset,
-                                               SamBalance *balance, PetscBool guess, Vec q);
+PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
+                                               PetscBool guess, Vec q);
 
 PETSC_EXTERN PetscErrorCode SamTangentialGetReason(SamTangential tangential, SamTangentialReason *reason);
 PETSC_EXTERN PetscErrorCode SamTangentialGetStatistics(SamTangential tangential, PetscReal *error, PetscInt *iterations,

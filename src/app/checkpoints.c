@@ -65,11 +65,12 @@ static double ReadDuration(const char text[])
 
 static PetscErrorCode ReadLimit(SamCheckpoints k, PetscBool *set)
 {
-  char text[64] = "";
+  const SamOptions from     = {k->comm, NULL};
+  char             text[64] = "";
 
   PetscFunctionBegin;
   PetscCall(
-    SamOptionsString(NULL, "max_walltime", "stop before: s, m:s or h:m:s from the start", text, sizeof(text), set));
+    SamOptionsString(&from, "max_walltime", "stop before: s, m:s or h:m:s from the start", text, sizeof(text), set));
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   k->limit = ReadDuration(text);
   PetscCheck(k->limit > 0, k->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s",
@@ -79,8 +80,9 @@ static PetscErrorCode ReadLimit(SamCheckpoints k, PetscBool *set)
 
 PetscErrorCode SamCheckpointsCreateFromOptions(MPI_Comm comm, SamCheckpoints *checkpoints)
 {
-  SamCheckpoints k;
-  PetscBool      has_file, has_every, has_limit, help;
+  const SamOptions from = {comm, NULL};
+  SamCheckpoints   k;
+  PetscBool        has_file, has_every, has_limit, help;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&k));
@@ -88,13 +90,13 @@ PetscErrorCode SamCheckpointsCreateFromOptions(MPI_Comm comm, SamCheckpoints *ch
   k->comm      = comm;
   k->start = k->before = MPI_Wtime();
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsHeading("Checkpoints"));
-  PetscCall(SamOptionsString(NULL, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
+  PetscCall(SamOptionsHeading(&from, "Checkpoints"));
+  PetscCall(SamOptionsString(&from, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
                              k->filename, sizeof(k->filename), &has_file));
-  PetscCall(SamOptionsInt(NULL, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
+  PetscCall(SamOptionsInt(&from, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
                           0, &k->every, &has_every));
   PetscCall(ReadLimit(k, &has_limit));
-  PetscCall(SamOptionsString(NULL, "restart", "go on from this checkpoint", k->restart, sizeof(k->restart), NULL));
+  PetscCall(SamOptionsString(&from, "restart", "go on from this checkpoint", k->restart, sizeof(k->restart), NULL));
   PetscCheck(has_file || !has_every || help, comm, SAM_ERR_USER, "-checkpoint_every is given without -checkpoint");
   PetscCheck(has_file || !has_limit || help, comm, SAM_ERR_USER,
              "-max_walltime is given without -checkpoint: the run could not go on from where it stops");

@@ -20,6 +20,7 @@ static SamBalance *BalanceOf(SamBalance balances[2], PetscInt component, PetscIn
 static PetscErrorCode ReadComponent(SamHistory h, const char file[], PetscInt component)
 {
   static const char *const units[2][3] = {{"N", "N m", "N m"}, {"N", "N", "N m"}};
+  const SamOptions         from        = {PETSC_COMM_WORLD, NULL};
   PetscInt                 k;
   SamBalance              *balance = BalanceOf(h->constant, component, &k);
   const char              *load = SamLoadNames[balance->kind][k], *rigid = SamRigidNames[balance->kind][k];
@@ -31,9 +32,9 @@ static PetscErrorCode ReadComponent(SamHistory h, const char file[], PetscInt co
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(text, sizeof(text), "load (%s), or instead %s", units[balance->kind][k], rigid));
   PetscCall(
-    SamOptionsReal(NULL, load, text, is_n ? SAM_RANGE_NONNEGATIVE : SAM_RANGE_ANY, &balance->load[k], &has_load));
+    SamOptionsReal(&from, load, text, is_n ? SAM_RANGE_NONNEGATIVE : SAM_RANGE_ANY, &balance->load[k], &has_load));
   PetscCall(SamOptionsReal(
-    NULL, rigid, !strncmp(rigid, "rot", 3) ? "the conjugate rotation (rad)" : "the conjugate displacement (m)",
+    &from, rigid, !strncmp(rigid, "rot", 3) ? "the conjugate rotation (rad)" : "the conjugate displacement (m)",
     SAM_RANGE_ANY, &balance->rigid[k], &has_rigid));
   PetscCheck(!has_load || !has_rigid, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s and -%s are conjugate: give one of them",
              load, rigid);
@@ -100,13 +101,14 @@ PetscErrorCode SamHistoryClaimOption(void)
 /* The file's name: -history as claimed from PETSc. */
 static PetscErrorCode ReadFileName(char file[], size_t size, PetscBool *has_file)
 {
-  PetscBool help;
+  const SamOptions from = {PETSC_COMM_WORLD, NULL};
+  PetscBool        help;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   if (help) {
     PetscCall(
-      SamOptionsString(NULL, "history", "text file with a load step a row (README, Histories)", file, size, has_file));
+      SamOptionsString(&from, "history", "text file with a load step a row (README, Histories)", file, size, has_file));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PetscOptionsGetString(NULL, NULL, "-petsam_history", file, size, has_file));
@@ -116,9 +118,10 @@ static PetscErrorCode ReadFileName(char file[], size_t size, PetscBool *has_file
 
 PetscErrorCode SamHistoryCreateFromOptions(MPI_Comm comm, SamHistory *history)
 {
-  SamHistory h;
-  char       file[PETSC_MAX_PATH_LEN] = "";
-  PetscBool  has_file;
+  const SamOptions from = {comm, NULL};
+  SamHistory       h;
+  char             file[PETSC_MAX_PATH_LEN] = "";
+  PetscBool        has_file;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
@@ -126,10 +129,10 @@ PetscErrorCode SamHistoryCreateFromOptions(MPI_Comm comm, SamHistory *history)
   h->constant[1].kind = SAM_BALANCE_TANGENTIAL;
   h->rows             = 1;
   h->increments       = 1;
-  PetscCall(SamOptionsHeading("Loads and displacements"));
+  PetscCall(SamOptionsHeading(&from, "Loads and displacements"));
   PetscCall(ReadFileName(file, sizeof(file), &has_file));
   PetscCall(
-    SamOptionsInt(NULL, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
+    SamOptionsInt(&from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
   if (has_file) {
     PetscCall(SamTableRead(comm, file, &h->table));
     h->rows = h->table.rows;

@@ -32,12 +32,13 @@ static double AvailableMemory(void)
 
 PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps)
 {
-  double    need, worst;
-  MPI_Comm  node;
-  PetscBool check = PETSC_TRUE;
+  const SamOptions from = {grid->comm, NULL};
+  double           need, worst;
+  MPI_Comm         node;
+  PetscBool        check = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsBool(NULL, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
+  PetscCall(SamOptionsBool(&from, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
   PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
   need = SamRunMemory(grid, pair, friction, steps);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));

@@ -49,10 +49,11 @@ static PetscBool OnTerminal(void)
 
 PetscErrorCode SamProgressSetFromOptions(SamReport r)
 {
-  PetscInt mode = SAM_PROGRESS_AUTO;
+  const SamOptions from = {r->comm, NULL};
+  PetscInt         mode = SAM_PROGRESS_AUTO;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(NULL, "progress", "line within long steps: auto (on a terminal), always or never",
+  PetscCall(SamOptionsEnum(&from, "progress", "line within long steps: auto (on a terminal), always or never",
                            mode_words, &mode, NULL));
   r->progress.active =
     (!r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal())))

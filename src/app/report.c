@@ -24,7 +24,8 @@ static PetscErrorCode StartLog(SamReport r)
 
 PetscErrorCode SamReportCreateFromOptions(MPI_Comm comm, SamReport *report)
 {
-  SamReport r;
+  const SamOptions from = {comm, NULL};
+  SamReport        r;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
@@ -33,8 +34,8 @@ PetscErrorCode SamReportCreateFromOptions(MPI_Comm comm, SamReport *report)
   r->comm  = comm;
   r->start = r->first = r->begin = MPI_Wtime();
   PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
-  PetscCall(SamOptionsHeading("What the run says"));
-  PetscCall(SamOptionsBool(NULL, "quiet", "nothing on stdout; warnings and errors stay", &r->quiet, NULL));
+  PetscCall(SamOptionsHeading(&from, "What the run says"));
+  PetscCall(SamOptionsBool(&from, "quiet", "nothing on stdout; warnings and errors stay", &r->quiet, NULL));
   PetscCall(SamProgressSetFromOptions(r));
   if (!r->quiet) PetscCall(StartLog(r));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -55,20 +55,21 @@ static PetscErrorCode CheckFiles(const SamRun *run)
 
 static PetscErrorCode ReadOptions(SamRun *run)
 {
+  const SamOptions from = {PETSC_COMM_WORLD, NULL};
   PetscFunctionBegin;
-  PetscCall(SamGridCreateFromOptions(PETSC_COMM_WORLD, &run->grid));
-  PetscCall(SamPairSetFromOptions(&run->pair));
-  PetscCall(SamOptionsReal(NULL, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &run->friction, NULL));
+  PetscCall(SamGridCreateFromOptions(&from, &run->grid));
+  PetscCall(SamPairSetFromOptions(&run->pair, &from));
+  PetscCall(SamOptionsReal(&from, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &run->friction, NULL));
   PetscCall(SamGapCreate(PETSC_COMM_WORLD, &run->gap));
   PetscCall(SamGapSetFromOptions(run->gap));
   PetscCall(SamHistoryCreateFromOptions(PETSC_COMM_WORLD, &run->history));
   PetscCall(SamReportCreateFromOptions(PETSC_COMM_WORLD, &run->report));
   PetscCall(SamCheckpointsCreateFromOptions(PETSC_COMM_WORLD, &run->checkpoints));
-  PetscCall(SamOptionsHeading("Results and resources"));
-  PetscCall(SamOptionsString(NULL, "output", "HDF5 file of the results", run->filename, sizeof(run->filename),
+  PetscCall(SamOptionsHeading(&from, "Results and resources"));
+  PetscCall(SamOptionsString(&from, "output", "HDF5 file of the results", run->filename, sizeof(run->filename),
                              &run->has_output));
   run->output_every = 1;
-  PetscCall(SamOptionsInt(NULL, "output_every", "write the fields of every m-th step, and of the last", 1,
+  PetscCall(SamOptionsInt(&from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &run->output_every, NULL));
   PetscCall(SamOutputCheckOptions(PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -13,6 +13,11 @@
 
 #define TEXT_SIZE PETSC_MAX_PATH_LEN
 
+const char *SamOptionsPrefix(const SamOptions *from)
+{
+  return from->prefix ? from->prefix : "";
+}
+
 PetscErrorCode SamPrintHelp(PetscBool *print)
 {
   PetscFunctionBegin;
@@ -20,13 +25,13 @@ PetscErrorCode SamPrintHelp(PetscBool *print)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsHeading(const char title[])
+PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[])
 {
   PetscBool help;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
-  if (help) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n%s\n", title));
+  if (help) PetscCall(PetscPrintf(from->comm, "\n%s\n", title));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -35,7 +40,7 @@ PetscErrorCode SamOptionsHeading(const char title[])
   long for its column has a line of its own.
 */
 #define HELP_COLUMN 40
-static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], const char help[], const char kind[],
+static PetscErrorCode PrintHelpLine(const SamOptions *from, const char name[], const char help[], const char kind[],
                                     const char value[])
 {
   PetscBool print;
@@ -44,26 +49,26 @@ static PetscErrorCode PrintHelpLine(const char prefix[], const char name[], cons
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&print));
   if (!print) PetscFunctionReturn(PETSC_SUCCESS);
-  snprintf(option, sizeof(option), "-%s%s %s", prefix ? prefix : "", name, kind);
+  snprintf(option, sizeof(option), "-%s%s %s", SamOptionsPrefix(from), name, kind);
   if (value[0] && !strstr(help, "required")) snprintf(shown, sizeof(shown), " (%s)", value);
   if (strlen(option) >= HELP_COLUMN)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n  %*s%s%s\n", option, HELP_COLUMN, "", help, shown));
+    PetscCall(PetscPrintf(from->comm, "  %s\n  %*s%s%s\n", option, HELP_COLUMN, "", help, shown));
   else
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-*s%s%s\n", HELP_COLUMN, option, help, shown));
+    PetscCall(PetscPrintf(from->comm, "  %-*s%s%s\n", HELP_COLUMN, option, help, shown));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Fetches the text of an option; an option given without a value is an error. */
-static PetscErrorCode GetText(const char prefix[], const char name[], const char expected[], char text[], size_t size,
-                              PetscBool *set)
+static PetscErrorCode GetText(const SamOptions *from, const char name[], const char expected[], char text[],
+                              size_t size, PetscBool *set)
 {
   char option[128];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
   text[0] = '\0';
-  PetscCall(PetscOptionsGetString(NULL, prefix, option, text, size, set));
-  PetscCheck(!*set || text[0], PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s has no value: expected %s", prefix ? prefix : "",
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, size, set));
+  PetscCheck(!*set || text[0], from->comm, SAM_ERR_USER, "-%s%s has no value: expected %s", SamOptionsPrefix(from),
              name, expected);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -104,7 +109,7 @@ static PetscBool ReadReal(const char **text, double *value)
 }
 
 /* Reads one or two numbers separated by a comma; one stands for both. */
-static PetscErrorCode GetReals(const char prefix[], const char name[], const char expected[], PetscInt most,
+static PetscErrorCode GetReals(const SamOptions *from, const char name[], const char expected[], PetscInt most,
                                SamRange range, double value[], PetscBool *set)
 {
   char        text[TEXT_SIZE];
@@ -114,21 +119,21 @@ static PetscErrorCode GetReals(const char prefix[], const char name[], const cha
   PetscBool   good = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(GetText(prefix, name, expected, text, sizeof(text), set));
+  PetscCall(GetText(from, name, expected, text, sizeof(text), set));
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   while (good && *rest && n < most) {
     good = ReadReal(&rest, &v[n]);
     good = (good && InRange(range, v[n])) ? PETSC_TRUE : PETSC_FALSE;
     n++;
   }
-  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "",
-             name, text, expected);
+  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name,
+             text, expected);
   value[0] = v[0];
   if (most > 1) value[1] = n > 1 ? v[1] : v[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char help[], SamRange range,
+PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                               PetscReal *value, PetscBool *set)
 {
   char      shown[64];
@@ -136,13 +141,13 @@ PetscErrorCode SamOptionsReal(const char prefix[], const char name[], const char
 
   PetscFunctionBegin;
   snprintf(shown, sizeof(shown), "%g", (double)*value);
-  PetscCall(PrintHelpLine(prefix, name, help, "<number>", shown));
-  PetscCall(GetReals(prefix, name, DescribeRange(range), 1, range, value, &found));
+  PetscCall(PrintHelpLine(from, name, help, "<number>", shown));
+  PetscCall(GetReals(from, name, DescribeRange(range), 1, range, value, &found));
   if (set) *set = found;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const char help[], SamRange range,
+PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[], SamRange range,
                                   PetscReal value[2], PetscBool *set)
 {
   char      shown[64], expected[96];
@@ -150,14 +155,14 @@ PetscErrorCode SamOptionsRealPair(const char prefix[], const char name[], const 
 
   PetscFunctionBegin;
   snprintf(shown, sizeof(shown), "%g,%g", (double)value[0], (double)value[1]);
-  PetscCall(PrintHelpLine(prefix, name, help, "<number>[,<number>]", shown));
+  PetscCall(PrintHelpLine(from, name, help, "<number>[,<number>]", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected), "%s, or two separated by a comma", DescribeRange(range)));
-  PetscCall(GetReals(prefix, name, expected, 2, range, value, &found));
+  PetscCall(GetReals(from, name, expected, 2, range, value, &found));
   if (set) *set = found;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetInts(const char prefix[], const char name[], const char expected[], PetscInt most,
+static PetscErrorCode GetInts(const SamOptions *from, const char name[], const char expected[], PetscInt most,
                               PetscInt least, PetscInt value[], PetscBool *set)
 {
   char        text[TEXT_SIZE];
@@ -167,7 +172,7 @@ static PetscErrorCode GetInts(const char prefix[], const char name[], const char
   PetscBool   good = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(GetText(prefix, name, expected, text, sizeof(text), set));
+  PetscCall(GetText(from, name, expected, text, sizeof(text), set));
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   while (good && *rest && n < most) {
     char     *end;
@@ -184,29 +189,29 @@ static PetscErrorCode GetInts(const char prefix[], const char name[], const char
       rest   = *end ? end + 1 : end;
     }
   }
-  PetscCheck(good && n > 0 && !*rest, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "",
-             name, text, expected);
+  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name,
+             text, expected);
   value[0] = v[0];
   if (most > 1) value[1] = n > 1 ? v[1] : v[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsInt(const char prefix[], const char name[], const char help[], PetscInt least, PetscInt *value,
-                             PetscBool *set)
+PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
+                             PetscInt *value, PetscBool *set)
 {
   char      shown[64], expected[96];
   PetscBool found;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT, *value));
-  PetscCall(PrintHelpLine(prefix, name, help, "<whole>", shown));
+  PetscCall(PrintHelpLine(from, name, help, "<whole>", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT, least));
-  PetscCall(GetInts(prefix, name, expected, 1, least, value, &found));
+  PetscCall(GetInts(from, name, expected, 1, least, value, &found));
   if (set) *set = found;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const char help[], PetscInt least,
+PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], const char help[], PetscInt least,
                                  PetscInt value[2], PetscBool *set)
 {
   char      shown[64], expected[96];
@@ -214,15 +219,15 @@ PetscErrorCode SamOptionsIntPair(const char prefix[], const char name[], const c
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT ",%" PetscInt_FMT, value[0], value[1]));
-  PetscCall(PrintHelpLine(prefix, name, help, "<whole>[,<whole>]", shown));
+  PetscCall(PrintHelpLine(from, name, help, "<whole>[,<whole>]", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected),
                           "a whole number from %" PetscInt_FMT ", or two separated by a comma", least));
-  PetscCall(GetInts(prefix, name, expected, 2, least, value, &found));
+  PetscCall(GetInts(from, name, expected, 2, least, value, &found));
   if (set) *set = found;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char help[], PetscBool *value,
+PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const char help[], PetscBool *value,
                               PetscBool *set)
 {
   static const char *const yes[] = {"1", "true", "yes", "on", NULL}, *const no[] = {"0", "false", "no", "off", NULL};
@@ -230,9 +235,9 @@ PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char
   PetscBool found, good;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, "[<bool>]", *value ? "true" : "false"));
+  PetscCall(PrintHelpLine(from, name, help, "[<bool>]", *value ? "true" : "false"));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
-  PetscCall(PetscOptionsGetString(NULL, prefix, option, text, sizeof(text), &found));
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
   good = text[0] ? PETSC_FALSE : PETSC_TRUE; /* the bare option means yes */
@@ -245,29 +250,28 @@ PetscErrorCode SamOptionsBool(const char prefix[], const char name[], const char
       *value = PETSC_FALSE, good = PETSC_TRUE;
     }
   }
-  PetscCheck(good, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected true or false", prefix ? prefix : "", name,
-             text);
+  PetscCheck(good, from->comm, SAM_ERR_USER, "-%s%s %s: expected true or false", SamOptionsPrefix(from), name, text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsString(const char prefix[], const char name[], const char help[], char value[], size_t size,
+PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
                                 PetscBool *set)
 {
   char      text[TEXT_SIZE];
   PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, "<text>", value));
-  PetscCall(GetText(prefix, name, "a text", text, sizeof(text), &found));
+  PetscCall(PrintHelpLine(from, name, help, "<text>", value));
+  PetscCall(GetText(from, name, "a text", text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(strlen(text) < size, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s: expected at most %d characters",
-             prefix ? prefix : "", name, (int)size - 1);
+  PetscCheck(strlen(text) < size, from->comm, SAM_ERR_USER, "-%s%s: expected at most %d characters",
+             SamOptionsPrefix(from), name, (int)size - 1);
   PetscCall(PetscStrncpy(value, text, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char help[], const char *const words[],
+PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[], const char *const words[],
                               PetscInt *value, PetscBool *set)
 {
   char      text[TEXT_SIZE], list[TEXT_SIZE] = "";
@@ -275,31 +279,30 @@ PetscErrorCode SamOptionsEnum(const char prefix[], const char name[], const char
   PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, "<word>", words[*value]));
+  PetscCall(PrintHelpLine(from, name, help, "<word>", words[*value]));
   for (PetscInt w = 0; words[w]; w++) {
     if (w) PetscCall(PetscStrlcat(list, words[w + 1] ? ", " : " or ", sizeof(list)));
     PetscCall(PetscStrlcat(list, words[w], sizeof(list)));
   }
-  PetscCall(GetText(prefix, name, list, text, sizeof(text), &found));
+  PetscCall(GetText(from, name, list, text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt w = 0; words[w]; w++)
     if (!strcmp(text, words[w])) chosen = w;
-  PetscCheck(chosen >= 0, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s%s %s: expected %s", prefix ? prefix : "", name, text,
-             list);
+  PetscCheck(chosen >= 0, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name, text, list);
   *value = chosen;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsHasViewer(const char prefix[], const char name[], const char help[], PetscBool *set)
+PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], const char help[], PetscBool *set)
 {
   char option[128], text[TEXT_SIZE] = "";
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(prefix, name, help, "[<viewer>]", ""));
+  PetscCall(PrintHelpLine(from, name, help, "[<viewer>]", ""));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
-  PetscCall(PetscOptionsGetString(NULL, prefix, option, text, sizeof(text), set));
-  PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', PETSC_COMM_WORLD, SAM_ERR_USER,
-             "-%s%s %s: expected nothing, ascii or ascii:file", prefix ? prefix : "", name, text);
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), set));
+  PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', from->comm, SAM_ERR_USER,
+             "-%s%s %s: expected nothing, ascii or ascii:file", SamOptionsPrefix(from), name, text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

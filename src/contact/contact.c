@@ -106,19 +106,20 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
 
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
+  const SamOptions from = {c->grid->comm, NULL};
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading("Contact"));
-  PetscCall(SamOptionsEnum(NULL, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
+  PetscCall(SamOptionsHeading(&from, "Contact"));
+  PetscCall(SamOptionsEnum(&from, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
                            coupling_words, &c->coupling, NULL));
-  PetscCall(SamOptionsReal(NULL, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE,
+  PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE,
                            &c->coupling_rtol, NULL));
-  PetscCall(SamOptionsInt(NULL, "coupling_max_it", "most passes", 1, &c->coupling_max_it, NULL));
-  PetscCall(SamOptionsBool(NULL, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
+  PetscCall(SamOptionsInt(&from, "coupling_max_it", "most passes", 1, &c->coupling_max_it, NULL));
+  PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
+  PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only",
+                           &c->warm, NULL));
   PetscCall(
-    SamOptionsBool(NULL, "warm_start", "start each step from the one before, on the finest grid only", &c->warm, NULL));
-  PetscCall(
-    SamOptionsBool(NULL, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
-  PetscCall(SamOptionsBool(NULL, "contact_check", "print the check of each step", &c->print_check, NULL));
+    SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
+  PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamNormalSetFromOptions(c->normal));
   PetscCall(SamTangentialSetFromOptions(c->tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -331,7 +332,7 @@ static PetscErrorCode CreateOffset(SamContact c, Vec *offset)
 static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
 {
   SamTangentialReason reason;
-  Vec                 offset;
+  Vec                 offset, bound;
   char                message[sizeof(step->message)];
 
   PetscFunctionBegin;
@@ -339,8 +340,10 @@ static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, Pet
   step->tangential = *given;
   for (PetscInt k = 0; k < 3; k++)
     if (given->force[k]) step->tangential.rigid[k] = c->start[k];
-  PetscCall(SamTangentialSolve(c->tangential, c->fields.pressure, c->friction, offset, &step->tangential, guess,
-                               c->fields.shear));
+  PetscCall(SamGridCreateVec(c->grid, 1, &bound));
+  PetscCall(VecAXPY(bound, c->friction, c->fields.pressure));
+  PetscCall(SamTangentialSolve(c->tangential, bound, offset, &step->tangential, guess, c->fields.shear));
+  PetscCall(VecDestroy(&bound));
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) c->start[k] = step->tangential.rigid[k]; /* of the next pass */
   PetscCall(Count(c, PETSC_TRUE, step));

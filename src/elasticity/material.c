@@ -11,17 +11,17 @@ PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscRe
   for (PetscInt b = 0; b < 2; b++) {
     const int body = (int)b + 1;
 
-    PetscCheck(young[b] > 0, PETSC_COMM_WORLD, SAM_ERR_USER, "-body%d_young %g: expected a number > 0 or inf", body,
+    PetscCheck(young[b] > 0, PETSC_COMM_SELF, SAM_ERR_USER, "-body%d_young %g: expected a number > 0 or inf", body,
                (double)young[b]);
-    PetscCheck(poisson[b] > -1 && poisson[b] <= 0.5, PETSC_COMM_WORLD, SAM_ERR_USER,
+    PetscCheck(poisson[b] > -1 && poisson[b] <= 0.5, PETSC_COMM_SELF, SAM_ERR_USER,
                "-body%d_poisson %g: expected a number above -1 and at most 0.5", body, (double)poisson[b]);
     inverse_shear[b] = isinf(young[b]) ? 0 : 2 * (1 + poisson[b]) / young[b];
-    PetscCheck(isfinite(inverse_shear[b]) && (inverse_shear[b] > 0 || isinf(young[b])), PETSC_COMM_WORLD, SAM_ERR_USER,
+    PetscCheck(isfinite(inverse_shear[b]) && (inverse_shear[b] > 0 || isinf(young[b])), PETSC_COMM_SELF, SAM_ERR_USER,
                "-body%d_young %g: the elasticity is not a number in double precision", body, (double)young[b]);
     pair->young[b]   = young[b];
     pair->poisson[b] = poisson[b];
   }
-  PetscCheck(inverse_shear[0] > 0 || inverse_shear[1] > 0, PETSC_COMM_WORLD, SAM_ERR_USER,
+  PetscCheck(inverse_shear[0] > 0 || inverse_shear[1] > 0, PETSC_COMM_SELF, SAM_ERR_USER,
              "-body1_young and -body2_young: both bodies are rigid, at least one must be elastic");
   pair->normal   = ((1 - poisson[0]) * inverse_shear[0] + (1 - poisson[1]) * inverse_shear[1]) / (2 * PETSC_PI);
   pair->shear    = pair->normal;
@@ -32,27 +32,27 @@ PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPairSetFromOptions(SamPair *pair)
+PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
 {
   PetscReal young[2] = {0, 0}, poisson[2] = {0, 0};
   PetscBool has_young, has_poisson, help;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsHeading("Bodies"));
+  PetscCall(SamOptionsHeading(from, "Bodies"));
   for (PetscInt b = 0; b < 2; b++) {
     char name[32];
 
     PetscCall(PetscSNPrintf(name, sizeof(name), "body%d_young", (int)b + 1));
-    PetscCall(SamOptionsReal(NULL, name, "Young's modulus (Pa), inf: rigid: required", SAM_RANGE_POSITIVE_INF,
+    PetscCall(SamOptionsReal(from, name, "Young's modulus (Pa), inf: rigid: required", SAM_RANGE_POSITIVE_INF,
                              &young[b], &has_young));
-    PetscCheck(has_young || help, PETSC_COMM_WORLD, SAM_ERR_USER,
-               "-%s is missing: Young's modulus, Pa, or inf for a rigid body", name);
+    PetscCheck(has_young || help, from->comm, SAM_ERR_USER,
+               "-%s%s is missing: Young's modulus, Pa, or inf for a rigid body", SamOptionsPrefix(from), name);
     PetscCall(PetscSNPrintf(name, sizeof(name), "body%d_poisson", (int)b + 1));
     PetscCall(
-      SamOptionsReal(NULL, name, "Poisson's ratio: required unless rigid", SAM_RANGE_ANY, &poisson[b], &has_poisson));
-    PetscCheck(has_poisson || isinf(young[b]) || help, PETSC_COMM_WORLD, SAM_ERR_USER,
-               "-%s is missing: Poisson's ratio", name);
+      SamOptionsReal(from, name, "Poisson's ratio: required unless rigid", SAM_RANGE_ANY, &poisson[b], &has_poisson));
+    PetscCheck(has_poisson || isinf(young[b]) || help, from->comm, SAM_ERR_USER, "-%s%s is missing: Poisson's ratio",
+               SamOptionsPrefix(from), name);
   }
   if (help) young[0] = young[1] = 1;
   PetscCall(SamPairSet(pair, young, poisson));

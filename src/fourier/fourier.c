@@ -108,6 +108,7 @@ ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row
 
 PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
 {
+  const SamOptions   from = {grid->comm, NULL};
   SamFourier         F;
   PetscInt           effort = 0;
   ptrdiff_t          periodic, padded, quadrant, rows, row_start, columns, column_start;
@@ -119,7 +120,7 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   PetscCall(PetscNew(&F));
   *fourier = F;
   PetscCall(
-    SamOptionsEnum(NULL, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
+    SamOptionsEnum(&from, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
   F->effort = flags[effort];

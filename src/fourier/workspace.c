@@ -26,12 +26,13 @@ static PetscErrorCode FreeKeyval(void)
 /* Whether all ranks are on one node, and the user does not want it otherwise. */
 static PetscErrorCode CanShare(SamWorkspace w)
 {
-  PetscInt    exchange = 0;
-  MPI_Comm    node;
-  PetscMPIInt size;
+  const SamOptions from     = {w->comm, NULL};
+  PetscInt         exchange = 0;
+  MPI_Comm         node;
+  PetscMPIInt      size;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(NULL, "fft_exchange",
+  PetscCall(SamOptionsEnum(&from, "fft_exchange",
                            "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges,
                            &exchange, NULL));
   PetscCallMPI(MPI_Comm_split_type(w->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));

@@ -48,7 +48,7 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGridCreateFromOptions(MPI_Comm comm, SamGrid *grid)
+PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
 {
   PetscInt  n[2]      = {0, 0};
   PetscReal width[2]  = {0, 0};
@@ -56,20 +56,22 @@ PetscErrorCode SamGridCreateFromOptions(MPI_Comm comm, SamGrid *grid)
   PetscBool has_n, has_width, help;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading("Grid"));
-  PetscCall(SamOptionsIntPair(NULL, "grid_n", "cells in x[,y]: required", 2, n, &has_n));
+  PetscCall(SamOptionsHeading(from, "Grid"));
+  PetscCall(SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required", 2, n, &has_n));
   PetscCall(
-    SamOptionsRealPair(NULL, "grid_size", "full width in x[,y] (m): required", SAM_RANGE_POSITIVE, width, &has_width));
-  PetscCall(SamOptionsRealPair(NULL, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
+    SamOptionsRealPair(from, "grid_size", "full width in x[,y] (m): required", SAM_RANGE_POSITIVE, width, &has_width));
+  PetscCall(SamOptionsRealPair(from, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
   PetscCall(SamPrintHelp(&help));
   if (help) { /* the defaults are listed; any grid does */
     n[0] = n[1] = 2;
     width[0] = width[1] = 1;
     has_n = has_width = PETSC_TRUE;
   }
-  PetscCheck(has_n, comm, SAM_ERR_USER, "-grid_n is missing: the number of cells in x[,y]");
-  PetscCheck(has_width, comm, SAM_ERR_USER, "-grid_size is missing: the full width of the grid in x[,y], m");
-  PetscCall(SamGridCreate(comm, n, width, center, grid));
+  PetscCheck(has_n, from->comm, SAM_ERR_USER, "-%sgrid_n is missing: the number of cells in x[,y]",
+             SamOptionsPrefix(from));
+  PetscCheck(has_width, from->comm, SAM_ERR_USER, "-%sgrid_size is missing: the full width of the grid in x[,y], m",
+             SamOptionsPrefix(from));
+  PetscCall(SamGridCreate(from->comm, n, width, center, grid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -15,17 +15,19 @@
 
 PetscErrorCode SamOutputGetSettings(MPI_Comm comm, SamOutputSettings *set)
 {
+  const SamOptions from = {comm, NULL};
   PetscFunctionBegin;
   *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
-  PetscCall(SamOptionsInt(NULL, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
+  PetscCall(SamOptionsInt(&from, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
                           &set->compress, NULL));
   PetscCheck(set->compress <= 9, comm, SAM_ERR_USER,
              "-output_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", set->compress);
   PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, comm, SAM_ERR_USER,
              "-output_compress %" PetscInt_FMT ": this HDF5 was built without zlib", set->compress);
-  PetscCall(SamOptionsIntPair(NULL, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
   PetscCall(
-    SamOptionsBool(NULL, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
+    SamOptionsIntPair(&from, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
+  PetscCall(
+    SamOptionsBool(&from, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

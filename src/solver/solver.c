@@ -23,23 +23,24 @@ static PetscErrorCode MonitorError(void *owner, PetscInt it, PetscReal error, vo
 
 PetscErrorCode SamSolverSetFromOptions(SamSolver *s, const char types[], char type[], size_t size, PetscBool *set_type)
 {
-  char      prefix[96], title[48];
-  PetscBool monitor = s->monitor_error, ignored;
+  char             prefix[96], title[48];
+  PetscBool        monitor = s->monitor_error, ignored;
+  const SamOptions from    = {s->comm, prefix};
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "%s%s_", s->prefix, s->kind));
   PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind));
-  PetscCall(SamOptionsHeading(title));
+  PetscCall(SamOptionsHeading(&from, title));
   PetscCall(PetscStrncpy(type, s->type, size));
-  PetscCall(SamOptionsString(prefix, "type", types, type, size, set_type));
-  PetscCall(SamOptionsReal(prefix, "rtol", s->error_help, SAM_RANGE_POSITIVE, &s->rtol, NULL));
+  PetscCall(SamOptionsString(&from, "type", types, type, size, set_type));
+  PetscCall(SamOptionsReal(&from, "rtol", s->error_help, SAM_RANGE_POSITIVE, &s->rtol, NULL));
   PetscCall(
-    SamOptionsInt(prefix, "max_it", "iterations on the finest grid, 0: the type's default", 0, &s->max_it, NULL));
-  PetscCall(SamOptionsInt(prefix, "levels", "nested grids, 0: the type's default", 0, &s->levels, NULL));
-  PetscCall(SamOptionsBool(prefix, "monitor", "print the error after each iteration", &monitor, NULL));
-  PetscCall(SamOptionsBool(prefix, "error_if_not_converged", "stop with an error", &s->error_if_not_converged, NULL));
-  PetscCall(SamOptionsHasViewer(prefix, "converged_reason", "print why the solver stopped", &ignored));
-  PetscCall(SamOptionsHasViewer(prefix, "view", "print the solver's settings", &ignored));
+    SamOptionsInt(&from, "max_it", "iterations on the finest grid, 0: the type's default", 0, &s->max_it, NULL));
+  PetscCall(SamOptionsInt(&from, "levels", "nested grids, 0: the type's default", 0, &s->levels, NULL));
+  PetscCall(SamOptionsBool(&from, "monitor", "print the error after each iteration", &monitor, NULL));
+  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "stop with an error", &s->error_if_not_converged, NULL));
+  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print why the solver stopped", &ignored));
+  PetscCall(SamOptionsHasViewer(&from, "view", "print the solver's settings", &ignored));
   if (monitor && !s->monitor_error) PetscCall(SamSolverMonitorSet(s, MonitorError, s));
   s->monitor_error = monitor;
   PetscFunctionReturn(PETSC_SUCCESS);

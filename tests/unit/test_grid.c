@@ -112,11 +112,11 @@ static void test_grid_from_options(void **state)
   for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++) {
     sam_call(PetscOptionsClear(NULL));
     sam_call(PetscOptionsInsertString(NULL, wrong[k]));
-    sam_fails(SamGridCreateFromOptions(PETSC_COMM_WORLD, &grid), SAM_ERR_USER);
+    sam_fails(SamGridCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &grid), SAM_ERR_USER);
   }
   sam_call(PetscOptionsClear(NULL));
   sam_call(PetscOptionsInsertString(NULL, "-grid_n 8,5 -grid_size 2 -grid_center 1,-1"));
-  sam_call(SamGridCreateFromOptions(PETSC_COMM_WORLD, &grid));
+  sam_call(SamGridCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &grid));
   sam_assert(grid->nx == 8 && grid->ny == 5 && grid->width[0] == 2 && grid->width[1] == 2 && grid->center[0] == 1 &&
              grid->center[1] == -1);
   sam_call(SamGridDestroy(&grid));

@@ -17,23 +17,25 @@ typedef struct {
 /* Calls the getter for -pre_opt; range or least as it applies. */
 static PetscErrorCode Get(Getter getter, int range, Value *v, PetscBool *set)
 {
+  const SamOptions from = {PETSC_COMM_WORLD, "pre_"};
+
   switch (getter) {
   case REAL:
-    return SamOptionsReal("pre_", "opt", "", (SamRange)range, v->real, set);
+    return SamOptionsReal(&from, "opt", "", (SamRange)range, v->real, set);
   case REAL_PAIR:
-    return SamOptionsRealPair("pre_", "opt", "", (SamRange)range, v->real, set);
+    return SamOptionsRealPair(&from, "opt", "", (SamRange)range, v->real, set);
   case INT:
-    return SamOptionsInt("pre_", "opt", "", range, v->whole, set);
+    return SamOptionsInt(&from, "opt", "", range, v->whole, set);
   case INT_PAIR:
-    return SamOptionsIntPair("pre_", "opt", "", range, v->whole, set);
+    return SamOptionsIntPair(&from, "opt", "", range, v->whole, set);
   case BOOL:
-    return SamOptionsBool("pre_", "opt", "", &v->truth, set);
+    return SamOptionsBool(&from, "opt", "", &v->truth, set);
   case STRING:
-    return SamOptionsString("pre_", "opt", "", v->text, sizeof(v->text), set);
+    return SamOptionsString(&from, "opt", "", v->text, sizeof(v->text), set);
   case ENUM:
-    return SamOptionsEnum("pre_", "opt", "", words, v->whole, set);
+    return SamOptionsEnum(&from, "opt", "", words, v->whole, set);
   default:
-    return SamOptionsHasViewer("pre_", "opt", "", set);
+    return SamOptionsHasViewer(&from, "opt", "", set);
   }
 }
 

@@ -67,7 +67,7 @@ static Outcome Solve(const Case *c, Vec bound, Vec offset, SamTangentialType typ
   sam_call(SamTangentialCreate(c->s.elasticity, &t));
   if (type) sam_call(SamTangentialSetType(t, type));
   if (rtol > 0) sam_call(SamTangentialSetTolerances(t, rtol, PETSC_DEFAULT));
-  sam_call(SamTangentialSolve(t, bound, 1, offset, balance, PETSC_FALSE, q));
+  sam_call(SamTangentialSolve(t, bound, offset, balance, PETSC_FALSE, q));
   sam_call(SamTangentialGetReason(t, &o.reason));
   sam_call(SamTangentialGetLimit(t, &o.limit));
   sam_call(SamTangentialGetStatistics(t, &o.error, &o.iterations, &o.applies, &o.preconditions));

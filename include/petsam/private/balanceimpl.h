@@ -26,13 +26,13 @@ typedef struct {
   double         dxi, deta;
 } SamFrame;
 
-PETSC_INTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
+PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* The same with all rigid displacements given as they stand in the balance. */
-PETSC_INTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
+PETSC_EXTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* Rigid displacements of the force-controlled components from a free combination a of the phi. */
-PETSC_INTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
+PETSC_EXTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
 /* Loads of all three components from sum phi traction (not times the cell's area). */
-PETSC_INTERN void SamFrameGetLoads(const SamFrame *frame, const double sums[3], PetscReal loads[3]);
+PETSC_EXTERN void SamFrameGetLoads(const SamFrame *frame, const double sums[3], PetscReal loads[3]);
 
 /* eta of this rank's row j, the same to the last digit wherever the row is. */
 static inline double SamFrameEta(const SamFrame *f, PetscInt j)
@@ -158,14 +158,14 @@ static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, doubl
   The combination a of the free phi with gram a = sums within the free subspace, in the sense of least squares when
   the Gram matrix is singular there.
 */
-PETSC_INTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3], double a[3]);
+PETSC_EXTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3], double a[3]);
 
 /*
   SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 elsewhere, where it is
   0, with the a for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when
   there is none (p is then left as it was). Collective.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[],
+PETSC_EXTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[],
                                                   PetscBool *found);
 
 /*
@@ -174,7 +174,7 @@ PETSC_INTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const f
   change, in single precision like the step. `busy`: the stretches that have cells in the mask, or pressure. Not found:
   p is as it was, to the rounding of `made`.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const float mask[], const char busy[],
+PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const float mask[], const char busy[],
                                                       double p[], double by, const float step[], double scale,
                                                       float made[], PetscBool *found);
 
@@ -182,7 +182,7 @@ PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, con
   SamFrameProjectNormalOnContact - the same on the cells that have pressure, if those can carry the loads, else on all.
   (The nearest pressure on all cells would spread a little over the whole grid.)
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame, double p[], PetscBool *found);
+PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
   SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear on the disc of radius bound, with
@@ -190,7 +190,7 @@ PETSC_INTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
   result is admissible to rounding in any case; with `nearest` it is the nearest such shear too, without it, which is
   faster, that may hold to 1e-6 of the change only. Collective.
 */
-PETSC_INTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], PetscBool nearest,
+PETSC_EXTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], PetscBool nearest,
                                                       double q[], PetscBool *found);
 
 #endif

@@ -49,30 +49,30 @@ typedef enum {
   SAM_EVENT_CHECKPOINT,
   SAM_EVENT_COUNT
 } SamEvent;
-PETSC_INTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
-PETSC_INTERN PetscClassId  SAM_CLASSID;
+PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
+PETSC_EXTERN PetscClassId  SAM_CLASSID;
 
 /* ---- memory ---- */
 /*
   SamAllocate, SamAllocateZeros - arrays of any size, in large pages where they are large, to be freed by SamFree().
   PETSC_ERR_MEM with the size when there is no memory.
 */
-PETSC_INTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
-PETSC_INTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
-PETSC_INTERN void           SamFree(void *pointer);
+PETSC_EXTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
+PETSC_EXTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
+PETSC_EXTERN void           SamFree(void *pointer);
 
 /* SamZero - sets an array to zero without writing to where it is: what the system has not given memory yet stays so. */
-PETSC_INTERN void SamZero(PetscInt n, double x[]);
+PETSC_EXTERN void SamZero(PetscInt n, double x[]);
 
 /*
   SamReturnMemory - gives the system back what was freed and the C library keeps. What is allocated next has to be
   mapped anew, which costs time: for the end of long stages.
 */
-PETSC_INTERN void SamReturnMemory(void);
+PETSC_EXTERN void SamReturnMemory(void);
 
 /* ---- reductions over the ranks of small arrays of doubles, in place. Collective. ---- */
-PETSC_INTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
-PETSC_INTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
+PETSC_EXTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
+PETSC_EXTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
 
 /*
   SamTotal - a sum kept in twice the digits of a double. Solvers add up a grid row by row, and a row is on one rank
@@ -96,7 +96,7 @@ static inline void SamAddAll(PetscInt n, SamTotal totals[], const double values[
 }
 #define SAM_TOTALS 16 /* most at a time */
 /* SamSumTotals - the totals over the ranks, as doubles. Collective. */
-PETSC_INTERN PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[]);
+PETSC_EXTERN PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[]);
 
 /* The larger of the two; infinite when the second is not a number, which a plain comparison would pass over. */
 static inline double SamLarger(double most, double value)
@@ -105,7 +105,12 @@ static inline double SamLarger(double most, double value)
   return isnan(value) ? INFINITY : value;
 }
 
+/* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
+PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
+/* SamTypesList - the same as a sentence has them: a, b or c. Not collective. */
+PETSC_EXTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
+
 /* SamPrintHelp - PETSC_TRUE while options are only listed for the user. */
-PETSC_INTERN PetscErrorCode SamPrintHelp(PetscBool *print);
+PETSC_EXTERN PetscErrorCode SamPrintHelp(PetscBool *print);
 
 #endif

@@ -21,8 +21,8 @@ struct _n_SamElasticity {
   SamElasticity part;
 };
 
-PETSC_INTERN PetscErrorCode SamElasticityGetKernel(SamElasticity elasticity, SamKernelKind kind, SamKernel *kernel);
+PETSC_EXTERN PetscErrorCode SamElasticityGetKernel(SamElasticity elasticity, SamKernelKind kind, SamKernel *kernel);
 /* The influence coefficient at lag (i, j), m/Pa. */
-PETSC_INTERN double SamInfluenceCoefficient(SamElasticity elasticity, SamKernelKind kind, PetscInt i, PetscInt j);
+PETSC_EXTERN double SamInfluenceCoefficient(SamElasticity elasticity, SamKernelKind kind, PetscInt i, PetscInt j);
 
 #endif

@@ -24,7 +24,7 @@ typedef struct {
 struct _n_SamGap {
   /* what the user set */
   MPI_Comm     comm;
-  char         type[64];
+  char         type[64], prefix[64];
   PetscReal    values[SAM_GAP_PARAMETERS];
   SamGapSource source; /* of type file */
   SamGapSource rough;  /* added to any; no file: none */
@@ -42,22 +42,23 @@ struct _n_SamGap {
   const char *names[SAM_GAP_PARAMETERS]; /* of the parameters */
 };
 
-PETSC_INTERN PetscErrorCode SamGapCreate_Sphere(SamGap gap);
-PETSC_INTERN PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap);
-PETSC_INTERN PetscErrorCode SamGapCreate_Punch(SamGap gap);
-PETSC_INTERN PetscErrorCode SamGapCreate_Flat(SamGap gap);
-PETSC_INTERN PetscErrorCode SamGapCreate_File(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_Sphere(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_Punch(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_Flat(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_File(SamGap gap);
 
 /*
   SamGapSourceSetFromOptions - reads the two options of a source; the dataset alone is an error. Collective.
 */
-PETSC_INTERN PetscErrorCode SamGapSourceSetFromOptions(SamGapSource *source, const char file_help[]);
+PETSC_EXTERN PetscErrorCode SamGapSourceSetFromOptions(SamGapSource *source, const SamOptions *from,
+                                                       const char file_help[]);
 
 /*
   SamGapSourceRead - reads the dataset into h (one component). Collective. Errors: SAM_ERR_FILE, on all ranks alike, for
   a file that cannot be read or is not HDF5, and for a dataset that is missing, of another shape than (ny, nx), not of
   numbers, or with values that are not finite.
 */
-PETSC_INTERN PetscErrorCode SamGapSourceRead(const SamGapSource *source, SamGrid grid, Vec h);
+PETSC_EXTERN PetscErrorCode SamGapSourceRead(const SamGapSource *source, SamGrid grid, Vec h);
 
 #endif

@@ -26,15 +26,15 @@ struct _n_SamNormal {
 };
 
 /* Counted products: only those on the finest grid count. */
-PETSC_INTERN PetscErrorCode SamNormalApply(SamNormal normal, SamNormalLevel *level, Vec p, Vec u);
-PETSC_INTERN PetscErrorCode SamNormalApplySingle(SamNormal normal, SamNormalLevel *level, double factor,
+PETSC_EXTERN PetscErrorCode SamNormalApply(SamNormal normal, SamNormalLevel *level, Vec p, Vec u);
+PETSC_EXTERN PetscErrorCode SamNormalApplySingle(SamNormal normal, SamNormalLevel *level, double factor,
                                                  const float p[], float u[]);
-PETSC_INTERN PetscErrorCode SamNormalPreconditionSingle(SamNormal normal, SamNormalLevel *level, double factor,
+PETSC_EXTERN PetscErrorCode SamNormalPreconditionSingle(SamNormal normal, SamNormalLevel *level, double factor,
                                                         const float r[], float z[]);
 /* Counts an iteration, calls the monitors. */
-PETSC_INTERN PetscErrorCode SamNormalIterated(SamNormal normal, SamNormalLevel *level, PetscReal error);
+PETSC_EXTERN PetscErrorCode SamNormalIterated(SamNormal normal, SamNormalLevel *level, PetscReal error);
 
-PETSC_INTERN PetscErrorCode SamNormalCreate_ActiveSet(SamNormal normal);
-PETSC_INTERN PetscErrorCode SamNormalCreate_PolonskyKeer(SamNormal normal);
+PETSC_EXTERN PetscErrorCode SamNormalCreate_ActiveSet(SamNormal normal);
+PETSC_EXTERN PetscErrorCode SamNormalCreate_PolonskyKeer(SamNormal normal);
 
 #endif

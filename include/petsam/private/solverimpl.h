@@ -32,18 +32,18 @@ typedef struct {
   PetscInt  iterations, applies, preconditions;
 } SamSolver;
 
-PETSC_INTERN PetscErrorCode SamSolverMonitorSet(SamSolver *solver, SamSolverMonitor monitor, void *context);
+PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver *solver, SamSolverMonitor monitor, void *context);
 /* Reads all options but the type, which is returned when given. */
-PETSC_INTERN PetscErrorCode SamSolverSetFromOptions(SamSolver *solver, const char types[], char type[], size_t size,
+PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver *solver, const char types[], char type[], size_t size,
                                                     PetscBool *set_type);
-PETSC_INTERN PetscErrorCode SamSolverView(const SamSolver *solver, PetscViewer viewer);
+PETSC_EXTERN PetscErrorCode SamSolverView(const SamSolver *solver, PetscViewer viewer);
 /* -view and -converged_reason, after a solve. */
-PETSC_INTERN PetscErrorCode SamSolverViewFromOptions(const SamSolver *solver, PetscBool converged, const char reason[]);
+PETSC_EXTERN PetscErrorCode SamSolverViewFromOptions(const SamSolver *solver, PetscBool converged, const char reason[]);
 /* Clears the counts. */
-PETSC_INTERN void     SamSolverStart(SamSolver *solver);
-PETSC_INTERN PetscInt SamSolverMaxIterations(const SamSolver *solver);
-PETSC_INTERN PetscInt SamSolverLevels(const SamSolver *solver);
+PETSC_EXTERN void     SamSolverStart(SamSolver *solver);
+PETSC_EXTERN PetscInt SamSolverMaxIterations(const SamSolver *solver);
+PETSC_EXTERN PetscInt SamSolverLevels(const SamSolver *solver);
 /* Calls the monitors with the number of iterations so far. */
-PETSC_INTERN PetscErrorCode SamSolverCallMonitors(SamSolver *solver, PetscReal error);
+PETSC_EXTERN PetscErrorCode SamSolverCallMonitors(SamSolver *solver, PetscReal error);
 
 #endif

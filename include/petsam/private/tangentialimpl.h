@@ -27,16 +27,16 @@ struct _n_SamTangential {
 };
 
 /* Counted products: only those on the finest grid count. */
-PETSC_INTERN PetscErrorCode SamTangentialApply(SamTangential tangential, SamTangentialLevel *level, Vec q, Vec u);
-PETSC_INTERN PetscErrorCode SamTangentialApplySingle(SamTangential tangential, SamTangentialLevel *level, double factor,
+PETSC_EXTERN PetscErrorCode SamTangentialApply(SamTangential tangential, SamTangentialLevel *level, Vec q, Vec u);
+PETSC_EXTERN PetscErrorCode SamTangentialApplySingle(SamTangential tangential, SamTangentialLevel *level, double factor,
                                                      const float q[], float u[]);
-PETSC_INTERN PetscErrorCode SamTangentialPreconditionSingle(SamTangential tangential, SamTangentialLevel *level,
+PETSC_EXTERN PetscErrorCode SamTangentialPreconditionSingle(SamTangential tangential, SamTangentialLevel *level,
                                                             double factor, const float r[], float z[]);
 /*
   Counts an iteration; and, when the error has been measured, calls the monitors: only those on the finest grid count.
 */
-PETSC_INTERN void           SamTangentialIterated(SamTangential tangential, SamTangentialLevel *level);
-PETSC_INTERN PetscErrorCode SamTangentialMeasured(SamTangential tangential, SamTangentialLevel *level, PetscReal error);
+PETSC_EXTERN void           SamTangentialIterated(SamTangential tangential, SamTangentialLevel *level);
+PETSC_EXTERN PetscErrorCode SamTangentialMeasured(SamTangential tangential, SamTangentialLevel *level, PetscReal error);
 
 /*
   SamStickSlip - the state of an iteration that both methods share: the arrays of a level, the slip increment that
@@ -92,22 +92,22 @@ static inline void SamSumSquares(double squares[SAM_SQUARES], double residual, d
   squares[3] += least;
 }
 
-PETSC_INTERN PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w);
-PETSC_INTERN PetscErrorCode SamStickSlipDestroy(SamStickSlip *w);
+PETSC_EXTERN PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w);
+PETSC_EXTERN PetscErrorCode SamStickSlipDestroy(SamStickSlip *w);
 /* s = C q + offset - motion. */
-PETSC_INTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w);
+PETSC_EXTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w);
 /* The same for the start, with a motion fitted to it and the error measured. */
-PETSC_INTERN PetscErrorCode SamStickSlipStart(SamStickSlip *w);
+PETSC_EXTERN PetscErrorCode SamStickSlipStart(SamStickSlip *w);
 /*
   The residual of the projection equation with the motion that makes it smallest: s and motion are changed by a fit on
   the tangent space of the constraints (both directions where q - s/c lies within the disc, along the circle elsewhere).
 */
-PETSC_INTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *w);
+PETSC_EXTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *w);
 
 /* Error and scale from this rank's squares. Collective. */
-PETSC_INTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_SQUARES]);
+PETSC_EXTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_SQUARES]);
 
-PETSC_INTERN PetscErrorCode SamTangentialCreate_Newton(SamTangential tangential);
-PETSC_INTERN PetscErrorCode SamTangentialCreate_Gradient(SamTangential tangential);
+PETSC_EXTERN PetscErrorCode SamTangentialCreate_Newton(SamTangential tangential);
+PETSC_EXTERN PetscErrorCode SamTangentialCreate_Gradient(SamTangential tangential);
 
 #endif

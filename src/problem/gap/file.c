@@ -3,10 +3,11 @@
 
 static PetscErrorCode SamGapSetFromOptions_File(SamGap gap)
 {
-  PetscBool help;
+  const SamOptions from = {gap->comm, gap->prefix};
+  PetscBool        help;
 
   PetscFunctionBegin;
-  PetscCall(SamGapSourceSetFromOptions(&gap->source, "HDF5 file with the separation: required by file"));
+  PetscCall(SamGapSourceSetFromOptions(&gap->source, &from, "HDF5 file with the separation: required by file"));
   PetscCall(SamPrintHelp(&help));
   PetscCheck(gap->source.file[0] || help, gap->comm, SAM_ERR_USER,
              "-gap_file is missing: the HDF5 file with the separation, required by -gap_type %s", gap->type);

@@ -54,42 +54,17 @@ PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(gap->prefix, prefix ? prefix : "", sizeof(gap->prefix)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamGapDestroy(SamGap *gap)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(*gap));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static int CompareNames(const void *a, const void *b)
-{
-  return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-/* The registered types in alphabetical order; the caller frees the array. */
-static PetscErrorCode GetTypes(const char ***types, int *count)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFunctionListGet(SamGapList, types, count));
-  while (*count > 0 && !(*types)[*count - 1]) --*count; /* PETSc counts the NULL at the end */
-  qsort(*types, (size_t)*count, sizeof(**types), CompareNames);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The registered types as a sentence names them: a, b or c. */
-static PetscErrorCode ListTypes(char list[], size_t size)
-{
-  const char **types;
-  int          count;
-
-  PetscFunctionBegin;
-  PetscCall(GetTypes(&types, &count));
-  list[0] = '\0';
-  for (int t = 0; t < count; t++) {
-    if (t) PetscCall(PetscStrlcat(list, t + 1 < count ? ", " : " or ", size));
-    PetscCall(PetscStrlcat(list, types[t], size));
-  }
-  PetscCall(PetscFree(types));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -101,7 +76,7 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamGapList, type, &create));
   if (!create) {
-    PetscCall(ListTypes(list, sizeof(list)));
+    PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
     SETERRQ(gap->comm, SAM_ERR_USER, "-gap_type %s: expected %s", type, list);
   }
   PetscCall(PetscMemzero(&gap->ops, sizeof(gap->ops)));
@@ -118,6 +93,7 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
 /* Reads what the type asks for; all of it is required, except while the help is printed. */
 static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
 {
+  const SamOptions from = {gap->comm, gap->prefix};
   PetscFunctionBegin;
   for (PetscInt k = 0; k < gap->ops.count; k++) {
     const SamGapParameter *parameter = &gap->ops.parameters[k];
@@ -125,7 +101,7 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
     char                   text[160];
 
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required by %s", parameter->help, gap->type));
-    PetscCall(SamOptionsReal(NULL, parameter->name, text, parameter->range, &gap->values[k], &set));
+    PetscCall(SamOptionsReal(&from, parameter->name, text, parameter->range, &gap->values[k], &set));
     PetscCheck(set || help, gap->comm, SAM_ERR_USER, "-%s is missing: %s, required by -gap_type %s", parameter->name,
                parameter->help, gap->type);
   }
@@ -140,7 +116,7 @@ static PetscErrorCode PrintTypes(SamGap gap)
   int          count;
 
   PetscFunctionBegin;
-  PetscCall(GetTypes(&types, &count));
+  PetscCall(SamTypesGet(SamGapList, &types, &count));
   for (int t = 0; t < count; t++) {
     PetscCall(SamGapSetType(gap, types[t]));
     PetscCall(SetTypeFromOptions(gap, PETSC_TRUE));
@@ -152,16 +128,17 @@ static PetscErrorCode PrintTypes(SamGap gap)
 
 PetscErrorCode SamGapSetFromOptions(SamGap gap)
 {
-  char      type[64], list[512], text[600];
-  PetscBool set, help;
+  const SamOptions from = {gap->comm, gap->prefix};
+  char             type[64], list[512], text[600];
+  PetscBool        set, help;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsHeading("Gap"));
-  PetscCall(ListTypes(list, sizeof(list)));
+  PetscCall(SamOptionsHeading(&from, "Gap"));
+  PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
   PetscCall(PetscStrncpy(type, gap->type, sizeof(type)));
-  PetscCall(SamOptionsString(NULL, "gap_type", text, type, sizeof(type), &set));
+  PetscCall(SamOptionsString(&from, "gap_type", text, type, sizeof(type), &set));
   if (help) {
     PetscCall(PrintTypes(gap));
   } else {
@@ -169,7 +146,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
     if (set) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
   }
-  PetscCall(SamGapSourceSetFromOptions(&gap->rough, "HDF5 file with a roughness that is added to any type"));
+  PetscCall(SamGapSourceSetFromOptions(&gap->rough, &from, "HDF5 file with a roughness that is added to any type"));
   if (help) gap->rough.file[0] = '\0';
   PetscFunctionReturn(PETSC_SUCCESS);
 }

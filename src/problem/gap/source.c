@@ -39,17 +39,17 @@ static void Unsilence(ErrorOutput output)
   (void)H5Eset_auto2(H5E_DEFAULT, output.print, output.data);
 }
 
-PetscErrorCode SamGapSourceSetFromOptions(SamGapSource *source, const char file_help[])
+PetscErrorCode SamGapSourceSetFromOptions(SamGapSource *source, const SamOptions *from, const char file_help[])
 {
   PetscBool set, help;
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(source->dataset, "/height", sizeof(source->dataset)));
-  PetscCall(SamOptionsString(NULL, source->file_option, file_help, source->file, sizeof(source->file), NULL));
-  PetscCall(SamOptionsString(NULL, source->dataset_option, "dataset in it: (ny, nx), m", source->dataset,
+  PetscCall(SamOptionsString(from, source->file_option, file_help, source->file, sizeof(source->file), NULL));
+  PetscCall(SamOptionsString(from, source->dataset_option, "dataset in it: (ny, nx), m", source->dataset,
                              sizeof(source->dataset), &set));
   PetscCall(SamPrintHelp(&help));
-  PetscCheck(!set || source->file[0] || help, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s is given without -%s",
+  PetscCheck(!set || source->file[0] || help, from->comm, SAM_ERR_USER, "-%s is given without -%s",
              source->dataset_option, source->file_option);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -439,49 +439,31 @@ static PetscErrorCode SolveLoaded(SamTangential t, SamTangentialLevel *level, Sa
 }
 
 /* The problem on a window around the contact: fields taken out, the solution put back. */
-static PetscErrorCode SolveInWindow(SamTangential t, SamWindow window, SamElasticity part, Vec pressure,
-                                    PetscReal friction, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
+static PetscErrorCode SolveInWindow(SamTangential t, SamTangentialLevel *whole, SamWindow window, SamElasticity part,
+                                    SamBalance *balance, PetscBool guess)
 {
-  SamTangentialLevel level = {.elasticity = part, .finest = PETSC_TRUE, .rtol = t->solver.rtol};
+  SamTangentialLevel level = {.elasticity = part, .finest = PETSC_TRUE, .rtol = whole->rtol};
 
   PetscFunctionBegin;
   PetscCall(SamWindowGetGrid(window, &level.grid));
   PetscCall(SamGridCreateVec(level.grid, 1, &level.bound));
   PetscCall(SamGridCreateVec(level.grid, 2, &level.q));
-  PetscCall(SamWindowTake(window, pressure, level.bound));
-  PetscCall(VecScale(level.bound, friction));
-  if (offset) {
+  PetscCall(SamWindowTake(window, whole->bound, level.bound));
+  if (whole->offset) {
     PetscCall(SamGridCreateVec(level.grid, 2, &level.offset));
-    PetscCall(SamWindowTake(window, offset, level.offset));
+    PetscCall(SamWindowTake(window, whole->offset, level.offset));
   }
-  if (guess) PetscCall(SamWindowTake(window, q, level.q));
+  if (guess) PetscCall(SamWindowTake(window, whole->q, level.q));
   PetscCall(SolveLoaded(t, &level, balance, guess));
   if (!guess) SamReturnMemory(); /* the method's, before the whole grid's shear is written to for the first time */
-  PetscCall(SamWindowPut(window, level.q, q));
+  PetscCall(SamWindowPut(window, level.q, whole->q));
   PetscCall(VecDestroy(&level.bound));
   PetscCall(VecDestroy(&level.offset));
   PetscCall(VecDestroy(&level.q));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same on the whole grid. */
-static PetscErrorCode SolveWhole(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance,
-                                 PetscBool guess, Vec q)
-{
-  SamTangentialLevel level = {
-    .elasticity = t->elasticity, .finest = PETSC_TRUE, .offset = offset, .q = q, .rtol = t->solver.rtol};
-
-  PetscFunctionBegin;
-  PetscCall(SamElasticityGetGrid(t->elasticity, &level.grid));
-  PetscCall(SamGridCreateVec(level.grid, 1, &level.bound));
-  PetscCall(VecAXPY(level.bound, friction, pressure));
-  PetscCall(SolveLoaded(t, &level, balance, guess));
-  PetscCall(VecDestroy(&level.bound));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamTangentialSolve(SamTangential t, Vec pressure, PetscReal friction, Vec offset, SamBalance *balance,
-                                  PetscBool guess, Vec q)
+PetscErrorCode SamTangentialSolve(SamTangential t, Vec bound, Vec offset, SamBalance *balance, PetscBool guess, Vec q)
 {
   SamGrid   grid;
   PetscReal most;
@@ -494,21 +476,28 @@ PetscErrorCode SamTangentialSolve(SamTangential t, Vec pressure, PetscReal frict
   SamSolverStart(&t->solver);
   t->limit  = PETSC_INFINITY;
   t->reason = SAM_TANGENTIAL_CONVERGED_ITERATING;
-  PetscCall(VecMax(pressure, NULL, &most));
-  if (friction * most <= 0 || IsUnloaded(balance, offset))
+  PetscCall(VecMax(bound, NULL, &most));
+  if (most <= 0 || IsUnloaded(balance, offset))
     PetscCall(SolveFree(t, balance, q));
   else {
-    PetscInt      first[2], n[2];
-    SamWindow     window;
-    SamElasticity part;
+    SamTangentialLevel level = {.elasticity = t->elasticity,
+                                .grid       = grid,
+                                .finest     = PETSC_TRUE,
+                                .bound      = bound,
+                                .offset     = offset,
+                                .q          = q,
+                                .rtol       = t->solver.rtol};
+    PetscInt           first[2], n[2];
+    SamWindow          window;
+    SamElasticity      part;
 
-    /* shear acts only where there is contact, and only there its displacement counts */
-    PetscCall(SamGridGetSupport(grid, pressure, first, n));
+    /* shear acts only where there is a bound, and only there its displacement counts */
+    PetscCall(SamGridGetSupport(grid, bound, first, n));
     PetscCall(SamElasticityChoosePart(t->elasticity, first, n, PETSC_TRUE, &window, &part));
     if (window)
-      PetscCall(SolveInWindow(t, window, part, pressure, friction, offset, balance, guess, q));
+      PetscCall(SolveInWindow(t, &level, window, part, balance, guess));
     else
-      PetscCall(SolveWhole(t, pressure, friction, offset, balance, guess, q));
+      PetscCall(SolveLoaded(t, &level, balance, guess));
   }
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_TANGENTIAL_SOLVE], 0, 0, 0, 0));
   PetscCheck(t->reason, grid->comm, PETSC_ERR_PLIB, "Method %s set no reason", t->solver.type);

@@ -1,0 +1,34 @@
+/* Lists of registered types, as the help and messages name them. */
+#include <petsam/private/baseimpl.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int CompareNames(const void *a, const void *b)
+{
+  return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFunctionListGet(list, types, count));
+  while (*count > 0 && !(*types)[*count - 1]) --*count; /* PETSc counts the NULL at the end */
+  qsort(*types, (size_t)*count, sizeof(**types), CompareNames);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size)
+{
+  const char **types;
+  int          count;
+
+  PetscFunctionBegin;
+  PetscCall(SamTypesGet(list, &types, &count));
+  text[0] = '\0';
+  for (int t = 0; t < count; t++) {
+    if (t) PetscCall(PetscStrlcat(text, t + 1 < count ? ", " : " or ", size));
+    PetscCall(PetscStrlcat(text, types[t], size));
+  }
+  PetscCall(PetscFree(types));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
