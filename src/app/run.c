@@ -87,6 +87,7 @@ PetscErrorCode SamRunSetUp(SamRun *run)
   PetscCall(SamHistoryGetCount(run->history, &steps));
   PetscCall(SamRunRefuseTooLarge(run->grid, &run->pair, run->friction, steps));
   PetscCall(SamElasticityCreate(run->grid, &run->pair, &run->elasticity));
+  PetscCall(SamElasticitySetFromOptions(run->elasticity));
   PetscCall(SamGridCreateVec(run->grid, 1, &run->separation));
   if (!help) PetscCall(SamGapFill(run->gap, run->grid, run->separation));
   PetscCall(SamContactCreate(run->elasticity, run->separation, run->friction, &run->contact));

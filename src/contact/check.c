@@ -7,10 +7,10 @@
 PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscBool release,
                                      SamFields *f)
 {
-  SamGrid   grid;
-  PetscReal shear;
-  PetscBool coupled;
-  Vec       more;
+  SamGrid             grid;
+  SamElasticityTraits traits;
+  PetscReal           shear;
+  Vec                 more;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
@@ -22,8 +22,8 @@ PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscB
   else
     PetscCall(SamVecZero(f->displacement_t));
   if (release) PetscCall(SamElasticityRelease(C, PETSC_TRUE));
-  PetscCall(SamElasticityIsCoupled(C, &coupled));
-  if (coupled && coupling) {
+  PetscCall(SamElasticityGetTraits(C, &traits));
+  if (traits.coupled && coupling) {
     PetscCall(SamElasticityGetGrid(C, &grid));
     PetscCall(SamGridCreateVec(grid, 1, &more));
     PetscCall(SamElasticityApplyTangentialToNormal(C, f->shear, more));

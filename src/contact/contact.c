@@ -479,18 +479,19 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
 
 PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
 {
-  const SamBalance normal = step->normal, tangential = step->tangential;
-  const SamBalance given = c->normal_given, found = c->normal_found;
-  const PetscReal  time = step->time;
-  PetscBool        predicted, same_pressure;
+  const SamBalance    normal = step->normal, tangential = step->tangential;
+  const SamBalance    given = c->normal_given, found = c->normal_found;
+  const PetscReal     time = step->time;
+  PetscBool           predicted, same_pressure;
+  SamElasticityTraits traits;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(step, sizeof(*step)));
   step->time       = time;
   step->normal     = normal;
   step->tangential = tangential;
-  PetscCall(SamElasticityIsCoupled(c->elasticity, &c->coupled));
-  if (!c->coupling) c->coupled = PETSC_FALSE;
+  PetscCall(SamElasticityGetTraits(c->elasticity, &traits));
+  c->coupled = (traits.coupled && c->coupling) ? PETSC_TRUE : PETSC_FALSE;
   if (c->coupled && !c->h) {
     PetscCall(SamGridCreateVec(c->grid, 1, &c->h));
     PetscCall(SamGridCreateVec(c->grid, 1, &c->last[0]));
