@@ -33,8 +33,10 @@ endif
 WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(WERROR),-Werror)
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
-LIB_SRC := $(filter-out src/app/petsam.c,$(sort $(shell find src -name "*.c")))
+LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/app/*"))
+APP_SRC := $(filter-out src/app/petsam.c,$(sort $(wildcard src/app/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
+APP_OBJ := $(APP_SRC:%.c=$(B)/obj/%.o)
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
@@ -65,7 +67,7 @@ $(B)/lib/libpetsam.so: $(LIB_OBJ)
 	$(say) LD $@
 	$(Q)$(CC) -shared $(LDFLAGS) -o $@ $^ $(PC_LIBS)
 
-$(B)/bin/petsam: $(B)/obj/src/app/petsam.o $(B)/lib/libpetsam.a
+$(B)/bin/petsam: $(B)/obj/src/app/petsam.o $(APP_OBJ) $(B)/lib/libpetsam.a
 	@mkdir -p $(@D)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS)
@@ -75,7 +77,7 @@ $(B)/bench/%: $(B)/obj/tests/bench/%.o $(B)/lib/libpetsam.a
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS)
 
-$(B)/tests/%: $(B)/obj/tests/unit/%.o $(B)/lib/libpetsam.a
+$(B)/tests/%: $(B)/obj/tests/unit/%.o $(APP_OBJ) $(B)/lib/libpetsam.a
 	@mkdir -p $(@D)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS) -lcmocka
@@ -122,7 +124,7 @@ check-valgrind: all units ## unit tests under valgrind, one rank
 	for t in $(UNIT); do valgrind -q --error-exitcode=9 $$t > $(B)/valgrind.log 2>&1 || { cat $(B)/valgrind.log; exit 1; }; done
 
 lint: ## cppcheck over the sources
-	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) src/app/petsam.c
+	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) src/app/petsam.c
 
 # the scripts and examples of users; what builds and maintains petsam stays in its sources
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
@@ -143,4 +145,4 @@ install: all ## install program, library, headers, petsam.pc, scripts, examples:
 clean: ## remove what was built
 	rm -rf $(B)
 
--include $(LIB_OBJ:.o=.d) $(wildcard $(B)/obj/src/*.d $(B)/obj/tests/*/*.d)
+-include $(LIB_OBJ:.o=.d) $(APP_OBJ:.o=.d) $(wildcard $(B)/obj/src/*.d $(B)/obj/tests/*/*.d)

@@ -12,10 +12,10 @@
 #include <petsam/balance.h>
 #include <petsam/normal.h>
 #include <petsam/tangential.h>
+#include <petsam/control.h>
+#include <petsam/problem.h>
 #include <petsam/contact.h>
-#include <petsam/history.h>
 #include <petsam/output.h>
 #include <petsam/checkpoint.h>
-#include <petsam/report.h>
 
 #endif

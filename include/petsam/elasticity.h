@@ -8,20 +8,62 @@
 #include <petscpc.h>
 
 /*
-  SamElasticity - the 3 x 3 influence operator of a pair of half-spaces on a grid: relative elastic displacements u (m)
-  from tractions constant on each cell (Pa). Pressure p acts on both bodies, shear q on body 2 (and -q on body 1).
-  u_z is the sum of both bodies' inward displacements, (u_x, u_y) = displacement of body 2 minus that of body 1, so that
-  the operator is symmetric and a force on body 1 drags u along.
-  Kernels are tabulated when they are first needed. The object also holds the coarser operators of the nested grids.
+  SamElasticity - the 3 x 3 influence operator of a pair of bodies on a grid: relative elastic displacements u (m) from
+  tractions given by one number a cell (Pa). Pressure p acts on both bodies, shear q on body 2 (and -q on body 1). u_z
+  is the sum of both bodies' inward displacements, (u_x, u_y) = displacement of body 2 minus that of body 1, so that the
+  operator is symmetric and a force on body 1 drags u along.
+  Its type says what kind of bodies they are. The object also holds the coarser operators of the nested grids, and those
+  on parts of the grid; they are of the same type.
 */
 typedef struct _n_SamElasticity *SamElasticity;
 
-/* SamElasticityCreate - copies the pair, references the grid. Collective. */
+typedef const char *SamElasticityType;
+#define SAM_ELASTICITY_HALFSPACE "halfspace" /* two half-spaces; tractions are constant on each cell */
+#define SAM_ELASTICITY_PERIODIC \
+  "periodic" /* two half-spaces, the grid being one period of everything; tractions are sums of waves */
+
+/* SamElasticityTraits - what users of the operator have to know of its kind. */
+typedef struct {
+  PetscBool coupled;   /* pressure moves the surfaces tangentially, and shear moves them normally */
+  PetscBool rotations; /* rigid rotations are possible, and moments defined */
+  PetscBool edge;      /* the grid ends at its border: contact there is cut off */
+  PetscBool mean;      /* a uniform traction displaces the surface; else displacements count from the mean surface */
+  PetscBool parts;     /* where only a part of the grid has traction, an operator on that part will do */
+} SamElasticityTraits;
+
+/*
+  SamElasticityCreate - of type halfspace; copies the pair, references the grid. What products need is made when it is
+  first needed. Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElasticity *elasticity);
+/*
+  SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
+  type that is not registered.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticitySetType(SamElasticity elasticity, SamElasticityType type);
+PETSC_EXTERN PetscErrorCode SamElasticityGetType(SamElasticity elasticity, SamElasticityType *type); /* borrowed */
+/*
+  SamElasticityRegister - adds a type; `create` sets an object's methods and traits, see private/elasticityimpl.h. Not
+  collective, but to be called on all ranks.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity));
+/* SamElasticityGetTypes - the registered types as a sentence has them: a, b or c. Not collective. */
+PETSC_EXTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
+/* SamElasticitySetOptionsPrefix - stands before the names of options; NULL: none. */
+PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elasticity, const char prefix[]);
+/*
+  SamElasticitySetFromOptions - from -elasticity (type), -fft_effort, -fft_exchange, and the type's own options.
+  Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity);
+/* SamElasticitySetUp - gets ready for products, which call it themselves; calling it again does nothing. Collective. */
+PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
+
 PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGrid *grid);        /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, const SamPair **pair); /* borrowed */
+PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, SamElasticityTraits *traits);
 /*
   SamElasticityGetCoarse - the operator on the next coarser grid, and the transfer to it; both borrowed, NULL when the
   grid is too small to be halved (fewer than 32 cells in a direction). Made at the first call. Collective.
@@ -29,17 +71,20 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, const
 PETSC_EXTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
                                                    SamTransfer *transfer);
 /*
-  SamElasticityRelease - frees what is made again when it is needed: the transforms' memory, the kernels of the coarser
-  operators and of the part, and, with `own`, the operator's own kernels. Collective.
+  SamElasticityRelease - frees what is made again when it is needed: the transforms' memory, what the coarser operators
+  and the parts have tabulated, and, with `own`, what the operator itself has. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityRelease(SamElasticity elasticity, PetscBool own);
 
 /*
-  The operator on a part of the grid, one at a time, which stays until another is chosen; all collective, the window and
-  the operator borrowed, NULL when there is none. SamElasticityChoosePart - a part that holds the n[0] * n[1] cells from
-  first[0], first[1] on and some more about them; none where it would be hardly smaller than the grid. `keep`: one that
-  holds these cells and is not much too large stays. SamElasticitySetPart - just those cells; n = 0: none; one that is
-  just these stays. GetPartPlace tells them.
+  The operator on a part of the grid; all collective, the window and the operator borrowed until another part is chosen,
+  NULL when there is none. One part is in use at a time. The one in use before is kept, so that going back to it costs
+  nothing.
+  SamElasticityChoosePart - takes a part into use that holds the n[0] * n[1] cells from first[0], first[1] on and some
+  more about them; none where it would be hardly smaller than the grid, or the type has no parts. `keep`: the part in
+  use stays if it holds these cells and is not much too large.
+  SamElasticitySetPart - takes just those cells; n = 0: none.
+  SamElasticityGetPartPlace - tells the cells of the part in use, n = 0 for none. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityChoosePart(SamElasticity elasticity, const PetscInt first[2],
                                                     const PetscInt n[2], PetscBool keep, SamWindow *window,
@@ -66,14 +111,12 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalSingle(SamElasticity elastic
                                                            float u_z[]);
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity elasticity, double factor, const float q[],
                                                                float u_t[]);
-/* SamElasticityIsCoupled - whether pressure moves the surfaces tangentially (Dundurs' beta is not zero). */
-PETSC_EXTERN PetscErrorCode SamElasticityIsCoupled(SamElasticity elasticity, PetscBool *coupled);
 
 /*
-  Approximate inverses, symmetric positive, by the symbol of the half-space: |k| for the normal part and
-  |k| (I + nu/(1 - nu) kk'/|k|^2) for the tangential one, on the periodic grid; the mean gets half the gain of the
-  longest wave. Computed in single precision; `factor` times the result in the functions of float arrays, which see
-  above. Collective.
+  Approximate inverses, symmetric positive definite. For half-spaces: |k| for the normal part and |k| (I + nu/(1 - nu)
+  kk'/|k|^2) for the tangential one, k being the wave vector on the grid made periodic; the mean gets half the gain of
+  the longest wave. For periodic bodies the same is the inverse itself but for the mean. Computed in single precision;
+  `factor` times the result in the functions of float arrays, which see above. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity elasticity, double factor,
                                                                   const float residual[], float p[]);
@@ -84,12 +127,12 @@ PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangential(SamElasticity el
 
 /*
   SamElasticityGetSelfInfluence - displacement of a cell's centre under unit traction on that cell alone, m/Pa: u_z from
-  p, and the larger of u_x from q_x and u_y from q_y.
+  p, and the larger of u_x from q_x and u_y from q_y. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elasticity, PetscReal *normal,
                                                           PetscReal *tangential);
 
-/* The same products as PETSc objects, for use with KSP and the like. The compliance must outlive them. Collective. */
+/* The same products as PETSc objects, for use with KSP and the like. The elasticity must outlive them. Collective. */
 PETSC_EXTERN PetscErrorCode SamElasticityCreateMat(SamElasticity elasticity, PetscInt components, Mat *mat);
 PETSC_EXTERN PetscErrorCode SamElasticityCreatePC(SamElasticity elasticity, PetscInt components, PC *pc);
 

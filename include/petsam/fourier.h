@@ -13,9 +13,24 @@
 typedef struct _n_SamFourier *SamFourier;
 
 typedef enum {
-  SAM_FOURIER_PERIODIC, /* period hx * hy, sizes >= nx, ny that FFTW transforms fast */
+  SAM_FOURIER_PERIODIC, /* period hx * hy */
   SAM_FOURIER_PADDED    /* period 2hx * 2hy, the field being zero outside the grid: convolution is not cyclic */
 } SamFourierMode;
+
+/* The periods hx, hy of a grid's transforms. */
+typedef enum {
+  SAM_FOURIER_FAST, /* even numbers >= nx, ny that FFTW transforms fast */
+  SAM_FOURIER_EXACT /* nx, ny, whatever they are: the grid is one period */
+} SamFourierPeriod;
+
+/* How transforms are made; all zero is the default. */
+typedef struct {
+  enum { SAM_FOURIER_ESTIMATE, SAM_FOURIER_MEASURE, SAM_FOURIER_PATIENT } effort; /* of FFTW's planning */
+  PetscBool send; /* rows become columns by messages, also where the ranks could share memory */
+} SamFourierSettings;
+
+/* SamFourierSettingsFromOptions - from -fft_effort and -fft_exchange. Collective. Errors: SAM_ERR_USER. */
+PETSC_EXTERN PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *settings, const SamOptions *from);
 
 #define SAM_FOURIER_FIELDS 3 /* most fields in one pass */
 
@@ -40,8 +55,9 @@ typedef struct {
 /* A filter changes the spectra in place, from the input fields' to the output fields'. It is called once a block. */
 typedef void (*SamFourierFilter)(const SamFourierBlock *block, const void *context);
 
-/* SamFourierCreate - reads -fft_effort and -fft_exchange; plans are made when they are first needed. Collective. */
-PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier);
+/* SamFourierCreate - NULL stands for the default settings. Plans are made when they are first needed. Collective. */
+PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
+                                             SamFourier *fourier);
 PETSC_EXTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
 /*
   SamFourierTrim - frees the memory that all transforms on the communicator share, until one of them needs it again.

@@ -10,7 +10,7 @@
 */
 typedef struct _n_SamGrid *SamGrid;
 struct _n_SamGrid {
-  MPI_Comm  comm;
+  MPI_Comm  comm;            /* the library's own */
   PetscInt  nx, ny;          /* cells */
   PetscReal width[2];        /* full width in x, y (m) */
   PetscReal center[2];       /* m */
@@ -22,12 +22,15 @@ struct _n_SamGrid {
 };
 
 /*
-  SamGridCreate - n[0] * n[1] cells of full width `width` about `center` (m). Collective.
-  Errors: SAM_ERR_USER when n < 2, a width is not positive and finite, or the cells cannot be counted in a PetscInt.
+  SamGridCreate - n[0] * n[1] cells of full width `width` about `center` (m). Collective. The grid and all that is made
+  on it use a communicator of the library's own, PETSc's duplicate of `comm`, so that their messages never meet those
+  of the caller.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE when n < 2, a width is not positive and finite, or the cells cannot be counted in a
+  PetscInt.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
-/* SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. Collective. */
+/* SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. Collective. Errors: SAM_ERR_USER. */
 PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridReference(SamGrid grid);
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);

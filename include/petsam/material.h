@@ -5,8 +5,8 @@
 #include <petsam/base.h>
 
 /*
-  SamPair - two isotropic half-spaces, and what of them enters the surface displacements of the contact. Relative
-  displacements are defined in compliance.h. With r the distance and the sums over both bodies, a unit force gives
+  SamPair - the elastic constants of two isotropic bodies, and the sums of them that the displacements of their surfaces
+  depend on (relative displacements: elasticity.h). At a distance r on two half-spaces a unit force gives
     u_z from p:   normal / r
     u_x from q_x: shear / r + shear_xx x^2 / r^3,   u_y from q_x: shear_xx x y / r^3
     u_x from p:   coupling x / r^2,                 u_z from q_x: -coupling x / r^2
@@ -25,10 +25,14 @@ typedef struct {
 
 /*
   SamPairSet - fills a pair from Young's moduli (Pa, infinity for rigid) and Poisson's ratios.
-  Errors: SAM_ERR_USER for a modulus that is not positive, a ratio outside (-1, 0.5], or two rigid bodies.
+  Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a modulus that is not positive, a ratio outside (-1, 0.5], or two
+  rigid bodies.
 */
 PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2]);
-/* SamPairSetFromOptions - from -body1_young, -body1_poisson, -body2_young, -body2_poisson. Collective. */
+/*
+  SamPairSetFromOptions - from -body1_young, -body1_poisson, -body2_young, -body2_poisson. Collective. Errors:
+  SAM_ERR_USER, as SamPairSet(), and for an option that is missing.
+*/
 PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);
 
 #endif

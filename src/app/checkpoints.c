@@ -1,6 +1,6 @@
 /* When checkpoints are written, and when a run stops before its end. */
-#include "../io/ioimpl.h"
-#include <petsam/checkpoint.h>
+#include "checkpoints.h"
+#include <petsam/private/baseimpl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,14 +63,13 @@ static double ReadDuration(const char text[])
   return -1;
 }
 
-static PetscErrorCode ReadLimit(SamCheckpoints k, PetscBool *set)
+static PetscErrorCode ReadLimit(SamCheckpoints k, const SamOptions *from, PetscBool *set)
 {
-  const SamOptions from     = {k->comm, NULL};
-  char             text[64] = "";
+  char text[64] = "";
 
   PetscFunctionBegin;
   PetscCall(
-    SamOptionsString(&from, "max_walltime", "stop before: s, m:s or h:m:s from the start", text, sizeof(text), set));
+    SamOptionsString(from, "max_walltime", "stop before: s, m:s or h:m:s from the start", text, sizeof(text), set));
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   k->limit = ReadDuration(text);
   PetscCheck(k->limit > 0, k->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s",
@@ -78,29 +77,29 @@ static PetscErrorCode ReadLimit(SamCheckpoints k, PetscBool *set)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointsCreateFromOptions(MPI_Comm comm, SamCheckpoints *checkpoints)
+PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckpoints *checkpoints)
 {
-  const SamOptions from = {comm, NULL};
-  SamCheckpoints   k;
-  PetscBool        has_file, has_every, has_limit, help;
+  SamCheckpoints k;
+  PetscBool      has_file, has_every, has_limit, help;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&k));
   *checkpoints = k;
-  k->comm      = comm;
+  k->comm      = from->comm;
   k->start = k->before = MPI_Wtime();
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsHeading(&from, "Checkpoints"));
-  PetscCall(SamOptionsString(&from, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
+  PetscCall(SamOptionsHeading(from, "Checkpoints"));
+  PetscCall(SamOptionsString(from, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
                              k->filename, sizeof(k->filename), &has_file));
-  PetscCall(SamOptionsInt(&from, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
+  PetscCall(SamOptionsInt(from, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
                           0, &k->every, &has_every));
-  PetscCall(ReadLimit(k, &has_limit));
-  PetscCall(SamOptionsString(&from, "restart", "go on from this checkpoint", k->restart, sizeof(k->restart), NULL));
-  PetscCheck(has_file || !has_every || help, comm, SAM_ERR_USER, "-checkpoint_every is given without -checkpoint");
-  PetscCheck(has_file || !has_limit || help, comm, SAM_ERR_USER,
+  PetscCall(ReadLimit(k, from, &has_limit));
+  PetscCall(SamOptionsString(from, "restart", "go on from this checkpoint", k->restart, sizeof(k->restart), NULL));
+  PetscCheck(has_file || !has_every || help, from->comm, SAM_ERR_USER,
+             "-checkpoint_every is given without -checkpoint");
+  PetscCheck(has_file || !has_limit || help, from->comm, SAM_ERR_USER,
              "-max_walltime is given without -checkpoint: the run could not go on from where it stops");
-  PetscCheck(strlen(k->filename) + 8 < sizeof(k->filename), comm, SAM_ERR_USER,
+  PetscCheck(strlen(k->filename) + 8 < sizeof(k->filename), from->comm, SAM_ERR_USER,
              "-checkpoint: expected at most %d characters", (int)sizeof(k->filename) - 9);
   CatchSignals();
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -132,14 +131,9 @@ PetscErrorCode SamCheckpointsGetLast(SamCheckpoints k, PetscInt *step)
 
 PetscErrorCode SamCheckpointsBegin(SamCheckpoints k, SamGrid grid)
 {
-  char temporary[PETSC_MAX_PATH_LEN + 8];
-
   PetscFunctionBegin;
   k->before = MPI_Wtime();
-  if (!k->filename[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamFileCheckName(grid, "checkpoint", k->filename));
-  PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", k->filename));
-  PetscCall(SamFileCheckName(grid, "checkpoint", temporary));
+  if (k->filename[0]) PetscCall(SamCheckpointCheckName(grid, k->filename));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -155,21 +149,109 @@ static PetscBool TimeIsUp(const SamCheckpoints k, double now)
   return now - k->start + MARGIN * slowest + writing > k->limit ? PETSC_TRUE : PETSC_FALSE;
 }
 
-static PetscErrorCode Write(SamCheckpoints k, SamContact contact, SamHistory history, const SamParameters *parameters,
-                            PetscInt steps, SamStatus worst)
-{
-  const double begin = MPI_Wtime();
+/* ---- where a run is, and how it got there ---- */
 
+#define COLUMNS (2 + SAM_COMPONENTS) /* of the load program: time, friction, the components */
+
+/* The finalizer of MurmurHash3 (A. Appleby, public domain): all bits of x act on all bits of the result. */
+static uint64_t Mix(uint64_t x)
+{
+  x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
+  x = (x ^ x >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
+  return x ^ x >> 33;
+}
+
+static uint64_t Bits(double value)
+{
+  uint64_t bits;
+
+  memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+/* A checksum of each column of the load program in the first steps; a component's kind of control counts too. */
+static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64_t columns[COLUMNS])
+{
   PetscFunctionBegin;
-  PetscCall(SamCheckpointWrite(k->filename, contact, history, parameters, steps, worst));
-  k->writing = PetscMax(k->writing, MPI_Wtime() - begin);
-  k->last    = steps;
+  PetscCall(PetscArrayzero(columns, COLUMNS));
+  for (PetscInt s = 0; s < steps; s++) {
+    SamControl control;
+
+    PetscCall(SamHistoryGetStep(history, s, &control));
+    columns[0] = Mix(columns[0] + Bits(control.time));
+    columns[1] = Mix(columns[1] + Bits(control.friction_scale));
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+      columns[2 + c] = Mix(columns[2 + c] + Bits(control.value[c]));
+      columns[2 + c] = Mix(columns[2 + c] + (control.force[c] ? 1 : 2));
+    }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, SamHistory history,
-                                       const SamParameters *parameters, PetscInt steps, SamStatus worst,
-                                       PetscBool *stop)
+static PetscErrorCode Write(SamCheckpoints k, SamContact contact, const SamParameters *parameters,
+                            const SamRunPoint *progress)
+{
+  const double  begin  = MPI_Wtime();
+  uint64_t      at[2]  = {(uint64_t)progress->steps, (uint64_t)progress->worst}, columns[COLUMNS];
+  const SamNote note[] = {{"progress", 2, at}, {"load_program", COLUMNS, columns}};
+
+  PetscFunctionBegin;
+  PetscCall(ChecksumColumns(progress->history, progress->steps, columns));
+  PetscCall(SamCheckpointWrite(k->filename, contact, parameters, 2, note));
+  k->writing = PetscMax(k->writing, MPI_Wtime() - begin);
+  k->last    = progress->steps;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The load program up to the checkpoint must be that of the run that wrote it. */
+static PetscErrorCode CompareLoads(SamCheckpoints k, const SamRunPoint *progress, const uint64_t there[COLUMNS])
+{
+  uint64_t   here[COLUMNS];
+  SamControl first;
+  PetscInt   count;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetCount(progress->history, &count));
+  PetscCheck(
+    progress->steps <= count, k->comm, SAM_ERR_USER,
+    "-restart %s: cannot go on from it: -history or -steps: there are %ld load steps, and %ld were solved there",
+    k->restart, (long)count, (long)progress->steps);
+  PetscCall(ChecksumColumns(progress->history, progress->steps, here));
+  PetscCall(SamHistoryGetStep(progress->history, 0, &first));
+  PetscCheck(here[0] == there[0], k->comm, SAM_ERR_USER,
+             "-restart %s: cannot go on from it: -history: the times up to step %ld are others there", k->restart,
+             (long)progress->steps);
+  PetscCheck(here[1] == there[1], k->comm, SAM_ERR_USER,
+             "-restart %s: cannot go on from it: friction_scale in -history: it is another there up to step %ld",
+             k->restart, (long)progress->steps);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    const SamComponentName *name = &SamComponentNames[c];
+
+    PetscCheck(here[2 + c] == there[2 + c], k->comm, SAM_ERR_USER,
+               "-restart %s: cannot go on from it: -%s, or its column in -history: it is another there up to step %ld",
+               k->restart, first.force[c] ? name->load : name->rigid, (long)progress->steps);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointsRestart(SamCheckpoints k, SamContact contact, const SamParameters *parameters,
+                                     SamRunPoint *progress)
+{
+  uint64_t      at[2], columns[COLUMNS];
+  const SamNote note[] = {{"progress", 2, at}, {"load_program", COLUMNS, columns}};
+
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointRead(k->restart, contact, parameters, 2, note));
+  progress->steps = (PetscInt)at[0];
+  progress->worst = (SamStatus)at[1];
+  PetscCall(CompareLoads(k, progress, columns));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- after a step ---- */
+
+PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, const SamParameters *parameters,
+                                       const SamRunPoint *progress, PetscBool *stop)
 {
   const double now = MPI_Wtime();
   PetscMPIInt  rank;
@@ -177,7 +259,7 @@ PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, Sam
   double       any[3]; /* on any rank: to write, to stop, no time left */
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetCount(history, &count));
+  PetscCall(SamHistoryGetCount(progress->history, &count));
   k->recent[k->done++ % RECENT] = now - k->before;
   any[0]                        = wanted[0];
   any[1]                        = wanted[1];
@@ -187,16 +269,16 @@ PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints k, SamContact contact, Sam
   if (any[0] > 0) wanted[0] = 0;
   if (any[1] > 0) wanted[1] = 0;
   PetscCallMPI(MPI_Comm_rank(k->comm, &rank));
-  *stop = (k->filename[0] && steps < count && (any[1] > 0 || any[2] > 0)) ? PETSC_TRUE : PETSC_FALSE;
+  *stop = (k->filename[0] && progress->steps < count && (any[1] > 0 || any[2] > 0)) ? PETSC_TRUE : PETSC_FALSE;
   if (!k->filename[0]) {
     if ((any[0] > 0 || any[1] > 0) && rank == 0)
       fprintf(stderr, "petsam: warning: a signal asks for a checkpoint, but there is no -checkpoint\n");
-  } else if (*stop || any[0] > 0 || any[1] > 0 || (k->every && steps % k->every == 0)) {
-    PetscCall(Write(k, contact, history, parameters, steps, worst));
+  } else if (*stop || any[0] > 0 || any[1] > 0 || (k->every && progress->steps % k->every == 0)) {
+    PetscCall(Write(k, contact, parameters, progress));
   }
   if (*stop && rank == 0)
-    fprintf(stderr, "petsam: stopped after step %ld of %ld %s: go on with -restart %s\n", (long)steps, (long)count,
-            any[1] > 0 ? "on a signal" : "before -max_walltime", k->filename);
+    fprintf(stderr, "petsam: stopped after step %ld of %ld %s: go on with -restart %s\n", (long)progress->steps,
+            (long)count, any[1] > 0 ? "on a signal" : "before -max_walltime", k->filename);
   k->before = MPI_Wtime();
   PetscFunctionReturn(PETSC_SUCCESS);
 }

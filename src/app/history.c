@@ -1,147 +1,122 @@
 /* The load program: options and a file in, steps out. */
 #include "historyimpl.h"
 
-#define COMPONENTS 6
+#define FRICTION "friction_scale"
 
 struct _n_SamHistory {
-  SamBalance constant[2]; /* controls, and the values of the components without a column */
+  SamControl constant; /* which components are loads, and the values of those without a column */
   PetscInt   rows, increments;
-  SamTable   table;              /* empty without a file */
-  PetscInt   column[COMPONENTS]; /* of each component, -1: constant */
+  SamTable   table;                  /* empty without a file */
+  PetscInt   time, friction;         /* columns; -1: none */
+  PetscInt   column[SAM_COMPONENTS]; /* of each component, -1: constant */
 };
-
-static SamBalance *BalanceOf(SamBalance balances[2], PetscInt component, PetscInt *k)
-{
-  *k = component % 3;
-  return &balances[component / 3];
-}
-
-/* One component: its load or its displacement, by option or by column. */
-static PetscErrorCode ReadComponent(SamHistory h, const char file[], PetscInt component)
-{
-  static const char *const units[2][3] = {{"N", "N m", "N m"}, {"N", "N", "N m"}};
-  const SamOptions         from        = {PETSC_COMM_WORLD, NULL};
-  PetscInt                 k;
-  SamBalance              *balance = BalanceOf(h->constant, component, &k);
-  const char              *load = SamLoadNames[balance->kind][k], *rigid = SamRigidNames[balance->kind][k];
-  const PetscBool          is_n        = component == 0 ? PETSC_TRUE : PETSC_FALSE;
-  const PetscInt           load_column = SamTableFind(&h->table, load), rigid_column = SamTableFind(&h->table, rigid);
-  PetscBool                has_load, has_rigid, help;
-  char                     text[64];
-
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(text, sizeof(text), "load (%s), or instead %s", units[balance->kind][k], rigid));
-  PetscCall(
-    SamOptionsReal(&from, load, text, is_n ? SAM_RANGE_NONNEGATIVE : SAM_RANGE_ANY, &balance->load[k], &has_load));
-  PetscCall(SamOptionsReal(
-    &from, rigid, !strncmp(rigid, "rot", 3) ? "the conjugate rotation (rad)" : "the conjugate displacement (m)",
-    SAM_RANGE_ANY, &balance->rigid[k], &has_rigid));
-  PetscCheck(!has_load || !has_rigid, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s and -%s are conjugate: give one of them",
-             load, rigid);
-  PetscCheck(load_column < 0 || rigid_column < 0, PETSC_COMM_WORLD, SAM_ERR_USER,
-             "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file,
-             h->table.header_line, load, rigid);
-  for (PetscInt c = 0; c < 2; c++) {
-    const PetscBool given  = c ? has_rigid : has_load;
-    const PetscBool column = (load_column >= 0 || rigid_column >= 0) ? PETSC_TRUE : PETSC_FALSE;
-
-    PetscCheck(!given || !column, PETSC_COMM_WORLD, SAM_ERR_USER, "-%s: %s has the column %s; give one of them",
-               c ? rigid : load, file, load_column >= 0 ? load : rigid);
-  }
-  PetscCall(SamPrintHelp(&help));
-  PetscCheck(!is_n || has_load || has_rigid || load_column >= 0 || rigid_column >= 0 || help, PETSC_COMM_WORLD,
-             SAM_ERR_USER, "-load_n or -disp_z is missing: the normal force (N) or the approach (m)");
-  balance->force[k]    = (has_rigid || rigid_column >= 0) ? PETSC_FALSE : PETSC_TRUE;
-  h->column[component] = load_column >= 0 ? load_column : rigid_column;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* What a row must hold besides numbers: times that increase, no negative normal force. */
-static PetscErrorCode CheckRows(SamHistory h, const char file[])
-{
-  const SamTable *t    = &h->table;
-  const PetscInt  time = SamTableFind(t, "time"), load_n = SamTableFind(t, "load_n");
-
-  PetscFunctionBegin;
-  PetscCheck(time >= 0, PETSC_COMM_WORLD, SAM_ERR_USER, "%s, line %" PetscInt_FMT ": no column named time", file,
-             t->header_line);
-  for (PetscInt c = 0; c < t->columns; c++) {
-    PetscBool known = c == time ? PETSC_TRUE : PETSC_FALSE;
-
-    for (PetscInt component = 0; component < COMPONENTS; component++)
-      known = (known || h->column[component] == c) ? PETSC_TRUE : PETSC_FALSE;
-    PetscCheck(known, PETSC_COMM_WORLD, SAM_ERR_USER,
-               "%s, line %" PetscInt_FMT
-               ": unknown column %s; expected time or the name of a load or displacement, load_n ... rot_z",
-               file, t->header_line, t->name[c]);
-  }
-  for (PetscInt r = 0; r < t->rows; r++) {
-    const double *row = t->value + r * t->columns;
-
-    PetscCheck(r == 0 || row[time] > row[time - t->columns], PETSC_COMM_WORLD, SAM_ERR_USER,
-               "%s, line %" PetscInt_FMT ": time %g does not come after %g", file, t->line[r], row[time],
-               row[time - t->columns]);
-    PetscCheck(load_n < 0 || row[load_n] >= 0, PETSC_COMM_WORLD, SAM_ERR_USER,
-               "%s, line %" PetscInt_FMT ": load_n %g, expected a number >= 0", file, t->line[r], row[load_n]);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 PetscErrorCode SamHistoryClaimOption(void)
 {
-  PetscErrorCode code;
+  PetscErrorCode code = PetscOptionsCreateDefault(); /* before PetscInitialize(): no error handling yet */
 
-  /* before PetscInitialize(): no error handling yet. Setting a value makes the database, in which the alias is kept. */
-  code = PetscOptionsSetValue(NULL, "-petsam_program", NULL);
-  if (!code) code = PetscOptionsSetAlias(NULL, "-history", "-petsam_history");
-  if (!code) code = PetscOptionsClearValue(NULL, "-petsam_program");
-  return code;
+  return code ? code : PetscOptionsSetAlias(NULL, "-history", "-load_history");
 }
 
-/* The file's name: -history as claimed from PETSc. */
-static PetscErrorCode ReadFileName(char file[], size_t size, PetscBool *has_file)
+/* One component: its load or its displacement, by option or by column; not by more than one of the four. */
+static PetscErrorCode ReadComponent(SamHistory h, const SamOptions *from, const char file[], PetscInt c)
 {
-  const SamOptions from = {PETSC_COMM_WORLD, NULL};
-  PetscBool        help;
+  const SamComponentName *name        = &SamComponentNames[c];
+  const PetscInt          load_column = SamTableFind(&h->table, name->load), line = h->table.header_line;
+  const PetscInt          rigid_column = SamTableFind(&h->table, name->rigid);
+  const PetscBool         has_column   = (load_column >= 0 || rigid_column >= 0) ? PETSC_TRUE : PETSC_FALSE;
+  const char             *prefix = SamOptionsPrefix(from), *column = load_column >= 0 ? name->load : name->rigid;
+  PetscReal               load = 0, rigid = 0;
+  PetscBool               has_load, has_rigid, help;
+  char                    text[96];
 
   PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s), or instead %s", name->load_text, name->load_unit, name->rigid));
+  PetscCall(SamOptionsReal(from, name->load, text, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &load, &has_load));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", name->rigid_text, name->rigid_unit));
+  PetscCall(SamOptionsReal(from, name->rigid, text, SAM_RANGE_ANY, &rigid, &has_rigid));
+  PetscCheck(!has_load || !has_rigid, from->comm, SAM_ERR_USER, "-%s%s and -%s%s are conjugate: give one of them",
+             prefix, name->load, prefix, name->rigid);
+  PetscCheck(load_column < 0 || rigid_column < 0, from->comm, SAM_ERR_USER,
+             "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file, line,
+             name->load, name->rigid);
+  PetscCheck(!has_column || (!has_load && !has_rigid), from->comm, SAM_ERR_USER,
+             "-%s%s: %s has the column %s; give one of them", prefix, has_rigid ? name->rigid : name->load, file,
+             column);
+  h->constant.force[c] = (has_rigid || rigid_column >= 0) ? PETSC_FALSE : PETSC_TRUE;
+  h->constant.value[c] = has_rigid ? rigid : load;
+  h->column[c]         = has_column ? PetscMax(load_column, rigid_column) : -1;
+  if (c != SAM_COMPONENT_N) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPrintHelp(&help));
-  if (help) {
-    PetscCall(
-      SamOptionsString(&from, "history", "text file with a load step a row (README, Histories)", file, size, has_file));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(PetscOptionsGetString(NULL, NULL, "-petsam_history", file, size, has_file));
-  PetscCheck(!*has_file || file[0], PETSC_COMM_WORLD, SAM_ERR_USER, "-history has no value: expected a file's name");
+  PetscCheck(has_load || has_rigid || h->column[c] >= 0 || help, from->comm, SAM_ERR_USER,
+             "-%sload_n or -%sdisp_z is missing: the normal force (N) or the approach (m)", prefix, prefix);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryCreateFromOptions(MPI_Comm comm, SamHistory *history)
+/* Whether a column of the file means something. */
+static PetscBool IsKnown(SamHistory h, PetscInt column)
 {
-  const SamOptions from = {comm, NULL};
-  SamHistory       h;
-  char             file[PETSC_MAX_PATH_LEN] = "";
-  PetscBool        has_file;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    if (h->column[c] == column) return PETSC_TRUE;
+  return (column == h->time || column == h->friction) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* What a row must hold besides numbers: times that increase, no negative normal force or friction. */
+static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
+{
+  const SamTable *t        = &h->table;
+  const PetscInt  least[2] = {SamTableFind(t, SamComponentNames[SAM_COMPONENT_N].load), h->friction};
+
+  PetscFunctionBegin;
+  PetscCheck(h->time >= 0, comm, SAM_ERR_USER, "%s, line %" PetscInt_FMT ": no column named time", file,
+             t->header_line);
+  for (PetscInt c = 0; c < t->columns; c++)
+    PetscCheck(IsKnown(h, c), comm, SAM_ERR_USER,
+               "%s, line %" PetscInt_FMT
+               ": unknown column %s; expected time, the name of a load or displacement, load_n ... rot_z, or " FRICTION,
+               file, t->header_line, t->name[c]);
+  for (PetscInt r = 0; r < t->rows; r++) {
+    const double *row = t->value + r * t->columns, *before = row - t->columns;
+
+    PetscCheck(r == 0 || row[h->time] > before[h->time], comm, SAM_ERR_USER,
+               "%s, line %" PetscInt_FMT ": time %g does not come after %g", file, t->line[r], row[h->time],
+               before[h->time]);
+    for (PetscInt k = 0; k < 2; k++)
+      PetscCheck(least[k] < 0 || row[least[k]] >= 0, comm, SAM_ERR_USER,
+                 "%s, line %" PetscInt_FMT ": %s %g, expected a number >= 0", file, t->line[r], t->name[least[k]],
+                 row[least[k]]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history)
+{
+  SamHistory h;
+  char       file[PETSC_MAX_PATH_LEN] = "";
+  PetscBool  has_file;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
-  *history            = h;
-  h->constant[1].kind = SAM_BALANCE_TANGENTIAL;
-  h->rows             = 1;
-  h->increments       = 1;
-  PetscCall(SamOptionsHeading(&from, "Loads and displacements"));
-  PetscCall(ReadFileName(file, sizeof(file), &has_file));
+  *history      = h;
+  h->rows       = 1;
+  h->increments = 1;
+  PetscCall(SamControlInitialize(&h->constant));
+  PetscCall(SamOptionsHeading(from, "Loads and displacements"));
+  PetscCall(SamOptionsString(from, "load_history", "text file with a load step a row (README, Histories); or -history",
+                             file, sizeof(file), &has_file));
   PetscCall(
-    SamOptionsInt(&from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
+    SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
   if (has_file) {
-    PetscCall(SamTableRead(comm, file, &h->table));
+    PetscCall(SamTableRead(from->comm, file, &h->table));
     h->rows = h->table.rows;
   }
-  PetscCheck(h->increments <= PETSC_MAX_INT / h->rows, comm, SAM_ERR_USER,
-             "-steps %" PetscInt_FMT ": times %" PetscInt_FMT " rows is more steps than can be counted", h->increments,
-             h->rows);
-  for (PetscInt component = 0; component < COMPONENTS; component++) PetscCall(ReadComponent(h, file, component));
-  if (has_file) PetscCall(CheckRows(h, file));
+  h->time     = SamTableFind(&h->table, "time");
+  h->friction = SamTableFind(&h->table, FRICTION);
+  PetscCheck(h->increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
+             "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT " rows is more steps than can be counted",
+             SamOptionsPrefix(from), h->increments, h->rows);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, from, file, c));
+  if (has_file) PetscCall(CheckRows(h, from->comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -168,52 +143,51 @@ PetscErrorCode SamHistoryGetIncrements(SamHistory h, PetscInt *increments)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Value of a component, or the time (component -1), in row r; row -1 is the start. */
-static double RowValue(SamHistory h, PetscInt component, PetscInt r)
+PetscErrorCode SamHistoryHasFrictionScale(SamHistory h, PetscBool *has)
 {
-  const SamTable *t = &h->table;
-  const PetscInt  c = component < 0 ? SamTableFind(t, "time") : h->column[component];
-
-  if (component < 0 && !t->rows) return (double)(r + 1);
-  if (component < 0 && r < 0)
-    return t->value[c] > 0 ? 0 : t->value[c] - (t->rows > 1 ? t->value[c + t->columns] - t->value[c] : 1);
-  if (r < 0) return 0;
-  if (c >= 0) return t->value[r * t->columns + c];
-  {
-    PetscInt          k;
-    const SamBalance *balance = BalanceOf(h->constant, component, &k);
-
-    return balance->force[k] ? balance->load[k] : balance->rigid[k];
-  }
+  PetscFunctionBegin;
+  *has = h->friction >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt step_number, SamStep *step)
+/* Row r of a column; row -1 is the start. */
+static double Entry(SamHistory h, PetscInt column, PetscInt r)
 {
-  const PetscInt r = step_number / h->increments, i = step_number % h->increments + 1;
-  const double   t = (double)i / (double)h->increments;
+  return h->table.value[r * h->table.columns + column];
+}
+
+static double TimeOfRow(SamHistory h, PetscInt r)
+{
+  if (!h->table.rows) return (double)(r + 1);
+  if (r >= 0) return Entry(h, h->time, r);
+  if (Entry(h, h->time, 0) > 0) return 0;
+  return Entry(h, h->time, 0) - (h->table.rows > 1 ? Entry(h, h->time, 1) - Entry(h, h->time, 0) : 1);
+}
+
+static double ValueOfRow(SamHistory h, PetscInt c, PetscInt r)
+{
+  if (r < 0) return 0;
+  return h->column[c] >= 0 ? Entry(h, h->column[c], r) : h->constant.value[c];
+}
+
+static double FrictionOfRow(SamHistory h, PetscInt r)
+{
+  return h->friction >= 0 ? Entry(h, h->friction, PetscMax(r, 0)) : 1;
+}
+
+PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
+{
+  const PetscInt r = k / h->increments, i = k % h->increments + 1;
+  const double   part = (double)i / (double)h->increments;
 
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(step, sizeof(*step)));
-  step->normal.kind     = SAM_BALANCE_NORMAL;
-  step->tangential.kind = SAM_BALANCE_TANGENTIAL;
-  for (PetscInt component = -1; component < COMPONENTS; component++) {
-    /* the row's own value without rounding at its end */
-    const double before = RowValue(h, component, r - 1), after = RowValue(h, component, r),
-                 value = i == h->increments ? after : before + t * (after - before);
-    PetscInt    k;
-    SamBalance *balance, *control;
-
-    if (component < 0) {
-      step->time = value;
-      continue;
-    }
-    control           = BalanceOf(h->constant, component, &k);
-    balance           = component < 3 ? &step->normal : &step->tangential;
-    balance->force[k] = control->force[k];
-    if (control->force[k])
-      balance->load[k] = value;
-    else
-      balance->rigid[k] = value;
-  }
+  *control = h->constant;
+/* between the rows; a row's own value without rounding at its end */
+#define BETWEEN(before, after) (i == h->increments ? (after) : (before) + part * ((after) - (before)))
+  control->time           = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
+  control->friction_scale = BETWEEN(FrictionOfRow(h, r - 1), FrictionOfRow(h, r));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    control->value[c] = BETWEEN(ValueOfRow(h, c, r - 1), ValueOfRow(h, c, r));
+#undef BETWEEN
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,7 +3,7 @@
 #define PETSAM_HISTORYIMPL_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/history.h>
+#include "history.h"
 #include <string.h>
 
 #define SAM_TABLE_COLUMNS 32

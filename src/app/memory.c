@@ -11,9 +11,9 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {170, 270}},
                                                {{140, 220}, {275, 320}}}; /* by steps, friction and coupling */
 #define BYTES_PROGRAM 50e6
 
-double SamRunMemory(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps)
+double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
-  return BYTES_PROGRAM + bytes_per_cell[steps > 1][friction > 0][pair->dundurs != 0] * (double)grid->cells;
+  return BYTES_PROGRAM + bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] * (double)grid->cells;
 }
 
 /* Memory of this node that can be had, bytes; 0 when it cannot be told. */
@@ -30,17 +30,16 @@ static double AvailableMemory(void)
   return 1024 * kilobytes;
 }
 
-PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamPair *pair, PetscReal friction, PetscInt steps)
+PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamRunNeeds *needs, const SamOptions *from)
 {
-  const SamOptions from = {grid->comm, NULL};
-  double           need, worst;
-  MPI_Comm         node;
-  PetscBool        check = PETSC_TRUE;
+  double    need, worst;
+  MPI_Comm  node;
+  PetscBool check = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsBool(&from, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
+  PetscCall(SamOptionsBool(from, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
   PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  need = SamRunMemory(grid, pair, friction, steps);
+  need = SamRunMemory(grid, needs);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
   PetscCallMPI(MPI_Comm_free(&node));
   worst = AvailableMemory();

@@ -1,23 +1,32 @@
 /* What defines a run, by the names of its options. */
 #include "runimpl.h"
 
+static PetscErrorCode DescribeField(SamGrid grid, Vec field, char text[], size_t size)
+{
+  uint64_t checksum;
+
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointChecksum(grid, field, &checksum));
+  PetscCall(PetscSNPrintf(text, size, "of checksum %08lx%08lx", (unsigned long)(checksum >> 32),
+                          (unsigned long)(checksum & 0xffffffff)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Separations that come from files are known by their checksum: a file may change under its name. */
-static PetscErrorCode AddFiles(SamRun *run, Vec separation)
+static PetscErrorCode AddFiles(SamRun *run)
 {
   static const char *const options[] = {"-gap_file", "-gap_rough_file"};
 
+  Vec separation;
+
   PetscFunctionBegin;
+  PetscCall(SamProblemGetGap(run->problem, &separation));
   for (PetscInt k = 0; k < 2; k++) {
     char      text[64] = "none";
-    uint64_t  checksum;
     PetscBool set;
 
     PetscCall(PetscOptionsHasName(NULL, NULL, options[k], &set));
-    if (set) {
-      PetscCall(SamCheckpointChecksum(run->grid, separation, &checksum));
-      PetscCall(PetscSNPrintf(text, sizeof(text), "of checksum %08lx%08lx", (unsigned long)(checksum >> 32),
-                              (unsigned long)(checksum & 0xffffffff)));
-    }
+    if (set) PetscCall(DescribeField(run->grid, separation, text, sizeof(text)));
     PetscCall(SamParametersAddText(&run->parameters, options[k] + 1, PETSC_TRUE, text));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -48,7 +57,7 @@ static PetscErrorCode AddGrid(SamParameters *p, SamGrid grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddGap(SamRun *run, Vec separation)
+static PetscErrorCode AddGap(SamRun *run)
 {
   SamGapType         type;
   PetscInt           count;
@@ -60,47 +69,65 @@ static PetscErrorCode AddGap(SamRun *run, Vec separation)
   PetscCall(SamParametersAddText(&run->parameters, "gap_type", PETSC_TRUE, type));
   for (PetscInt k = 0; k < count; k++)
     PetscCall(SamParametersAddReals(&run->parameters, names[k], PETSC_TRUE, 1, &values[k]));
-  PetscCall(AddFiles(run, separation));
+  PetscCall(AddFiles(run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of a history, the last step's: how it went there stands in /history, and checkpoints look at the steps themselves. */
+/* The number, or the file's field by its checksum. */
+static PetscErrorCode AddFriction(SamRun *run)
+{
+  PetscReal friction;
+  Vec       field;
+  char      text[64];
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetFriction(run->problem, &friction, &field));
+  if (!field)
+    PetscCall(SamParametersAddReals(&run->parameters, "friction", PETSC_TRUE, 1, &friction));
+  else {
+    PetscCall(DescribeField(run->grid, field, text, sizeof(text)));
+    PetscCall(SamParametersAddText(&run->parameters, "friction_file", PETSC_TRUE, text));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Of a history, the last step's: how it went there stands in /history, and checkpoints look at the steps themselves.
+*/
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
 {
-  const SamBalance *balances[2];
-  SamStep           step;
-  PetscInt          count, increments;
-  PetscReal         steps;
+  SamControl control;
+  PetscInt   count, increments;
+  PetscReal  steps;
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetCount(history, &count));
   PetscCall(SamHistoryGetIncrements(history, &increments));
   steps = (PetscReal)increments;
   PetscCall(SamParametersAddReals(p, "steps", PETSC_TRUE, 1, &steps));
-  PetscCall(SamHistoryGetStep(history, count - 1, &step));
-  balances[0] = &step.normal;
-  balances[1] = &step.tangential;
-  for (PetscInt b = 0; b < 2; b++)
-    for (PetscInt k = 0; k < 3; k++) {
-      if (balances[b]->force[k])
-        PetscCall(SamParametersAddReals(p, SamLoadNames[b][k], PETSC_FALSE, 1, &balances[b]->load[k]));
-      else
-        PetscCall(SamParametersAddReals(p, SamRigidNames[b][k], PETSC_FALSE, 1, &balances[b]->rigid[k]));
-    }
+  PetscCall(SamHistoryGetStep(history, count - 1, &control));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    const char *name = control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid;
+
+    PetscCall(SamParametersAddReals(p, name, PETSC_FALSE, 1, &control.value[c]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamRunCollectParameters(SamRun *run, Vec separation)
+PetscErrorCode SamRunCollectParameters(SamRun *run)
 {
   SamParameters *const p = &run->parameters;
+  SamElasticityType    type;
   PetscBool            full;
 
   PetscFunctionBegin;
   p->count = 0;
   PetscCall(AddGrid(p, run->grid));
   PetscCall(AddPair(p, &run->pair));
-  PetscCall(SamParametersAddReals(p, "friction", PETSC_TRUE, 1, &run->friction));
-  PetscCall(AddGap(run, separation));
+  PetscCall(SamElasticityGetType(run->elasticity, &type));
+  PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, type));
+  PetscCall(AddFriction(run));
+  PetscCall(AddGap(run));
   PetscCall(SamContactGetCoupling(run->contact, &full));
   PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, full ? "full" : "none"));
   PetscCall(AddLoads(p, run->history));

@@ -299,7 +299,7 @@ int main(int argc, char **argv)
     return 0;
   }
   code   = RunProgram(&run, argc, argv, help, bad_file, message);
-  status = code ? ExitCode(code) : run.stopped ? EXIT_STOPPED : (int)run.status;
+  status = code ? ExitCode(code) : run.stopped ? EXIT_STOPPED : (int)run.point.worst;
   /* other errors may be one rank's alone, and a file that could not be written cannot be closed: nobody must wait */
   if (code && (status == (int)code || run.writing)) MPI_Abort(PETSC_COMM_WORLD, status);
   PetscCall(SamRunTearDown(&run));

@@ -47,13 +47,12 @@ static PetscBool OnTerminal(void)
   return (!strncmp(target, "/dev/pts/", 9) || !strncmp(target, "/dev/tty", 8)) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-PetscErrorCode SamProgressSetFromOptions(SamReport r)
+PetscErrorCode SamProgressSetFromOptions(SamReport r, const SamOptions *from)
 {
-  const SamOptions from = {r->comm, NULL};
-  PetscInt         mode = SAM_PROGRESS_AUTO;
+  PetscInt mode = SAM_PROGRESS_AUTO;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(&from, "progress", "line within long steps: auto (on a terminal), always or never",
+  PetscCall(SamOptionsEnum(from, "progress", "line within long steps: auto (on a terminal), always or never",
                            mode_words, &mode, NULL));
   r->progress.active =
     (!r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal())))

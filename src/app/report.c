@@ -22,21 +22,20 @@ static PetscErrorCode StartLog(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportCreateFromOptions(MPI_Comm comm, SamReport *report)
+PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *report)
 {
-  const SamOptions from = {comm, NULL};
-  SamReport        r;
+  SamReport r;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(PetscNew(&r));
   *report  = r;
-  r->comm  = comm;
+  r->comm  = from->comm;
   r->start = r->first = r->begin = MPI_Wtime();
-  PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
-  PetscCall(SamOptionsHeading(&from, "What the run says"));
-  PetscCall(SamOptionsBool(&from, "quiet", "nothing on stdout; warnings and errors stay", &r->quiet, NULL));
-  PetscCall(SamProgressSetFromOptions(r));
+  PetscCallMPI(MPI_Comm_rank(from->comm, &r->rank));
+  PetscCall(SamOptionsHeading(from, "What the run says"));
+  PetscCall(SamOptionsBool(from, "quiet", "nothing on stdout; warnings and errors stay", &r->quiet, NULL));
+  PetscCall(SamProgressSetFromOptions(r, from));
   if (!r->quiet) PetscCall(StartLog(r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -168,12 +167,15 @@ static void KeepWorst(SamReport r, const SamStep *step)
 /* A step's message goes to stderr, from the first rank. */
 static void PrintMessage(SamReport r, const SamStep *step)
 {
-  char where[32] = "";
+  const char *advice    = "";
+  char        where[32] = "";
 
   if (r->rank || !step->message[0]) return;
   if (r->steps > 1) snprintf(where, sizeof(where), "step %ld: ", (long)r->number + 1);
   fflush(stdout);
-  fprintf(stderr, "petsam: %s%s%s\n", step->status ? "" : "warning: ", where, step->message);
+  /* what the contact says of the grid, the user can mend by an option */
+  if (step->check.edge > 0 && strstr(step->message, "edge of the grid")) advice = " (-grid_size)";
+  fprintf(stderr, "petsam: %s%s%s%s\n", step->status ? "" : "warning: ", where, step->message, advice);
 }
 
 PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)

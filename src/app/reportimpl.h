@@ -3,7 +3,7 @@
 #define PETSAM_REPORTIMPL_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/report.h>
+#include "report.h"
 
 #define SAM_REPORT_FILES  8
 #define SAM_REPORT_RECENT 5 /* steps of which the mean gives the time left */
@@ -46,7 +46,7 @@ struct _n_SamReport {
 };
 
 /* Sets progress from -progress and from where stdout goes. */
-PETSC_INTERN PetscErrorCode SamProgressSetFromOptions(SamReport report);
+PETSC_INTERN PetscErrorCode SamProgressSetFromOptions(SamReport report, const SamOptions *from);
 /* Adds the monitors of a contact's solvers, once. */
 PETSC_INTERN PetscErrorCode SamProgressWatch(SamReport report, SamContact contact);
 /* Takes the line off the terminal. Not collective. */

@@ -21,7 +21,7 @@ static PetscBool SameFile(const char a[], const char b[])
 */
 static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
 {
-  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-petsam_history",
+  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-load_history",
                                        "-options_file", "-restart",        NULL};
   static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-history", "-options_file", "-restart"};
 
@@ -53,46 +53,89 @@ static PetscErrorCode CheckFiles(const SamRun *run)
 
 /* ---- set-up ---- */
 
-static PetscErrorCode ReadOptions(SamRun *run)
+/* What is given of the contact: bodies, gap, friction; while the help is printed, nothing of it is large. */
+static PetscErrorCode CreateProblem(SamRun *run, const SamOptions *from)
 {
-  const SamOptions from = {PETSC_COMM_WORLD, NULL};
+  SamElasticityTraits traits;
+
   PetscFunctionBegin;
-  PetscCall(SamGridCreateFromOptions(&from, &run->grid));
-  PetscCall(SamPairSetFromOptions(&run->pair, &from));
-  PetscCall(SamOptionsReal(&from, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &run->friction, NULL));
-  PetscCall(SamGapCreate(PETSC_COMM_WORLD, &run->gap));
+  PetscCall(SamGridCreateFromOptions(from, &run->grid));
+  PetscCall(SamPairSetFromOptions(&run->pair, from));
+  PetscCall(SamElasticityCreate(run->grid, &run->pair, &run->elasticity));
+  PetscCall(SamElasticitySetOptionsPrefix(run->elasticity, from->prefix));
+  PetscCall(SamElasticitySetFromOptions(run->elasticity));
+  PetscCall(SamElasticityGetTraits(run->elasticity, &traits));
+  run->needs.coupled = traits.coupled;
+  PetscCall(SamProblemCreate(run->elasticity, &run->problem));
+  PetscCall(SamProblemSetFrictionFromOptions(run->problem, from));
+  PetscCall(SamProblemHasFriction(run->problem, &run->needs.friction));
+  PetscCall(SamGapCreate(from->comm, &run->gap));
+  PetscCall(SamGapSetOptionsPrefix(run->gap, from->prefix));
   PetscCall(SamGapSetFromOptions(run->gap));
-  PetscCall(SamHistoryCreateFromOptions(PETSC_COMM_WORLD, &run->history));
-  PetscCall(SamReportCreateFromOptions(PETSC_COMM_WORLD, &run->report));
-  PetscCall(SamCheckpointsCreateFromOptions(PETSC_COMM_WORLD, &run->checkpoints));
-  PetscCall(SamOptionsHeading(&from, "Results and resources"));
-  PetscCall(SamOptionsString(&from, "output", "HDF5 file of the results", run->filename, sizeof(run->filename),
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Moments and rotations, where these bodies have none, are told by the name that the user gave. */
+static PetscErrorCode CheckComponents(SamRun *run, const SamOptions *from)
+{
+  SamElasticityTraits traits;
+  SamElasticityType   type;
+  PetscInt            count;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetTraits(run->elasticity, &traits));
+  PetscCall(SamElasticityGetType(run->elasticity, &type));
+  PetscCall(SamHistoryGetCount(run->history, &count));
+  for (PetscInt k = 0; k < count && !traits.rotations; k++) {
+    SamControl control;
+
+    PetscCall(SamHistoryGetStep(run->history, k, &control));
+    for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
+      PetscCheck(control.value[c] == 0, from->comm, SAM_ERR_USER,
+                 "-%s%s %g: has no meaning with -%selasticity %s: moments and rotations are not periodic",
+                 SamOptionsPrefix(from), control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid,
+                 (double)control.value[c], SamOptionsPrefix(from), type);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCall(CreateProblem(run, from));
+  PetscCall(SamHistoryCreateFromOptions(from, &run->history));
+  PetscCall(SamHistoryGetCount(run->history, &run->needs.steps));
+  run->point.history = run->history;
+  PetscCall(CheckComponents(run, from));
+  PetscCall(SamReportCreateFromOptions(from, &run->report));
+  PetscCall(SamCheckpointsCreateFromOptions(from, &run->checkpoints));
+  PetscCall(SamOptionsHeading(from, "Results and resources"));
+  PetscCall(SamOptionsString(from, "output", "HDF5 file of the results", run->filename, sizeof(run->filename),
                              &run->has_output));
   run->output_every = 1;
-  PetscCall(SamOptionsInt(&from, "output_every", "write the fields of every m-th step, and of the last", 1,
+  PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &run->output_every, NULL));
-  PetscCall(SamOutputCheckOptions(PETSC_COMM_WORLD));
+  PetscCall(SamOutputSettingsSetFromOptions(&run->output_settings, from));
+  PetscCall(SamHistoryHasFrictionScale(run->history, &run->output_settings.friction_scale));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamRunSetUp(SamRun *run)
 {
-  PetscBool help;
-  PetscInt  steps;
+  const SamOptions from = {PETSC_COMM_WORLD, NULL};
+  PetscBool        help;
+  Vec              gap;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
-  PetscCall(ReadOptions(run));
+  PetscCall(ReadOptions(run, &from));
   PetscCall(CheckFiles(run));
-  PetscCall(SamHistoryGetCount(run->history, &steps));
-  PetscCall(SamRunRefuseTooLarge(run->grid, &run->pair, run->friction, steps));
-  PetscCall(SamElasticityCreate(run->grid, &run->pair, &run->elasticity));
-  PetscCall(SamGridCreateVec(run->grid, 1, &run->separation));
-  if (!help) PetscCall(SamGapFill(run->gap, run->grid, run->separation));
-  PetscCall(SamContactCreate(run->elasticity, run->separation, run->friction, &run->contact));
+  PetscCall(SamRunRefuseTooLarge(run->grid, &run->needs, &from));
+  PetscCall(SamProblemGetGap(run->problem, &gap));
+  if (!help) PetscCall(SamGapFill(run->gap, run->grid, gap));
+  PetscCall(SamContactCreate(run->problem, &run->contact));
   PetscCall(SamContactSetFromOptions(run->contact));
-  if (!help) PetscCall(SamRunCollectParameters(run, run->separation));
-  PetscCall(VecDestroy(&run->separation));
+  if (!help) PetscCall(SamRunCollectParameters(run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -103,7 +146,7 @@ PetscErrorCode SamRunTearDown(SamRun *run)
   PetscCall(SamCheckpointsDestroy(&run->checkpoints));
   PetscCall(SamReportDestroy(&run->report));
   PetscCall(SamContactDestroy(&run->contact));
-  PetscCall(VecDestroy(&run->separation));
+  PetscCall(SamProblemDestroy(&run->problem));
   PetscCall(SamElasticityDestroy(&run->elasticity));
   PetscCall(SamHistoryDestroy(&run->history));
   PetscCall(SamGapDestroy(&run->gap));
@@ -115,13 +158,11 @@ PetscErrorCode SamRunTearDown(SamRun *run)
 
 static PetscErrorCode CreateResults(SamRun *run)
 {
-  char *all, *alias;
+  char *all;
 
   PetscFunctionBegin;
-  PetscCall(SamOutputCreate(run->grid, run->filename, &run->output));
+  PetscCall(SamOutputCreate(run->grid, run->filename, &run->output_settings, &run->output));
   PetscCall(PetscOptionsGetAll(NULL, &all));
-  while ((alias = strstr(all, "-petsam_history")))
-    memmove(alias + 1, alias + 8, strlen(alias + 8) + 1); /* its given name */
   PetscCall(SamOutputSetText(run->output, "options", all));
   PetscCall(PetscFree(all));
   PetscCall(SamOutputSetParameters(run->output, &run->parameters));
@@ -135,14 +176,15 @@ static PetscErrorCode ContinueResults(SamRun *run)
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(run->solved, &times));
-  for (PetscInt k = 0; k < run->solved; k++) {
-    SamStep step;
+  PetscCall(PetscMalloc1(run->point.steps, &times));
+  for (PetscInt k = 0; k < run->point.steps; k++) {
+    SamControl control;
 
-    PetscCall(SamHistoryGetStep(run->history, k, &step));
-    times[k] = step.time;
+    PetscCall(SamHistoryGetStep(run->history, k, &control));
+    times[k] = control.time;
   }
-  ierr = SamOutputContinue(run->grid, run->filename, &run->parameters, run->solved, times, &run->output);
+  ierr = SamOutputContinue(run->grid, run->filename, &run->output_settings, &run->parameters, run->point.steps, times,
+                           &run->output);
   PetscCall(PetscFree(times));
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -152,17 +194,15 @@ static PetscErrorCode ContinueResults(SamRun *run)
 static PetscErrorCode Begin(SamRun *run)
 {
   const char *checkpoint, *restart;
-  PetscInt    count;
 
   PetscFunctionBegin;
   PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
-  PetscCall(SamHistoryGetCount(run->history, &count));
   if (restart) {
-    PetscCall(SamCheckpointRead(restart, run->contact, run->history, &run->parameters, &run->solved, &run->status));
-    PetscCall(SamReportSetRestart(run->report, restart, run->solved));
+    PetscCall(SamCheckpointsRestart(run->checkpoints, run->contact, &run->parameters, &run->point));
+    PetscCall(SamReportSetRestart(run->report, restart, run->point.steps));
   }
   PetscCall(SamCheckpointsBegin(run->checkpoints, run->grid));
-  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->pair, run->friction, count), count,
+  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->needs), run->needs.steps,
                             run->has_output ? run->filename : NULL));
   if (run->has_output && restart)
     PetscCall(ContinueResults(run));
@@ -174,35 +214,32 @@ static PetscErrorCode Begin(SamRun *run)
 /* Without a solution there are no fields of this step, but the last ones there are must be in the file. */
 static PetscErrorCode WriteLastFields(SamRun *run, PetscInt k)
 {
-  SamFields fields;
-  SamStep   before;
-  PetscReal saved;
+  SamControl before;
+  PetscReal  saved;
 
   PetscFunctionBegin;
   if (!k) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamHistoryGetStep(run->history, k - 1, &before));
   PetscCall(SamOutputGetSaved(run->output, NULL, NULL, &saved));
   if (saved >= before.time) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetFields(run->contact, &fields));
-  PetscCall(SamOutputWriteFields(run->output, before.time, &fields, run->friction));
+  PetscCall(SamOutputWriteFields(run->output, before.time, run->contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Results of step k. */
-static PetscErrorCode WriteStep(SamRun *run, const SamStep *step, PetscInt k, PetscInt count)
+static PetscErrorCode WriteStep(SamRun *run, const SamStep *step, PetscInt k)
 {
-  const PetscBool due = ((k + 1) % run->output_every == 0 || k + 1 == count || step->status == SAM_STATUS_NOT_CONVERGED)
-                          ? PETSC_TRUE
-                          : PETSC_FALSE;
+  const PetscBool due =
+    ((k + 1) % run->output_every == 0 || k + 1 == run->needs.steps || step->status == SAM_STATUS_NOT_CONVERGED)
+      ? PETSC_TRUE
+      : PETSC_FALSE;
   const PetscBool none = step->status == SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
-  SamFields       fields;
 
   PetscFunctionBegin;
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetFields(run->contact, &fields));
   run->writing = PETSC_TRUE;
   if (none) PetscCall(WriteLastFields(run, k));
-  PetscCall(SamOutputWriteStep(run->output, step, due && !none ? &fields : NULL, run->friction));
+  PetscCall(SamOutputWriteStep(run->output, step, due && !none ? run->contact : NULL));
   run->writing = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -243,39 +280,37 @@ static PetscErrorCode ReportCheckpoint(SamRun *run)
 /* ---- steps ---- */
 
 /* One load step; says whether it is the last one that can be solved. */
-static PetscErrorCode SolveStep(SamRun *run, PetscInt count, PetscBool *ended)
+static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
 {
-  const PetscInt k = run->solved;
+  const PetscInt k = run->point.steps;
+  SamControl     control;
   SamStep        step;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStep(run->history, k, &step));
+  PetscCall(SamHistoryGetStep(run->history, k, &control));
   PetscCall(SamReportBeginStep(run->report, k, run->contact));
-  PetscCall(SamContactSetLast(run->contact, k + 1 == count ? PETSC_TRUE : PETSC_FALSE));
-  PetscCall(SamContactSolve(run->contact, &step));
-  PetscCall(WriteStep(run, &step, k, count));
+  PetscCall(SamContactTry(run->contact, &control, &step));
+  PetscCall(WriteStep(run, &step, k));
   PetscCall(SamReportEndStep(run->report, &step)); /* a step that is told is in the file */
   *ended =
     (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
-  if (*ended || !run->status) run->status = step.status;
-  run->solved++;
+  if (!*ended) PetscCall(SamContactCommit(run->contact));
+  if (*ended || !run->point.worst) run->point.worst = step.status;
+  run->point.steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* All that are left. Ends early where a step has no solution, or with a checkpoint. */
 static PetscErrorCode SolveSteps(SamRun *run)
 {
-  PetscInt  count;
   PetscBool ended = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetCount(run->history, &count));
-  while (run->solved < count && !ended && !run->stopped) {
-    PetscCall(SolveStep(run, count, &ended));
+  while (run->point.steps < run->needs.steps && !ended && !run->stopped) {
+    PetscCall(SolveStep(run, &ended));
     if (ended) break;
     run->writing = PETSC_TRUE;
-    PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, run->history, &run->parameters, run->solved,
-                                      run->status, &run->stopped));
+    PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, &run->parameters, &run->point, &run->stopped));
     run->writing = PETSC_FALSE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

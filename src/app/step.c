@@ -1,27 +1,25 @@
 /* A load step in words: in full, and as a line of a table. */
 #include "reportimpl.h"
 
-static PetscErrorCode ViewBalance(const SamBalance *balance, const char title[], PetscViewer viewer)
+static PetscErrorCode ViewComponent(const SamStep *s, SamComponent c, const char title[], PetscViewer viewer)
 {
-  static const char *const load_units[2][3]  = {{"N", "N m", "N m"}, {"N", "N", "N m"}};
-  static const char *const rigid_units[2][3] = {{"m", "rad", "rad"}, {"m", "m", "rad"}};
+  const SamComponentName *name = &SamComponentNames[c];
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < 3; k++) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given)\n",
-                                     k ? "" : title, SamLoadNames[balance->kind][k], (double)balance->load[k],
-                                     load_units[balance->kind][k], SamRigidNames[balance->kind][k],
-                                     (double)balance->rigid[k], rigid_units[balance->kind][k],
-                                     balance->force[k] ? "load" : "displacement"));
-  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given)\n", title,
+                                   name->load, (double)s->load[c], name->load_unit, name->rigid, (double)s->rigid[c],
+                                   name->rigid_unit, s->control.force[c] ? "load" : "displacement"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamStepView(const SamStep *s, PetscViewer viewer)
 {
+  static const SamComponent order[] = {SAM_COMPONENT_N,  SAM_COMPONENT_MX, SAM_COMPONENT_MY,
+                                       SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
+
   PetscFunctionBegin;
-  PetscCall(ViewBalance(&s->normal, "normal", viewer));
-  PetscCall(ViewBalance(&s->tangential, "tangential", viewer));
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+    PetscCall(ViewComponent(s, order[k], k == 0 ? "normal" : k == 3 ? "tangential" : "", viewer));
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g J\n", "areas",
                                      (double)s->contact_area, (double)s->stick_area, (double)s->dissipated_energy));
@@ -57,7 +55,7 @@ PetscErrorCode SamStepViewHeading(PetscViewer viewer)
 
 PetscErrorCode SamStepViewLine(const SamStep *s, PetscInt number, double seconds, double left, PetscViewer viewer)
 {
-  const PetscReal *n = s->normal.load, *t = s->tangential.load;
+  const PetscReal *l = s->load;
   char             duration[32];
 
   PetscFunctionBegin;
@@ -66,7 +64,8 @@ PetscErrorCode SamStepViewLine(const SamStep *s, PetscInt number, double seconds
     viewer,
     "%6" PetscInt_FMT " %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9.3g %4" PetscInt_FMT
     " %4" PetscInt_FMT " %7.1e %7.1e %8.2f %9s\n",
-    number, (double)s->time, (double)n[0], (double)t[0], (double)t[1], (double)n[1], (double)n[2], (double)t[2],
+    number, (double)s->control.time, (double)l[SAM_COMPONENT_N], (double)l[SAM_COMPONENT_TX],
+    (double)l[SAM_COMPONENT_TY], (double)l[SAM_COMPONENT_MX], (double)l[SAM_COMPONENT_MY], (double)l[SAM_COMPONENT_MZ],
     (double)s->contact_area, (double)s->stick_area, s->normal_iterations, s->tangential_iterations,
     (double)s->check.normal, (double)s->check.tangential, seconds, duration));
   PetscFunctionReturn(PETSC_SUCCESS);

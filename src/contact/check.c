@@ -1,106 +1,42 @@
-/* The check of a solution, which trusts no solver. */
-#include <petsam/private/balanceimpl.h>
+/*
+  The check of a solution, which trusts no solver.
+
+  Elastic displacements are computed anew from the tractions, in double precision and on the whole grid, gap and slip
+  from their definitions, the bound of the shear from the pressure. What they violate is measured relative to the
+  solution's own scales; the formulas stand in contact.h.
+*/
 #include "contactimpl.h"
 #include <math.h>
-#include <string.h>
 
-PetscErrorCode SamCheckDisplacements(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscBool release,
-                                     SamFields *f)
+/* u_z unless it is known, u_t, and what each traction adds to the other's where they are coupled. */
+static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool coupling, PetscBool u_z_known,
+                                           const SamSolution *s)
 {
-  SamGrid   grid;
-  PetscReal shear;
-  PetscBool coupled;
-  Vec       more;
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
+  SamGrid             grid;
+  PetscReal           shear;
+  Vec                 more;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
-  if (!same_pressure) PetscCall(SamElasticityApplyNormal(C, f->pressure, f->displacement_z));
-  if (release) PetscCall(SamElasticityRelease(C, PETSC_TRUE));
-  PetscCall(VecNorm(f->shear, NORM_INFINITY, &shear));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
+  PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (shear != 0)
-    PetscCall(SamElasticityApplyTangential(C, f->shear, f->displacement_t));
+    PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
   else
-    PetscCall(SamVecZero(f->displacement_t));
-  if (release) PetscCall(SamElasticityRelease(C, PETSC_TRUE));
-  PetscCall(SamElasticityIsCoupled(C, &coupled));
-  if (coupled && coupling) {
-    PetscCall(SamElasticityGetGrid(C, &grid));
-    PetscCall(SamGridCreateVec(grid, 1, &more));
-    PetscCall(SamElasticityApplyTangentialToNormal(C, f->shear, more));
-    PetscCall(VecAXPY(f->displacement_z, 1, more));
-    PetscCall(VecDestroy(&more));
-    PetscCall(SamGridCreateVec(grid, 2, &more));
-    PetscCall(SamElasticityApplyNormalToTangential(C, f->pressure, more));
-    PetscCall(VecAXPY(f->displacement_t, 1, more));
-    PetscCall(VecDestroy(&more));
-  }
-  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict uz, const double *restrict h, double xi0,
-                                  double dxi, double eta, const double a[3], double *restrict gap)
-{
-  const double ax = a[0] - a[1] * eta, a2 = a[2];
-
-#pragma omp simd
-  for (PetscInt i = 0; i < n; i++) gap[i] = uz[i] + h[i] - (ax + a2 * (xi0 + (double)i * dxi));
-}
-
-/* A row of u - a - b xi; returns the sum of sizes. */
-SAM_VECTORIZED static double SlipRow(PetscInt n, const double *restrict u, double a, double b, double xi0, double dxi,
-                                     double *restrict slip)
-{
-  double sum = 0;
-
-#pragma omp simd reduction(+ : sum)
-  for (PetscInt i = 0; i < n; i++) {
-    slip[i] = u[i] - (a + b * (xi0 + (double)i * dxi));
-    sum += fabs(slip[i]);
-  }
-  return sum;
-}
-
-/* Takes a row's slip; a row of zeros stays unwritten, and takes no memory. */
-static void TakeSlip(PetscInt n, const double row[], double size, double slip[])
-{
-  if (size != 0)
-    (void)memcpy(slip, row, sizeof(*slip) * (size_t)n);
-  else
-    SamZero(n, slip);
-}
-
-/* gap = u_z + h - rigid, slip = u_t - rigid. */
-static PetscErrorCode ComputeGapAndSlip(SamGrid grid, Vec separation, const SamStep *step, SamFields *f)
-{
-  SamFrame      normal, tangential;
-  const double *uz, *ut, *h;
-  double       *gap, *slip, *row;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(grid->nx, &row));
-  PetscCall(SamFrameSetGiven(&normal, grid, &step->normal)); /* all displacements are known now */
-  PetscCall(SamFrameSetGiven(&tangential, grid, &step->tangential));
-  PetscCall(VecGetArrayRead(f->displacement_z, &uz));
-  PetscCall(VecGetArrayRead(f->displacement_t, &ut));
-  PetscCall(VecGetArrayRead(separation, &h));
-  PetscCall(VecGetArrayWrite(f->gap, &gap));
-  PetscCall(VecGetArray(f->slip, &slip));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * grid->nx, l = k + grid->cells;
-    const double    eta = SamFrameEta(&normal, j), xi0 = normal.xi0, dxi = normal.dxi;
-
-    GapRow(grid->nx, uz + k, h + k, xi0, dxi, eta, normal.fixed, gap + k);
-    TakeSlip(grid->nx, row, SlipRow(grid->nx, ut + k, SamFrameX(tangential.fixed, eta), 0, xi0, dxi, row), slip + k);
-    TakeSlip(grid->nx, row, SlipRow(grid->nx, ut + l, tangential.fixed[1], tangential.fixed[2], xi0, dxi, row),
-             slip + l);
-  }
-  PetscCall(VecRestoreArray(f->slip, &slip));
-  PetscCall(VecRestoreArrayWrite(f->gap, &gap));
-  PetscCall(VecRestoreArrayRead(separation, &h));
-  PetscCall(VecRestoreArrayRead(f->displacement_t, &ut));
-  PetscCall(VecRestoreArrayRead(f->displacement_z, &uz));
-  PetscCall(PetscFree(row));
+    PetscCall(SamVecZero(s->displacement_t));
+  if (!traits.coupled || !coupling) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(grid, 1, &more));
+  PetscCall(SamElasticityApplyTangentialToNormal(elasticity, s->shear, more));
+  PetscCall(VecAXPY(s->displacement_z, 1, more));
+  PetscCall(VecDestroy(&more));
+  PetscCall(SamGridCreateVec(grid, 2, &more));
+  PetscCall(SamElasticityApplyNormalToTangential(elasticity, s->pressure, more));
+  PetscCall(VecAXPY(s->displacement_t, 1, more));
+  PetscCall(VecDestroy(&more));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -130,27 +66,40 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
   max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], displacement);
 }
 
-static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *check)
+/* Largest pressure of a row's cells at the grid's border. */
+static double EdgeOfRow(SamGrid grid, PetscInt j, const double p[])
 {
-  double        max[COUNT] = {0};
-  const double *p, *g, *u;
+  const PetscInt row  = grid->row_start + j;
+  const PetscInt step = row == 0 || row == grid->ny - 1 ? 1 : PetscMax(grid->nx - 1, 1);
+  double         most = 0;
+
+  for (PetscInt i = 0; i < grid->nx; i += step) most = PetscMax(most, p[i]);
+  return most;
+}
+
+static PetscErrorCode CheckNormal(SamGrid grid, Vec separation, const SamSolution *s, SamCheck *check)
+{
+  double        max[COUNT] = {0}, *gap;
+  const double *p, *u, *h;
+  SamMotion     motion;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(f->pressure, &p));
-  PetscCall(VecGetArrayRead(f->gap, &g));
-  PetscCall(VecGetArrayRead(f->displacement_z, &u));
+  PetscCall(SamMotionSet(&motion, grid, s));
+  PetscCall(PetscMalloc1(grid->nx, &gap));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u));
+  PetscCall(VecGetArrayRead(separation, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const PetscBool edge_row =
-      (grid->row_start + j == 0 || grid->row_start + j == grid->ny - 1) ? PETSC_TRUE : PETSC_FALSE;
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    NormalRow(grid->nx, p + k, g + k, u + k, max);
-    for (PetscInt i = 0; i < grid->nx; i += edge_row ? 1 : PetscMax(grid->nx - 1, 1))
-      max[EDGE] = PetscMax(max[EDGE], p[k + i]);
+    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
+    NormalRow(grid->nx, p + k, gap, u + k, max);
+    max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, j, p + k));
   }
-  PetscCall(VecRestoreArrayRead(f->displacement_z, &u));
-  PetscCall(VecRestoreArrayRead(f->gap, &g));
-  PetscCall(VecRestoreArrayRead(f->pressure, &p));
+  PetscCall(VecRestoreArrayRead(separation, &h));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(PetscFree(gap));
   PetscCall(SamMax(grid->comm, COUNT, max));
   check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
   check->normal = max[TENSION] > 0 ? max[TENSION] / PetscMax(max[PRESSURE], max[TENSION]) : 0;
@@ -163,18 +112,21 @@ static PetscErrorCode CheckNormal(SamGrid grid, const SamFields *f, SamCheck *ch
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A row's squares (residual, q, D(q - ds/c), bound) and largest |q| - mu p and mu p. */
-SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, const double *restrict qx,
-                                         const double *restrict qy, const double *restrict sx,
-                                         const double *restrict sy, double friction, double inverse, SamTotal totals[4],
-                                         double max[2])
+/* Sums over cells: squares of the residual, of q, of D(q - ds/c) and of the bound; largest |q| - mu p, and mu p. */
+typedef struct {
+  double residual, shear, projected, least, over, most;
+} TangentialSums;
+
+/* One row: its shear, bound and slip increment as pairs of rows x, y. */
+SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *restrict bound, const double *const q[2],
+                                                   const double *const ds[2], double inverse)
 {
-  double residual = 0, shear = 0, projected = 0, least = 0, over = max[0], most = max[1], sums[4];
+  const double *restrict qx = q[0], *restrict qy = q[1], *restrict sx = ds[0], *restrict sy = ds[1];
+  double residual = 0, shear = 0, projected = 0, least = 0, over = 0, most = 0;
 
 #pragma omp simd reduction(+ : residual, shear, projected, least) reduction(max : over, most)
   for (PetscInt i = 0; i < n; i++) {
-    const double b = friction * (p[i] > 0 ? p[i] : 0), yx = qx[i] - inverse * sx[i], yy = qy[i] - inverse * sy[i],
-                 y2    = yx * yx + yy * yy;
+    const double b = bound[i], yx = qx[i] - inverse * sx[i], yy = qy[i] - inverse * sy[i], y2 = yx * yx + yy * yy;
     const double scale = y2 > b * b ? b / sqrt(y2) : 1, rx = qx[i] - scale * yx, ry = qy[i] - scale * yy,
                  q2 = qx[i] * qx[i] + qy[i] * qy[i], beyond = sqrt(q2) - b;
 
@@ -185,47 +137,78 @@ SAM_VECTORIZED static void TangentialRow(PetscInt n, const double *restrict p, c
     over = beyond > over ? beyond : over;
     most = b > most ? b : most;
   }
-  sums[0] = residual;
-  sums[1] = shear;
-  sums[2] = projected;
-  sums[3] = least;
-  SamAddAll(4, totals, sums);
-  max[0] = over;
-  max[1] = most;
+  return (TangentialSums){residual, shear, projected, least, over, most};
 }
 
-static PetscErrorCode CheckTangential(SamGrid grid, PetscReal friction, PetscReal self, const SamFields *f,
-                                      Vec slip_before, SamCheck *check)
+/* The bound of the shear that the check goes by: of the pressure's positive part. */
+static PetscErrorCode CreateBound(SamProblem problem, const SamSolution *s, Vec *bound)
 {
-  SamTotal      totals[4] = {{0, 0}};
-  double        sums[4], max[2] = {0, 0}, *ds;
-  const double *p, *q, *s, *before = NULL;
+  const double *p;
+  double       *b;
+  PetscInt      n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(f->pressure, &p));
-  PetscCall(VecGetArrayRead(f->shear, &q));
-  PetscCall(VecGetArrayRead(f->slip, &s));
-  if (slip_before) PetscCall(VecGetArrayRead(slip_before, &before));
-  PetscCall(PetscMalloc1(2 * grid->nx, &ds));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * grid->nx, l = k + grid->cells;
+  PetscCall(VecDuplicate(s->pressure, bound));
+  PetscCall(VecGetLocalSize(s->pressure, &n));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayWrite(*bound, &b));
+  for (PetscInt k = 0; k < n; k++) b[k] = p[k] > 0 ? p[k] : 0;
+  PetscCall(VecRestoreArrayWrite(*bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamProblemComputeBound(problem, s->control.friction_scale, *bound, *bound));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      ds[i]            = s[k + i] - (before ? before[k + i] : 0);
-      ds[i + grid->nx] = s[l + i] - (before ? before[l + i] : 0);
-    }
-    TangentialRow(grid->nx, p + k, q + k, q + l, ds, ds + grid->nx, friction, 1 / self, totals, max);
+static PetscErrorCode SumTangential(SamGrid grid, PetscReal self, const SamIncrement *increment, const double bound[],
+                                    const double q[], SamCheck *check)
+{
+  SamTotal totals[4] = {{0, 0}};
+  double   sums[4], max[2] = {0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t     k     = (ptrdiff_t)j * grid->nx;
+    const double *const qs[2] = {q + k, q + k + grid->cells};
+    const double *const ds[2] = {increment->row[0], increment->row[1]};
+    TangentialSums      row;
+
+    SamIncrementComputeRow(increment, j);
+    row = TangentialRow(grid->nx, bound + k, qs, ds, 1 / self);
+    SamAddAll(4, totals, &row.residual);
+    max[0] = SamLarger(max[0], row.over);
+    max[1] = SamLarger(max[1], row.most);
   }
-  PetscCall(PetscFree(ds));
-  if (slip_before) PetscCall(VecRestoreArrayRead(slip_before, &before));
-  PetscCall(VecRestoreArrayRead(f->slip, &s));
-  PetscCall(VecRestoreArrayRead(f->shear, &q));
-  PetscCall(VecRestoreArrayRead(f->pressure, &p));
   PetscCall(SamSumTotals(grid->comm, 4, totals, sums));
   PetscCall(SamMax(grid->comm, 2, max));
   check->tangential = sums[0] == 0 ? 0 : sqrt(sums[0] / PetscMax(sums[3], PetscMax(sums[1], sums[2])));
   check->cone       = max[0] == 0 ? 0 : (max[1] > 0 ? max[0] / max[1] : INFINITY);
   if (isnan(check->tangential)) check->tangential = INFINITY;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckTangential(SamProblem problem, const SamSolution *before, const SamSolution *s,
+                                      SamCheck *check)
+{
+  SamElasticity elasticity;
+  SamGrid       grid;
+  PetscReal     self;
+  SamIncrement  increment;
+  const double *q, *b;
+  Vec           bound;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
+  PetscCall(CreateBound(problem, s, &bound));
+  PetscCall(SamIncrementCreate(grid, before, s, &increment));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(bound, &b));
+  PetscCall(SumTangential(grid, self, &increment, b, q, check));
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscCall(VecDestroy(&bound));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -252,34 +235,30 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckFields(SamElasticity C, PetscReal friction, Vec separation, Vec slip_before,
-                              const SamBalance *given_normal, const SamBalance *given_tangential, const SamStep *step,
-                              SamFields *fields, SamCheck *check)
+PetscErrorCode SamCheckSolution(SamProblem problem, PetscBool coupling, PetscBool u_z_known, const SamSolution *before,
+                                SamSolution *solution, SamCheck *check)
 {
-  SamGrid   grid;
-  PetscReal self;
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
+  SamGrid             grid;
+  SamBalance          given[2];
+  Vec                 separation;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscCall(PetscMemzero(check, sizeof(*check)));
-  PetscCall(SamElasticityGetGrid(C, &grid));
-  PetscCall(SamElasticityGetSelfInfluence(C, NULL, &self));
-  PetscCall(ComputeGapAndSlip(grid, separation, step, fields));
-  PetscCall(CheckNormal(grid, fields, check));
-  PetscCall(CheckTangential(grid, friction, self, fields, slip_before, check));
-  PetscCall(CheckEquilibrium(grid, given_normal, fields->pressure, check));
-  PetscCall(CheckEquilibrium(grid, given_tangential, fields->shear, check));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamProblemGetGap(problem, &separation));
+  PetscCall(ComputeDisplacements(problem, coupling, u_z_known, solution));
+  PetscCall(CheckNormal(grid, separation, solution, check));
+  if (!traits.edge) check->edge = 0;
+  PetscCall(CheckTangential(problem, before, solution, check));
+  given[0] = SamControlGetBalance(&solution->control, SAM_BALANCE_NORMAL);
+  given[1] = SamControlGetBalance(&solution->control, SAM_BALANCE_TANGENTIAL);
+  PetscCall(CheckEquilibrium(grid, &given[0], solution->pressure, check));
+  PetscCall(CheckEquilibrium(grid, &given[1], solution->shear, check));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactCheck(SamElasticity C, PetscBool coupling, PetscBool same_pressure, PetscReal friction,
-                               Vec separation, Vec slip_before, const SamBalance *given_normal,
-                               const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
-                               SamCheck *check)
-{
-  PetscFunctionBegin;
-  PetscCall(SamCheckDisplacements(C, coupling, same_pressure, PETSC_FALSE, fields));
-  PetscCall(SamCheckFields(C, friction, separation, slip_before, given_normal, given_tangential, step, fields, check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

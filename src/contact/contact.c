@@ -1,83 +1,38 @@
-/*
-  One load step.
-
-  Similar materials: the normal problem does not know the shear, so one pass solves the step. Dissimilar materials:
-  pressure moves the surfaces tangentially and shear moves them normally; the two problems are solved in turn, each with
-  the displacement that the other's traction causes, until neither traction changes (Panagiotopoulos 1975, Ing.-Arch.
-  44, 421).
-*/
+/* The contact's class: what the user sets, and steps that are tried, then committed or rejected. */
 #include "contactimpl.h"
 #include <math.h>
 
-/* The check may see what the solvers' recursions do not: rounding. Its limits are the tolerances with this on top. */
+/*
+  The check may see what the solvers' recursions do not: rounding. Its limits are the tolerances with this on top.
+*/
 #define CHECK_MARGIN      1.05
 #define CHECK_EQUILIBRIUM 1e-10
 #define CHECK_CONE        1e-12
 
-/*
-  A step is predicted when its change is across the last one's by at most this part, and at most so many times as far.
-*/
-#define PREDICT_ACROSS   0.3
-#define PREDICT_FARTHEST 3.0
+/* ---- creation ---- */
 
-static const char *const coupling_words[] = {"none", "full", NULL};
-
-PetscErrorCode SamContactCreate(SamElasticity elasticity, Vec separation, PetscReal friction, SamContact *contact)
+PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
 {
   SamContact c;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
-  PetscCall(SamElasticityReference(elasticity));
-  c->elasticity      = elasticity;
-  c->friction        = friction;
-  c->coupling        = 1;
+  PetscCall(SamProblemReference(problem));
+  c->problem         = problem;
+  c->coupling        = PETSC_TRUE;
   c->warm            = PETSC_TRUE;
   c->coupling_rtol   = 1e-6;
   c->coupling_max_it = 100;
-  PetscCall(SamElasticityGetGrid(elasticity, &c->grid));
-  PetscCheck(friction >= 0 && isfinite(friction), c->grid->comm, SAM_ERR_USER, "-friction %g: expected a number >= 0",
-             (double)friction);
-  PetscCall(SamNormalCreate(elasticity, &c->normal));
-  PetscCall(SamTangentialCreate(elasticity, &c->tangential));
-  PetscCall(PetscObjectReference((PetscObject)separation));
-  c->separation = separation;
-  PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.pressure));
-  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.shear));
-  *contact = c;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  The fields that follow from the tractions exist from the end of a step to the beginning of the next: while the solvers
-  work, their memory is the solvers'.
-*/
-PetscErrorCode SamContactCheckStep(SamContact c, PetscBool same_pressure, Vec slip_before,
-                                   const SamBalance *given_normal, const SamBalance *given_tangential, SamStep *step)
-{
-  PetscFunctionBegin;
-  if (c->last_step) {
-    PetscCall(SamElasticityRelease(c->elasticity, PETSC_FALSE));
-    SamReturnMemory();
-  }
-  if (!c->fields.displacement_z) PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.displacement_z));
-  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.displacement_t));
-  PetscCall(SamCheckDisplacements(c->elasticity, c->coupling ? PETSC_TRUE : PETSC_FALSE, same_pressure, c->last_step,
-                                  &c->fields));
-  PetscCall(SamGridCreateVec(c->grid, 1, &c->fields.gap));
-  PetscCall(SamGridCreateVec(c->grid, 2, &c->fields.slip));
-  PetscCall(SamCheckFields(c->elasticity, c->friction, c->separation, slip_before, given_normal, given_tangential, step,
-                           &c->fields, &step->check));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactDestroyDerived(SamContact c, PetscBool same_pressure)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&c->fields.slip));
-  PetscCall(VecDestroy(&c->fields.gap));
-  if (!same_pressure) PetscCall(VecDestroy(&c->fields.displacement_z));
-  PetscCall(VecDestroy(&c->fields.displacement_t));
+  PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
+  PetscCall(SamProblemGetGrid(problem, &c->grid));
+  PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
+  PetscCall(SamNormalCreate(c->elasticity, &c->normal));
+  PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
+  PetscCall(SamSolutionCreate(c->grid, PETSC_TRUE, &c->committed.solution));
+  PetscCall(SamSolutionCreate(c->grid, PETSC_TRUE, &c->tried.solution));
+  PetscCall(SamSolutionCreate(c->grid, PETSC_FALSE, &c->before));
+  c->committed.gap_revision = -1;
+  *contact                  = c;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -89,39 +44,98 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   if (!c) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamNormalDestroy(&c->normal));
   PetscCall(SamTangentialDestroy(&c->tangential));
-  PetscCall(VecDestroy(&c->separation));
-  PetscCall(VecDestroy(&c->slip_before));
-  PetscCall(VecDestroy(&c->h));
-  PetscCall(VecDestroy(&c->last[0]));
-  PetscCall(VecDestroy(&c->last[1]));
-  PetscCall(VecDestroy(&c->previous[0]));
-  PetscCall(VecDestroy(&c->previous[1]));
-  PetscCall(VecDestroy(&c->fields.pressure));
-  PetscCall(VecDestroy(&c->fields.shear));
-  PetscCall(SamContactDestroyDerived(c, PETSC_FALSE));
-  PetscCall(SamElasticityDestroy(&c->elasticity));
+  PetscCall(SamSolutionDestroy(&c->committed.solution));
+  PetscCall(SamSolutionDestroy(&c->tried.solution));
+  PetscCall(SamSolutionDestroy(&c->before));
+  PetscCall(SamProblemDestroy(&c->problem));
   PetscCall(PetscFree(*contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- settings ---- */
+
+PetscErrorCode SamContactSetOptionsPrefix(SamContact c, const char prefix[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(c->prefix, prefix ? prefix : "", sizeof(c->prefix)));
+  PetscCall(SamNormalSetOptionsPrefix(c->normal, prefix));
+  PetscCall(SamTangentialSetOptionsPrefix(c->tangential, prefix));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSetCoupling(SamContact c, PetscBool full, PetscReal rtol, PetscInt max_it)
+{
+  PetscFunctionBegin;
+  PetscCheck(rtol == PETSC_DEFAULT || rtol > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "A coupling tolerance of %g: expected a number > 0", (double)rtol);
+  PetscCheck(max_it == PETSC_DEFAULT || max_it > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "%" PetscInt_FMT " passes: expected at least 1", max_it);
+  c->coupling = full;
+  if (rtol != PETSC_DEFAULT) c->coupling_rtol = rtol;
+  if (max_it != PETSC_DEFAULT) c->coupling_max_it = max_it;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetCoupling(SamContact c, PetscBool *full)
+{
+  PetscFunctionBegin;
+  *full = c->coupling;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSetWarmStart(SamContact c, PetscBool warm)
+{
+  PetscFunctionBegin;
+  c->warm = warm;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactAllowEdge(SamContact c, PetscBool allow)
+{
+  PetscFunctionBegin;
+  c->allow_edge = allow;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
-  const SamOptions from = {c->grid->comm, NULL};
+  static const char *const coupling_words[] = {"none", "full", NULL};
+  const SamOptions         from             = {c->grid->comm, c->prefix};
+  PetscInt                 coupling = c->coupling ? 1 : 0, max_it = c->coupling_max_it;
+  PetscReal                rtol = c->coupling_rtol;
+  PetscBool                warm = c->warm, edge = c->allow_edge;
+
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
   PetscCall(SamOptionsEnum(&from, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
-                           coupling_words, &c->coupling, NULL));
+                           coupling_words, &coupling, NULL));
   PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE,
-                           &c->coupling_rtol, NULL));
-  PetscCall(SamOptionsInt(&from, "coupling_max_it", "most passes", 1, &c->coupling_max_it, NULL));
+                           &rtol, NULL));
+  PetscCall(SamOptionsInt(&from, "coupling_max_it", "most passes", 1, &max_it, NULL));
   PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
-  PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only",
-                           &c->warm, NULL));
   PetscCall(
-    SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
+    SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
+  PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &edge, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
+  PetscCall(SamContactSetCoupling(c, coupling ? PETSC_TRUE : PETSC_FALSE, rtol, max_it));
+  PetscCall(SamContactSetWarmStart(c, warm));
+  PetscCall(SamContactAllowEdge(c, edge));
   PetscCall(SamNormalSetFromOptions(c->normal));
   PetscCall(SamTangentialSetFromOptions(c->tangential));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetProblem(SamContact c, SamProblem *problem)
+{
+  PetscFunctionBegin;
+  *problem = c->problem;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetGrid(SamContact c, SamGrid *grid)
+{
+  PetscFunctionBegin;
+  *grid = c->grid;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -139,301 +153,44 @@ PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactSetLast(SamContact c, PetscBool last)
-{
-  PetscFunctionBegin;
-  c->last_step = last;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactGetFields(SamContact c, SamFields *fields)
-{
-  PetscFunctionBegin;
-  *fields = c->fields;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Adds up the counts of the solvers over the passes. */
-static PetscErrorCode Count(SamContact c, PetscBool tangential, SamStep *step)
-{
-  PetscInt its, applies, preconditions;
-
-  PetscFunctionBegin;
-  if (tangential) {
-    PetscCall(SamTangentialGetStatistics(c->tangential, NULL, &its, &applies, &preconditions));
-    step->tangential_iterations += its;
-    step->tangential_applies += applies;
-    step->tangential_preconditions += preconditions;
-  } else {
-    PetscCall(SamNormalGetStatistics(c->normal, NULL, &its, &applies, &preconditions));
-    step->normal_iterations += its;
-    step->normal_applies += applies;
-    step->normal_preconditions += preconditions;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The first failure stays: what comes after it follows from it. */
-static PetscErrorCode Fail(SamStep *step, SamStatus status, const char message[])
-{
-  PetscFunctionBegin;
-  if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
-  step->status = status;
-  PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Whether two balances prescribe the same. */
-static PetscBool SameControl(const SamBalance *a, const SamBalance *b)
-{
-  for (PetscInt k = 0; k < 3; k++) {
-    if (a->force[k] != b->force[k]) return PETSC_FALSE;
-    if ((a->force[k] ? a->load[k] : a->rigid[k]) != (b->force[k] ? b->load[k] : b->rigid[k])) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
-}
-
-/*
-  How far the change to the next step goes on along the one before: the factor alpha, when what is controlled changes
-  in nearly the same proportions (component by component, in units of the largest value so far), else 0.
-*/
-static double Continuation(SamContact c, const double next[6])
-{
-  double along = 0, old = 0, change = 0, alpha;
-
-  for (PetscInt k = 0; k < 6; k++) {
-    const double scale = PetscMax(fabs(next[k]), PetscMax(fabs(c->values[0][k]), fabs(c->values[1][k])));
-    const double a     = scale > 0 ? (c->values[0][k] - c->values[1][k]) / scale : 0,
-                 b     = scale > 0 ? (next[k] - c->values[0][k]) / scale : 0;
-
-    along += a * b;
-    old += a * a;
-    change += b * b;
-  }
-  if (old == 0 || along <= 0) return 0;
-  alpha = along / old;
-  /* what is left of the change across the old one, relative */
-  return (change - alpha * along <= PREDICT_ACROSS * PREDICT_ACROSS * change && alpha <= PREDICT_FARTHEST) ? alpha : 0;
-}
-
-/*
-  A start for the step: where the loads go on as before, the tractions are extrapolated, and the finest grid alone
-  finishes the work in a few iterations. Where they turn, nested grids find the new slip zones faster.
-*/
-static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamBalance *tangential,
-                              PetscBool *predicted)
-{
-  double next[6], alpha = 0;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 3; k++) {
-    next[k]     = normal->force[k] ? normal->load[k] : normal->rigid[k];
-    next[k + 3] = tangential->force[k] ? tangential->load[k] : tangential->rigid[k];
-  }
-  if (c->steps > 1 && c->warm) alpha = Continuation(c, next);
-  *predicted = alpha > 0 ? PETSC_TRUE : PETSC_FALSE;
-  for (PetscInt k = 0; k < 3; k++) c->start[k] = c->rigid[0][k] + alpha * (c->rigid[0][k] - c->rigid[1][k]);
-  if (*predicted)
-    PetscCall(SamExtrapolate(c->grid, c->friction, alpha, c->fields.pressure, c->fields.shear, c->previous[0],
-                             c->previous[1], predicted));
-  else if (c->steps) {
-    if (!c->previous[0]) PetscCall(SamGridCreateVec(c->grid, 1, &c->previous[0]));
-    if (!c->previous[1]) PetscCall(SamGridCreateVec(c->grid, 2, &c->previous[1]));
-    PetscCall(VecCopy(c->fields.pressure, c->previous[0]));
-    PetscCall(VecCopy(c->fields.shear, c->previous[1]));
-  }
-  for (PetscInt k = 0; k < 6; k++) {
-    c->values[1][k] = c->values[0][k];
-    c->values[0][k] = next[k];
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, PetscBool same_pressure,
-                                  SamStep *step)
-{
-  SamNormalReason reason;
-  Vec             h = c->separation, predicted = NULL;
-  char            message[sizeof(step->message)];
-  PetscBool       possible;
-
-  PetscFunctionBegin;
-  if (c->coupled && guess) {
-    PetscCall(SamElasticityApplyTangentialToNormal(c->elasticity, c->fields.shear, c->h));
-    PetscCall(VecAXPY(c->h, 1, c->separation));
-    h = c->h;
-  }
-  step->normal = *given;
-  if (same_pressure) { /* nothing has changed for it */
-    step->normal = c->normal_found;
-    if (guess) PetscCall(VecCopy(c->previous[0], c->fields.pressure));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  if (guess) {
-    PetscCall(SamGridCreateVec(c->grid, 1, &predicted));
-    PetscCall(VecCopy(c->fields.pressure, predicted));
-  }
-  PetscCall(SamNormalSolve(c->normal, h, &step->normal, guess, c->fields.pressure));
-  if (c->last_step && !c->coupled) PetscCall(SamElasticityRelease(c->elasticity, PETSC_FALSE));
-  if (guess) PetscCall(SamFollowBound(c->grid, predicted, c->fields.pressure, c->fields.shear));
-  PetscCall(VecDestroy(&predicted));
-  c->normal_given = *given;
-  c->normal_found = step->normal;
-  PetscCall(Count(c, PETSC_FALSE, step));
-  PetscCall(SamNormalGetReason(c->normal, &reason));
-  if (reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) {
-    PetscCall(SamBalanceLever(c->grid, given, message, sizeof(message), &possible));
-    if (possible)
-      PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", sizeof(message)));
-    PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
-  } else if (reason < 0) {
-    PetscCall(
-      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamNormalReasonName(reason)));
-    PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Says which loads slide, and their limit. */
-static PetscErrorCode DescribeSliding(SamContact c, const SamBalance *given, char message[], size_t size)
-{
-  PetscReal factor;
-  PetscInt  loaded = 0;
-
-  PetscFunctionBegin;
-  PetscCall(SamTangentialGetLimit(c->tangential, &factor));
-  PetscCall(PetscStrncpy(message, "gross slip: ", size));
-  for (PetscInt k = 0; k < 3; k++) {
-    char text[96];
-
-    if (!given->force[k] || given->load[k] == 0) continue;
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "",
-                            SamLoadNames[SAM_BALANCE_TANGENTIAL][k], (double)given->load[k], k == 2 ? "N m" : "N",
-                            (double)(factor * given->load[k])));
-    PetscCall(PetscStrlcat(message, text, size));
-  }
-  PetscCall(PetscStrlcat(
-    message, c->friction == 0 ? " cannot be balanced without friction" : " cannot be balanced by |q| <= mu p", size));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* w - S of the tangential problem: u_t from p less the slip so far; NULL for zero. */
-static PetscErrorCode CreateOffset(SamContact c, Vec *offset)
-{
-  PetscFunctionBegin;
-  *offset = NULL;
-  if (!c->coupled && !c->slip_before) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(c->grid, 2, offset));
-  if (c->coupled) PetscCall(SamElasticityApplyNormalToTangential(c->elasticity, c->fields.pressure, *offset));
-  if (c->slip_before) PetscCall(VecAXPY(*offset, -1, c->slip_before));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
-{
-  SamTangentialReason reason;
-  Vec                 offset, bound;
-  char                message[sizeof(step->message)];
-
-  PetscFunctionBegin;
-  PetscCall(CreateOffset(c, &offset));
-  step->tangential = *given;
-  for (PetscInt k = 0; k < 3; k++)
-    if (given->force[k]) step->tangential.rigid[k] = c->start[k];
-  PetscCall(SamGridCreateVec(c->grid, 1, &bound));
-  PetscCall(VecAXPY(bound, c->friction, c->fields.pressure));
-  PetscCall(SamTangentialSolve(c->tangential, bound, offset, &step->tangential, guess, c->fields.shear));
-  PetscCall(VecDestroy(&bound));
-  PetscCall(VecDestroy(&offset));
-  for (PetscInt k = 0; k < 3; k++) c->start[k] = step->tangential.rigid[k]; /* of the next pass */
-  PetscCall(Count(c, PETSC_TRUE, step));
-  PetscCall(SamTangentialGetReason(c->tangential, &reason));
-  if (reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) {
-    PetscCall(DescribeSliding(c, given, message, sizeof(message)));
-    PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
-  } else if (reason < 0) {
-    PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s",
-                            SamTangentialReasonName(reason)));
-    PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Relative change of a traction since the pass before, which it then replaces. */
-static PetscErrorCode Change(SamGrid grid, Vec now, Vec last, PetscReal *change)
-{
-  PetscReal norm;
-
-  PetscFunctionBegin;
-  PetscCall(VecAYPX(last, -1, now));
-  PetscCall(SamGridNorm(grid, last, NORM_2, change));
-  PetscCall(SamGridNorm(grid, now, NORM_2, &norm));
-  *change = *change > 0 ? *change / norm : 0;
-  PetscCall(VecCopy(now, last));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Both problems, in turn when they are coupled. */
-static PetscErrorCode SolvePasses(SamContact c, const SamBalance *normal, const SamBalance *tangential,
-                                  PetscBool predicted, PetscBool same_pressure, SamStep *step)
-{
-  PetscReal change[2] = {PETSC_INFINITY, PETSC_INFINITY};
-
-  PetscFunctionBegin;
-  for (PetscInt pass = 1;; pass++) {
-    const PetscBool guess = (pass > 1 || predicted) ? PETSC_TRUE : PETSC_FALSE;
-
-    PetscCall(SolveNormal(c, normal, guess, same_pressure, step));
-    if (step->status == SAM_STATUS_CONVERGED) PetscCall(SolveTangential(c, tangential, guess, step));
-    step->coupling_iterations = pass;
-    if (!c->coupled || c->friction == 0 || step->status != SAM_STATUS_CONVERGED) break;
-    PetscCall(Change(c->grid, c->fields.pressure, c->last[0], &change[0]));
-    PetscCall(Change(c->grid, c->fields.shear, c->last[1], &change[1]));
-    if (c->coupling_monitor)
-      PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass,
-                            (double)change[0], (double)change[1]));
-    if (pass > 1 && PetscMax(change[0], change[1]) <= c->coupling_rtol) break;
-    if (pass >= c->coupling_max_it) {
-      PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED,
-                     "the coupling of normal and tangential problem did not converge within -coupling_max_it passes"));
-      break;
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+/* ---- a step ---- */
 
 /* Areas of contact and stick, and the work of friction in this step, -sum q.(s - s_before) dA. */
 static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
 {
-  const PetscInt cells = c->grid->cells, nx = c->grid->nx;
-  const double   area      = c->grid->dx * c->grid->dy;
-  SamTotal       totals[3] = {{0, 0}};
-  double         sums[3];
-  const double  *p, *q, *s, *before = NULL;
+  const SamSolution *s     = &c->tried.solution;
+  const PetscInt     cells = c->grid->cells, nx = c->grid->nx;
+  const double       area      = c->grid->dx * c->grid->dy;
+  SamTotal           totals[3] = {{0, 0}};
+  double             sums[3];
+  const double      *p, *b, *q;
+  SamIncrement       increment;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(c->fields.pressure, &p));
-  PetscCall(VecGetArrayRead(c->fields.shear, &q));
-  PetscCall(VecGetArrayRead(c->fields.slip, &s));
-  if (c->slip_before) PetscCall(VecGetArrayRead(c->slip_before, &before));
-  for (PetscInt first = 0; first < cells; first += nx) {
-    double row[3] = {0, 0, 0};
+  PetscCall(SamIncrementCreate(c->grid, c->steps ? &c->committed.solution : NULL, s, &increment));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  for (PetscInt j = 0; j < c->grid->rows; j++) {
+    const ptrdiff_t first  = (ptrdiff_t)j * nx;
+    double          row[3] = {0, 0, 0};
 
-    for (PetscInt k = first; k < first + nx; k++) {
-      const PetscInt l     = k + cells;
-      const SamState state = SamStateOf(p[k], q[k], q[l], c->friction);
+    SamIncrementComputeRow(&increment, j);
+    for (PetscInt i = 0; i < nx; i++) {
+      const ptrdiff_t k = first + i, l = k + cells;
+      const SamState  state = SamStateOf(p[k], q[k], q[l], b[k]);
 
       if (state == SAM_STATE_OPEN) continue;
       row[0] += 1;
       row[1] += state == SAM_STATE_STICK ? 1 : 0;
-      row[2] -= q[k] * (s[k] - (before ? before[k] : 0)) + q[l] * (s[l] - (before ? before[l] : 0));
+      row[2] -= q[k] * increment.row[0][i] + q[l] * increment.row[1][i];
     }
     SamAddAll(3, totals, row);
   }
-  if (c->slip_before) PetscCall(VecRestoreArrayRead(c->slip_before, &before));
-  PetscCall(VecRestoreArrayRead(c->fields.slip, &s));
-  PetscCall(VecRestoreArrayRead(c->fields.shear, &q));
-  PetscCall(VecRestoreArrayRead(c->fields.pressure, &p));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamIncrementDestroy(&increment));
   PetscCall(SamSumTotals(c->grid->comm, 3, totals, sums));
   step->contact_area      = sums[0] * area;
   step->stick_area        = sums[1] * area;
@@ -441,82 +198,145 @@ static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Turns what the check found into the step's status. */
 static PetscErrorCode Judge(SamContact c, SamStep *step)
 {
-  const SamCheck *check = &step->check;
-  PetscReal       normal_rtol, tangential_rtol;
-  char            message[sizeof(step->message)];
+  const SamCheck *check  = &step->check;
+  SamCheckLimits  limits = {.equilibrium = CHECK_EQUILIBRIUM, .cone = CHECK_CONE, .edge = c->allow_edge};
 
   PetscFunctionBegin;
-  PetscCall(SamNormalGetTolerances(c->normal, &normal_rtol, NULL));
-  PetscCall(SamTangentialGetTolerances(c->tangential, &tangential_rtol, NULL));
-  if (c->coupled) normal_rtol += c->coupling_rtol; /* the last shear is one pass younger than the pressure */
+  PetscCall(SamNormalGetTolerances(c->normal, &limits.normal, NULL));
+  PetscCall(SamTangentialGetTolerances(c->tangential, &limits.tangential, NULL));
+  /* the last shear is one pass younger than the pressure */
+  if (SamContactIsCoupled(c)) limits.normal += c->coupling_rtol;
+  limits.normal *= CHECK_MARGIN;
+  limits.tangential *= CHECK_MARGIN;
   if (c->print_check)
     PetscCall(PetscPrintf(c->grid->comm,
                           "      check: normal %.3e tangential %.3e equilibrium %.3e cone %.3e edge pressure %.3e\n",
                           (double)check->normal, (double)check->tangential, (double)check->equilibrium,
                           (double)check->cone, (double)check->edge));
-  if (!(check->normal <= CHECK_MARGIN * normal_rtol && check->tangential <= CHECK_MARGIN * tangential_rtol &&
-        check->equilibrium <= CHECK_EQUILIBRIUM && check->cone <= CHECK_CONE)) {
-    PetscCall(PetscSNPrintf(
-      message, sizeof(message), "the check disagrees: normal residual %g, tangential %g, equilibrium %g, cone %g",
-      (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone));
-    PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
-  }
-  if (check->edge > 0) {
-    PetscCall(PetscSNPrintf(message, sizeof(message),
-                            "the contact reached the edge of the grid (pressure there up to %.2g of the largest): the "
-                            "answer depends on -grid_size",
-                            (double)check->edge));
-    if (!c->allow_edge)
-      PetscCall(Fail(step, SAM_STATUS_EDGE_CONTACT, message));
-    else if (!step->message[0])
-      PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
-  }
+  PetscCall(SamStepJudge(step, &limits));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactSolve(SamContact c, SamStep *step)
+/* Refuses a control that is not one; where there are no rotations they are held at 0. */
+static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
-  const SamBalance normal = step->normal, tangential = step->tangential;
-  const SamBalance given = c->normal_given, found = c->normal_found;
-  const PetscReal  time = step->time;
-  PetscBool        predicted, same_pressure;
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    const char *name = control->force[k] ? SamComponentNames[k].load : SamComponentNames[k].rigid;
+
+    PetscCheck(isfinite(control->value[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
+    if (k < SAM_COMPONENT_MX || c->traits.rotations) continue;
+    PetscCheck(control->value[k] == 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+               "%s = %g: these bodies are periodic, which neither moments nor rotations are", name,
+               (double)control->value[k]);
+    control->force[k] = PETSC_FALSE;
+  }
+  PetscCheck(!control->force[SAM_COMPONENT_N] || control->value[SAM_COMPONENT_N] >= 0, c->grid->comm,
+             PETSC_ERR_ARG_OUTOFRANGE, "load_n = %g: expected a number >= 0", (double)control->value[SAM_COMPONENT_N]);
+  PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "friction_scale = %g: expected a number >= 0", (double)control->friction_scale);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The elasticity as the committed state had it: what a try has changed of it must not be seen by the next one. */
+static PetscErrorCode RestoreWindow(SamContact c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticitySetPart(c->elasticity, c->committed.window_first, c->committed.window_n));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the committed pressure is that of the next step too: its control and its gap are the same, and no shear acts on it. */
+static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
+{
+  PetscObjectState revision;
 
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(step, sizeof(*step)));
-  step->time       = time;
-  step->normal     = normal;
-  step->tangential = tangential;
-  PetscCall(SamElasticityIsCoupled(c->elasticity, &c->coupled));
-  if (!c->coupling) c->coupled = PETSC_FALSE;
-  if (c->coupled && !c->h) {
-    PetscCall(SamGridCreateVec(c->grid, 1, &c->h));
-    PetscCall(SamGridCreateVec(c->grid, 1, &c->last[0]));
-    PetscCall(SamGridCreateVec(c->grid, 2, &c->last[1]));
-  }
-  /* the slip at the end of the last step becomes the reference of this one */
-  if (c->fields.slip) {
-    PetscCall(VecDestroy(&c->slip_before));
-    c->slip_before = c->fields.slip;
-    c->fields.slip = NULL;
-  }
-  same_pressure = (!c->coupled && c->steps && SameControl(&normal, &c->normal_given)) ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(SamContactDestroyDerived(c, same_pressure));
-  PetscCall(Predict(c, &normal, &tangential, &predicted));
-  PetscCall(SolvePasses(c, &normal, &tangential, predicted, same_pressure, step));
-  if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
-    PetscCall(SamContactStepBack(c, &given, &found, same_pressure));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamContactCheckStep(c, same_pressure, c->slip_before, &normal, &tangential, step));
+  PetscCall(SamProblemGetGapRevision(c->problem, &revision));
+  c->tried.gap_revision = revision;
+  *same                 = (!SamContactIsCoupled(c) && c->steps && c->committed.gap_revision == revision &&
+           SamControlIsSame(&c->committed.solution.control, control, SAM_BALANCE_NORMAL))
+                            ? PETSC_TRUE
+                            : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The check and the numbers of the tried solution. */
+static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *step)
+{
+  SamSolution       *s      = &c->tried.solution;
+  const SamSolution *before = c->steps ? &c->committed.solution : NULL;
+
+  PetscFunctionBegin;
+  if (same_pressure) PetscCall(SamVecCopyNonzero(before->displacement_z, s->displacement_z));
+  PetscCall(SamCheckSolution(c->problem, c->coupling, same_pressure, before, s, &step->check));
+  PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
   PetscCall(ComputeScalars(c, step));
   PetscCall(Judge(c, step));
-  for (PetscInt k = 0; k < 3; k++) {
-    c->rigid[1][k] = c->rigid[0][k];
-    c->rigid[0][k] = step->tangential.rigid[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Without a solution what was not given is not known. */
+static void SetUnknown(SamStep *step)
+{
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    step->load[k]  = step->control.force[k] ? step->control.value[k] : NAN;
+    step->rigid[k] = step->control.force[k] ? NAN : step->control.value[k];
   }
+  step->contact_area = step->stick_area = step->dissipated_energy = NAN;
+  step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
+}
+
+PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *step)
+{
+  SamControl given = *control;
+  SamStart   start;
+  PetscBool  same_pressure = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactReject(c));
+  PetscCall(CheckControl(c, &given));
+  PetscCall(PetscMemzero(step, sizeof(*step)));
+  step->control             = given;
+  c->tried.solution.control = given;
+  PetscCall(IsSamePressure(c, &given, &same_pressure));
+  PetscCall(SamContactPredict(c, &given, &start));
+  PetscCall(SamContactSolveStep(c, &start, same_pressure, step));
+  if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
+    SetUnknown(step);
+    PetscCall(RestoreWindow(c));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  c->has_tried = PETSC_TRUE;
+  PetscCall(SamElasticityGetPartPlace(c->elasticity, c->tried.window_first, c->tried.window_n));
+  PetscCall(Conclude(c, same_pressure, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactCommit(SamContact c)
+{
+  SamSolution recycled = c->before;
+
+  PetscFunctionBegin;
+  PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
+  c->before                = c->committed.solution;
+  c->before.displacement_z = c->before.displacement_t = NULL;
+  recycled.displacement_z                             = c->committed.solution.displacement_z;
+  recycled.displacement_t                             = c->committed.solution.displacement_t;
+  c->committed                                        = c->tried;
+  c->tried.solution                                   = recycled;
+  c->has_tried                                        = PETSC_FALSE;
   c->steps++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactReject(SamContact c)
+{
+  PetscFunctionBegin;
+  c->has_tried = PETSC_FALSE;
+  PetscCall(RestoreWindow(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

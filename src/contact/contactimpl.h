@@ -2,72 +2,119 @@
 #ifndef PETSAM_CONTACTIMPL_H
 #define PETSAM_CONTACTIMPL_H
 
-#include <petsam/private/baseimpl.h>
+#include <petsam/private/balanceimpl.h>
 #include <petsam/contact.h>
+
+/* A solution and what else belongs to the state it makes. */
+typedef struct {
+  SamSolution      solution;
+  PetscObjectState gap_revision;                 /* of the gap that the pressure was found with */
+  PetscInt         window_first[2], window_n[2]; /* part of the grid that the solvers worked on last; n = 0: none */
+} SamContactMark;
 
 struct _n_SamContact {
   /* what the user set */
-  PetscReal friction, coupling_rtol;
-  PetscInt  coupling, coupling_max_it;
-  PetscBool warm, last_step;
-  PetscBool coupling_monitor, allow_edge, print_check;
-  /* what it owns */
-  SamElasticity elasticity;
-  SamGrid       grid;
-  SamNormal     normal;
-  SamTangential tangential;
-  Vec           separation;
-  Vec           slip_before; /* at the end of the step before; NULL: zero */
-  Vec           h;           /* separation and u_z from q; NULL when not coupled */
-  Vec           last[2];     /* p and q of the pass before; NULL when not coupled */
-  SamFields     fields;
-  /* status */
-  PetscBool  coupled;
-  PetscInt   steps;                      /* solved so far */
-  SamBalance normal_given, normal_found; /* of the last normal solve */
-  double     values[2][6];               /* what was controlled in the last step and in the one before */
-  double     rigid[2][3];                /* tangential rigid displacements then */
-  double     start[3];                   /* and where they start now */
-  Vec        previous[2];                /* p and q of the step before the last; NULL until there are two */
+  char      prefix[64];
+  PetscBool coupling, warm, allow_edge;
+  PetscReal coupling_rtol;
+  PetscInt  coupling_max_it;
+  PetscBool coupling_monitor, print_check;
+  /* what it is made of */
+  SamProblem          problem;
+  SamElasticity       elasticity; /* the problem's; borrowed */
+  SamGrid             grid;       /* likewise */
+  SamElasticityTraits traits;
+  SamNormal           normal;
+  SamTangential       tangential;
+  /* its states */
+  PetscInt       steps;     /* committed so far */
+  SamContactMark committed; /* after the last of them */
+  SamSolution    before;    /* one step back: tractions only */
+  SamContactMark tried;
+  PetscBool      has_tried;
 };
 
+/* ---- states (state.c) ---- */
+
+/* SamSolutionCreate, SamSolutionDestroy - the fields of a solution, zero; displacements only if wanted. Collective. */
+PETSC_INTERN PetscErrorCode SamSolutionCreate(SamGrid grid, PetscBool displacements, SamSolution *solution);
+PETSC_INTERN PetscErrorCode SamSolutionDestroy(SamSolution *solution);
+/* SamVecCopyNonzero - copies a field; what is zero in both stays unwritten, and takes no memory. Collective. */
+PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
+
+/* The three components of one kind, as the solvers take them. */
+PETSC_INTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind);
+/* Puts a balance's loads and rigid displacements to their places among the six. */
+PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
+/* Whether the components of one kind are prescribed the same. */
+PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
+/* The six components' numbers of one kind. */
+PETSC_INTERN const PetscInt SamComponentsOf[2][3];
+
 /*
-  SamContactDestroyDerived - frees the fields that follow from the tractions; with `same_pressure` displacement_z
-  stays. Collective.
+  SamMotion - what is taken off a solution's elastic displacements to make its gap and its slip: rigid displacements,
+  less the stretch. In a row of cells each is a + b xi.
 */
-PETSC_INTERN PetscErrorCode SamContactDestroyDerived(SamContact contact, PetscBool same_pressure);
-/* SamContactCheckStep - makes them for the step, whose check fills step->check; see SamContactCheck. Collective. */
-PETSC_INTERN PetscErrorCode SamContactCheckStep(SamContact contact, PetscBool same_pressure, Vec slip_before,
-                                                const SamBalance *given_normal, const SamBalance *given_tangential,
+typedef struct {
+  SamFrame  normal, tangential; /* with all displacements given */
+  PetscReal stretch[3];
+} SamMotion;
+typedef struct {
+  double a, b;
+} SamMotionRow;
+PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamGrid grid, const SamSolution *solution);
+PETSC_INTERN SamMotionRow   SamMotionOfGap(const SamMotion *motion, PetscInt j);
+PETSC_INTERN SamMotionRow   SamMotionOfSlip(const SamMotion *motion, PetscInt component, PetscInt j);
+/* value = u - a - b xi of a row of the grid. */
+PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, const double u[], double value[]);
+/* value = u + h - a - b xi. */
+PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
+                               double value[]);
+/* SamSolutionComputeSlip - the slip (m, two components) of a solution. Collective. */
+PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *solution, Vec slip);
+
+/*
+  SamIncrement - the slip of a step, row by row: that of a solution less that of the one before (NULL: none). Compute puts
+  row j of both components, m, to row[0] and row[1]. Creation and destruction are collective.
+*/
+typedef struct {
+  SamGrid       grid;
+  SamMotion     now, before;
+  Vec           v_now, v_before;
+  const double *u_now, *u_before; /* elastic displacements; u_before NULL: nothing has slipped */
+  double       *row[2], *scratch;
+} SamIncrement;
+PETSC_INTERN PetscErrorCode SamIncrementCreate(SamGrid grid, const SamSolution *before, const SamSolution *now,
+                                               SamIncrement *increment);
+PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
+PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
+
+/* ---- a step ---- */
+
+/* Whether pressure and shear depend on each other. */
+static inline PetscBool SamContactIsCoupled(SamContact c)
+{
+  return (c->traits.coupled && c->coupling) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* How the tried step starts. */
+typedef struct {
+  PetscBool pressure, shear; /* the tried solution holds a start of the pressure; of the shear */
+  double    rigid[3];        /* start of the tangential rigid displacements */
+} SamStart;
+
+/* SamContactPredict - the start of a step, and whether there is one (predict.c). Collective. */
+PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStart *start);
+/* SamFollowPressure - scales a shear that belonged to one pressure to another: what slips goes on slipping. */
+PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear);
+
+/*
+  SamContactSolveStep - solves the tried step's problems, in turn when they are coupled, from its start; what fails is in
+  the step's status (step.c). `same_pressure`: the pressure is that of the committed state. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamStart *start, PetscBool same_pressure,
                                                 SamStep *step);
-/*
-  The two halves of SamContactCheck: elastic displacements from the tractions (`release`: each kernel is freed after its
-  last product); gap, slip and what they show. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamCheckDisplacements(SamElasticity elasticity, PetscBool coupling, PetscBool same_pressure,
-                                                  PetscBool release, SamFields *fields);
-PETSC_INTERN PetscErrorCode SamCheckFields(SamElasticity elasticity, PetscReal friction, Vec separation,
-                                           Vec slip_before, const SamBalance *given_normal,
-                                           const SamBalance *given_tangential, const SamStep *step, SamFields *fields,
-                                           SamCheck *check);
-
-/*
-  SamContactStepBack - after a step without equilibrium: the fields are again those of the last step that had a
-  solution, whose normal control and its outcome are given; the next one goes on from there. Without such a step there
-  are no fields. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamContactStepBack(SamContact contact, const SamBalance *given, const SamBalance *found,
-                                               PetscBool same_pressure);
-
-/*
-  SamExtrapolate - replaces pressure and shear of a step by a prediction of the next one, alpha times as far on as it is
-  from the step before, whose tractions are given in the next two arguments and replaced by the step's own. `found` is
-  false, and the step's tractions stay, where the prediction is that contact is lost. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamExtrapolate(SamGrid grid, PetscReal friction, PetscReal alpha, Vec pressure, Vec shear,
-                                           Vec pressure_before, Vec shear_before, PetscBool *found);
-
-/* SamFollowBound - scales a shear that belonged to one pressure to another: what slips goes on slipping. */
-PETSC_INTERN PetscErrorCode SamFollowBound(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear);
+/* SamStepFail - the first failure stays: what comes after it follows from it. */
+PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
 
 #endif

@@ -1,5 +1,8 @@
 /*
-  The tractions of the next step, extrapolated from the last two.
+  The start of a step.
+
+  Where what is controlled goes on as it went in the last step, the tractions are extrapolated, and the finest grid
+  alone finishes the work in a few iterations. Where it turns, nested grids find the new slip zones faster.
 
   At the edge of the contact the pressure, and at the edge of the stick zone what the shear lacks of the bound, go to
   zero like the square root of the distance. Edges move: extrapolating p or q cell by cell would be wrong by a part of
@@ -9,61 +12,68 @@
   where cells slip, it goes on along it.
 */
 #include "contactimpl.h"
-#include <petsam/private/balanceimpl.h>
 #include <math.h>
+
+/* The change of a step is predicted when it is across the last one's by at most this part, and so many times as far. */
+#define PREDICT_ACROSS   0.3
+#define PREDICT_FARTHEST 3.0
 
 /* A cell is on its circle from this part of the bound on. */
 #define ON_CIRCLE (1 - 1e-7)
 
-/* p, q_x and q_y of two steps, and of a row of the next one. */
+/* ---- how far the change goes on ---- */
+
+/*
+  The factor alpha by which the change to the next step goes on along the one before, when what is controlled changes in
+  nearly the same proportions (component by component, in units of the largest value so far), else 0.
+*/
+static double Continuation(const SamControl *before, const SamControl *now, const SamControl *next)
+{
+  double along = 0, old = 0, change = 0, alpha;
+
+  for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
+    const PetscInt k     = SamComponentsOf[n / 3][n % 3];
+    const double   v[3]  = {next->value[k], now->value[k], before->value[k]};
+    const double   scale = PetscMax(fabs(v[0]), PetscMax(fabs(v[1]), fabs(v[2])));
+    const double   a = scale > 0 ? (v[1] - v[2]) / scale : 0, b = scale > 0 ? (v[0] - v[1]) / scale : 0;
+
+    if (next->force[k] != now->force[k] || now->force[k] != before->force[k]) return 0;
+    along += a * b;
+    old += a * a;
+    change += b * b;
+  }
+  if (old == 0 || along <= 0) return 0;
+  alpha = along / old;
+  /* what is left of the change across the old one, relative */
+  return (change - alpha * along <= PREDICT_ACROSS * PREDICT_ACROSS * change && alpha <= PREDICT_FARTHEST) ? alpha : 0;
+}
+
+/* ---- extrapolation ---- */
+
+/* p, bound, q_x and q_y of the step before, of the last and of the next one; coefficients of friction of the next one. */
+enum { P, B, X, Y, FIELDS };
 typedef struct {
-  SamGrid grid;
-  double  friction;
-  double *before[3], *now[3];
-  double *next[3];
+  const double *before[FIELDS], *now[FIELDS];
+  double       *next[FIELDS]; /* without the bound */
+  const double *friction;     /* NULL: the number `coefficient` */
+  double        coefficient, scale;
 } Tractions;
 
-static PetscErrorCode GetTractions(Tractions *t, SamGrid grid, PetscReal friction, Vec pressure, Vec shear,
-                                   Vec pressure_before, Vec shear_before)
+/* One row's cells first ... last - 1 of the next p and q; `mu`: their coefficients. */
+SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, ptrdiff_t k, PetscInt n, const double *mu)
 {
-  PetscFunctionBegin;
-  t->grid     = grid;
-  t->friction = friction;
-  PetscCall(VecGetArray(pressure, &t->now[0]));
-  PetscCall(VecGetArray(shear, &t->now[1]));
-  PetscCall(VecGetArray(pressure_before, &t->before[0]));
-  PetscCall(VecGetArray(shear_before, &t->before[1]));
-  t->now[2]    = t->now[1] + grid->cells;
-  t->before[2] = t->before[1] + grid->cells;
-  PetscCall(PetscMalloc3(grid->nx, &t->next[0], grid->nx, &t->next[1], grid->nx, &t->next[2]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode RestoreTractions(Tractions *t, Vec pressure, Vec shear, Vec pressure_before, Vec shear_before)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree3(t->next[0], t->next[1], t->next[2]));
-  PetscCall(VecRestoreArray(pressure, &t->now[0]));
-  PetscCall(VecRestoreArray(shear, &t->now[1]));
-  PetscCall(VecRestoreArray(pressure_before, &t->before[0]));
-  PetscCall(VecRestoreArray(shear_before, &t->before[1]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The next p and q of n cells from k on, which are the columns from `first` on. */
-SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, ptrdiff_t k, PetscInt first, PetscInt n)
-{
-  const double *restrict p0 = t->before[0] + k, *restrict qx0 = t->before[1] + k, *restrict qy0 = t->before[2] + k,
-                         *restrict p1 = t->now[0] + k, *restrict qx1 = t->now[1] + k, *restrict qy1 = t->now[2] + k;
-  double *restrict p = t->next[0] + first, *restrict qx = t->next[1] + first, *restrict qy = t->next[2] + first;
-  const double friction = t->friction;
+  const double *restrict p0 = t->before[P] + k, *restrict b0 = t->before[B] + k, *restrict qx0 = t->before[X] + k,
+                         *restrict qy0 = t->before[Y] + k;
+  const double *restrict p1 = t->now[P] + k, *restrict b1 = t->now[B] + k, *restrict qx1 = t->now[X] + k,
+                         *restrict qy1 = t->now[Y] + k, *restrict friction = mu;
+  double *restrict p = t->next[P] + k, *restrict qx = t->next[X] + k, *restrict qy = t->next[Y] + k;
 
 #pragma omp simd
   for (PetscInt i = 0; i < n; i++) {
     const double square = (1 + alpha) * p1[i] * p1[i] - alpha * p0[i] * p0[i], root = sqrt(square > 0 ? square : 0),
                  pressure = p1[i] == p0[i] ? p1[i] : root;
-    const double known    = friction * (p0[i] < p1[i] ? p0[i] : p1[i]) > 0 ? 1 : 0,
-                 bound0 = friction * p0[i] + (1 - known), bound1 = friction * p1[i] + (1 - known);
+    const double known = (b0[i] < b1[i] ? b0[i] : b1[i]) > 0 ? 1 : 0, bound0 = b0[i] + (1 - known),
+                 bound1 = b1[i] + (1 - known);
     const double rx = qx1[i] / bound1, ry = qy1[i] / bound1, x = rx - qx0[i] / bound0, y = ry - qy0[i] / bound0,
                  way2 = x * x + y * y, n2 = rx * rx + ry * ry;
     const double moves = way2 > 0 ? 1 : 0, inside = n2 < ON_CIRCLE * ON_CIRCLE ? 1 : 0, way = sqrt(way2),
@@ -72,7 +82,7 @@ SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, pt
                  left2 = (1 + alpha) * left * left - alpha * last * last, go = left - sqrt(left2 > 0 ? left2 : 0);
     const double part = inside > 0 ? moves * go / (way + (1 - moves)) : alpha, vx = rx + part * x, vy = ry + part * y,
                  v2    = vx * vx + vy * vy;
-    const double scale = friction * pressure * (inside > 0 ? 1 : 1 / sqrt(v2 > 0 ? v2 : 1));
+    const double scale = friction[i] * pressure * (inside > 0 ? 1 : 1 / sqrt(v2 > 0 ? v2 : 1));
 
     p[i]  = pressure;
     qx[i] = known > 0 ? scale * vx : qx1[i];
@@ -80,50 +90,114 @@ SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, pt
   }
 }
 
-/* The next p and q of row j where there is or was pressure: from column first to last - 1. */
-static void ExtrapolateRow(const Tractions *t, double alpha, PetscInt j, PetscInt *first, PetscInt *last)
+/* Row j where there is or was pressure; returns the largest pressure. Elsewhere p and q of the next step are zero. */
+static double ExtrapolateRow(const Tractions *t, SamGrid grid, double alpha, PetscInt j, double mu[])
 {
-  const PetscInt  nx = t->grid->nx;
+  const PetscInt  nx = grid->nx;
   const ptrdiff_t k  = (ptrdiff_t)j * nx;
-  PetscInt        a[2], b[2];
+  PetscInt        a[2], b[2], first, last;
+  double          most = 0;
 
-  SamBoundRange(nx, t->before[0] + k, &a[0], &b[0]);
-  SamBoundRange(nx, t->now[0] + k, &a[1], &b[1]);
-  *first = PetscMin(a[0], a[1]); /* nx where there is none */
-  *last  = PetscMax(*first, PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0));
-  ExtrapolateCells(t, alpha, k + *first, *first, *last - *first);
+  SamBoundRange(nx, t->before[P] + k, &a[0], &b[0]);
+  SamBoundRange(nx, t->now[P] + k, &a[1], &b[1]);
+  first = PetscMin(a[0], a[1]); /* nx where there is none */
+  last  = PetscMax(first, PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0));
+  for (PetscInt i = first; i < last; i++) mu[i] = t->scale * (t->friction ? t->friction[k + i] : t->coefficient);
+  ExtrapolateCells(t, alpha, k + first, last - first, mu + first);
+  for (PetscInt f = 0; f < FIELDS; f++) {
+    if (f == B) continue;
+    SamZero(first, t->next[f] + k);
+    SamZero(nx - last, t->next[f] + k + last);
+  }
+  for (PetscInt i = first; i < last; i++) most = PetscMax(most, t->next[P][k + i]);
+  return most;
 }
 
-PetscErrorCode SamExtrapolate(SamGrid grid, PetscReal friction, PetscReal alpha, Vec pressure, Vec shear,
-                              Vec pressure_before, Vec shear_before, PetscBool *found)
+static PetscErrorCode ReadTractions(SamGrid grid, const SamSolution *s, const double *fields[FIELDS])
 {
-  double    most = 0;
-  Tractions t;
-
   PetscFunctionBegin;
-  PetscCall(GetTractions(&t, grid, friction, pressure, shear, pressure_before, shear_before));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    PetscInt first, last;
-
-    ExtrapolateRow(&t, alpha, j, &first, &last);
-    for (PetscInt i = first; i < last; i++) most = PetscMax(most, t.next[0][i]);
-    for (PetscInt c = 0; c < 3; c++) {
-      const ptrdiff_t k = (ptrdiff_t)j * grid->nx + first;
-
-      PetscCall(PetscArraycpy(t.before[c] + k, t.now[c] + k, last - first));
-      PetscCall(PetscArraycpy(t.now[c] + k, t.next[c] + first, last - first));
-    }
-  }
-  PetscCall(RestoreTractions(&t, pressure, shear, pressure_before, shear_before));
-  PetscCall(SamMax(grid->comm, 1, &most));
-  *found = most > 0 ? PETSC_TRUE : PETSC_FALSE;
-  if (*found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecCopy(pressure_before, pressure));
-  PetscCall(VecCopy(shear_before, shear));
+  PetscCall(VecGetArrayRead(s->pressure, &fields[P]));
+  PetscCall(VecGetArrayRead(s->bound, &fields[B]));
+  PetscCall(VecGetArrayRead(s->shear, &fields[X]));
+  fields[Y] = fields[X] + grid->cells;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFollowBound(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear)
+static PetscErrorCode RestoreTractions(const SamSolution *s, const double *fields[FIELDS])
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArrayRead(s->pressure, &fields[P]));
+  PetscCall(VecRestoreArrayRead(s->bound, &fields[B]));
+  PetscCall(VecRestoreArrayRead(s->shear, &fields[X]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The next pressure and shear, alpha times as far on as the last step went; `found`: there is contact. */
+static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_scale, PetscBool *found)
+{
+  const SamSolution *before = &c->before, *now = &c->committed.solution, *next = &c->tried.solution;
+  Tractions          t    = {.friction = NULL, .scale = friction_scale};
+  double             most = 0, *mu;
+  Vec                field;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetFriction(c->problem, &t.coefficient, &field));
+  if (field) PetscCall(VecGetArrayRead(field, &t.friction));
+  PetscCall(ReadTractions(c->grid, before, t.before));
+  PetscCall(ReadTractions(c->grid, now, t.now));
+  PetscCall(VecGetArray(next->pressure, &t.next[P]));
+  PetscCall(VecGetArray(next->shear, &t.next[X]));
+  t.next[Y] = t.next[X] + c->grid->cells;
+  PetscCall(PetscMalloc1(c->grid->nx, &mu));
+  for (PetscInt j = 0; j < c->grid->rows; j++) most = PetscMax(most, ExtrapolateRow(&t, c->grid, alpha, j, mu));
+  PetscCall(PetscFree(mu));
+  PetscCall(VecRestoreArray(next->shear, &t.next[X]));
+  PetscCall(VecRestoreArray(next->pressure, &t.next[P]));
+  PetscCall(RestoreTractions(now, t.now));
+  PetscCall(RestoreTractions(before, t.before));
+  if (field) PetscCall(VecRestoreArrayRead(field, &t.friction));
+  PetscCall(SamMax(c->grid->comm, 1, &most));
+  *found = most > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the start ---- */
+
+/* The pressure goes on from the last one where only the gap has changed since. */
+static PetscErrorCode StartFromLastPressure(SamContact c, SamStart *start)
+{
+  PetscReal most;
+
+  PetscFunctionBegin;
+  PetscCall(VecMax(c->committed.solution.pressure, NULL, &most));
+  if (most <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamVecCopyNonzero(c->committed.solution.pressure, c->tried.solution.pressure));
+  start->pressure = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamStart *start)
+{
+  const SamSolution *now   = &c->committed.solution;
+  double             alpha = 0;
+  PetscBool          found = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *start = (SamStart){.pressure = PETSC_FALSE};
+  if (c->steps > 1 && c->warm) alpha = Continuation(&c->before.control, &now->control, control);
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+
+    start->rigid[k] = now->rigid[n] + alpha * (now->rigid[n] - c->before.rigid[n]);
+  }
+  if (alpha > 0) PetscCall(Extrapolate(c, alpha, control->friction_scale, &found));
+  start->pressure = start->shear = found;
+  if (!found && c->warm && !SamContactIsCoupled(c) && SamControlIsSame(&now->control, control, SAM_BALANCE_NORMAL))
+    PetscCall(StartFromLastPressure(c, start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear)
 {
   const PetscInt cells = grid->cells;
   const double  *p0, *p;

@@ -1,96 +1,158 @@
-/* What a contact carries from step to step: taking it out, putting it back, and going back by a step. */
+/* Solutions and states: their fields, what follows from them, and taking a state out and putting it back. */
 #include "contactimpl.h"
+#include <string.h>
 
-PetscErrorCode SamContactStepBack(SamContact c, const SamBalance *given, const SamBalance *found,
-                                  PetscBool same_pressure)
+const PetscInt SamComponentsOf[2][3] = {{SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY},
+                                        {SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ}};
+
+/* ---- components ---- */
+
+SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind)
 {
-  SamStep step;
+  SamBalance balance = {.kind = kind};
+
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt c = SamComponentsOf[kind][k];
+
+    balance.force[k] = control->force[c];
+    if (control->force[c])
+      balance.load[k] = control->value[c];
+    else
+      balance.rigid[k] = control->value[c];
+  }
+  return balance;
+}
+
+void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[])
+{
+  for (PetscInt k = 0; k < 3; k++) {
+    load[SamComponentsOf[balance->kind][k]]  = balance->load[k];
+    rigid[SamComponentsOf[balance->kind][k]] = balance->rigid[k];
+  }
+}
+
+PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind)
+{
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt c = SamComponentsOf[kind][k];
+
+    if (a->force[c] != b->force[c] || a->value[c] != b->value[c]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* ---- fields ---- */
+
+PetscErrorCode SamSolutionCreate(SamGrid grid, PetscBool displacements, SamSolution *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(s, sizeof(*s)));
+  PetscCall(SamControlInitialize(&s->control));
+  PetscCall(SamGridCreateVec(grid, 1, &s->pressure));
+  PetscCall(SamGridCreateVec(grid, 1, &s->bound));
+  PetscCall(SamGridCreateVec(grid, 2, &s->shear));
+  if (!displacements) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(grid, 1, &s->displacement_z));
+  PetscCall(SamGridCreateVec(grid, 2, &s->displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionDestroy(SamSolution *s)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&s->pressure));
+  PetscCall(VecDestroy(&s->bound));
+  PetscCall(VecDestroy(&s->shear));
+  PetscCall(VecDestroy(&s->displacement_z));
+  PetscCall(VecDestroy(&s->displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamVecCopyNonzero(Vec from, Vec to)
+{
+  enum { CHUNK = 512 };
+  static const double zeros[CHUNK] = {0};
+  const double       *x;
+  double             *y;
+  PetscInt            n;
 
   PetscFunctionBegin;
-  if (!c->steps) PetscFunctionReturn(PETSC_SUCCESS);
-  c->normal_given = *given;
-  c->normal_found = *found;
-  for (PetscInt k = 0; k < 6; k++) c->values[0][k] = c->values[1][k];
-  PetscCall(VecCopy(c->previous[0], c->fields.pressure));
-  PetscCall(VecCopy(c->previous[1], c->fields.shear));
-  PetscCall(PetscMemzero(&step, sizeof(step)));
-  step.normal          = *found;
-  step.tangential.kind = SAM_BALANCE_TANGENTIAL; /* its displacements are only in the slip, which is known */
-  PetscCall(SamContactCheckStep(c, same_pressure, NULL, &step.normal, &step.tangential, &step));
-  PetscCall(VecDestroy(&c->fields.slip));
-  c->fields.slip = c->slip_before;
-  c->slip_before = NULL;
-  PetscCall(VecDestroy(&c->previous[0]));
-  PetscCall(VecDestroy(&c->previous[1]));
-  c->steps = 1; /* nothing to extrapolate from */
+  PetscCall(VecGetLocalSize(from, &n));
+  PetscCall(VecGetArrayRead(from, &x));
+  PetscCall(VecGetArray(to, &y));
+  for (PetscInt k = 0; k < n; k += CHUNK) {
+    const PetscInt count = PetscMin(CHUNK, n - k);
+
+    if (memcmp(x + k, zeros, sizeof(*x) * (size_t)count))
+      PetscCall(PetscArraycpy(y + k, x + k, count));
+    else
+      SamZero(count, y + k);
+  }
+  PetscCall(VecRestoreArray(to, &y));
+  PetscCall(VecRestoreArrayRead(from, &x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- states ---- */
+
+PetscErrorCode SamContactGetSolution(SamContact c, const SamSolution **solution)
+{
+  PetscFunctionBegin;
+  *solution = c->has_tried ? &c->tried.solution : &c->committed.solution;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
 {
+  PetscObjectState revision;
+
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
-  s->steps             = c->steps;
-  s->given             = c->normal_given;
-  s->found             = c->normal_found;
-  s->pressure          = c->fields.pressure;
-  s->shear             = c->fields.shear;
-  s->slip              = c->fields.slip;
-  s->displacement_z    = c->fields.displacement_z;
-  s->previous_pressure = c->previous[0];
-  s->previous_shear    = c->previous[1];
-  PetscCall(PetscMemcpy(s->values, c->values, sizeof(s->values)));
-  PetscCall(PetscMemcpy(s->rigid, c->rigid, sizeof(s->rigid)));
-  PetscCall(SamElasticityGetPartPlace(c->elasticity, s->window_first, s->window_n));
+  s->steps = c->steps;
+  s->now   = c->committed.solution;
+  if (c->steps > 1) s->before = c->before;
+  PetscCall(PetscArraycpy(s->window_first, c->committed.window_first, 2));
+  PetscCall(PetscArraycpy(s->window_n, c->committed.window_n, 2));
+  PetscCall(SamProblemGetGapRevision(c->problem, &revision));
+  s->gap_is_current = c->committed.gap_revision == revision ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A copy in a vector of the contact's own, which is made where it is needed. */
-static PetscErrorCode Take(Vec from, Vec *to)
+/* Copies a solution, of which the fields `to` has are wanted. */
+static PetscErrorCode CopySolution(const SamSolution *from, SamSolution *to)
 {
+  SamSolution own = *to;
+
   PetscFunctionBegin;
-  if (!from)
-    PetscCall(VecDestroy(to));
-  else {
-    if (!*to) PetscCall(VecDuplicate(from, to));
-    PetscCall(VecCopy(from, *to));
-  }
+  *to                = *from;
+  to->pressure       = own.pressure;
+  to->bound          = own.bound;
+  to->shear          = own.shear;
+  to->displacement_z = own.displacement_z;
+  to->displacement_t = own.displacement_t;
+  PetscCall(SamVecCopyNonzero(from->pressure, to->pressure));
+  PetscCall(SamVecCopyNonzero(from->bound, to->bound));
+  PetscCall(SamVecCopyNonzero(from->shear, to->shear));
+  if (to->displacement_z) PetscCall(SamVecCopyNonzero(from->displacement_z, to->displacement_z));
+  if (to->displacement_t) PetscCall(SamVecCopyNonzero(from->displacement_t, to->displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
 {
-  PetscFunctionBegin;
-  PetscCheck(s->steps > 0 && s->pressure && s->shear && s->slip && s->displacement_z &&
-               (s->steps == 1 || (s->previous_pressure && s->previous_shear)),
-             c->grid->comm, PETSC_ERR_ARG_INCOMP, "The state is not that of a contact after a step");
-  c->steps        = s->steps;
-  c->normal_given = s->given;
-  c->normal_found = s->found;
-  PetscCall(PetscMemcpy(c->values, s->values, sizeof(c->values)));
-  PetscCall(PetscMemcpy(c->rigid, s->rigid, sizeof(c->rigid)));
-  PetscCall(SamContactDestroyDerived(c, PETSC_FALSE));
-  PetscCall(VecDestroy(&c->slip_before));
-  PetscCall(Take(s->pressure, &c->fields.pressure));
-  PetscCall(Take(s->shear, &c->fields.shear));
-  PetscCall(Take(s->slip, &c->fields.slip));
-  PetscCall(Take(s->displacement_z, &c->fields.displacement_z));
-  PetscCall(Take(s->previous_pressure, &c->previous[0]));
-  PetscCall(Take(s->previous_shear, &c->previous[1]));
-  PetscCall(SamElasticitySetPart(c->elasticity, s->window_first, s->window_n));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+  PetscObjectState revision;
 
-PetscErrorCode SamContactGetGrid(SamContact c, SamGrid *grid)
-{
   PetscFunctionBegin;
-  *grid = c->grid;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactGetCoupling(SamContact c, PetscBool *full)
-{
-  PetscFunctionBegin;
-  *full = c->coupling ? PETSC_TRUE : PETSC_FALSE;
+  PetscCheck(s->steps >= 0 && s->now.pressure && s->now.bound && s->now.shear && s->now.displacement_z &&
+               s->now.displacement_t && (s->steps < 2 || (s->before.pressure && s->before.bound && s->before.shear)),
+             c->grid->comm, PETSC_ERR_ARG_INCOMP, "The state lacks fields");
+  PetscCall(SamContactReject(c));
+  PetscCall(CopySolution(&s->now, &c->committed.solution));
+  if (s->steps > 1) PetscCall(CopySolution(&s->before, &c->before));
+  c->steps = s->steps;
+  PetscCall(PetscArraycpy(c->committed.window_first, s->window_first, 2));
+  PetscCall(PetscArraycpy(c->committed.window_n, s->window_n, 2));
+  PetscCall(SamProblemGetGapRevision(c->problem, &revision));
+  c->committed.gap_revision = s->gap_is_current ? revision : -1; /* no revision: found with another gap */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,26 +3,45 @@
 #include <petsam/material.h>
 #include <math.h>
 
+/* What no pair can be made of: a message that names the body's constant by a prefix, empty when all is well. */
+static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisson[2], const char prefix[],
+                                char message[], size_t size)
+{
+  PetscFunctionBegin;
+  message[0] = '\0';
+  for (int b = 0; b < 2 && !message[0]; b++) {
+    const PetscReal inverse_shear = isinf(young[b]) ? 0 : 2 * (1 + poisson[b]) / young[b];
+
+    if (!(young[b] > 0))
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: expected a number > 0 or inf", prefix, b + 1,
+                              (double)young[b]));
+    else if (!(poisson[b] > -1 && poisson[b] <= 0.5))
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_poisson %g: expected a number above -1 and at most 0.5", prefix,
+                              b + 1, (double)poisson[b]));
+    else if (!isfinite(inverse_shear) || (inverse_shear == 0 && !isinf(young[b])))
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: the elasticity is not a number in double precision",
+                              prefix, b + 1, (double)young[b]));
+  }
+  if (!message[0] && isinf(young[0]) && isinf(young[1]))
+    PetscCall(PetscSNPrintf(message, size,
+                            "%sbody1_young and %sbody2_young: both bodies are rigid, at least one must be elastic",
+                            prefix, prefix));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2])
 {
   PetscReal inverse_shear[2]; /* 1/G, zero for a rigid body */
+  char      message[256];
 
   PetscFunctionBegin;
+  PetscCall(FindFault(young, poisson, "", message, sizeof(message)));
+  PetscCheck(!message[0], PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "%s", message);
   for (PetscInt b = 0; b < 2; b++) {
-    const int body = (int)b + 1;
-
-    PetscCheck(young[b] > 0, PETSC_COMM_SELF, SAM_ERR_USER, "-body%d_young %g: expected a number > 0 or inf", body,
-               (double)young[b]);
-    PetscCheck(poisson[b] > -1 && poisson[b] <= 0.5, PETSC_COMM_SELF, SAM_ERR_USER,
-               "-body%d_poisson %g: expected a number above -1 and at most 0.5", body, (double)poisson[b]);
     inverse_shear[b] = isinf(young[b]) ? 0 : 2 * (1 + poisson[b]) / young[b];
-    PetscCheck(isfinite(inverse_shear[b]) && (inverse_shear[b] > 0 || isinf(young[b])), PETSC_COMM_SELF, SAM_ERR_USER,
-               "-body%d_young %g: the elasticity is not a number in double precision", body, (double)young[b]);
     pair->young[b]   = young[b];
     pair->poisson[b] = poisson[b];
   }
-  PetscCheck(inverse_shear[0] > 0 || inverse_shear[1] > 0, PETSC_COMM_SELF, SAM_ERR_USER,
-             "-body1_young and -body2_young: both bodies are rigid, at least one must be elastic");
   pair->normal   = ((1 - poisson[0]) * inverse_shear[0] + (1 - poisson[1]) * inverse_shear[1]) / (2 * PETSC_PI);
   pair->shear    = pair->normal;
   pair->shear_xx = (poisson[0] * inverse_shear[0] + poisson[1] * inverse_shear[1]) / (2 * PETSC_PI);
@@ -36,6 +55,7 @@ PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
 {
   PetscReal young[2] = {0, 0}, poisson[2] = {0, 0};
   PetscBool has_young, has_poisson, help;
+  char      message[256], prefix[80];
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
@@ -55,6 +75,9 @@ PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
                SamOptionsPrefix(from), name);
   }
   if (help) young[0] = young[1] = 1;
+  PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "-%s", SamOptionsPrefix(from)));
+  PetscCall(FindFault(young, poisson, prefix, message, sizeof(message)));
+  PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
   PetscCall(SamPairSet(pair, young, poisson));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,6 +1,7 @@
 /*
   The operator on a part of the grid: where tractions act only within a rectangle and only their displacements there
-  count, the transforms need no more than its size.
+  count, the transforms need no more than its size. Two parts are kept, because a contact tries a step, which may move
+  the part, and goes back.
 */
 #include <petsam/private/elasticityimpl.h>
 
@@ -8,36 +9,86 @@
 #define WORTH 0.8
 #define SLACK 1.5
 
-PetscErrorCode SamElasticitySetPart(SamElasticity C, const PetscInt first[2], const PetscInt n[2])
+/* The part in use; NULL: none. */
+static const SamElasticityPart *InUse(SamElasticity e)
 {
-  SamGrid  grid;
-  PetscInt old_first[2], old_n[2];
+  return e->in_part ? &e->parts[e->newest] : NULL;
+}
 
+PetscErrorCode SamElasticityGetPartPlace(SamElasticity e, PetscInt first[2], PetscInt n[2])
+{
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetPartPlace(C, old_first, old_n));
-  if (n[0] == old_n[0] && n[1] == old_n[1] && (!n[0] || (first[0] == old_first[0] && first[1] == old_first[1])))
-    PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamWindowDestroy(&C->window));
-  PetscCall(SamElasticityDestroy(&C->part));
-  if (!n[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamWindowCreate(C->grid, first, n, &C->window));
-  PetscCall(SamWindowGetGrid(C->window, &grid));
-  PetscCall(SamElasticityCreate(grid, &C->pair, &C->part));
+  first[0] = first[1] = n[0] = n[1] = 0;
+  if (InUse(e)) PetscCall(SamWindowGetPlace(InUse(e)->window, first, n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the part there is will do. */
-static PetscBool Suits(SamElasticity C, const PetscInt first[2], const PetscInt n[2])
+static PetscErrorCode DestroyPart(SamElasticityPart *part)
 {
-  if (!C->window || !SamWindowCovers(C->window, first, n)) return PETSC_FALSE;
-  return SLACK * (double)n[0] * (double)n[1] >= (double)C->part->grid->nx * (double)C->part->grid->ny ? PETSC_TRUE
-                                                                                                      : PETSC_FALSE;
+  PetscFunctionBegin;
+  PetscCall(SamWindowDestroy(&part->window));
+  PetscCall(SamElasticityDestroy(&part->elasticity));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityChoosePart(SamElasticity C, const PetscInt first[2], const PetscInt n[2], PetscBool keep,
+PetscErrorCode SamElasticityDestroyParts(SamElasticity e)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; k++) PetscCall(DestroyPart(&e->parts[k]));
+  e->in_part = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether a part is just these cells. */
+static PetscErrorCode IsAt(const SamElasticityPart *part, const PetscInt first[2], const PetscInt n[2], PetscBool *is)
+{
+  PetscInt there[2], size[2];
+
+  PetscFunctionBegin;
+  *is = PETSC_FALSE;
+  if (!part->window) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamWindowGetPlace(part->window, there, size));
+  *is = (n[0] == size[0] && n[1] == size[1] && first[0] == there[0] && first[1] == there[1]) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticitySetPart(SamElasticity e, const PetscInt first[2], const PetscInt n[2])
+{
+  SamElasticityPart *older = &e->parts[1 - e->newest];
+  SamGrid            grid;
+  PetscBool          is;
+
+  PetscFunctionBegin;
+  e->in_part = n[0] ? PETSC_TRUE : PETSC_FALSE;
+  if (!n[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(e->traits.parts, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s has no parts", e->type);
+  PetscCall(IsAt(&e->parts[e->newest], first, n, &is));
+  if (is) PetscFunctionReturn(PETSC_SUCCESS);
+  e->newest = 1 - e->newest;
+  PetscCall(IsAt(older, first, n, &is));
+  if (is) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DestroyPart(older));
+  PetscCall(SamWindowCreate(e->grid, first, n, &older->window));
+  PetscCall(SamWindowGetGrid(older->window, &grid));
+  PetscCall(SamElasticityCreateLike(e, grid, &older->elasticity));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the part in use will do. */
+static PetscBool Suits(SamElasticity e, const PetscInt first[2], const PetscInt n[2])
+{
+  const SamElasticityPart *part = InUse(e);
+
+  if (!part || !SamWindowCovers(part->window, first, n)) return PETSC_FALSE;
+  return SLACK * (double)n[0] * (double)n[1] >= (double)part->elasticity->grid->nx * (double)part->elasticity->grid->ny
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
+PetscErrorCode SamElasticityChoosePart(SamElasticity e, const PetscInt first[2], const PetscInt n[2], PetscBool keep,
                                        SamWindow *window, SamElasticity *part)
 {
-  const PetscInt all[2] = {C->grid->nx, C->grid->ny};
+  const PetscInt all[2] = {e->grid->nx, e->grid->ny};
   PetscInt       from[2], size[2];
 
   PetscFunctionBegin;
@@ -48,17 +99,10 @@ PetscErrorCode SamElasticityChoosePart(SamElasticity C, const PetscInt first[2],
     size[k] = PetscMax(last - from[k], 2);
     from[k] = PetscMin(from[k], all[k] - size[k]);
   }
-  if ((double)size[0] * (double)size[1] > WORTH * (double)all[0] * (double)all[1]) size[0] = size[1] = 0;
-  if (!keep || !Suits(C, first, n)) PetscCall(SamElasticitySetPart(C, from, size));
-  *window = C->window;
-  *part   = C->part;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityGetPartPlace(SamElasticity C, PetscInt first[2], PetscInt n[2])
-{
-  PetscFunctionBegin;
-  first[0] = first[1] = n[0] = n[1] = 0;
-  if (C->window) PetscCall(SamWindowGetPlace(C->window, first, n));
+  if (!e->traits.parts || (double)size[0] * (double)size[1] > WORTH * (double)all[0] * (double)all[1])
+    size[0] = size[1] = 0;
+  if (!keep || !Suits(e, first, n)) PetscCall(SamElasticitySetPart(e, from, size));
+  *window = InUse(e) ? InUse(e)->window : NULL;
+  *part   = InUse(e) ? InUse(e)->elasticity : NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

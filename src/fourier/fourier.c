@@ -12,7 +12,8 @@
        splitting the 2 hy frequencies: the even ones are the transform of length hy of the column, the odd ones that of
        the column times exp(-i pi j/hy). No zero is ever transformed. The filter acts, the way back is the same;
     4. as 2, columns becoming rows, 5. rows are transformed back and cut.
-  In periodic mode rows are padded to hx instead of 2 hx only, and columns have the even frequencies only.
+  In periodic mode rows are padded to hx instead of 2 hx only, and columns have the even frequencies only. An odd hx,
+  which only exact periods have, takes a complex transform of the whole row.
 
   Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT),
   which is what one rank has from the start, and shared memory in pieces, so that one code serves any number of ranks.
@@ -22,7 +23,8 @@
 */
 #include "fourierimpl.h"
 
-static const char *const efforts[] = {"estimate", "measure", "patient", NULL};
+static const char *const efforts[]   = {"estimate", "measure", "patient", NULL}; /* as in SamFourierSettings */
+static const char *const exchanges[] = {"auto", "transpose", NULL};              /* as `send` in it */
 
 /* Below this, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300
@@ -106,27 +108,46 @@ ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row
                                              rows, row_start, columns, column_start);
 }
 
-PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
+PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *settings, const SamOptions *from)
 {
-  const SamOptions   from = {grid->comm, NULL};
-  SamFourier         F;
-  PetscInt           effort = 0;
-  ptrdiff_t          periodic, padded, quadrant, rows, row_start, columns, column_start;
-  unsigned long long bytes;
-  const unsigned     flags[] = {FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT};
+  PetscInt effort = (PetscInt)settings->effort, exchange = settings->send ? 1 : 0;
+
+  PetscFunctionBegin;
+  PetscCall(
+    SamOptionsEnum(from, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
+  PetscCall(SamOptionsEnum(from, "fft_exchange",
+                           "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges,
+                           &exchange, NULL));
+  settings->effort = effort == 2 ? SAM_FOURIER_PATIENT : (effort == 1 ? SAM_FOURIER_MEASURE : SAM_FOURIER_ESTIMATE);
+  settings->send   = exchange ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* FFTW's flag. */
+static unsigned PlanningFlag(const SamFourierSettings *settings, ptrdiff_t largest)
+{
+  if (settings->effort == SAM_FOURIER_PATIENT) return FFTW_PATIENT;
+  return settings->effort == SAM_FOURIER_MEASURE && largest >= ESTIMATE_BELOW ? FFTW_MEASURE : FFTW_ESTIMATE;
+}
+
+PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
+                                SamFourier *fourier)
+{
+  const SamFourierSettings usual = {.send = PETSC_FALSE};
+  SamFourier               F;
+  ptrdiff_t                periodic, padded, quadrant, rows, row_start, columns, column_start;
+  unsigned long long       bytes;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(PetscNew(&F));
   *fourier = F;
-  PetscCall(
-    SamOptionsEnum(&from, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
+  if (!settings) settings = &usual;
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
-  F->effort = flags[effort];
-  F->hx     = FastSize(grid->nx);
-  F->hy     = FastSize(grid->ny);
-  if (effort == 1 && PetscMax(F->hx, F->hy) < ESTIMATE_BELOW) F->effort = FFTW_ESTIMATE;
+  F->hx     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->nx : FastSize(grid->nx);
+  F->hy     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->ny : FastSize(grid->ny);
+  F->effort = PlanningFlag(settings, PetscMax(F->hx, F->hy));
   /* whole cache lines, and one more, so that the columns of a block do not compete for the same cache sets */
   F->stride = (PetscInt)(F->hy + 7) / 8 * 8 + 8;
   PetscCall(DivideColumns(F, SAM_FOURIER_PERIODIC, &periodic));
@@ -135,7 +156,7 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourier *fourier)
   bytes    = sizeof(double) * (unsigned long long)PetscMax(quadrant, PetscMax(periodic, padded));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_UNSIGNED_LONG_LONG, MPI_MAX, grid->comm));
   F->bytes = (size_t)bytes;
-  PetscCall(SamWorkspaceGet(grid->comm, &F->work));
+  PetscCall(SamWorkspaceGet(grid->comm, settings->send, &F->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

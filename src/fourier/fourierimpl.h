@@ -28,15 +28,16 @@ SAM_LINE(SamLineSingle, float, fftwf_plan);
     PetscInt fields, version; /* for which buffers and transposes were made, and slabs of the latter */ \
     Plan     forward[2][SAM_FOURIER_FIELDS], \
       backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
-    Line rows[2], column;              /* one row as half as many complex numbers, by mode; one column of hy */ \
-    Real (*turn[2])[2];                /* i exp(i pi k/n), k <= n, half a row's length, by mode */ \
-    Real (*row)[2];                    /* one row, padded: two reals a number */ \
-    Real (*line)[2];                   /* its transform, and an entry more */ \
-    Real (*mirror)[2];                 /* the same from its end to its beginning */ \
-    Real (*twiddle)[2];                /* exp(-i pi j/hy), j < ny, at the places of a column's entries */ \
-    Real (*staging)[2];                /* a block of columns as gathered */ \
-    Real (*twisted)[2];                /* one column times the twiddles */ \
-    Real (*buffer)[2];                 /* a block of columns, both phases, all fields */ \
+    Line rows[2], \
+      column;           /* one row, by mode: as half as many complex numbers, or, if odd, as many; one column of hy */ \
+    Real (*turn[2])[2]; /* i exp(i pi k/n), k <= n, half a row's length, by mode; none if it is odd */ \
+    Real (*row)[2];     /* one row, padded: two reals a number */ \
+    Real (*line)[2];    /* its transform, and an entry more */ \
+    Real (*mirror)[2];  /* the same from its end to its beginning */ \
+    Real (*twiddle)[2]; /* exp(-i pi j/hy), j < ny, at the places of a column's entries */ \
+    Real (*staging)[2]; /* a block of columns as gathered */ \
+    Real (*twisted)[2]; /* one column times the twiddles */ \
+    Real (*buffer)[2];  /* a block of columns, both phases, all fields */ \
   } Name
 
 SAM_TRANSFORM(SamTransformDouble, double, fftw_plan, SamLineDouble);
@@ -55,13 +56,14 @@ typedef struct {
   MPI_Comm    user, comm; /* of the grids; of its own */
   PetscMPIInt ranks, rank;
   PetscInt    references;
-  PetscBool   shared;
+  PetscBool   send;    /* is not to share memory */
+  PetscBool   shared;  /* does */
   PetscInt    version; /* of the slabs' addresses */
   SamSlab     slab[SAM_FOURIER_FIELDS + 1];
 } * SamWorkspace;
 
-/* SamWorkspaceGet - a reference to that of a communicator. Release gives it back. Collective. */
-PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, SamWorkspace *workspace);
+/* SamWorkspaceGet - a reference to that of a communicator, which shares memory or sends. Release gives it back. Collective. */
+PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, PetscBool send, SamWorkspace *workspace);
 PETSC_INTERN PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace);
 /* SamWorkspaceTrim - frees the slabs until they are reserved again. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceTrim(SamWorkspace workspace);

@@ -18,14 +18,21 @@ static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
   return mode == SAM_FOURIER_PADDED ? F->hx : F->hx / 2;
 }
 
+/* Whether a row has no halves. */
+static inline PetscBool IsOdd(SamFourier F, SamFourierMode mode)
+{
+  return mode == SAM_FOURIER_PERIODIC && F->hx % 2 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* What rows of a mode need. */
 static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
 {
-  TRANSFORM      *t = &F->PART;
-  const ptrdiff_t n = HalfLength(F, mode);
+  TRANSFORM      *t   = &F->PART;
+  const PetscBool odd = IsOdd(F, mode);
+  const ptrdiff_t n   = odd ? F->hx : HalfLength(F, mode);
 
   PetscFunctionBegin;
-  PetscCall(CreateTurns(n, &t->turn[mode]));
+  if (!odd) PetscCall(CreateTurns(n, &t->turn[mode]));
   PetscCall(LineCreate(n, F->effort, PETSC_TRUE, t->row, t->line, &t->rows[mode]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -167,12 +174,49 @@ SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const
   }
 }
 
+/* Rows of an odd period, nx = hx: complex transforms of them, of which the first half is kept. */
+static void OddRowsForward(SamFourier F, const Real field[], Complex *slab)
+{
+  TRANSFORM      *t  = &F->PART;
+  const ptrdiff_t nx = F->hx, n = nx / 2 + 1;
+
+  for (ptrdiff_t j = 0; j < F->grid->rows; j++) {
+    for (ptrdiff_t i = 0; i < nx; i++) {
+      t->row[i][0] = field[j * nx + i];
+      t->row[i][1] = 0;
+    }
+    LineForward(&t->rows[SAM_FOURIER_PERIODIC], t->row, t->line);
+    memcpy(slab + j * n, t->line, sizeof(Complex) * (size_t)n);
+  }
+}
+
+static void OddRowsBackward(SamFourier F, const Complex *slab, Real field[])
+{
+  TRANSFORM      *t  = &F->PART;
+  const ptrdiff_t nx = F->hx, n = nx / 2 + 1;
+
+  for (ptrdiff_t j = 0; j < F->grid->rows; j++) {
+    memcpy(t->line, slab + j * n, sizeof(Complex) * (size_t)n);
+    t->line[0][1] = 0; /* as in the transform of real numbers, but for rounding */
+    for (ptrdiff_t k = 1; k < n; k++) {
+      t->line[nx - k][0] = t->line[k][0];
+      t->line[nx - k][1] = -t->line[k][1];
+    }
+    LineBackward(&t->rows[SAM_FOURIER_PERIODIC], t->line, t->row);
+    for (ptrdiff_t i = 0; i < nx; i++) field[j * nx + i] = t->row[i][0];
+  }
+}
+
 static void RowsForward(SamFourier F, SamFourierMode mode, const Real field[], Complex *slab)
 {
   TRANSFORM      *t  = &F->PART;
   const ptrdiff_t n  = HalfLength(F, mode);
   const ptrdiff_t nx = F->grid->nx, last = LinePlace(&t->rows[mode], nx / 2);
 
+  if (IsOdd(F, mode)) {
+    OddRowsForward(F, field, slab);
+    return;
+  }
   LineClear(&t->rows[mode], nx / 2, t->row);
   for (PetscInt j = 0; j < F->grid->rows; j++) {
     LinePut(&t->rows[mode], nx / 2, (const Complex *)(field + j * nx), t->row);
@@ -190,6 +234,10 @@ static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real 
   const ptrdiff_t n  = HalfLength(F, mode);
   const ptrdiff_t nx = F->grid->nx, last = LinePlace(&t->rows[mode], nx / 2);
 
+  if (IsOdd(F, mode)) {
+    OddRowsBackward(F, (const Complex *)slab, field);
+    return;
+  }
   for (PetscInt j = 0; j < F->grid->rows; j++) {
     Complex *line = slab + j * (n + 1);
 

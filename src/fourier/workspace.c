@@ -12,56 +12,58 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-static const char *const exchanges[] = {"auto", "transpose", NULL};
+/* Of the communicator's attributes: its workspaces that share memory, and that send. */
+static PetscMPIInt keyvals[2] = {MPI_KEYVAL_INVALID, MPI_KEYVAL_INVALID};
 
-static PetscMPIInt keyval = MPI_KEYVAL_INVALID;
-
-static PetscErrorCode FreeKeyval(void)
+static PetscErrorCode FreeKeyvals(void)
 {
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_free_keyval(&keyval));
+  for (PetscInt k = 0; k < 2; k++) PetscCallMPI(MPI_Comm_free_keyval(&keyvals[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether all ranks are on one node, and the user does not want it otherwise. */
+static PetscErrorCode CreateKeyvals(void)
+{
+  PetscFunctionBegin;
+  if (keyvals[0] != MPI_KEYVAL_INVALID) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2; k++)
+    PetscCallMPI(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, MPI_COMM_NULL_DELETE_FN, &keyvals[k], NULL));
+  PetscCall(PetscRegisterFinalize(FreeKeyvals));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether all ranks are on one node, and are not to send all the same. */
 static PetscErrorCode CanShare(SamWorkspace w)
 {
-  const SamOptions from     = {w->comm, NULL};
-  PetscInt         exchange = 0;
-  MPI_Comm         node;
-  PetscMPIInt      size;
+  MPI_Comm    node;
+  PetscMPIInt size;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(&from, "fft_exchange",
-                           "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges,
-                           &exchange, NULL));
   PetscCallMPI(MPI_Comm_split_type(w->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
   PetscCallMPI(MPI_Comm_size(node, &size));
   PetscCallMPI(MPI_Comm_free(&node));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_INT, MPI_MIN, w->comm));
-  w->shared = (exchange == 0 && w->ranks > 1 && size == w->ranks) ? PETSC_TRUE : PETSC_FALSE;
+  w->shared = (!w->send && w->ranks > 1 && size == w->ranks) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWorkspaceGet(MPI_Comm comm, SamWorkspace *workspace)
+PetscErrorCode SamWorkspaceGet(MPI_Comm comm, PetscBool send, SamWorkspace *workspace)
 {
   SamWorkspace w;
   PetscMPIInt  found;
 
   PetscFunctionBegin;
-  if (keyval == MPI_KEYVAL_INVALID) {
-    PetscCallMPI(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, MPI_COMM_NULL_DELETE_FN, &keyval, NULL));
-    PetscCall(PetscRegisterFinalize(FreeKeyval));
-  }
-  PetscCallMPI(MPI_Comm_get_attr(comm, keyval, &w, &found));
+  PetscCall(CreateKeyvals());
+  PetscCallMPI(MPI_Comm_get_attr(comm, keyvals[send ? 1 : 0], &w, &found));
   if (!found) {
     PetscCall(PetscNew(&w));
     w->user = comm;
+    w->send = send;
     PetscCallMPI(MPI_Comm_dup(comm, &w->comm));
     PetscCallMPI(MPI_Comm_size(comm, &w->ranks));
     PetscCallMPI(MPI_Comm_rank(comm, &w->rank));
     PetscCall(CanShare(w));
-    PetscCallMPI(MPI_Comm_set_attr(comm, keyval, w));
+    PetscCallMPI(MPI_Comm_set_attr(comm, keyvals[send ? 1 : 0], w));
   }
   w->references++;
   *workspace = w;
@@ -97,7 +99,7 @@ PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace)
   *workspace = NULL;
   if (!w || --w->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamWorkspaceTrim(w));
-  PetscCallMPI(MPI_Comm_delete_attr(w->user, keyval));
+  PetscCallMPI(MPI_Comm_delete_attr(w->user, keyvals[w->send ? 1 : 0]));
   PetscCallMPI(MPI_Comm_free(&w->comm));
   PetscCall(PetscFree(w));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -2,36 +2,58 @@
 #include "gridimpl.h"
 #include <math.h>
 
+/*
+  What no grid can be made of: a message, empty when all is well. The names stand for the arguments of SamGridCreate(),
+  or for options.
+*/
+static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], const PetscReal center[2],
+                                const char *const names[3], char message[], size_t size)
+{
+  PetscFunctionBegin;
+  message[0] = '\0';
+  for (PetscInt k = 0; k < 2 && !message[0]; k++) {
+    const char *axis = k ? "y" : "x";
+
+    if (n[k] < 2)
+      PetscCall(
+        PetscSNPrintf(message, size, "%s: %" PetscInt_FMT " cells in %s, expected at least 2", names[0], n[k], axis));
+    else if (!(width[k] > 0) || !isfinite(width[k]))
+      PetscCall(PetscSNPrintf(message, size, "%s: a width of %g m in %s, expected a number > 0", names[1],
+                              (double)width[k], axis));
+    else if (!isfinite(center[k]))
+      PetscCall(PetscSNPrintf(message, size, "%s: expected finite numbers", names[2]));
+    /* the centres must be told apart in double precision, and areas must not underflow or overflow */
+    else if (!(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100))
+      PetscCall(PetscSNPrintf(message, size,
+                              "%s: a width of %g m in %s about %g m cannot be resolved in double precision", names[1],
+                              (double)width[k], axis, (double)center[k]));
+  }
+  if (!message[0] && (double)n[0] * (double)n[1] * 2 >= (double)PETSC_MAX_INT)
+    PetscCall(PetscSNPrintf(message, size,
+                            "%s %" PetscInt_FMT ",%" PetscInt_FMT
+                            ": more cells than this PETSc can count; configure it with 64-bit indices",
+                            names[0], n[0], n[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2],
                              SamGrid *grid)
 {
-  PetscMPIInt rank, size;
-  PetscInt    end;
-  SamGrid     g;
+  static const char *const names[3] = {"Number of cells", "Width of the grid", "Centre of the grid"};
+  PetscMPIInt              rank, size;
+  PetscInt                 end;
+  char                     message[256];
+  SamGrid                  g;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
-  for (PetscInt k = 0; k < 2; k++) {
-    PetscCheck(n[k] >= 2, comm, SAM_ERR_USER, "-grid_n: %" PetscInt_FMT " cells in %s, expected at least 2", n[k],
-               k ? "y" : "x");
-    PetscCheck(width[k] > 0 && isfinite(width[k]), comm, SAM_ERR_USER,
-               "-grid_size: a width of %g m in %s, expected a number > 0", (double)width[k], k ? "y" : "x");
-    PetscCheck(isfinite(center[k]), comm, SAM_ERR_USER, "-grid_center: expected finite numbers");
-    /* the centres must be told apart in double precision, and areas must not underflow or overflow */
-    PetscCheck(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100,
-               comm, SAM_ERR_USER,
-               "-grid_size: a width of %g m in %s about %g m cannot be resolved in double precision", (double)width[k],
-               k ? "y" : "x", (double)center[k]);
-  }
-  PetscCheck((double)n[0] * (double)n[1] * 2 < (double)PETSC_MAX_INT, comm, SAM_ERR_USER,
-             "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT
-             ": more cells than this PETSc can count; configure it with 64-bit indices",
-             n[0], n[1]);
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
+  PetscCheck(!message[0], comm, PETSC_ERR_ARG_OUTOFRANGE, "%s", message);
   PetscCall(PetscNew(&g));
+  PetscCall(PetscCommDuplicate(comm, &g->comm, NULL));
+  PetscCallMPI(MPI_Comm_rank(g->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(g->comm, &size));
   g->references = 1;
-  g->comm       = comm;
   g->nx         = n[0];
   g->ny         = n[1];
   for (PetscInt k = 0; k < 2; k++) {
@@ -50,10 +72,12 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
 
 PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
 {
-  PetscInt  n[2]      = {0, 0};
-  PetscReal width[2]  = {0, 0};
-  PetscReal center[2] = {0, 0};
-  PetscBool has_n, has_width, help;
+  PetscInt          n[2]      = {0, 0};
+  PetscReal         width[2]  = {0, 0};
+  PetscReal         center[2] = {0, 0};
+  PetscBool         has_n, has_width, help;
+  char              message[256], options[3][96];
+  const char *const names[3] = {options[0], options[1], options[2]};
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(from, "Grid"));
@@ -67,10 +91,13 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
     width[0] = width[1] = 1;
     has_n = has_width = PETSC_TRUE;
   }
-  PetscCheck(has_n, from->comm, SAM_ERR_USER, "-%sgrid_n is missing: the number of cells in x[,y]",
-             SamOptionsPrefix(from));
-  PetscCheck(has_width, from->comm, SAM_ERR_USER, "-%sgrid_size is missing: the full width of the grid in x[,y], m",
-             SamOptionsPrefix(from));
+  PetscCall(PetscSNPrintf(options[0], sizeof(options[0]), "-%sgrid_n", SamOptionsPrefix(from)));
+  PetscCall(PetscSNPrintf(options[1], sizeof(options[1]), "-%sgrid_size", SamOptionsPrefix(from)));
+  PetscCall(PetscSNPrintf(options[2], sizeof(options[2]), "-%sgrid_center", SamOptionsPrefix(from)));
+  PetscCheck(has_n, from->comm, SAM_ERR_USER, "%s is missing: the number of cells in x[,y]", names[0]);
+  PetscCheck(has_width, from->comm, SAM_ERR_USER, "%s is missing: the full width of the grid in x[,y], m", names[1]);
+  PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
+  PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
   PetscCall(SamGridCreate(from->comm, n, width, center, grid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -85,8 +112,10 @@ PetscErrorCode SamGridReference(SamGrid grid)
 PetscErrorCode SamGridDestroy(SamGrid *grid)
 {
   PetscFunctionBegin;
-  if (!*grid) PetscFunctionReturn(PETSC_SUCCESS);
-  if (--(*grid)->references == 0) PetscCall(PetscFree(*grid));
+  if (*grid && --(*grid)->references == 0) {
+    PetscCall(PetscCommDestroy(&(*grid)->comm));
+    PetscCall(PetscFree(*grid));
+  }
   *grid = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

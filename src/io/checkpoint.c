@@ -1,5 +1,5 @@
 /*
-  The state of a run in a file: SamContactState, what the run is, and how far it is.
+  The state of a contact in a file: SamContactState, what defines the contact, and a program's notes.
 
   The fields are datasets (components, ny, nx), each with a checksum that does not depend on how its cells lie on the
   ranks; all else is attributes of the root, over which HDF5 itself keeps checksums in the format used here.
@@ -8,21 +8,22 @@
 #include <petsam/checkpoint.h>
 #include <string.h>
 
-#define FORMAT  1 /* of this file's content */
-#define COLUMNS 7 /* of the load program: time and six components */
-#define BALANCE 9 /* numbers of a balance */
+#define FORMAT  2  /* of this file's content */
+#define NUMBERS 29 /* of a solution: control, loads, displacements */
 
-/* The fields and what they are called. */
+/* The fields and what they are called. Those of the step before the last are missing while there is none. */
 static const struct {
   const char *name;
   PetscInt    components;
   size_t      offset; /* of the Vec in SamContactState */
-} kept[] = {{"pressure", 1, offsetof(SamContactState, pressure)},
-            {"shear", 2, offsetof(SamContactState, shear)},
-            {"slip", 2, offsetof(SamContactState, slip)},
-            {"displacement_z", 1, offsetof(SamContactState, displacement_z)},
-            {"previous_pressure", 1, offsetof(SamContactState, previous_pressure)},
-            {"previous_shear", 2, offsetof(SamContactState, previous_shear)}};
+} kept[] = {{"pressure", 1, offsetof(SamContactState, now.pressure)},
+            {"bound", 1, offsetof(SamContactState, now.bound)},
+            {"shear", 2, offsetof(SamContactState, now.shear)},
+            {"displacement_z", 1, offsetof(SamContactState, now.displacement_z)},
+            {"displacement_t", 2, offsetof(SamContactState, now.displacement_t)},
+            {"before_pressure", 1, offsetof(SamContactState, before.pressure)},
+            {"before_bound", 1, offsetof(SamContactState, before.bound)},
+            {"before_shear", 2, offsetof(SamContactState, before.shear)}};
 enum { KEPT = sizeof(kept) / sizeof(kept[0]) };
 
 static Vec *FieldOf(SamContactState *state, PetscInt k)
@@ -68,79 +69,72 @@ PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A column of the load program in the first steps: time, or a component's kind of control and its values. */
-static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64_t columns[COLUMNS])
-{
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(columns, COLUMNS));
-  for (PetscInt s = 0; s < steps; s++) {
-    SamStep step;
-
-    PetscCall(SamHistoryGetStep(history, s, &step));
-    columns[0] = Mix(columns[0] + Bits(step.time));
-    for (PetscInt c = 1; c < COLUMNS; c++) {
-      const SamBalance *b = c < 4 ? &step.normal : &step.tangential;
-      const PetscInt    k = (c - 1) % 3;
-
-      columns[c] = Mix(columns[c] + Bits(b->force[k] ? b->load[k] : b->rigid[k]));
-      columns[c] = Mix(columns[c] + (b->force[k] ? 1 : 2));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the state as numbers ---- */
 
-static void PackBalance(const SamBalance *b, double numbers[BALANCE])
+static void PackSolution(const SamSolution *s, double numbers[NUMBERS])
 {
-  for (PetscInt k = 0; k < 3; k++) {
-    numbers[k]     = b->force[k] ? 1 : 0;
-    numbers[k + 3] = b->load[k];
-    numbers[k + 6] = b->rigid[k];
+  double *n = numbers;
+
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    *n++ = s->control.force[k] ? 1 : 0;
+    *n++ = s->control.value[k];
+    *n++ = s->load[k];
+    *n++ = s->rigid[k];
   }
+  *n++ = s->control.time;
+  *n++ = s->control.friction_scale;
+  for (PetscInt k = 0; k < 3; k++) *n++ = s->control.stretch[k];
 }
 
-static void UnpackBalance(const double numbers[BALANCE], SamBalance *b)
+static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
 {
-  b->kind = SAM_BALANCE_NORMAL;
-  for (PetscInt k = 0; k < 3; k++) {
-    b->force[k] = numbers[k] != 0 ? PETSC_TRUE : PETSC_FALSE;
-    b->load[k]  = numbers[k + 3];
-    b->rigid[k] = numbers[k + 6];
+  const double *n = numbers;
+
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    s->control.force[k] = *n++ != 0 ? PETSC_TRUE : PETSC_FALSE;
+    s->control.value[k] = *n++;
+    s->load[k]          = *n++;
+    s->rigid[k]         = *n++;
   }
+  s->control.time           = *n++;
+  s->control.friction_scale = *n++;
+  for (PetscInt k = 0; k < 3; k++) s->control.stretch[k] = *n++;
 }
 
 static void WriteNumbers(SamFile f, const SamContactState *s)
 {
   const int64_t window[4] = {s->window_first[0], s->window_first[1], s->window_n[0], s->window_n[1]}, steps = s->steps;
-  double        balances[2 * BALANCE];
+  const int8_t  current = s->gap_is_current ? 1 : 0;
+  double        numbers[NUMBERS];
 
-  PackBalance(&s->given, balances);
-  PackBalance(&s->found, balances + BALANCE);
   SamFileWriteAttribute(f, f->id, "contact_steps", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &steps);
   SamFileWriteAttribute(f, f->id, "contact_window", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, window);
-  SamFileWriteAttribute(f, f->id, "contact_values", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 12, s->values);
-  SamFileWriteAttribute(f, f->id, "contact_rigid", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 6, s->rigid);
-  SamFileWriteAttribute(f, f->id, "contact_balances", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2 * BALANCE, balances);
+  SamFileWriteAttribute(f, f->id, "contact_gap_is_current", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &current);
+  PackSolution(&s->now, numbers);
+  SamFileWriteAttribute(f, f->id, "contact_now", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, NUMBERS, numbers);
+  PackSolution(&s->before, numbers);
+  SamFileWriteAttribute(f, f->id, "contact_before", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, NUMBERS, numbers);
 }
 
 static void ReadNumbers(SamFile f, SamContactState *s)
 {
   int64_t window[4] = {0}, steps = 0;
-  double  balances[2 * BALANCE] = {0};
+  int8_t  current          = 0;
+  double  numbers[NUMBERS] = {0};
 
   SamFileReadAttribute(f, f->id, "contact_steps", H5T_NATIVE_INT64, 1, &steps);
   SamFileReadAttribute(f, f->id, "contact_window", H5T_NATIVE_INT64, 4, window);
-  SamFileReadAttribute(f, f->id, "contact_values", H5T_NATIVE_DOUBLE, 12, s->values);
-  SamFileReadAttribute(f, f->id, "contact_rigid", H5T_NATIVE_DOUBLE, 6, s->rigid);
-  SamFileReadAttribute(f, f->id, "contact_balances", H5T_NATIVE_DOUBLE, 2 * BALANCE, balances);
-  s->steps = (PetscInt)steps;
+  SamFileReadAttribute(f, f->id, "contact_gap_is_current", H5T_NATIVE_INT8, 1, &current);
+  SamFileReadAttribute(f, f->id, "contact_now", H5T_NATIVE_DOUBLE, NUMBERS, numbers);
+  UnpackSolution(numbers, &s->now);
+  SamFileReadAttribute(f, f->id, "contact_before", H5T_NATIVE_DOUBLE, NUMBERS, numbers);
+  UnpackSolution(numbers, &s->before);
+  s->steps          = (PetscInt)steps;
+  s->gap_is_current = current ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt k = 0; k < 2; k++) {
     s->window_first[k] = (PetscInt)window[k];
     s->window_n[k]     = (PetscInt)window[k + 2];
   }
-  UnpackBalance(balances, &s->given);
-  UnpackBalance(balances + BALANCE, &s->found);
 }
 
 /* ---- fields ---- */
@@ -199,14 +193,34 @@ static PetscErrorCode DestroyFields(SamContactState *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The checksum of the gap that a contact's problem has now. */
+static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
+{
+  SamProblem problem;
+  SamGrid    grid;
+  Vec        gap;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetGrid(contact, &grid));
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamProblemGetGap(problem, &gap));
+  PetscCall(SamCheckpointChecksum(grid, gap, checksum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- writing ---- */
 
-static PetscErrorCode WriteAll(SamFile f, SamContactState *state, SamHistory history, const SamParameters *parameters,
-                               PetscInt steps, SamStatus worst)
+/* What is written or read, besides the state. */
+typedef struct {
+  const SamParameters *parameters;
+  PetscInt             n;
+  const SamNote       *notes;
+} Rest;
+
+static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, const Rest *rest)
 {
-  const int64_t format = FORMAT, progress[2] = {steps, worst};
-  uint64_t      columns[COLUMNS];
-  off_t         bytes = 0;
+  const int64_t format = FORMAT;
+  off_t         bytes  = 0;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KEPT; k++) bytes += (off_t)sizeof(double) * kept[k].components * f->grid->nx * f->grid->ny;
@@ -214,10 +228,11 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, SamHistory his
   PetscCall(SamFileBegin(f));
   SamFileWriteAttribute(f, f->id, "checkpoint_format", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &format);
   SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
-  SamParametersWrite(f, parameters);
-  SamFileWriteAttribute(f, f->id, "progress", H5T_STD_I64LE, H5T_NATIVE_INT64, 2, progress);
-  PetscCall(ChecksumColumns(history, steps, columns));
-  SamFileWriteAttribute(f, f->id, "load_program", H5T_STD_U64LE, H5T_NATIVE_UINT64, COLUMNS, columns);
+  SamParametersWrite(f, rest->parameters);
+  SamFileWriteAttribute(f, f->id, "gap_checksum", H5T_STD_U64LE, H5T_NATIVE_UINT64, 1, &gap);
+  for (PetscInt k = 0; k < rest->n; k++)
+    SamFileWriteAttribute(f, f->id, rest->notes[k].name, H5T_STD_U64LE, H5T_NATIVE_UINT64, rest->notes[k].count,
+                          rest->notes[k].values);
   WriteNumbers(f, state);
   for (PetscInt k = 0; k < KEPT; k++)
     if (*FieldOf(state, k)) PetscCall(WriteField(f, kept[k].name, kept[k].components, *FieldOf(state, k)));
@@ -226,12 +241,14 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, SamHistory his
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, SamHistory history,
-                                  const SamParameters *parameters, PetscInt steps, SamStatus worst)
+PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, const SamParameters *parameters,
+                                  PetscInt n, const SamNote notes[])
 {
+  const Rest      rest = {parameters, n, notes};
   SamContactState state;
   SamGrid         grid;
   SamFile         f;
+  uint64_t        gap;
   char            temporary[PETSC_MAX_PATH_LEN + 8], before[PETSC_MAX_PATH_LEN + 8];
   PetscErrorCode  ierr;
 
@@ -239,11 +256,12 @@ PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, Sam
   PetscCall(SamInitialize());
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(SamContactGetState(contact, &state));
+  PetscCall(GapChecksum(contact, &gap));
   PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", filename));
   PetscCall(PetscSNPrintf(before, sizeof(before), "%s.1", filename));
   PetscCall(SamFileCheckName(grid, "checkpoint", temporary));
   PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "checkpoint", temporary, SAM_FILE_CREATE_CHECKED, &f));
-  ierr = WriteAll(f, &state, history, parameters, steps, worst);
+  ierr = WriteAll(f, &state, gap, &rest);
   if (ierr && !f->rank) (void)remove(temporary);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
@@ -252,16 +270,23 @@ PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamCheckpointCheckName(SamGrid grid, const char filename[])
+{
+  char temporary[PETSC_MAX_PATH_LEN + 8];
+
+  PetscFunctionBegin;
+  PetscCall(SamFileCheckName(grid, "checkpoint", filename));
+  PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", filename));
+  PetscCall(SamFileCheckName(grid, "checkpoint", temporary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- reading ---- */
 
-/* Whether the file may be used by this run; which option speaks against it. */
-static PetscErrorCode Judge(SamFile f, SamHistory history, const SamParameters *parameters, PetscInt steps,
-                            char message[], size_t size, PetscBool *good)
+/* Whether the file may be used by this contact; which parameter speaks against it. */
+static PetscErrorCode IsUsable(SamFile f, const SamParameters *parameters, char message[], size_t size, PetscBool *good)
 {
-  uint64_t columns[2][COLUMNS] = {{0}};
-  PetscInt count;
-  char    *version = NULL;
-  SamStep  first;
+  char *version = NULL;
 
   PetscFunctionBegin;
   *good = PETSC_FALSE;
@@ -272,38 +297,25 @@ static PetscErrorCode Judge(SamFile f, SamHistory history, const SamParameters *
     *good = PETSC_TRUE;
   PetscCall(PetscFree(version));
   if (*good) *good = SamParametersDiffer(f, parameters, message, size) ? PETSC_FALSE : PETSC_TRUE;
-  if (!*good || f->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamHistoryGetCount(history, &count));
-  if (steps > count) {
-    *good = PETSC_FALSE;
-    (void)snprintf(message, size, "-history or -steps: there are %ld load steps, and %ld were solved there",
-                   (long)count, (long)steps);
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  SamFileReadAttribute(f, f->id, "load_program", H5T_NATIVE_UINT64, COLUMNS, columns[0]);
-  PetscCall(ChecksumColumns(history, steps, columns[1]));
-  PetscCall(SamHistoryGetStep(history, 0, &first));
-  for (PetscInt c = 0; c < COLUMNS && *good; c++) {
-    const SamBalance *b = c < 4 ? &first.normal : &first.tangential;
-    const PetscInt    k = PetscMax(c - 1, 0) % 3;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    if (columns[0][c] == columns[1][c]) continue;
-    *good = PETSC_FALSE;
-    if (c == 0)
-      (void)snprintf(message, size, "-history: the times up to step %ld are others there", (long)steps);
-    else
-      (void)snprintf(message, size, "-%s, or its column in -history: it is another there up to step %ld",
-                     b->force[k] ? SamLoadNames[b->kind][k] : SamRigidNames[b->kind][k], (long)steps);
+static PetscErrorCode ReadFields(SamFile f, SamContactState *state)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < KEPT; k++) {
+    const PetscBool needed = strncmp(kept[k].name, "before", 6) || state->steps > 1 ? PETSC_TRUE : PETSC_FALSE;
+
+    if (needed) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadAll(SamFile f, SamHistory history, const SamParameters *parameters, PetscInt *steps,
-                              SamStatus *worst, SamContactState *state)
+static PetscErrorCode ReadAll(SamFile f, const Rest *rest, SamContactState *state, uint64_t *gap)
 {
-  int64_t   format = 0, progress[2] = {0, 0};
-  char      message[256] = "";
-  PetscBool good         = PETSC_TRUE;
+  int64_t   format       = 0;
+  char      message[256] = "it was written by another version of petsam";
+  PetscBool good         = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamFileBegin(f));
@@ -313,19 +325,14 @@ static PetscErrorCode ReadAll(SamFile f, SamHistory history, const SamParameters
     (void)SamFileNote(f, -1);
     (void)snprintf(f->reason, sizeof(f->reason), "it is not a checkpoint");
   }
-  SamFileReadAttribute(f, f->id, "progress", H5T_NATIVE_INT64, 2, progress);
-  *steps = (PetscInt)progress[0];
-  *worst = (SamStatus)progress[1];
-  if (!f->failed && format != FORMAT) {
-    good = PETSC_FALSE;
-    (void)snprintf(message, sizeof(message), "it was written by another version of petsam");
-  } else if (!f->failed)
-    PetscCall(Judge(f, history, parameters, *steps, message, sizeof(message), &good));
+  if (!f->failed && format == FORMAT) PetscCall(IsUsable(f, rest->parameters, message, sizeof(message), &good));
   if (!f->failed && good) {
+    SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, gap);
+    for (PetscInt k = 0; k < rest->n; k++)
+      SamFileReadAttribute(f, f->id, rest->notes[k].name, H5T_NATIVE_UINT64, rest->notes[k].count,
+                           rest->notes[k].values);
     ReadNumbers(f, state);
-    for (PetscInt k = 0; k < KEPT; k++)
-      if (strncmp(kept[k].name, "previous", 8) || SamFileNote(f, H5Lexists(f->id, kept[k].name, H5P_DEFAULT)) > 0)
-        PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
+    PetscCall(ReadFields(f, state));
   }
   PetscCall(SamFileEnd(f));
   PetscCheck(good, f->grid->comm, SAM_ERR_USER, "-restart %s: cannot go on from it: %s", f->filename, message);
@@ -333,8 +340,8 @@ static PetscErrorCode ReadAll(SamFile f, SamHistory history, const SamParameters
 }
 
 /* Reads a whole checkpoint; the vectors of the state are the caller's, also after an error. */
-static PetscErrorCode ReadFile(SamGrid grid, const char filename[], SamHistory history, const SamParameters *parameters,
-                               PetscInt *steps, SamStatus *worst, SamContactState *state)
+static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *rest, SamContactState *state,
+                               uint64_t *gap)
 {
   SamFile        f;
   PetscErrorCode ierr;
@@ -342,7 +349,7 @@ static PetscErrorCode ReadFile(SamGrid grid, const char filename[], SamHistory h
   PetscFunctionBegin;
   PetscCall(PetscMemzero(state, sizeof(*state)));
   PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
-  ierr = ReadAll(f, history, parameters, steps, worst, state);
+  ierr = ReadAll(f, rest, state, gap);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
   PetscCall(SamFileDestroy(&f, PETSC_TRUE));
@@ -361,30 +368,44 @@ static PetscErrorCode Keep(MPI_Comm comm, int line, const char *function, const 
   return code;
 }
 
-PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamHistory history,
-                                 const SamParameters *parameters, PetscInt *steps, SamStatus *worst)
+/* What to do about a file that cannot be read: name the one before it, if that can be. */
+static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *rest, char advice[], size_t size)
 {
   SamContactState state;
+  uint64_t        gap;
+  char            before[PETSC_MAX_PATH_LEN + 8], ignored[1024];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(before, sizeof(before), "%s.1", filename));
+  PetscCall(PetscPushErrorHandler(Keep, ignored));
+  if (!ReadFile(grid, before, rest, &state, &gap))
+    (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(DestroyFields(&state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, const SamParameters *parameters, PetscInt n,
+                                 const SamNote notes[])
+{
+  const Rest      rest = {parameters, n, notes};
+  SamContactState state;
   SamGrid         grid;
-  char           message[1024] = "", ignored[1024], before[PETSC_MAX_PATH_LEN + 8], advice[2 * PETSC_MAX_PATH_LEN] = "";
-  PetscErrorCode ierr;
+  uint64_t        gap[2]        = {0, 0}; /* in the file; of the problem */
+  char            message[1024] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
+  PetscErrorCode  ierr;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(SamContactGetGrid(contact, &grid));
+  PetscCall(GapChecksum(contact, &gap[1]));
   PetscCall(PetscPushErrorHandler(Keep, message));
-  ierr = ReadFile(grid, filename, history, parameters, steps, worst, &state);
+  ierr = ReadFile(grid, filename, &rest, &state, &gap[0]);
   PetscCall(PetscPopErrorHandler());
-  if (ierr == SAM_ERR_FILE) {
-    PetscCall(DestroyFields(&state));
-    PetscCall(PetscSNPrintf(before, sizeof(before), "%s.1", filename));
-    PetscCall(PetscPushErrorHandler(Keep, ignored));
-    if (!ReadFile(grid, before, history, parameters, steps, worst, &state))
-      (void)snprintf(advice, sizeof(advice), "; the checkpoint before it can be read: -restart %s", before);
-    PetscCall(PetscPopErrorHandler());
-  }
+  if (gap[0] != gap[1]) state.gap_is_current = PETSC_FALSE;
   if (!ierr) PetscCall(SamContactSetState(contact, &state));
   PetscCall(DestroyFields(&state));
+  if (ierr == SAM_ERR_FILE) PetscCall(Advise(grid, filename, &rest, advice, sizeof(advice)));
   PetscCheck(!ierr, grid->comm, ierr, "%s%s", message, advice);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

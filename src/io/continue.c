@@ -10,6 +10,13 @@
 
 #define STEP_BYTES 4096 /* more than the numbers of a step take, and its part of HDF5's indices */
 
+/* What the file is to hold. */
+typedef struct {
+  const SamParameters *parameters;
+  hsize_t              steps;
+  const PetscReal     *times; /* of these steps */
+} Wanted;
+
 /* What is found in the file. */
 typedef struct {
   hsize_t        steps, saved; /* complete ones */
@@ -29,17 +36,19 @@ static void Complain(Found *found, PetscErrorCode code, const char text[])
 static void CountSteps(SamOutput o, Found *found)
 {
   found->steps = found->saved = HSIZE_UNDEF;
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++)
-    found->steps = PetscMin(found->steps, SamOutputLength(o, o->columns[c]));
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+  for (PetscInt c = 0; c < SamOutputColumnCount; c++)
+    if (o->columns[c] >= 0) found->steps = PetscMin(found->steps, SamOutputLength(o, o->columns[c]));
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
     found->saved = PetscMin(found->saved, SamOutputLength(o, o->fields[f]));
-  found->saved = PetscMin(found->saved, PetscMin(SamOutputLength(o, o->state), SamOutputLength(o, o->time)));
+  found->saved = PetscMin(found->saved, SamOutputLength(o, o->time));
 }
 
 /* Times must be those of the load program, and say which fields belong to the steps that count. */
-static PetscErrorCode CompareTimes(SamOutput o, hsize_t steps, const PetscReal times[], Found *found)
+static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, Found *found)
 {
-  double *values;
+  const hsize_t    steps = wanted->steps;
+  const PetscReal *times = wanted->times;
+  double          *values;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(PetscMax(steps, found->saved), &values));
@@ -56,8 +65,7 @@ static PetscErrorCode CompareTimes(SamOutput o, hsize_t steps, const PetscReal t
 }
 
 /* Looks at a file that is open. */
-static PetscErrorCode Look(SamOutput o, const SamParameters *parameters, hsize_t steps, const PetscReal times[],
-                           Found *found)
+static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
 {
   char   text[192];
   int8_t closed = 0;
@@ -65,25 +73,24 @@ static PetscErrorCode Look(SamOutput o, const SamParameters *parameters, hsize_t
   PetscFunctionBegin;
   SamOutputOpenLayout(o);
   if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (SamParametersDiffer(o->f, parameters, text, sizeof(text))) Complain(found, SAM_ERR_USER, text);
+  if (SamParametersDiffer(o->f, wanted->parameters, text, sizeof(text))) Complain(found, SAM_ERR_USER, text);
   CountSteps(o, found);
   if (o->f->failed || found->code) PetscFunctionReturn(PETSC_SUCCESS);
-  if (found->steps < steps) {
+  if (found->steps < wanted->steps) {
     (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint", (long)found->steps,
-                   (long)steps);
+                   (long)wanted->steps);
     Complain(found, SAM_ERR_FILE, text);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(CompareTimes(o, steps, times, found));
+  PetscCall(CompareTimes(o, wanted, found));
   (void)SamFileNote(o->f, H5Aread(o->closed, H5T_NATIVE_INT8, &closed));
-  found->whole = (closed && found->steps == steps && found->saved == found->keep) ? PETSC_TRUE : PETSC_FALSE;
+  found->whole = (closed && found->steps == wanted->steps && found->saved == found->keep) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Opens the file and looks at it. Errors leave nothing open. */
 static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode, const SamOutputSettings *set,
-                           const SamParameters *parameters, hsize_t steps, const PetscReal times[], SamOutput *output,
-                           Found *found)
+                           const Wanted *wanted, SamOutput *output, Found *found)
 {
   SamFile        file;
   PetscErrorCode ierr;
@@ -93,7 +100,7 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
   PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, mode, &file));
   PetscCall(SamOutputAllocate(file, set, output));
   PetscCall(SamFileBegin(file));
-  PetscCall(Look(*output, parameters, steps, times, found));
+  PetscCall(Look(*output, wanted, found));
   ierr = SamFileEnd(file);
   if (ierr || found->code) {
     (*output)->unchanged = PETSC_TRUE;
@@ -110,13 +117,15 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
 static void ReadStep(SamOutput o, hsize_t k, SamStep *step)
 {
   memset(step, 0, sizeof(*step));
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) {
+  for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
     char *const place = (char *)step + SamOutputColumns[c].offset;
     double      real  = 0;
     int64_t     whole = 0;
 
+    if (o->columns[c] < 0) continue;
     switch (SamOutputColumns[c].kind) {
     case SAM_COLUMN_REAL:
+    case SAM_COLUMN_OPTIONAL:
       SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_DOUBLE, k, 1, &real);
       *(PetscReal *)place = (PetscReal)real;
       break;
@@ -132,57 +141,29 @@ static void ReadStep(SamOutput o, hsize_t k, SamStep *step)
   }
 }
 
-static PetscErrorCode ReadFields(SamOutput o, hsize_t k, SamFields *fields)
+/* Where fields are copied from. */
+typedef struct {
+  SamOutput output;
+  hsize_t   index; /* of the saved step */
+  double   *cells; /* room for this rank's values, doubles or bytes */
+} FileFields;
+
+static PetscErrorCode GetFileValues(SamOutput to, PetscInt f, void *context, const void **values)
 {
+  const FileFields *from = (const FileFields *)context;
+  const hid_t       type = SamOutputFields[f].kind == SAM_FIELD_STATE ? H5T_NATIVE_SCHAR : H5T_NATIVE_DOUBLE;
+
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) {
-    const Vec    vec = *(const Vec *)((const char *)fields + SamOutputFields[f].offset);
-    PetscScalar *values;
-
-    PetscCall(VecGetArray(vec, &values));
-    SamFileReadLayer(o->f, o->fields[f], H5T_NATIVE_DOUBLE, k,
-                     values + SamOutputFields[f].component * o->f->grid->cells);
-    PetscCall(VecRestoreArray(vec, &values));
-  }
+  (void)to;
+  SamFileReadLayer(from->output->f, from->output->fields[f], type, from->index, from->cells);
+  *values = from->cells;
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CreateFields(SamGrid grid, SamFields *fields)
-{
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(grid, 1, &fields->pressure));
-  PetscCall(VecDuplicate(fields->pressure, &fields->gap));
-  PetscCall(VecDuplicate(fields->pressure, &fields->displacement_z));
-  PetscCall(SamGridCreateVec(grid, 2, &fields->shear));
-  PetscCall(VecDuplicate(fields->shear, &fields->slip));
-  PetscCall(VecDuplicate(fields->shear, &fields->displacement_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode DestroyFields(SamFields *fields)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&fields->pressure));
-  PetscCall(VecDestroy(&fields->shear));
-  PetscCall(VecDestroy(&fields->slip));
-  PetscCall(VecDestroy(&fields->gap));
-  PetscCall(VecDestroy(&fields->displacement_z));
-  PetscCall(VecDestroy(&fields->displacement_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static double Friction(const SamParameters *parameters)
-{
-  for (PetscInt k = 0; k < parameters->count; k++)
-    if (!strcmp(parameters->list[k].name, "friction")) return parameters->list[k].value[0];
-  return 0;
 }
 
 /* Step by step, as a run would write them. */
-static PetscErrorCode CopySteps(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep,
-                                SamOutput to, SamFields *fields)
+static PetscErrorCode CopySteps(SamOutput from, hsize_t steps, hsize_t keep, SamOutput to, double cells[])
 {
-  hsize_t saved = 0;
+  FileFields fields = {.output = from, .cells = cells};
 
   PetscFunctionBegin;
   for (hsize_t k = 0; k < steps; k++) {
@@ -192,13 +173,14 @@ static PetscErrorCode CopySteps(SamOutput from, const SamParameters *parameters,
 
     PetscCall(SamFileBegin(from->f));
     ReadStep(from, k, &step);
-    if (saved < keep) SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, saved, 1, &time);
-    has = (saved < keep && time == (double)step.time) ? PETSC_TRUE : PETSC_FALSE;
-    if (has) PetscCall(ReadFields(from, saved, fields));
+    if (fields.index < keep) SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, fields.index, 1, &time);
     PetscCall(SamFileEnd(from->f));
-    PetscCall(SamOutputWriteStep(to, &step, has ? fields : NULL, Friction(parameters)));
-    saved += has ? 1 : 0;
+    has = (fields.index < keep && time == (double)step.control.time) ? PETSC_TRUE : PETSC_FALSE;
+    PetscCall(SamOutputAppend(to, &step, step.control.time, has ? GetFileValues : NULL, &fields));
+    fields.index += has ? 1 : 0;
   }
+  PetscCall(SamFileBegin(from->f)); /* what failed in reading a field */
+  PetscCall(SamFileEnd(from->f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -217,20 +199,19 @@ static PetscErrorCode CopyOptions(SamOutput from, SamOutput to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CopyAll(SamOutput from, const SamParameters *parameters, hsize_t steps, hsize_t keep,
-                              SamOutput to)
+static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep, SamOutput to)
 {
-  SamFields      fields;
+  double        *cells;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(SamOutputSetParameters(to, parameters));
+  PetscCall(SamOutputSetParameters(to, wanted->parameters));
   PetscCall(CopyOptions(from, to));
-  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to) + (off_t)steps * STEP_BYTES));
+  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to) + (off_t)wanted->steps * STEP_BYTES));
   to->copying = PETSC_TRUE;
-  PetscCall(CreateFields(from->f->grid, &fields));
-  ierr = CopySteps(from, parameters, steps, keep, to, &fields);
-  PetscCall(DestroyFields(&fields));
+  PetscCall(PetscMalloc1(PetscMax(from->f->grid->cells, 1), &cells));
+  ierr = CopySteps(from, wanted->steps, keep, to, cells);
+  PetscCall(PetscFree(cells));
   PetscCall(ierr);
   PetscCall(SamFileBegin(to->f));
   (void)SamFileNote(to->f, H5Fflush(to->f->id, H5F_SCOPE_GLOBAL));
@@ -238,9 +219,16 @@ static PetscErrorCode CopyAll(SamOutput from, const SamParameters *parameters, h
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether the history has its optional column. */
+static PetscBool HasOptional(SamOutput o)
+{
+  for (PetscInt c = 0; c < SamOutputColumnCount; c++)
+    if (SamOutputColumns[c].kind == SAM_COLUMN_OPTIONAL && o->columns[c] >= 0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 /* The steps that count, in a new file that takes the old one's place. */
-static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const SamParameters *parameters,
-                              hsize_t steps, hsize_t keep)
+static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const Wanted *wanted, hsize_t keep)
 {
   SamOutputSettings plain = *set;
   SamOutput         to;
@@ -248,10 +236,11 @@ static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, cons
   PetscErrorCode    ierr;
 
   PetscFunctionBegin;
-  plain.xdmf = PETSC_FALSE;
+  plain.xdmf           = PETSC_FALSE;
+  plain.friction_scale = HasOptional(from);
   PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", from->f->filename));
-  PetscCall(SamOutputCreateWith(from->f->grid, temporary, &plain, &to));
-  ierr = CopyAll(from, parameters, steps, keep, to);
+  PetscCall(SamOutputCreate(from->f->grid, temporary, &plain, &to));
+  ierr = CopyAll(from, wanted, keep, to);
   if (ierr) {
     (void)SamOutputDestroy(&to);
     if (!from->f->rank) (void)remove(temporary);
@@ -293,28 +282,27 @@ static PetscErrorCode MarkOpen(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamParameters *parameters, PetscInt steps,
-                                 const PetscReal times[], SamOutput *output)
+PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamOutputSettings *set,
+                                 const SamParameters *parameters, PetscInt steps, const PetscReal times[],
+                                 SamOutput *output)
 {
-  const hsize_t     count = (hsize_t)steps;
-  SamOutputSettings set;
-  Found             found;
-  PetscErrorCode    ierr = 0;
+  const Wanted   wanted = {parameters, (hsize_t)steps, times};
+  Found          found;
+  PetscErrorCode ierr = 0;
 
   PetscFunctionBegin;
   *output = NULL;
   PetscCall(SamInitialize());
-  PetscCall(SamOutputGetSettings(grid->comm, &set));
-  PetscCall(Open(grid, filename, SAM_FILE_READ, &set, parameters, count, times, output, &found));
-  if (!found.whole) ierr = Rewrite(*output, &set, parameters, count, found.keep);
+  PetscCall(Open(grid, filename, SAM_FILE_READ, set, &wanted, output, &found));
+  if (!found.whole) ierr = Rewrite(*output, set, &wanted, found.keep);
   PetscCall(SamOutputDestroy(output));
   PetscCall(ierr);
-  PetscCall(Open(grid, filename, SAM_FILE_APPEND, &set, parameters, count, times, output, &found));
+  PetscCall(Open(grid, filename, SAM_FILE_APPEND, set, &wanted, output, &found));
   PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program",
              filename);
   (*output)->steps = found.steps;
   (*output)->saved = found.saved;
   PetscCall(MarkOpen(*output));
-  if (set.xdmf) PetscCall(RewriteXdmf(*output));
+  if (set->xdmf) PetscCall(RewriteXdmf(*output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

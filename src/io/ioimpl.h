@@ -93,32 +93,31 @@ typedef struct {
   const char *name, *units, *long_name;
 } SamOutputLabel;
 
-/* A field: one component of a Vec of SamFields. */
+/*
+  A field: one component of what `get` finds, in a vector of the contact's or in `work`, which has two components. Its
+  values are real numbers, or SamStates, which are stored as bytes.
+*/
+typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE } SamOutputFieldKind;
 typedef struct {
-  SamOutputLabel label;
-  size_t         offset; /* of the Vec in SamFields */
-  PetscInt       component;
+  SamOutputLabel     label;
+  SamOutputFieldKind kind;
+  PetscErrorCode (*get)(SamContact contact, Vec work, Vec *field);
+  PetscInt component;
 } SamOutputField;
 
-/* A column of the history: a number of SamStep. */
-typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS } SamOutputColumnKind;
+/* A column of the history: a number of SamStep. Optional ones, which are real, are there where they vary. */
+typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS, SAM_COLUMN_OPTIONAL } SamOutputColumnKind;
 typedef struct {
   SamOutputLabel      label;
   SamOutputColumnKind kind;
   size_t              offset; /* in SamStep */
 } SamOutputColumn;
 
-#define SAM_OUTPUT_FIELDS  9
-#define SAM_OUTPUT_COLUMNS 27
-PETSC_INTERN const SamOutputField  SamOutputFields[SAM_OUTPUT_FIELDS];
-PETSC_INTERN const SamOutputColumn SamOutputColumns[SAM_OUTPUT_COLUMNS];
-
-/* What the options say of the file. */
-typedef struct {
-  PetscInt  compress; /* level of deflate */
-  PetscInt  chunk[2]; /* most cells of a chunk in x, y */
-  PetscBool xdmf;
-} SamOutputSettings;
+#define SAM_OUTPUT_MOST 64 /* lines of the tables */
+PETSC_INTERN const SamOutputField  SamOutputFields[];
+PETSC_INTERN const PetscInt        SamOutputFieldCount;
+PETSC_INTERN const SamOutputColumn SamOutputColumns[];
+PETSC_INTERN const PetscInt        SamOutputColumnCount;
 
 /* The XDMF file beside the results. */
 typedef struct _n_SamXdmf *SamXdmf;
@@ -130,8 +129,9 @@ struct _n_SamOutput {
   hid_t        vtk_steps; /* attribute: number of steps that VTK sees */
   hid_t        closed;    /* attribute: whether the file has been closed after it was written to */
   SamXdmf      xdmf;      /* NULL: none */
-  hid_t        time, state, fields[SAM_OUTPUT_FIELDS], columns[SAM_OUTPUT_COLUMNS];
+  hid_t        time, fields[SAM_OUTPUT_MOST], columns[SAM_OUTPUT_MOST];
   signed char *states; /* of this rank's cells */
+  Vec          work;   /* two components, for fields that have to be computed; NULL until then */
   /* status */
   hsize_t   steps, saved; /* load steps in the history, steps with fields */
   PetscReal saved_time;   /* of the last step with fields */
@@ -165,10 +165,13 @@ PETSC_INTERN void    SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t 
                                          void *values);
 /* SamOutputAllocate - an object on an open file, which it takes, with no dataset open. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output);
-PETSC_INTERN PetscErrorCode SamOutputGetSettings(MPI_Comm comm, SamOutputSettings *set);
-/* SamOutputCreateWith - as SamOutputCreate() with settings for options. */
-PETSC_INTERN PetscErrorCode SamOutputCreateWith(SamGrid grid, const char filename[], const SamOutputSettings *set,
-                                                SamOutput *output);
+/*
+  SamOutputAppend - the numbers of a step (NULL: none) and its fields (`values` NULL: none), and what belongs to them; then
+  all of it is on its way to the disk. `values` gives this rank's values of field f, doubles or bytes. Collective.
+*/
+typedef PetscErrorCode (*SamOutputValues)(SamOutput output, PetscInt f, void *context, const void **values);
+PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const SamStep *step, PetscReal time,
+                                            SamOutputValues values, void *context);
 
 /*
   SamXdmfCreate - a file with no step for results of that name, replacing one there is. SamXdmfAddStep - one more, which

@@ -9,71 +9,9 @@
 
 #define CHUNK_STEPS 256 /* of what has one number a step */
 
-const SamOutputField SamOutputFields[SAM_OUTPUT_FIELDS] = {
-  {{"pressure", "Pa", "contact pressure"}, offsetof(SamFields, pressure), 0},
-  {{"shear_x", "Pa", "shear traction along x"}, offsetof(SamFields, shear), 0},
-  {{"shear_y", "Pa", "shear traction along y"}, offsetof(SamFields, shear), 1},
-  {{"slip_x", "m", "relative tangential displacement along x since the start"}, offsetof(SamFields, slip), 0},
-  {{"slip_y", "m", "relative tangential displacement along y since the start"}, offsetof(SamFields, slip), 1},
-  {{"gap", "m", "gap between the deformed surfaces"}, offsetof(SamFields, gap), 0},
-  {{"displacement_x", "m", "relative elastic displacement along x"}, offsetof(SamFields, displacement_t), 0},
-  {{"displacement_y", "m", "relative elastic displacement along y"}, offsetof(SamFields, displacement_t), 1},
-  {{"displacement_z", "m", "relative elastic displacement along z"}, offsetof(SamFields, displacement_z), 0}};
-
-/* The order of the components is that of SamLoadNames and SamRigidNames. */
-const SamOutputColumn SamOutputColumns[SAM_OUTPUT_COLUMNS] = {
-  {{"time", "s", "time of the load step"}, SAM_COLUMN_REAL, offsetof(SamStep, time)},
-  {{"load_n", "N", "normal force"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.load[0])},
-  {{"load_tx", "N", "tangential force along x"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.load[0])},
-  {{"load_ty", "N", "tangential force along y"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.load[1])},
-  {{"load_mx", "N m", "moment about x"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.load[1])},
-  {{"load_my", "N m", "moment about y"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.load[2])},
-  {{"load_mz", "N m", "moment about z"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.load[2])},
-  {{"disp_z", "m", "rigid displacement along z (approach)"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.rigid[0])},
-  {{"disp_x", "m", "rigid displacement along x"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.rigid[0])},
-  {{"disp_y", "m", "rigid displacement along y"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.rigid[1])},
-  {{"rot_x", "rad", "rotation about x"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.rigid[1])},
-  {{"rot_y", "rad", "rotation about y"}, SAM_COLUMN_REAL, offsetof(SamStep, normal.rigid[2])},
-  {{"rot_z", "rad", "rotation about z"}, SAM_COLUMN_REAL, offsetof(SamStep, tangential.rigid[2])},
-  {{"contact_area", "m2", "area in contact"}, SAM_COLUMN_REAL, offsetof(SamStep, contact_area)},
-  {{"stick_area", "m2", "area in stick"}, SAM_COLUMN_REAL, offsetof(SamStep, stick_area)},
-  {{"normal_residual", "1", "relative error of the normal problem, by the check"},
-   SAM_COLUMN_REAL,
-   offsetof(SamStep, check.normal)},
-  {{"tangential_residual", "1", "relative error of the tangential problem, by the check"},
-   SAM_COLUMN_REAL,
-   offsetof(SamStep, check.tangential)},
-  {{"equilibrium_residual", "1", "relative error of the loads, by the check"},
-   SAM_COLUMN_REAL,
-   offsetof(SamStep, check.equilibrium)},
-  {{"normal_iterations", "1", "iterations of the normal solver"}, SAM_COLUMN_INT, offsetof(SamStep, normal_iterations)},
-  {{"tangential_iterations", "1", "iterations of the tangential solver"},
-   SAM_COLUMN_INT,
-   offsetof(SamStep, tangential_iterations)},
-  {{"normal_applies", "1", "applications of the normal influence operator"},
-   SAM_COLUMN_INT,
-   offsetof(SamStep, normal_applies)},
-  {{"tangential_applies", "1", "applications of the tangential influence operator"},
-   SAM_COLUMN_INT,
-   offsetof(SamStep, tangential_applies)},
-  {{"normal_preconditions", "1", "applications of the normal preconditioner"},
-   SAM_COLUMN_INT,
-   offsetof(SamStep, normal_preconditions)},
-  {{"tangential_preconditions", "1", "applications of the tangential preconditioner"},
-   SAM_COLUMN_INT,
-   offsetof(SamStep, tangential_preconditions)},
-  {{"coupling_iterations", "1", "passes of the normal-tangential coupling"},
-   SAM_COLUMN_INT,
-   offsetof(SamStep, coupling_iterations)},
-  {{"status", "1", "outcome of the load step"}, SAM_COLUMN_STATUS, offsetof(SamStep, status)},
-  {{"dissipated_energy", "J", "frictional work of the load step"},
-   SAM_COLUMN_REAL,
-   offsetof(SamStep, dissipated_energy)}};
-
 static const SamOutputLabel x_label        = {"x", "m", "x of the cell centres"};
 static const SamOutputLabel y_label        = {"y", "m", "y of the cell centres"};
 static const SamOutputLabel time_label     = {"time", "s", "time of the saved fields"};
-static const SamOutputLabel state_label    = {"state", "1", "state of the cell"};
 static const char           state_words[]  = "open stick slip"; /* SamState */
 static const char           status_words[] = "converged not_converged no_equilibrium edge_contact";
 
@@ -159,34 +97,44 @@ static Shape FieldShape(SamOutput o)
                  {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
 }
 
+static hid_t StoredType(const SamOutputField *field)
+{
+  return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : H5T_IEEE_F64LE;
+}
+
 off_t SamOutputFieldBytes(SamOutput o)
 {
   const Shape shape = FieldShape(o);
-  hsize_t     cells = 1; /* of whole chunks */
+  hsize_t     cells = 1, bytes = 0; /* of whole chunks; a cell's */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
-  return (off_t)(cells * (SAM_OUTPUT_FIELDS * sizeof(double) + 1));
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
+  return (off_t)(cells * bytes);
+}
+
+static void WriteFlags(SamOutput o, hid_t dataset)
+{
+  const int8_t states[] = {SAM_STATE_OPEN, SAM_STATE_STICK, SAM_STATE_SLIP};
+
+  SamFileWriteAttribute(o->f, dataset, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8, 3, states);
+  SamFileWriteTextAttribute(o->f, dataset, "flag_meanings", state_words);
 }
 
 static PetscErrorCode CreateFields(SamOutput o)
 {
-  const Shape  shape    = FieldShape(o);
-  const int8_t states[] = {SAM_STATE_OPEN, SAM_STATE_STICK, SAM_STATE_SLIP};
-  hid_t        scales[3]; /* of [time, y, x] */
+  const Shape shape = FieldShape(o);
+  hid_t       scales[3]; /* of [time, y, x] */
 
   PetscFunctionBegin;
   PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
   PetscCall(CreateAxis(o, &y_label, 1, &scales[1]));
   scales[0] = o->time = CreateScale(o, o->f->id, &time_label, "T", "time", &series);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
-    o->fields[f] = CreateDataset(o, o->f->id, &SamOutputFields[f].label, H5T_IEEE_F64LE, &shape, o->set.compress);
-  o->state = CreateDataset(o, o->f->id, &state_label, H5T_STD_I8LE, &shape, o->set.compress);
-  SamFileWriteAttribute(o->f, o->state, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8, 3, states);
-  SamFileWriteTextAttribute(o->f, o->state, "flag_meanings", state_words);
-  for (unsigned d = 0; d < 3; d++) {
-    for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
-      (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
-    (void)SamFileNote(o->f, H5DSattach_scale(o->state, scales[d], d));
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    const SamOutputField *field = &SamOutputFields[f];
+
+    o->fields[f] = CreateDataset(o, o->f->id, &field->label, StoredType(field), &shape, o->set.compress);
+    if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
+    for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
   }
   (void)SamFileNote(o->f, H5Dclose(scales[1]));
   (void)SamFileNote(o->f, H5Dclose(scales[2]));
@@ -201,11 +149,13 @@ static void CreateHistory(SamOutput o)
   const hid_t   group      = SamFileNote(o->f, H5Gcreate2(o->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 
   o->columns[0] = CreateScale(o, group, &SamOutputColumns[0].label, "T", "time", &series);
-  for (PetscInt c = 1; c < SAM_OUTPUT_COLUMNS; c++) {
+  for (PetscInt c = 1; c < SamOutputColumnCount; c++) {
     const SamOutputColumn *column = &SamOutputColumns[c];
+    const PetscBool        whole =
+      (column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS) ? PETSC_TRUE : PETSC_FALSE;
 
-    o->columns[c] = CreateDataset(o, group, &column->label,
-                                  column->kind == SAM_COLUMN_REAL ? H5T_IEEE_F64LE : H5T_STD_I64LE, &series, 0);
+    if (column->kind == SAM_COLUMN_OPTIONAL && !o->set.friction_scale) continue;
+    o->columns[c] = CreateDataset(o, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, &series, 0);
     (void)SamFileNote(o->f, H5DSattach_scale(o->columns[c], o->columns[0], 0));
     if (column->kind == SAM_COLUMN_STATUS) {
       SamFileWriteAttribute(o->f, o->columns[c], "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
@@ -254,11 +204,16 @@ void SamOutputOpenLayout(SamOutput o)
   const hid_t history = SamFileNote(o->f, H5Gopen2(o->f->id, "history", H5P_DEFAULT));
 
   OpenDataset(o, o->f->id, "time", &o->time);
-  OpenDataset(o, o->f->id, "state", &o->state);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
     OpenDataset(o, o->f->id, SamOutputFields[f].label.name, &o->fields[f]);
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++)
-    OpenDataset(o, history, SamOutputColumns[c].label.name, &o->columns[c]);
+  for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
+    const char *name = SamOutputColumns[c].label.name;
+
+    if (SamOutputColumns[c].kind == SAM_COLUMN_OPTIONAL && history >= 0 &&
+        SamFileNote(o->f, H5Lexists(history, name, H5P_DEFAULT)) == 0)
+      continue;
+    OpenDataset(o, history, name, &o->columns[c]);
+  }
   ReadChunks(o);
   SamOutputOpenVTK(o);
   o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
@@ -277,9 +232,8 @@ void SamOutputCloseLayout(SamOutput o)
   if (o->closed >= 0) (void)SamFileNote(o->f, H5Aclose(o->closed));
   o->vtk_steps = o->closed = -1;
   Close(o, &o->time);
-  Close(o, &o->state);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) Close(o, &o->fields[f]);
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) Close(o, &o->columns[c]);
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) Close(o, &o->fields[f]);
+  for (PetscInt c = 0; c < SamOutputColumnCount; c++) Close(o, &o->columns[c]);
 }
 
 /* ---- reading ---- */

@@ -13,30 +13,21 @@
 
 /* ---- options ---- */
 
-PetscErrorCode SamOutputGetSettings(MPI_Comm comm, SamOutputSettings *set)
+PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const SamOptions *from)
 {
-  const SamOptions from = {comm, NULL};
+  const char *prefix = SamOptionsPrefix(from);
+
   PetscFunctionBegin;
   *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
-  PetscCall(SamOptionsInt(&from, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
+  PetscCall(SamOptionsInt(from, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
                           &set->compress, NULL));
-  PetscCheck(set->compress <= 9, comm, SAM_ERR_USER,
-             "-output_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", set->compress);
-  PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, comm, SAM_ERR_USER,
-             "-output_compress %" PetscInt_FMT ": this HDF5 was built without zlib", set->compress);
+  PetscCheck(set->compress <= 9, from->comm, SAM_ERR_USER,
+             "-%soutput_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", prefix, set->compress);
+  PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, from->comm, SAM_ERR_USER,
+             "-%soutput_compress %" PetscInt_FMT ": this HDF5 was built without zlib", prefix, set->compress);
+  PetscCall(SamOptionsIntPair(from, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
   PetscCall(
-    SamOptionsIntPair(&from, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
-  PetscCall(
-    SamOptionsBool(&from, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputCheckOptions(MPI_Comm comm)
-{
-  SamOutputSettings set;
-
-  PetscFunctionBegin;
-  PetscCall(SamOutputGetSettings(comm, &set));
+    SamOptionsBool(from, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -80,10 +71,10 @@ PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, Sam
   PetscCall(PetscNew(&o));
   o->f    = file;
   o->set  = *set;
-  o->time = o->state = o->vtk_steps = o->closed = -1;
-  o->saved_time                                 = PETSC_NINFINITY;
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) o->fields[f] = -1;
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) o->columns[c] = -1;
+  o->time = o->vtk_steps = o->closed = -1;
+  o->saved_time                      = PETSC_NINFINITY;
+  for (PetscInt f = 0; f < SAM_OUTPUT_MOST; f++) o->fields[f] = -1;
+  for (PetscInt c = 0; c < SAM_OUTPUT_MOST; c++) o->columns[c] = -1;
   PetscCall(PetscMalloc1(file->grid->cells, &o->states));
   *output = o;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -99,13 +90,15 @@ static PetscErrorCode CreateDatasets(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputCreateWith(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
+PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
 {
   SamFile        file;
   SamXdmf        xdmf = NULL;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
+  *output = NULL;
+  PetscCall(SamInitialize());
   PetscCall(SamFileCheckName(grid, "output", filename));
   if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, &xdmf)); /* first: the old results stay if it fails */
   ierr = SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &file);
@@ -118,18 +111,6 @@ PetscErrorCode SamOutputCreateWith(SamGrid grid, const char filename[], const Sa
   ierr            = CreateDatasets(*output);
   if (ierr) (void)SamOutputDestroy(output);
   PetscCall(ierr);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], SamOutput *output)
-{
-  SamOutputSettings set;
-
-  PetscFunctionBegin;
-  *output = NULL;
-  PetscCall(SamInitialize());
-  PetscCall(SamOutputGetSettings(grid->comm, &set));
-  PetscCall(SamOutputCreateWith(grid, filename, &set, output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,6 +141,7 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   ierr = SamFileEnd(o->f);
   PetscCall(SamXdmfDestroy(&o->xdmf));
   PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
+  PetscCall(VecDestroy(&o->work));
   PetscCall(PetscFree(o->states));
   PetscCall(PetscFree(o));
   PetscCall(ierr);
@@ -226,13 +208,15 @@ static void AppendNumber(SamOutput o, hid_t dataset, hid_t type, hsize_t index, 
 
 static void AppendHistory(SamOutput o, const SamStep *step)
 {
-  for (PetscInt c = 0; c < SAM_OUTPUT_COLUMNS; c++) {
+  for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
     const char *const place = (const char *)step + SamOutputColumns[c].offset;
     double            real;
     int64_t           whole;
 
+    if (o->columns[c] < 0) continue; /* an optional one that is not there */
     switch (SamOutputColumns[c].kind) {
     case SAM_COLUMN_REAL:
+    case SAM_COLUMN_OPTIONAL:
       real = (double)*(const PetscReal *)place;
       AppendNumber(o, o->columns[c], H5T_NATIVE_DOUBLE, o->steps, &real);
       break;
@@ -256,33 +240,16 @@ static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *valu
   SamFileWriteLayer(o->f, dataset, type, o->saved, values);
 }
 
-static PetscErrorCode AppendState(SamOutput o, const SamFields *fields, PetscReal friction)
-{
-  const PetscInt     cells = o->f->grid->cells;
-  const PetscScalar *p, *q;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(fields->pressure, &p));
-  PetscCall(VecGetArrayRead(fields->shear, &q));
-  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)SamStateOf(p[k], q[k], q[cells + k], friction);
-  PetscCall(VecRestoreArrayRead(fields->shear, &q));
-  PetscCall(VecRestoreArrayRead(fields->pressure, &p));
-  AppendField(o, o->state, H5T_NATIVE_SCHAR, o->states);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode AppendFields(SamOutput o, const SamFields *fields, PetscReal friction)
+static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *context)
 {
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++) {
-    const Vec          vec = *(const Vec *)((const char *)fields + SamOutputFields[f].offset);
-    const PetscScalar *values;
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    const void *cells;
 
-    PetscCall(VecGetArrayRead(vec, &values));
-    AppendField(o, o->fields[f], H5T_NATIVE_DOUBLE, values + SamOutputFields[f].component * o->f->grid->cells);
-    PetscCall(VecRestoreArrayRead(vec, &values));
+    PetscCall(values(o, f, context, &cells));
+    AppendField(o, o->fields[f], SamOutputFields[f].kind == SAM_FIELD_STATE ? H5T_NATIVE_SCHAR : H5T_NATIVE_DOUBLE,
+                cells);
   }
-  PetscCall(AppendState(o, fields, friction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -304,47 +271,93 @@ static PetscErrorCode Flush(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A step, fields, or both, and what belongs to them; then all of it is on its way to the disk. */
-static PetscErrorCode Append(SamOutput o, const SamStep *step, PetscReal time, const SamFields *fields,
-                             PetscReal friction)
+PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time, SamOutputValues values, void *context)
 {
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename,
              o->f->reason);
-  if (!o->copying) PetscCall(SamFileReserve(o->f, fields ? SamOutputFieldBytes(o) : 0));
+  if (!o->copying) PetscCall(SamFileReserve(o->f, values ? SamOutputFieldBytes(o) : 0));
   PetscCall(SamFileBegin(o->f));
   if (step) AppendHistory(o, step);
-  if (fields) {
+  if (values) {
     const double now = (double)time;
 
     AppendNumber(o, o->time, H5T_NATIVE_DOUBLE, o->saved, &now);
-    PetscCall(AppendFields(o, fields, friction));
+    PetscCall(AppendFields(o, values, context));
     SamOutputCountVTK(o, o->saved + 1);
     o->saved_time = time;
   }
   if (!o->copying) PetscCall(Flush(o));
   o->steps += step ? 1 : 0;
-  o->saved += fields ? 1 : 0;
+  o->saved += values ? 1 : 0;
   ierr = SamFileEnd(o->f);
   if (ierr) o->broken = PETSC_TRUE;
   PetscCall(ierr);
-  if (fields && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
+  if (values && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputWriteStep(SamOutput o, const SamStep *step, const SamFields *fields, PetscReal friction)
+/* Where the values of a contact's fields are. */
+typedef struct {
+  SamContact    contact;
+  Vec           field; /* the last one, whose components may follow; NULL: none */
+  const double *array;
+} ContactFields;
+
+/* The next field, unless it is another component of the last one. */
+static PetscErrorCode MoveTo(SamOutput o, PetscInt f, ContactFields *from)
 {
   PetscFunctionBegin;
-  PetscCall(Append(o, step, step->time, fields, friction));
+  if (from->field && f > 0 && f < SamOutputFieldCount && SamOutputFields[f].get == SamOutputFields[f - 1].get)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  if (from->field) PetscCall(VecRestoreArrayRead(from->field, &from->array));
+  from->field = NULL;
+  if (f == SamOutputFieldCount) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!o->work) PetscCall(SamGridCreateVec(o->f->grid, 2, &o->work));
+  PetscCall(SamOutputFields[f].get(from->contact, o->work, &from->field));
+  PetscCall(VecGetArrayRead(from->field, &from->array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time, const SamFields *fields, PetscReal friction)
+static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, const void **values)
+{
+  const PetscInt cells = o->f->grid->cells;
+  ContactFields *from  = (ContactFields *)context;
+  const double  *own;
+
+  PetscFunctionBegin;
+  PetscCall(MoveTo(o, f, from));
+  own     = from->array + SamOutputFields[f].component * cells;
+  *values = own;
+  if (SamOutputFields[f].kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)own[k];
+  *values = o->states;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Write(SamOutput o, const SamStep *step, PetscReal time, SamContact contact)
+{
+  ContactFields from = {.contact = contact};
+
+  PetscFunctionBegin;
+  PetscCall(SamOutputAppend(o, step, time, contact ? GetContactValues : NULL, &from));
+  if (contact) PetscCall(MoveTo(o, SamOutputFieldCount, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteStep(SamOutput o, const SamStep *step, SamContact contact)
 {
   PetscFunctionBegin;
-  PetscCall(Append(o, NULL, time, fields, friction));
+  PetscCall(Write(o, step, step->control.time, contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time, SamContact contact)
+{
+  PetscFunctionBegin;
+  PetscCall(Write(o, NULL, time, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

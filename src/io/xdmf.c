@@ -115,9 +115,11 @@ static char *StepText(SamXdmf x, long step, double time, size_t *length)
         "          <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">%.17g %.17g "
         "%.17g</DataItem>\n        </Geometry>\n",
         (double)PetscMax(g->dx, g->dy), (double)g->dy, (double)g->dx);
-  for (PetscInt f = 0; f < SAM_OUTPUT_FIELDS; f++)
-    PrintField(x, &text, length, SamOutputFields[f].label.name, "Float", 8, step);
-  PrintField(x, &text, length, "state", "Char", 1, step);
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    const PetscBool state = SamOutputFields[f].kind == SAM_FIELD_STATE ? PETSC_TRUE : PETSC_FALSE;
+
+    PrintField(x, &text, length, SamOutputFields[f].label.name, state ? "Char" : "Float", state ? 1 : 8, step);
+  }
   Print(&text, length, "      </Grid>\n%s", tail);
   return text;
 }

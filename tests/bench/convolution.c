@@ -88,17 +88,20 @@ static PetscErrorCode Time(PetscErrorCode (*run)(void *), void *context, PetscIn
 
 static PetscErrorCode TimePruned(PetscInt n, PetscInt repeats, double *seconds)
 {
-  const PetscInt  cells[2]  = {n, n};
-  const PetscReal width[2]  = {1, 1};
-  const PetscReal center[2] = {0, 0};
-  SamGrid         grid;
-  Vec             in, out;
-  Pruned          p;
+  const PetscInt     cells[2]  = {n, n};
+  const PetscReal    width[2]  = {1, 1};
+  const PetscReal    center[2] = {0, 0};
+  const SamOptions   from      = {PETSC_COMM_WORLD, NULL};
+  SamFourierSettings settings  = {.send = PETSC_FALSE};
+  SamGrid            grid;
+  Vec                in, out;
+  Pruned             p;
 
   PetscFunctionBegin;
   memset(&p, 0, sizeof(p));
   PetscCall(SamGridCreate(PETSC_COMM_WORLD, cells, width, center, &grid));
-  PetscCall(SamFourierCreate(grid, &p.fourier));
+  PetscCall(SamFourierSettingsFromOptions(&settings, &from));
+  PetscCall(SamFourierCreate(grid, SAM_FOURIER_FAST, &settings, &p.fourier));
   p.matrix.n_in = p.matrix.n_out = 1;
   p.matrix.scale[0][0]           = 1;
   PetscCall(SamKernelCreate(p.fourier, PETSC_FALSE, PETSC_FALSE, InverseDistance, NULL, &p.matrix.kernel[0][0]));

@@ -91,14 +91,15 @@ static inline double *Whole(SamGrid grid, PetscInt components, Vec v)
   const PetscInt all = grid->nx * grid->ny;
   double        *w   = (double *)calloc((size_t)(components * all), sizeof(*w));
   const double  *a;
+  PetscMPIInt    ranks;
 
   sam_assert(w != NULL);
   sam_call(VecGetArrayRead(v, &a));
   for (PetscInt c = 0; c < components; c++)
     for (PetscInt k = 0; k < grid->cells; k++) w[c * all + grid->row_start * grid->nx + k] = a[c * grid->cells + k];
   sam_call(VecRestoreArrayRead(v, &a));
-  if (grid->comm != PETSC_COMM_SELF)
-    (void)MPI_Allreduce(MPI_IN_PLACE, w, (int)(components * all), MPI_DOUBLE, MPI_SUM, grid->comm);
+  (void)MPI_Comm_size(grid->comm, &ranks);
+  if (ranks > 1) (void)MPI_Allreduce(MPI_IN_PLACE, w, (int)(components * all), MPI_DOUBLE, MPI_SUM, grid->comm);
   return w;
 }
 

@@ -47,6 +47,16 @@ static double AtLag(const Shape *s, PetscInt i, PetscInt j)
   return sign == 0 ? 0 : sign * AtPositiveLag(s, i < 0 ? -i : i, j < 0 ? -j : j);
 }
 
+static SamFourierSettings settings;
+
+static SamFourier NewFourier(SamGrid grid, SamFourierPeriod period)
+{
+  SamFourier fourier;
+
+  sam_call(SamFourierCreate(grid, period, &settings, &fourier));
+  return fourier;
+}
+
 static SamKernel NewKernel(SamFourier fourier, const Shape *shape)
 {
   SamKernel kernel;
@@ -129,7 +139,7 @@ static void AssertConvolutionOn(const PetscInt n[2], PetscInt n_in, PetscInt n_o
   SamGrid    grid = NewGrid(n[0], n[1], 1, 1);
   SamFourier fourier;
 
-  sam_call(SamFourierCreate(grid, &fourier));
+  fourier = NewFourier(grid, SAM_FOURIER_FAST);
   AssertConvolution(grid, fourier, n_in, n_out, parity, in_place);
   sam_call(SamFourierDestroy(&fourier));
   sam_call(SamGridDestroy(&grid));
@@ -241,7 +251,7 @@ static void test_one_transform_serves_any_number_of_fields(void **state)
   SamFourier fourier;
 
   (void)state;
-  sam_call(SamFourierCreate(grid, &fourier));
+  fourier = NewFourier(grid, SAM_FOURIER_FAST);
   for (PetscInt n = 1; n <= 5; n++)
     AssertConvolution(grid, fourier, n > 3 ? 6 - n : n, n > 3 ? 6 - n : n, parity, PETSC_FALSE);
   sam_call(SamFourierDestroy(&fourier));
@@ -258,7 +268,7 @@ static void test_impulse_response_is_the_kernel(void **state)
     SamGrid        grid     = NewGrid(nx, ny, 1, 1);
     SamFourier     fourier;
 
-    sam_call(SamFourierCreate(grid, &fourier));
+    fourier = NewFourier(grid, SAM_FOURIER_FAST);
     for (int parity = 0; parity < 4; parity++) {
       const Shape shape = {
         .seed = parity, .odd_x = parity & 1 ? PETSC_TRUE : PETSC_FALSE, .odd_y = parity & 2 ? PETSC_TRUE : PETSC_FALSE};
@@ -295,7 +305,7 @@ static void Identity(const SamFourierBlock *block, const void *context)
 }
 
 /* Transforms are not normalised: back and forth multiplies by the period. */
-static void AssertIdentity(SamFourierMode mode)
+static void AssertIdentity(SamFourierMode mode, SamFourierPeriod period)
 {
   for (int k = 0; k < NUM_SIZES; k++) {
     SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 1, 1);
@@ -306,9 +316,12 @@ static void AssertIdentity(SamFourierMode mode)
     const double *from[3];
     double       *to[3];
 
-    sam_call(SamFourierCreate(grid, &fourier));
+    fourier = NewFourier(grid, period);
     sam_call(SamFourierGetPeriods(fourier, &hx, &hy));
-    sam_assert(hx >= grid->nx && hy >= grid->ny);
+    if (period == SAM_FOURIER_EXACT)
+      sam_assert(hx == grid->nx && hy == grid->ny);
+    else
+      sam_assert(hx >= grid->nx && hy >= grid->ny && hx % 2 == 0 && hy % 2 == 0);
     sam_call(VecGetArray(in, &a));
     sam_call(VecGetArray(out, &b));
     for (PetscInt c = 0; c < 3; c++) {
@@ -330,13 +343,19 @@ static void AssertIdentity(SamFourierMode mode)
 static void test_periodic_transform_and_back_is_the_identity(void **state)
 {
   (void)state;
-  AssertIdentity(SAM_FOURIER_PERIODIC);
+  AssertIdentity(SAM_FOURIER_PERIODIC, SAM_FOURIER_FAST);
+}
+
+static void test_exactly_periodic_transform_and_back_is_the_identity(void **state)
+{
+  (void)state;
+  AssertIdentity(SAM_FOURIER_PERIODIC, SAM_FOURIER_EXACT);
 }
 
 static void test_padded_transform_and_back_is_the_identity(void **state)
 {
   (void)state;
-  AssertIdentity(SAM_FOURIER_PADDED);
+  AssertIdentity(SAM_FOURIER_PADDED, SAM_FOURIER_FAST);
 }
 
 /* Picks one wave: kx = 1, ky = 2 and its mirror image. */
@@ -349,32 +368,28 @@ static void OneWave(const SamFourierBlock *block, const void *context)
         block->data[0][b * block->stride + m][0] = block->data[0][b * block->stride + m][1] = 0;
 }
 
-/* The filter meets the frequencies where the header says they are. */
-static void test_filter_sees_frequencies_by_their_numbers(void **state)
+/* The filter meets the frequencies where the header says they are, on a grid that is one period. */
+static void AssertFrequencies(PetscInt nx, PetscInt ny, SamFourierPeriod period)
 {
-  SamGrid       grid = NewGrid(14, 10, 14, 10); /* sizes that are their own periods */
-  SamFourier    fourier;
+  SamGrid       grid    = NewGrid(nx, ny, 1, 1);
+  SamFourier    fourier = NewFourier(grid, period);
   PetscInt      hx, hy;
-  Vec           in, out, other;
+  Vec           in = NewField(grid, 1), out = NewField(grid, 1), other = NewField(grid, 1);
   double       *a, *b;
   const double *from[1];
   double       *to[1];
 
-  (void)state;
-  sam_call(SamFourierCreate(grid, &fourier));
   sam_call(SamFourierGetPeriods(fourier, &hx, &hy));
-  sam_assert(hx == 14 && hy == 10);
-  in    = NewField(grid, 1);
-  other = NewField(grid, 1);
-  out   = NewField(grid, 1);
+  sam_assert(hx == nx && hy == ny);
   sam_call(VecGetArray(in, &a));
   sam_call(VecGetArray(other, &b));
   for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const double x = 2 * PETSC_PI * (double)i / 14, y = 2 * PETSC_PI * (double)(grid->row_start + j) / 10;
+    for (PetscInt i = 0; i < nx; i++) {
+      const double x = 2 * PETSC_PI * (double)i / (double)nx,
+                   y = 2 * PETSC_PI * (double)(grid->row_start + j) / (double)ny;
 
-      b[j * grid->nx + i] = cos(x + 2 * y + 0.3);
-      a[j * grid->nx + i] = b[j * grid->nx + i] + cos(2 * x + y) + sin(x - 2 * y) + 0.7;
+      b[j * nx + i] = cos(x + 2 * y + 0.3);
+      a[j * nx + i] = b[j * nx + i] + cos(2 * x + y) + sin(x - 2 * y) + 0.7;
     }
   sam_call(VecRestoreArray(other, &b));
   from[0] = a;
@@ -383,7 +398,7 @@ static void test_filter_sees_frequencies_by_their_numbers(void **state)
   sam_call(SamFourierApply(fourier, SAM_FOURIER_PERIODIC, 1, from, 1, to, OneWave, NULL));
   sam_call(VecRestoreArray(out, &b));
   sam_call(VecRestoreArray(in, &a));
-  sam_call(VecScale(out, 1.0 / 140));
+  sam_call(VecScale(out, 1 / ((double)nx * (double)ny)));
   sam_assert_close(Difference(out, other, NORM_INFINITY), 0, tolerance);
   sam_call(SamFourierDestroy(&fourier));
   sam_call(VecDestroy(&in));
@@ -392,18 +407,48 @@ static void test_filter_sees_frequencies_by_their_numbers(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+static void test_filter_sees_frequencies_by_their_numbers(void **state)
+{
+  (void)state;
+  AssertFrequencies(14, 10, SAM_FOURIER_FAST); /* sizes that are their own periods */
+  AssertFrequencies(14, 10, SAM_FOURIER_EXACT);
+  AssertFrequencies(13, 11, SAM_FOURIER_EXACT);
+  AssertFrequencies(22, 5, SAM_FOURIER_EXACT);
+  AssertFrequencies(9, 26, SAM_FOURIER_EXACT);
+}
+
+static void test_settings_come_from_options(void **state)
+{
+  const SamOptions   from = {PETSC_COMM_WORLD, "some_"};
+  SamFourierSettings s    = {.send = PETSC_FALSE};
+
+  (void)state;
+  sam_call(PetscOptionsSetValue(NULL, "-fft_effort", "patient")); /* without the prefix: somebody else's */
+  sam_call(PetscOptionsSetValue(NULL, "-some_fft_exchange", "transpose"));
+  sam_call(SamFourierSettingsFromOptions(&s, &from));
+  sam_assert(s.effort == SAM_FOURIER_ESTIMATE && s.send);
+  sam_call(PetscOptionsSetValue(NULL, "-some_fft_effort", "measure"));
+  sam_call(PetscOptionsClearValue(NULL, "-some_fft_exchange"));
+  sam_call(SamFourierSettingsFromOptions(&s, &from));
+  sam_assert(s.effort == SAM_FOURIER_MEASURE && s.send); /* what is not given stays */
+  sam_call(PetscOptionsSetValue(NULL, "-some_fft_effort", "much"));
+  sam_fails(SamFourierSettingsFromOptions(&s, &from), SAM_ERR_USER);
+  sam_call(PetscOptionsClearValue(NULL, "-some_fft_effort"));
+  sam_call(PetscOptionsClearValue(NULL, "-fft_effort"));
+}
+
 /* The same by FFTW's transposes, which otherwise only ranks on several nodes need. */
 static int Transpose(void **state)
 {
   (void)state;
-  sam_call(PetscOptionsSetValue(NULL, "-fft_exchange", "transpose"));
+  settings.send = PETSC_TRUE;
   return 0;
 }
 
 static int NoTranspose(void **state)
 {
   (void)state;
-  sam_call(PetscOptionsClearValue(NULL, "-fft_exchange"));
+  settings.send = PETSC_FALSE;
   return 0;
 }
 
@@ -429,14 +474,17 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_one_transform_serves_any_number_of_fields),
     cmocka_unit_test(test_impulse_response_is_the_kernel),
     cmocka_unit_test(test_periodic_transform_and_back_is_the_identity),
+    cmocka_unit_test(test_exactly_periodic_transform_and_back_is_the_identity),
     cmocka_unit_test(test_padded_transform_and_back_is_the_identity),
     cmocka_unit_test(test_filter_sees_frequencies_by_their_numbers),
+    cmocka_unit_test(test_settings_come_from_options),
     TEST_TRANSPOSED(test_kernel_odd_in_x_and_y),
     TEST_TRANSPOSED(test_two_fields_to_one),
     TEST_TRANSPOSED(test_three_fields_to_three),
     TEST_TRANSPOSED(test_output_may_be_the_input),
     TEST_TRANSPOSED(test_one_transform_serves_any_number_of_fields),
     TEST_TRANSPOSED(test_impulse_response_is_the_kernel),
+    TEST_TRANSPOSED(test_exactly_periodic_transform_and_back_is_the_identity),
     TEST_TRANSPOSED(test_padded_transform_and_back_is_the_identity),
     TEST_TRANSPOSED(test_filter_sees_frequencies_by_their_numbers),
   };

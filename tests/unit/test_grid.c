@@ -80,9 +80,12 @@ static void test_impossible_grids_are_refused(void **state)
   SamGrid         grid;
 
   (void)state;
-  for (int k = 0; k < 4; k++) sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[k], size, origin, &grid), SAM_ERR_USER);
-  for (int k = 0; k < 5; k++) sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[4], width[k], origin, &grid), SAM_ERR_USER);
-  for (int k = 0; k < 3; k++) sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[4], size, center[k], &grid), SAM_ERR_USER);
+  for (int k = 0; k < 4; k++)
+    sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[k], size, origin, &grid), PETSC_ERR_ARG_OUTOFRANGE);
+  for (int k = 0; k < 5; k++)
+    sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[4], width[k], origin, &grid), PETSC_ERR_ARG_OUTOFRANGE);
+  for (int k = 0; k < 3; k++)
+    sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[4], size, center[k], &grid), PETSC_ERR_ARG_OUTOFRANGE);
 }
 
 static void test_more_cells_than_can_be_counted_are_refused(void **state)
@@ -93,7 +96,7 @@ static void test_more_cells_than_can_be_counted_are_refused(void **state)
 
   (void)state;
   if (sizeof(PetscInt) > 4) skip();
-  sam_fails(SamGridCreate(PETSC_COMM_WORLD, n, size, origin, &grid), SAM_ERR_USER);
+  sam_fails(SamGridCreate(PETSC_COMM_WORLD, n, size, origin, &grid), PETSC_ERR_ARG_OUTOFRANGE);
 }
 
 static void test_grid_from_options(void **state)

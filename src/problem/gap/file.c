@@ -7,7 +7,7 @@ static PetscErrorCode SamGapSetFromOptions_File(SamGap gap)
   PetscBool        help;
 
   PetscFunctionBegin;
-  PetscCall(SamGapSourceSetFromOptions(&gap->source, &from, "HDF5 file with the separation: required by file"));
+  PetscCall(SamFieldFileSetFromOptions(&gap->source, &from, "HDF5 file with the separation: required by file"));
   PetscCall(SamPrintHelp(&help));
   PetscCheck(gap->source.file[0] || help, gap->comm, SAM_ERR_USER,
              "-gap_file is missing: the HDF5 file with the separation, required by -gap_type %s", gap->type);
@@ -19,7 +19,7 @@ static PetscErrorCode SamGapFill_File(SamGap gap, SamGrid grid, Vec h)
   PetscFunctionBegin;
   PetscCheck(gap->source.file[0], gap->comm, SAM_ERR_USER,
              "-gap_file is missing: the HDF5 file with the separation, required by -gap_type %s", gap->type);
-  PetscCall(SamGapSourceRead(&gap->source, grid, h));
+  PetscCall(SamFieldFileRead(&gap->source, grid, h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -45,12 +45,18 @@ PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
   PetscCall(SamInitialize());
   PetscCall(RegisterAll());
   PetscCall(PetscNew(&g));
-  g->comm                  = comm;
-  g->source.file_option    = "gap_file";
-  g->source.dataset_option = "gap_dataset";
-  g->rough.file_option     = "gap_rough_file";
-  g->rough.dataset_option  = "gap_rough_dataset";
-  *gap                     = g;
+  g->comm   = comm;
+  g->source = (SamFieldFile){.file_option     = "gap_file",
+                             .dataset_option  = "gap_dataset",
+                             .default_dataset = "/height",
+                             .unit            = "m",
+                             .least           = PETSC_NINFINITY};
+  g->rough  = (SamFieldFile){.file_option     = "gap_rough_file",
+                             .dataset_option  = "gap_rough_dataset",
+                             .default_dataset = "/height",
+                             .unit            = "m",
+                             .least           = PETSC_NINFINITY};
+  *gap      = g;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -146,7 +152,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
     if (set) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
   }
-  PetscCall(SamGapSourceSetFromOptions(&gap->rough, &from, "HDF5 file with a roughness that is added to any type"));
+  PetscCall(SamFieldFileSetFromOptions(&gap->rough, &from, "HDF5 file with a roughness that is added to any type"));
   if (help) gap->rough.file[0] = '\0';
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -193,7 +199,7 @@ static PetscErrorCode AddRoughness(SamGap gap, SamGrid grid, Vec h)
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(h, &rough));
-  ierr = SamGapSourceRead(&gap->rough, grid, rough);
+  ierr = SamFieldFileRead(&gap->rough, grid, rough);
   if (!ierr) PetscCall(VecAXPY(h, 1, rough));
   PetscCall(VecDestroy(&rough));
   PetscCall(ierr);

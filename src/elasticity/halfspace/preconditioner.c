@@ -7,7 +7,7 @@
   grid made periodic, which costs a quarter of a padded transform and conditions as well. The symbol is computed as it
   is used, all in single precision: it is an approximation by itself.
 */
-#include <petsam/private/elasticityimpl.h>
+#include "halfspaceimpl.h"
 #include <math.h>
 
 typedef struct {
@@ -17,18 +17,18 @@ typedef struct {
   double mean;    /* stands for |k| at k = 0 */
 } Symbol;
 
-static PetscErrorCode GetSymbol(SamElasticity C, PetscBool tangential, double factor, Symbol *symbol)
+static PetscErrorCode GetSymbol(SamElasticity e, PetscBool tangential, double factor, Symbol *symbol)
 {
-  const SamPair *pair  = &C->pair;
+  const SamPair *pair  = &e->pair;
   const double   local = tangential ? pair->shear + pair->shear_xx : pair->normal;
   PetscInt       hx, hy;
 
   PetscFunctionBegin;
-  PetscCall(SamFourierGetPeriods(C->fourier, &hx, &hy));
+  PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
   /* wave numbers in units of the shortest, so that their squares are numbers that floats hold */
-  symbol->step[0] = 2 * PETSC_PI / (double)hx * C->grid->length / C->grid->dx;
-  symbol->step[1] = 2 * PETSC_PI / (double)hy * C->grid->length / C->grid->dy;
-  symbol->gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * C->grid->length);
+  symbol->step[0] = 2 * PETSC_PI / (double)hx * e->grid->length / e->grid->dx;
+  symbol->step[1] = 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
+  symbol->gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
   symbol->extra   = tangential ? pair->shear_xx / pair->shear : 0;
   symbol->mean    = 0.5 * PetscMin(symbol->step[0], symbol->step[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -102,74 +102,24 @@ static void FilterTangential(const SamFourierBlock *block, const void *context)
   }
 }
 
-PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity C, double factor, const float residual[], float p[])
+PetscErrorCode SamHalfSpacePreconditionNormal(SamElasticity e, double factor, const float *const residual[],
+                                              float *const p[])
 {
   Symbol symbol;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PRECONDITION_NORMAL], 0, 0, 0, 0));
-  PetscCall(GetSymbol(C, PETSC_FALSE, factor, &symbol));
-  PetscCall(SamFourierApplySingle(C->fourier, SAM_FOURIER_PERIODIC, 1, &residual, 1, &p, FilterNormal, &symbol));
-  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PRECONDITION_NORMAL], 0, 0, 0, 0));
+  PetscCall(GetSymbol(e, PETSC_FALSE, factor, &symbol));
+  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 1, residual, 1, p, FilterNormal, &symbol));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity C, double factor, const float residual[],
-                                                         float q[])
+PetscErrorCode SamHalfSpacePreconditionTangential(SamElasticity e, double factor, const float *const residual[],
+                                                  float *const q[])
 {
-  const float *const in[2]  = {residual, residual + C->grid->cells};
-  float *const       out[2] = {q, q + C->grid->cells};
-  Symbol             symbol;
+  Symbol symbol;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PRECONDITION_TANGENTIAL], 0, 0, 0, 0));
-  PetscCall(GetSymbol(C, PETSC_TRUE, factor, &symbol));
-  PetscCall(SamFourierApplySingle(C->fourier, SAM_FOURIER_PERIODIC, 2, in, 2, out, FilterTangential, &symbol));
-  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PRECONDITION_TANGENTIAL], 0, 0, 0, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Of a Vec: scaled to what floats hold, and back. */
-static PetscErrorCode Precondition(SamElasticity C, PetscInt components, Vec in, Vec out)
-{
-  const PetscInt n = components * C->grid->cells;
-  const double  *x;
-  double        *y, self[2];
-  PetscReal      size;
-  float         *work;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(in, NORM_INFINITY, &size));
-  if (size == 0) {
-    PetscCall(VecSet(out, 0));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamElasticityGetSelfInfluence(C, &self[0], &self[1]));
-  PetscCall(PetscMalloc1(n, &work));
-  PetscCall(VecGetArrayRead(in, &x));
-  for (PetscInt k = 0; k < n; k++) work[k] = (float)(x[k] / size);
-  PetscCall(VecRestoreArrayRead(in, &x));
-  if (components == 1)
-    PetscCall(SamElasticityPreconditionNormalSingle(C, self[0], work, work));
-  else
-    PetscCall(SamElasticityPreconditionTangentialSingle(C, self[1], work, work));
-  PetscCall(VecGetArrayWrite(out, &y));
-  for (PetscInt k = 0; k < n; k++) y[k] = size / self[components - 1] * (double)work[k];
-  PetscCall(VecRestoreArrayWrite(out, &y));
-  PetscCall(PetscFree(work));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityPreconditionNormal(SamElasticity C, Vec residual, Vec p)
-{
-  PetscFunctionBegin;
-  PetscCall(Precondition(C, 1, residual, p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityPreconditionTangential(SamElasticity C, Vec residual, Vec q)
-{
-  PetscFunctionBegin;
-  PetscCall(Precondition(C, 2, residual, q));
+  PetscCall(GetSymbol(e, PETSC_TRUE, factor, &symbol));
+  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 2, residual, 2, q, FilterTangential, &symbol));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,7 +4,8 @@
   A file may be wrong in many ways. Rank 0 looks at it with the serial driver and tells the others its verdict, so that
   all raise the same error and none waits for another in a collective call; only then all read their rows together.
 */
-#include <petsam/private/gapimpl.h>
+#include <petsam/private/baseimpl.h>
+#include <petsam/private/fieldfile.h>
 #include <errno.h>
 #include <hdf5.h>
 #include <math.h>
@@ -12,11 +13,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-typedef enum { GOOD, UNREADABLE, NOT_HDF5, DAMAGED, NO_DATASET, WRONG_TYPE, WRONG_RANK, WRONG_SHAPE, NOT_FINITE } Kind;
+typedef enum {
+  GOOD,
+  UNREADABLE,
+  NOT_HDF5,
+  DAMAGED,
+  NO_DATASET,
+  WRONG_TYPE,
+  WRONG_RANK,
+  WRONG_SHAPE,
+  NOT_FINITE,
+  TOO_SMALL
+} Kind;
 
 typedef struct {
   Kind      kind;
-  long long detail[2]; /* UNREADABLE: errno; WRONG_RANK: rank; WRONG_SHAPE: shape; NOT_FINITE: row, column */
+  long long detail[2]; /* UNREADABLE: errno; WRONG_RANK: rank; WRONG_SHAPE: shape; NOT_FINITE, TOO_SMALL: row, column */
 } Verdict;
 
 /* HDF5 prints its own stack of errors unless told not to. */
@@ -39,18 +51,21 @@ static void Unsilence(ErrorOutput output)
   (void)H5Eset_auto2(H5E_DEFAULT, output.print, output.data);
 }
 
-PetscErrorCode SamGapSourceSetFromOptions(SamGapSource *source, const SamOptions *from, const char file_help[])
+PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[])
 {
-  PetscBool set, help;
+  const char *prefix = SamOptionsPrefix(from);
+  char        text[64];
+  PetscBool   set, print;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(source->dataset, "/height", sizeof(source->dataset)));
-  PetscCall(SamOptionsString(from, source->file_option, file_help, source->file, sizeof(source->file), NULL));
-  PetscCall(SamOptionsString(from, source->dataset_option, "dataset in it: (ny, nx), m", source->dataset,
-                             sizeof(source->dataset), &set));
-  PetscCall(SamPrintHelp(&help));
-  PetscCheck(!set || source->file[0] || help, from->comm, SAM_ERR_USER, "-%s is given without -%s",
-             source->dataset_option, source->file_option);
+  PetscCall(PetscStrncpy(source->prefix, prefix, sizeof(source->prefix)));
+  PetscCall(PetscStrncpy(source->dataset, source->default_dataset, sizeof(source->dataset)));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "dataset in it: (ny, nx), %s", source->unit));
+  PetscCall(SamOptionsString(from, source->file_option, help, source->file, sizeof(source->file), NULL));
+  PetscCall(SamOptionsString(from, source->dataset_option, text, source->dataset, sizeof(source->dataset), &set));
+  PetscCall(SamPrintHelp(&print));
+  PetscCheck(!set || source->file[0] || print, from->comm, SAM_ERR_USER, "-%s%s is given without -%s%s", prefix,
+             source->dataset_option, prefix, source->file_option);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,7 +102,7 @@ static Verdict JudgeDataset(SamGrid grid, hid_t dataset)
 }
 
 /* Looks at the file, on one rank. */
-static Verdict Judge(const SamGapSource *source, SamGrid grid)
+static Verdict Judge(const SamFieldFile *source, SamGrid grid)
 {
   Verdict     verdict = {GOOD, {0, 0}};
   struct stat status;
@@ -109,7 +124,7 @@ static Verdict Judge(const SamGapSource *source, SamGrid grid)
   return verdict;
 }
 
-static PetscErrorCode Raise(const SamGapSource *source, SamGrid grid, const Verdict *verdict)
+static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verdict *verdict)
 {
   const char *const file = source->file, *const dataset = source->dataset;
   const long long ny = grid->ny, nx = grid->nx, *const detail = verdict->detail;
@@ -119,33 +134,37 @@ static PetscErrorCode Raise(const SamGapSource *source, SamGrid grid, const Verd
   case GOOD:
     PetscFunctionReturn(PETSC_SUCCESS);
   case UNREADABLE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: cannot be read: %s", source->file_option, file,
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: cannot be read: %s", source->prefix, source->file_option, file,
             strerror((int)detail[0]));
   case NOT_HDF5:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: is not an HDF5 file", source->file_option, file);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: is not an HDF5 file", source->prefix, source->file_option, file);
   case NO_DATASET:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s (-%s)", source->file_option, file, dataset,
-            source->dataset_option);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: has no dataset %s (-%s%s)", source->prefix, source->file_option, file,
+            dataset, source->prefix, source->dataset_option);
   case WRONG_TYPE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s does not hold real or whole numbers", source->file_option, file,
-            dataset);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s does not hold real or whole numbers", source->prefix,
+            source->file_option, file, dataset);
   case WRONG_RANK:
     SETERRQ(grid->comm, SAM_ERR_FILE,
-            "-%s %s: %s has %lld dimension(s), expected shape (ny, nx) = (%lld, %lld), rows are y", source->file_option,
-            file, dataset, detail[0], ny, nx);
+            "-%s%s %s: %s has %lld dimension(s), expected shape (ny, nx) = (%lld, %lld), rows are y", source->prefix,
+            source->file_option, file, dataset, detail[0], ny, nx);
   case WRONG_SHAPE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y",
+    SETERRQ(grid->comm, SAM_ERR_FILE,
+            "-%s%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y", source->prefix,
             source->file_option, file, dataset, detail[0], detail[1], ny, nx);
   case NOT_FINITE:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is not a finite number", source->file_option, file,
-            dataset, detail[0], detail[1]);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s[%lld, %lld] is not a finite number", source->prefix,
+            source->file_option, file, dataset, detail[0], detail[1]);
+  case TOO_SMALL:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s[%lld, %lld] is less than %g", source->prefix, source->file_option,
+            file, dataset, detail[0], detail[1], (double)source->least);
   default: /* DAMAGED */
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s %s: %s cannot be read: the file is damaged or in use", source->file_option,
-            file, dataset);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s cannot be read: the file is damaged or in use", source->prefix,
+            source->file_option, file, dataset);
   }
 }
 
-static PetscErrorCode CheckFile(const SamGapSource *source, SamGrid grid)
+static PetscErrorCode CheckFile(const SamFieldFile *source, SamGrid grid)
 {
   Verdict     verdict = {GOOD, {0, 0}};
   PetscMPIInt rank;
@@ -159,7 +178,7 @@ static PetscErrorCode CheckFile(const SamGapSource *source, SamGrid grid)
 }
 
 /* Opens file and dataset on all ranks; what could not be opened is negative. */
-static void Open(const SamGapSource *source, SamGrid grid, hid_t *file, hid_t *dataset)
+static void Open(const SamFieldFile *source, SamGrid grid, hid_t *file, hid_t *dataset)
 {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
 
@@ -191,7 +210,7 @@ static PetscBool ReadRows(SamGrid grid, hid_t dataset, double array[])
   return good;
 }
 
-static PetscErrorCode Read(const SamGapSource *source, SamGrid grid, double array[])
+static PetscErrorCode Read(const SamFieldFile *source, SamGrid grid, double array[])
 {
   hid_t  file, dataset;
   double bad;
@@ -208,21 +227,29 @@ static PetscErrorCode Read(const SamGapSource *source, SamGrid grid, double arra
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CheckFinite(const SamGapSource *source, SamGrid grid, const double array[])
+/* The first value in the file's order that is not finite, or below the least. */
+static PetscErrorCode CheckValues(const SamFieldFile *source, SamGrid grid, const double array[])
 {
-  const long long none = (long long)grid->nx * grid->ny;
-  long long       bad  = none;
+  const long long none   = (long long)grid->nx * grid->ny;
+  long long       bad[2] = {none, none};
 
   PetscFunctionBegin;
-  for (PetscInt k = grid->cells - 1; k >= 0; k--)
-    if (!isfinite(array[k])) bad = (long long)grid->row_start * grid->nx + k;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_LONG_LONG, MPI_MIN, grid->comm));
-  if (bad != none) PetscCall(Raise(source, grid, &(Verdict){NOT_FINITE, {bad / grid->nx, bad % grid->nx}}));
+  for (PetscInt k = grid->cells - 1; k >= 0; k--) {
+    const long long cell = (long long)grid->row_start * grid->nx + k;
+
+    if (!isfinite(array[k]))
+      bad[0] = cell;
+    else if (array[k] < source->least)
+      bad[1] = cell;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_LONG_LONG, MPI_MIN, grid->comm));
+  if (bad[0] != none) PetscCall(Raise(source, grid, &(Verdict){NOT_FINITE, {bad[0] / grid->nx, bad[0] % grid->nx}}));
+  if (bad[1] != none) PetscCall(Raise(source, grid, &(Verdict){TOO_SMALL, {bad[1] / grid->nx, bad[1] % grid->nx}}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The errors of HDF5 are kept silent by the caller. */
-static PetscErrorCode CheckAndRead(const SamGapSource *source, SamGrid grid, Vec h)
+static PetscErrorCode CheckAndRead(const SamFieldFile *source, SamGrid grid, Vec h)
 {
   PetscScalar *array;
 
@@ -230,12 +257,12 @@ static PetscErrorCode CheckAndRead(const SamGapSource *source, SamGrid grid, Vec
   PetscCall(CheckFile(source, grid));
   PetscCall(VecGetArrayWrite(h, &array));
   PetscCall(Read(source, grid, array));
-  PetscCall(CheckFinite(source, grid, array));
+  PetscCall(CheckValues(source, grid, array));
   PetscCall(VecRestoreArrayWrite(h, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGapSourceRead(const SamGapSource *source, SamGrid grid, Vec h)
+PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec h)
 {
   const ErrorOutput output = Silence();
   PetscErrorCode    ierr;

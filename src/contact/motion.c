@@ -1,0 +1,185 @@
+/*
+  What follows from a solution: the gap u_z + h - rigid, the slip u_t + stretch - rigid, the state of each cell.
+
+  They are computed when they are wanted, row by row, and by these functions alone: so they are the same to the last bit
+  in the check, in the next step's problem and in the results.
+*/
+#include "contactimpl.h"
+
+PetscErrorCode SamMotionSet(SamMotion *m, SamGrid grid, const SamSolution *s)
+{
+  SamBalance rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
+
+  PetscFunctionBegin;
+  for (PetscInt kind = 0; kind < 2; kind++)
+    for (PetscInt k = 0; k < 3; k++) rigid[kind].rigid[k] = s->rigid[SamComponentsOf[kind][k]];
+  PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
+  PetscCall(SamFrameSetGiven(&m->tangential, grid, &rigid[1]));
+  PetscCall(PetscArraycpy(m->stretch, s->control.stretch, 3));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamMotionRow SamMotionOfGap(const SamMotion *m, PetscInt j)
+{
+  const double *a = m->normal.fixed;
+
+  return (SamMotionRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
+}
+
+/* The stretch moves a point at (x, y) by (xx x + xy y, xy x + yy y). */
+SamMotionRow SamMotionOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
+{
+  const SamGrid    grid = m->tangential.grid;
+  const double    *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
+  const PetscReal *e    = m->stretch;
+  const double     y    = grid->center[1] + eta * grid->length;
+  const double     at_x = component ? e[2] : e[0], at_y = component ? e[1] : e[2];
+  SamMotionRow     row = component ? (SamMotionRow){a[1], a[2]} : (SamMotionRow){SamFrameX(a, eta), 0};
+
+  row.a -= at_x * grid->center[0] + at_y * y;
+  row.b -= at_x * grid->length;
+  return row;
+}
+
+SAM_VECTORIZED static void SubtractRow(PetscInt n, const double *restrict u, SamMotionRow r, double xi0, double dxi,
+                                       double *restrict value)
+{
+  const double a = r.a, b = r.b;
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) value[i] = u[i] - (a + b * (xi0 + (double)i * dxi));
+}
+
+SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const double *restrict h, SamMotionRow r,
+                                  double xi0, double dxi, double *restrict value)
+{
+  const double a = r.a, b = r.b;
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) value[i] = u[i] + h[i] - (a + b * (xi0 + (double)i * dxi));
+}
+
+void SamMotionSubtract(const SamMotion *m, SamMotionRow row, const double u[], double value[])
+{
+  SubtractRow(m->normal.grid->nx, u, row, m->normal.xi0, m->normal.dxi, value);
+}
+
+void SamMotionGap(const SamMotion *m, SamMotionRow row, const double u[], const double h[], double value[])
+{
+  GapRow(m->normal.grid->nx, u, h, row, m->normal.xi0, m->normal.dxi, value);
+}
+
+PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *s, Vec slip)
+{
+  SamMotion     motion;
+  const double *u;
+  double       *slips;
+
+  PetscFunctionBegin;
+  PetscCall(SamMotionSet(&motion, grid, s));
+  PetscCall(VecGetArrayRead(s->displacement_t, &u));
+  PetscCall(VecGetArrayWrite(slip, &slips));
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt j = 0; j < grid->rows; j++) {
+      const ptrdiff_t k = (ptrdiff_t)c * grid->cells + (ptrdiff_t)j * grid->nx;
+
+      SamMotionSubtract(&motion, SamMotionOfSlip(&motion, c, j), u + k, slips + k);
+    }
+  PetscCall(VecRestoreArrayWrite(slip, &slips));
+  PetscCall(VecRestoreArrayRead(s->displacement_t, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamIncrementCreate(SamGrid grid, const SamSolution *before, const SamSolution *now, SamIncrement *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(s, sizeof(*s)));
+  s->grid     = grid;
+  s->v_now    = now->displacement_t;
+  s->v_before = before ? before->displacement_t : NULL;
+  PetscCall(PetscMalloc3(grid->nx, &s->row[0], grid->nx, &s->row[1], grid->nx, &s->scratch));
+  PetscCall(SamMotionSet(&s->now, grid, now));
+  PetscCall(VecGetArrayRead(s->v_now, &s->u_now));
+  if (!before) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamMotionSet(&s->before, grid, before));
+  PetscCall(VecGetArrayRead(s->v_before, &s->u_before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamIncrementDestroy(SamIncrement *s)
+{
+  PetscFunctionBegin;
+  if (s->v_before) PetscCall(VecRestoreArrayRead(s->v_before, &s->u_before));
+  PetscCall(VecRestoreArrayRead(s->v_now, &s->u_now));
+  PetscCall(PetscFree3(s->row[0], s->row[1], s->scratch));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
+{
+  for (PetscInt c = 0; c < 2; c++) {
+    const ptrdiff_t k = (ptrdiff_t)c * s->grid->cells + (ptrdiff_t)j * s->grid->nx;
+
+    SamMotionSubtract(&s->now, SamMotionOfSlip(&s->now, c, j), s->u_now + k, s->row[c]);
+    if (!s->u_before) continue;
+    SamMotionSubtract(&s->before, SamMotionOfSlip(&s->before, c, j), s->u_before + k, s->scratch);
+    for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] -= s->scratch[i];
+  }
+}
+
+PetscErrorCode SamContactComputeSlip(SamContact c, Vec slip)
+{
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(SamSolutionComputeSlip(c->grid, s, slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactComputeGap(SamContact c, Vec gap)
+{
+  const SamSolution *s;
+  SamMotion          motion;
+  const double      *u, *h;
+  double            *g;
+  Vec                separation;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(SamMotionSet(&motion, c->grid, s));
+  PetscCall(SamProblemGetGap(c->problem, &separation));
+  PetscCall(VecGetArrayRead(separation, &h));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u));
+  PetscCall(VecGetArrayWrite(gap, &g));
+  for (PetscInt j = 0; j < c->grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * c->grid->nx;
+
+    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, g + k);
+  }
+  PetscCall(VecRestoreArrayWrite(gap, &g));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
+  PetscCall(VecRestoreArrayRead(separation, &h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactComputeState(SamContact c, Vec state)
+{
+  const PetscInt     cells = c->grid->cells;
+  const SamSolution *s;
+  const double      *p, *q, *b;
+  double            *states;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayWrite(state, &states));
+  for (PetscInt k = 0; k < cells; k++) states[k] = SamStateOf(p[k], q[k], q[k + cells], b[k]);
+  PetscCall(VecRestoreArrayWrite(state, &states));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,334 @@
+/*
+  The solution of one load step.
+
+  Similar materials: the normal problem does not know the shear, so one pass solves the step. Dissimilar materials:
+  pressure moves the surfaces tangentially and shear moves them normally. The two problems are solved in turn, each with
+  the displacement that the other's traction causes, until neither traction changes (Panagiotopoulos 1975, Ing.-Arch.
+  44, 421).
+*/
+#include "contactimpl.h"
+
+/* A step under way. */
+typedef struct {
+  SamContact   c;
+  SamSolution *s; /* the tried solution */
+  SamStep     *step;
+  PetscBool    coupled, same_pressure;
+  SamBalance   normal, tangential;        /* as given */
+  double       rigid[3];                  /* where the tangential rigid displacements start */
+  Vec          h;                         /* gap and u_z from q; coupled only */
+  Vec          last_pressure, last_shear; /* of the pass before; coupled only */
+} Solve;
+
+static PetscErrorCode Begin(SamContact c, const SamStart *start, PetscBool same_pressure, SamStep *step, Solve *w)
+{
+  PetscFunctionBegin;
+  *w            = (Solve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
+  w->coupled    = SamContactIsCoupled(c);
+  w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
+  if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
+  PetscCall(SamGridCreateVec(c->grid, 1, &w->last_pressure));
+  PetscCall(SamGridCreateVec(c->grid, 2, &w->last_shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode End(Solve *w)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&w->h));
+  PetscCall(VecDestroy(&w->last_pressure));
+  PetscCall(VecDestroy(&w->last_shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the normal problem ---- */
+
+static PetscErrorCode CountNormal(Solve *w)
+{
+  PetscInt its, applies, preconditions;
+
+  PetscFunctionBegin;
+  PetscCall(SamNormalGetStatistics(w->c->normal, NULL, &its, &applies, &preconditions));
+  w->step->normal_iterations += its;
+  w->step->normal_applies += applies;
+  w->step->normal_preconditions += preconditions;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode JudgeNormal(Solve *w)
+{
+  SamNormalReason reason;
+  PetscBool       possible;
+  char            message[sizeof(w->step->message)];
+
+  PetscFunctionBegin;
+  PetscCall(SamNormalGetReason(w->c->normal, &reason));
+  if (reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) {
+    PetscCall(SamBalanceLever(w->c->grid, &w->normal, message, sizeof(message), &possible));
+    if (possible)
+      PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", sizeof(message)));
+    PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
+  } else if (reason < 0) {
+    PetscCall(
+      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamNormalReasonName(reason)));
+    PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The pressure of the committed state, where nothing has changed for it. */
+static PetscErrorCode TakePressure(Solve *w)
+{
+  const SamSolution *from = &w->c->committed.solution;
+
+  PetscFunctionBegin;
+  PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt n = SamComponentsOf[SAM_BALANCE_NORMAL][k];
+
+    w->s->load[n]  = from->load[n];
+    w->s->rigid[n] = from->rigid[n];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The separation as the normal problem sees it: with what the shear displaces. */
+static PetscErrorCode GetSeparation(Solve *w, PetscBool has_shear, Vec *h)
+{
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGap(w->c->problem, h));
+  if (!w->coupled || !has_shear) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticityApplyTangentialToNormal(w->c->elasticity, w->s->shear, w->h));
+  PetscCall(VecAXPY(w->h, 1, *h));
+  *h = w->h;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `has_pressure`, `has_shear`: the solution holds a start of the one and the other. */
+static PetscErrorCode SolveNormal(Solve *w, PetscBool has_pressure, PetscBool has_shear)
+{
+  SamBalance balance   = w->normal;
+  Vec        predicted = NULL, h;
+
+  PetscFunctionBegin;
+  if (w->same_pressure) {
+    PetscCall(TakePressure(w));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(GetSeparation(w, has_shear, &h));
+  if (has_shear) {
+    PetscCall(SamGridCreateVec(w->c->grid, 1, &predicted));
+    PetscCall(SamVecCopyNonzero(w->s->pressure, predicted));
+  }
+  PetscCall(SamNormalSolve(w->c->normal, h, &balance, has_pressure, w->s->pressure));
+  if (has_shear) PetscCall(SamFollowPressure(w->c->grid, predicted, w->s->pressure, w->s->shear));
+  PetscCall(VecDestroy(&predicted));
+  SamBalanceStore(&balance, w->s->load, w->s->rigid);
+  PetscCall(CountNormal(w));
+  PetscCall(JudgeNormal(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the tangential problem ---- */
+
+static PetscErrorCode CountTangential(Solve *w)
+{
+  PetscInt its, applies, preconditions;
+
+  PetscFunctionBegin;
+  PetscCall(SamTangentialGetStatistics(w->c->tangential, NULL, &its, &applies, &preconditions));
+  w->step->tangential_iterations += its;
+  w->step->tangential_applies += applies;
+  w->step->tangential_preconditions += preconditions;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Says which loads slide, and their limit. */
+static PetscErrorCode DescribeSliding(Solve *w, char message[], size_t size)
+{
+  PetscReal factor;
+  PetscInt  loaded = 0;
+  PetscBool friction;
+
+  PetscFunctionBegin;
+  PetscCall(SamTangentialGetLimit(w->c->tangential, &factor));
+  PetscCall(PetscStrncpy(message, "gross slip: ", size));
+  for (PetscInt k = 0; k < 3; k++) {
+    const SamComponentName *name = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]];
+    const double            load = (double)w->tangential.load[k];
+    char                    text[96];
+
+    if (!w->tangential.force[k] || load == 0) continue;
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "", name->load, load,
+                            name->load_unit, (double)factor * load));
+    PetscCall(PetscStrlcat(message, text, size));
+  }
+  PetscCall(SamProblemHasFriction(w->c->problem, &friction));
+  PetscCall(PetscStrlcat(
+    message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode JudgeTangential(Solve *w)
+{
+  SamTangentialReason reason;
+  char                message[sizeof(w->step->message)];
+
+  PetscFunctionBegin;
+  PetscCall(SamTangentialGetReason(w->c->tangential, &reason));
+  if (reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) {
+    PetscCall(DescribeSliding(w, message, sizeof(message)));
+    PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
+  } else if (reason < 0) {
+    PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s",
+                            SamTangentialReasonName(reason)));
+    PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the stretch of the surfaces by bulk stress to a field of tangential displacements. */
+static PetscErrorCode AddStretch(SamGrid grid, const SamControl *control, Vec field)
+{
+  const PetscReal *e = control->stretch;
+  double          *u;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &u));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const PetscReal y = SamGridY(grid, grid->row_start + j);
+
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscReal x = SamGridX(grid, i);
+      const ptrdiff_t k = (ptrdiff_t)j * grid->nx + i;
+
+      u[k] += e[0] * x + e[2] * y;
+      u[k + grid->cells] += e[2] * x + e[1] * y;
+    }
+  }
+  PetscCall(VecRestoreArray(field, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* w - S of the tangential problem: what moves the surfaces besides the shear, less the slip so far; NULL for zero. */
+static PetscErrorCode CreateOffset(Solve *w, Vec *offset)
+{
+  const SamContact c         = w->c;
+  const PetscReal *e         = w->s->control.stretch;
+  const PetscBool  stretched = (e[0] != 0 || e[1] != 0 || e[2] != 0) ? PETSC_TRUE : PETSC_FALSE;
+  Vec              more;
+
+  PetscFunctionBegin;
+  *offset = NULL;
+  if (!w->coupled && !c->steps && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(c->grid, 2, offset));
+  if (c->steps) {
+    PetscCall(SamSolutionComputeSlip(c->grid, &c->committed.solution, *offset));
+    PetscCall(VecScale(*offset, -1));
+  }
+  if (w->coupled) {
+    PetscCall(SamGridCreateVec(c->grid, 2, &more));
+    PetscCall(SamElasticityApplyNormalToTangential(c->elasticity, w->s->pressure, more));
+    PetscCall(VecAXPY(*offset, 1, more));
+    PetscCall(VecDestroy(&more));
+  }
+  if (stretched) PetscCall(AddStretch(c->grid, &w->s->control, *offset));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SolveTangential(Solve *w, PetscBool has_shear)
+{
+  SamBalance balance = w->tangential;
+  Vec        offset;
+
+  PetscFunctionBegin;
+  PetscCall(CreateOffset(w, &offset));
+  for (PetscInt k = 0; k < 3; k++)
+    if (balance.force[k]) balance.rigid[k] = w->rigid[k];
+  PetscCall(SamTangentialSolve(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear));
+  PetscCall(VecDestroy(&offset));
+  for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
+  SamBalanceStore(&balance, w->s->load, w->s->rigid);
+  PetscCall(CountTangential(w));
+  PetscCall(JudgeTangential(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- both ---- */
+
+/* Relative change of a traction since the pass before, which it then replaces. */
+static PetscErrorCode Change(SamGrid grid, Vec now, Vec last, PetscReal *change)
+{
+  PetscReal norm;
+
+  PetscFunctionBegin;
+  PetscCall(VecAYPX(last, -1, now));
+  PetscCall(SamGridNorm(grid, last, NORM_2, change));
+  PetscCall(SamGridNorm(grid, now, NORM_2, &norm));
+  *change = *change > 0 ? *change / norm : 0;
+  PetscCall(VecCopy(now, last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the passes end: tractions no longer change, or there are too many. */
+static PetscErrorCode IsLastPass(Solve *w, PetscInt pass, PetscBool *last)
+{
+  const SamContact c         = w->c;
+  PetscReal        change[2] = {0, 0};
+  char             message[sizeof(w->step->message)];
+
+  PetscFunctionBegin;
+  PetscCall(Change(c->grid, w->s->pressure, w->last_pressure, &change[0]));
+  PetscCall(Change(c->grid, w->s->shear, w->last_shear, &change[1]));
+  if (c->coupling_monitor)
+    PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass,
+                          (double)change[0], (double)change[1]));
+  *last = pass > 1 && PetscMax(change[0], change[1]) <= c->coupling_rtol ? PETSC_TRUE : PETSC_FALSE;
+  if (*last || pass < c->coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
+  *last = PETSC_TRUE;
+  PetscCall(PetscSNPrintf(message, sizeof(message),
+                          "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT
+                          " passes (coupling_max_it)",
+                          pass));
+  PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SolvePasses(Solve *w, const SamStart *start)
+{
+  PetscBool friction, last = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemHasFriction(w->c->problem, &friction));
+  for (PetscInt pass = 1; !last; pass++) {
+    const PetscBool again = pass > 1 ? PETSC_TRUE : PETSC_FALSE;
+
+    const PetscBool has_pressure = again || start->pressure ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool has_shear    = again || start->shear ? PETSC_TRUE : PETSC_FALSE;
+
+    PetscCall(SolveNormal(w, has_pressure, has_shear));
+    PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
+    if (w->step->status == SAM_STATUS_CONVERGED)
+      PetscCall(SolveTangential(w, has_shear));
+    else
+      PetscCall(SamVecZero(w->s->shear)); /* there is none to this pressure */
+    w->step->coupling_iterations = pass;
+    if (!w->coupled || !friction || w->step->status != SAM_STATUS_CONVERGED) break;
+    PetscCall(IsLastPass(w, pass, &last));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSolveStep(SamContact c, const SamStart *start, PetscBool same_pressure, SamStep *step)
+{
+  Solve w;
+
+  PetscFunctionBegin;
+  PetscCall(Begin(c, start, same_pressure, step, &w));
+  PetscCall(SolvePasses(&w, start));
+  PetscCall(End(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,235 @@
+/*
+  Two half-spaces: tractions constant on each cell, kernels from the closed forms over a rectangle (influence.c),
+  products by convolution without wrapping round (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
+*/
+#include "halfspaceimpl.h"
+#include <petsam/influence.h>
+
+/* Kernels: row and column of the 3 x 3 operator; the lower triangle follows by symmetry. */
+typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
+
+typedef struct {
+  SamKernel kernel[KERNELS]; /* NULL until needed */
+} HalfSpace;
+
+/* A kernel is a sum of at most two integrals over the cell. */
+typedef struct {
+  double      dx, dy;
+  SamIntegral integral[2];
+  double      factor[2];
+} Coefficients;
+
+static Coefficients GetCoefficients(SamElasticity e, Kind kind)
+{
+  const SamPair *pair = &e->pair;
+  Coefficients   c    = {.dx = e->grid->dx, .dy = e->grid->dy};
+
+  switch (kind) {
+  case ZZ:
+    c.integral[0] = SAM_INTEGRAL_R;
+    c.factor[0]   = pair->normal;
+    break;
+  case XX:
+  case YY:
+    c.integral[0] = SAM_INTEGRAL_R;
+    c.factor[0]   = pair->shear;
+    c.integral[1] = kind == XX ? SAM_INTEGRAL_XX : SAM_INTEGRAL_YY;
+    c.factor[1]   = pair->shear_xx;
+    break;
+  case XY:
+    c.integral[0] = SAM_INTEGRAL_XY;
+    c.factor[0]   = pair->shear_xx;
+    break;
+  default:
+    c.integral[0] = kind == XZ ? SAM_INTEGRAL_X : SAM_INTEGRAL_Y;
+    c.factor[0]   = pair->coupling;
+  }
+  return c;
+}
+
+static void CoefficientRow(PetscInt j, PetscInt n, double values[], const void *context)
+{
+  enum { CHUNK = 2048 };
+  const Coefficients *c = (const Coefficients *)context;
+  double              more[CHUNK];
+
+  SamIntegralRow(c->integral[0], c->dx, c->dy, j, 0, n, values);
+  for (PetscInt i = 0; i < n; i++) values[i] *= c->factor[0];
+  if (c->factor[1] == 0) return;
+  for (PetscInt start = 0; start < n; start += CHUNK) {
+    const PetscInt count = PetscMin(CHUNK, n - start);
+
+    SamIntegralRow(c->integral[1], c->dx, c->dy, j, start, count, more);
+    for (PetscInt i = 0; i < count; i++) values[start + i] += c->factor[1] * more[i];
+  }
+}
+
+/* The influence of a cell on itself, m/Pa. */
+static double SelfInfluence(SamElasticity e, Kind kind)
+{
+  const Coefficients c = GetCoefficients(e, kind);
+  double             v = c.factor[0] * SamIntegralCell(c.integral[0], c.dx, c.dy, 0, 0);
+
+  if (c.factor[1] != 0) v += c.factor[1] * SamIntegralCell(c.integral[1], c.dx, c.dy, 0, 0);
+  return v;
+}
+
+static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
+{
+  PetscFunctionBegin;
+  *normal     = SelfInfluence(e, ZZ);
+  *tangential = PetscMax(SelfInfluence(e, XX), SelfInfluence(e, YY));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
+{
+  HalfSpace *data = (HalfSpace *)e->data;
+
+  PetscFunctionBegin;
+  if (!data->kernel[kind]) {
+    const Coefficients c     = GetCoefficients(e, kind);
+    const PetscBool    odd_x = (kind == XY || kind == XZ) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool    odd_y = (kind == XY || kind == YZ) ? PETSC_TRUE : PETSC_FALSE;
+
+    PetscCall(SamKernelCreate(e->fourier, odd_x, odd_y, CoefficientRow, &c, &data->kernel[kind]));
+  }
+  *kernel = data->kernel[kind];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- products ---- */
+
+static PetscErrorCode NormalMatrix(SamElasticity e, SamKernelMatrix *matrix)
+{
+  PetscFunctionBegin;
+  *matrix = (SamKernelMatrix){.n_in = 1, .n_out = 1, .scale = {{1}}};
+  PetscCall(GetKernel(e, ZZ, &matrix->kernel[0][0]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TangentialMatrix(SamElasticity e, SamKernelMatrix *matrix)
+{
+  PetscFunctionBegin;
+  *matrix = (SamKernelMatrix){.n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}};
+  PetscCall(GetKernel(e, XX, &matrix->kernel[0][0]));
+  PetscCall(GetKernel(e, XY, &matrix->kernel[0][1]));
+  PetscCall(GetKernel(e, YY, &matrix->kernel[1][1]));
+  matrix->kernel[1][0] = matrix->kernel[0][1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(NormalMatrix(e, &matrix));
+  PetscCall(SamConvolve(e->fourier, &matrix, p, u_z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(NormalMatrix(e, &matrix));
+  PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, p, u_z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(TangentialMatrix(e, &matrix));
+  PetscCall(SamConvolve(e->fourier, &matrix, q, u_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(TangentialMatrix(e, &matrix));
+  PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, q, u_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
+{
+  SamKernelMatrix matrix = {.n_in = 1, .n_out = 2, .scale = {{1}, {1}}};
+
+  PetscFunctionBegin;
+  PetscCall(GetKernel(e, XZ, &matrix.kernel[0][0]));
+  PetscCall(GetKernel(e, YZ, &matrix.kernel[1][0]));
+  PetscCall(SamConvolve(e->fourier, &matrix, p, u_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
+{
+  SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{-1, -1}}};
+
+  PetscFunctionBegin;
+  PetscCall(GetKernel(e, XZ, &matrix.kernel[0][0]));
+  PetscCall(GetKernel(e, YZ, &matrix.kernel[0][1]));
+  PetscCall(SamConvolve(e->fourier, &matrix, q, u_z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the type ---- */
+
+static PetscErrorCode SetUp(SamElasticity e)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFourierCreate(e->grid, SAM_FOURIER_FAST, &e->fft, &e->fourier));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Release(SamElasticity e)
+{
+  HalfSpace *data = (HalfSpace *)e->data;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamElasticity e)
+{
+  PetscFunctionBegin;
+  PetscCall(Release(e));
+  PetscCall(PetscFree(e->data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
+{
+  HalfSpace *data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&data));
+  e->data   = data;
+  e->traits = (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
+                                    .rotations = PETSC_TRUE,
+                                    .edge      = PETSC_TRUE,
+                                    .mean      = PETSC_TRUE,
+                                    .parts     = PETSC_TRUE};
+  e->ops    = (SamElasticityOps){.setup                   = SetUp,
+                                 .release                 = Release,
+                                 .destroy                 = Destroy,
+                                 .applynormal             = ApplyNormal,
+                                 .applytangential         = ApplyTangential,
+                                 .applynormalsingle       = ApplyNormalSingle,
+                                 .applytangentialsingle   = ApplyTangentialSingle,
+                                 .preconditionnormal      = SamHalfSpacePreconditionNormal,
+                                 .preconditiontangential  = SamHalfSpacePreconditionTangential,
+                                 .getselfinfluence        = GetSelfInfluence,
+                                 .applynormaltotangential = ApplyNormalToTangential,
+                                 .applytangentialtonormal = ApplyTangentialToNormal};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

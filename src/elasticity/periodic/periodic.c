@@ -1,0 +1,421 @@
+/*
+  Two half-spaces of which the grid is one period: every field is a sum of waves exp(i k.x), and the operator acts on
+  each wave by itself. The transforms of the influence of a unit force (material.h) over the infinite surface are its
+  symbols:
+    u_z from p:  2 pi A/|k|                                 A = pair.normal
+    u_t from q:  (2 pi (A + B)/|k|)(I - nu kk'/|k|^2)       B = pair.shear_xx, nu = B/(A + B)
+    u_t from p:  -2 pi i coupling k/|k|^2
+    u_z from q:  +2 pi i coupling k'/|k|^2
+  by the transforms of 1/r, 2 pi/|k|, of x_a x_b/r^3, (2 pi/|k|)(delta_ab - k_a k_b/|k|^2), and of x/r^2, -2 pi i k/|k|^2.
+
+  The mean, k = 0: a uniform traction would displace the surface without bound, so displacements are counted from the
+  mean surface, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
+  mirror image; there a symbol that is odd in its wave number, which would be the mean of both, is 0.
+
+  Source of the normal symbol: Westergaard 1939, J. Appl. Mech. 6, A49-A53; Stanley and Kato 1997, J. Tribol. 119,
+  481-485.
+*/
+#include <petsam/private/elasticityimpl.h>
+#include <math.h>
+
+typedef struct {
+  double step[2]; /* wave numbers of the longest waves, 2 pi/period, in units of 1/length of the grid */
+  double gain;    /* what the symbol has before its function of k, times a factor and the transforms' normalisation */
+  double nu;
+  double mean; /* stands for |k| at k = 0 in the inverse */
+} Symbol;
+
+/* Entries of a column whose wave numbers count from one origin. */
+typedef struct {
+  PetscInt first, last, origin;
+} Stretch;
+
+/* The self-influence of a cell, m/Pa. */
+typedef struct {
+  double normal, tangential;
+} Periodic;
+
+#define Real    double
+#define Root(x) sqrt(x)
+#define Name(x) x##Double
+#include "symbols.h"
+#undef Real
+#undef Root
+#undef Name
+#define Real    float
+#define Root(x) sqrtf(x)
+#define Name(x) x##Single
+#include "symbols.h"
+
+/* A column in three stretches: wave numbers from 0 up, that of two cells' length if there is one, and the negative ones. */
+static void GetStretches(PetscInt n, Stretch s[3])
+{
+  s[0] = (Stretch){0, (n + 1) / 2, 0};
+  s[1] = (Stretch){(n + 1) / 2, n / 2 + 1, 0};
+  s[2] = (Stretch){n / 2 + 1, n, n};
+}
+
+/* Whether a wave number of that index is its own mirror image. */
+static inline double IsOwnMirror(PetscInt k, PetscInt n)
+{
+  return 2 * k == n ? 1 : 0;
+}
+
+static void FilterNormal(const SamFourierBlock *block, const void *context)
+{
+  const Symbol *s = (const Symbol *)context;
+  Stretch       stretch[3];
+
+  GetStretches(block->hy, stretch);
+  for (PetscInt b = 0; b < block->columns; b++) {
+    const double    kx     = s->step[0] * (double)(block->first + b);
+    const ptrdiff_t offset = (ptrdiff_t)b * block->stride;
+
+    for (PetscInt k = 0; k < 3; k++) {
+      if (block->data[0])
+        MultiplyNormalDouble(s, kx, stretch[k], block->data[0] + offset);
+      else
+        MultiplyNormalSingle(s, (float)kx, stretch[k], block->single[0] + offset);
+    }
+  }
+}
+
+static void FilterTangential(const SamFourierBlock *block, const void *context)
+{
+  const Symbol *s = (const Symbol *)context;
+  Stretch       stretch[3];
+
+  GetStretches(block->hy, stretch);
+  for (PetscInt b = 0; b < block->columns; b++) {
+    const double    kx     = s->step[0] * (double)(block->first + b);
+    const ptrdiff_t offset = (ptrdiff_t)b * block->stride;
+
+    for (PetscInt k = 0; k < 3; k++) {
+      const double cross = k == 1 ? 0 : 1 - IsOwnMirror(block->first + b, block->hx);
+
+      if (block->data[0])
+        MultiplyTangentialDouble(s, kx, cross, stretch[k], block->data[0] + offset, block->data[1] + offset);
+      else
+        MultiplyTangentialSingle(s, (float)kx, (float)cross, stretch[k], block->single[0] + offset,
+                                 block->single[1] + offset);
+    }
+  }
+}
+
+/* ---- coupling ---- */
+
+/* gain k/|k|^2 at entry m of column b: odd in k, so 0 for waves that are their own mirror images, and for the mean. */
+static void CouplingAt(const Symbol *s, const SamFourierBlock *block, PetscInt b, PetscInt m, double g[2])
+{
+  const double kx = s->step[0] * (double)(block->first + b),
+               ky = s->step[1] * (double)(2 * m <= block->hy ? m : m - block->hy), k2 = kx * kx + ky * ky;
+
+  g[0] = k2 > 0 ? s->gain * kx / k2 * (1 - IsOwnMirror(block->first + b, block->hx)) : 0;
+  g[1] = k2 > 0 ? s->gain * ky / k2 * (1 - IsOwnMirror(m, block->hy)) : 0;
+}
+
+/* u_t = -i g p */
+static void FilterNormalToTangential(const SamFourierBlock *block, const void *context)
+{
+  for (PetscInt b = 0; b < block->columns; b++)
+    for (PetscInt m = 0; m < block->hy; m++) {
+      const ptrdiff_t k    = (ptrdiff_t)b * block->stride + m;
+      const double    p[2] = {block->data[0][k][0], block->data[0][k][1]};
+      double          g[2];
+
+      CouplingAt((const Symbol *)context, block, b, m, g);
+      for (PetscInt c = 0; c < 2; c++) {
+        block->data[c][k][0] = g[c] * p[1];
+        block->data[c][k][1] = -g[c] * p[0];
+      }
+    }
+}
+
+/* u_z = i g.q */
+static void FilterTangentialToNormal(const SamFourierBlock *block, const void *context)
+{
+  for (PetscInt b = 0; b < block->columns; b++)
+    for (PetscInt m = 0; m < block->hy; m++) {
+      const ptrdiff_t k = (ptrdiff_t)b * block->stride + m;
+      double          g[2], re, im;
+
+      CouplingAt((const Symbol *)context, block, b, m, g);
+      re = g[0] * block->data[0][k][0] + g[1] * block->data[1][k][0];
+      im = g[0] * block->data[0][k][1] + g[1] * block->data[1][k][1];
+
+      block->data[0][k][0] = -im;
+      block->data[0][k][1] = re;
+    }
+}
+
+/* ---- inverses ---- */
+
+/* gain |k|, with `mean` for |k| of the mean. */
+SAM_VECTORIZED static void DivideNormal(const Symbol *s, float kx, Stretch at, float (*restrict column)[2])
+{
+  const float gain = (float)s->gain, mean = (float)s->mean, step = (float)s->step[1];
+
+#pragma omp simd
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k = sqrtf(kx * kx + ky * ky), g = gain * (k > mean ? k : mean);
+
+    column[m][0] *= g;
+    column[m][1] *= g;
+  }
+}
+
+/* gain |k| times the inverse of the matrix I - nu kk'/|k|^2 whose cross term is multiplied by `cross`. */
+SAM_VECTORIZED static void DivideTangential(const Symbol *s, float kx, float cross, Stretch at, float (*restrict x)[2],
+                                            float (*restrict y)[2])
+{
+  const float gain = (float)s->gain, nu = (float)s->nu, least = (float)(s->mean * s->mean), step = (float)s->step[1];
+
+#pragma omp simd
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least;
+    const float a = 1 - nu * kx * kx / some, b = -cross * nu * kx * ky / some, d = 1 - nu * ky * ky / some;
+    const float g  = gain * sqrtf(some) / (a * d - b * b);
+    const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
+
+    x[m][0] = g * (d * x0 - b * y0);
+    x[m][1] = g * (d * x1 - b * y1);
+    y[m][0] = g * (a * y0 - b * x0);
+    y[m][1] = g * (a * y1 - b * x1);
+  }
+}
+
+static void FilterNormalInverse(const SamFourierBlock *block, const void *context)
+{
+  const Symbol *s = (const Symbol *)context;
+  Stretch       stretch[3];
+
+  GetStretches(block->hy, stretch);
+  for (PetscInt b = 0; b < block->columns; b++)
+    for (PetscInt k = 0; k < 3; k++)
+      DivideNormal(s, (float)(s->step[0] * (double)(block->first + b)), stretch[k],
+                   block->single[0] + (ptrdiff_t)b * block->stride);
+}
+
+static void FilterTangentialInverse(const SamFourierBlock *block, const void *context)
+{
+  const Symbol *s = (const Symbol *)context;
+  Stretch       stretch[3];
+
+  GetStretches(block->hy, stretch);
+  for (PetscInt b = 0; b < block->columns; b++)
+    for (PetscInt k = 0; k < 3; k++) {
+      const double    cross  = k == 1 ? 0 : 1 - IsOwnMirror(block->first + b, block->hx);
+      const ptrdiff_t offset = (ptrdiff_t)b * block->stride;
+
+      DivideTangential(s, (float)(s->step[0] * (double)(block->first + b)), (float)cross, stretch[k],
+                       block->single[0] + offset, block->single[1] + offset);
+    }
+}
+
+/* ---- methods ---- */
+
+/* Wave numbers are in units of 1/length of the grid, so that their squares are numbers that floats hold. */
+static Symbol NewSymbol(SamElasticity e)
+{
+  const SamGrid  grid = e->grid;
+  const SamPair *pair = &e->pair;
+  Symbol         s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx)};
+
+  for (PetscInt c = 0; c < 2; c++) s.step[c] = 2 * PETSC_PI / grid->width[c] * grid->length;
+  s.mean = 0.5 * PetscMin(s.step[0], s.step[1]);
+  return s;
+}
+
+/* The symbol factor * amplitude * (a function of k of degree -1), and its inverse. */
+static Symbol SymbolOf(SamElasticity e, double factor, double amplitude)
+{
+  Symbol s = NewSymbol(e);
+
+  s.gain = factor * amplitude * e->grid->length / ((double)e->grid->nx * (double)e->grid->ny);
+  return s;
+}
+
+static Symbol InverseOf(SamElasticity e, double factor, double amplitude)
+{
+  Symbol s = NewSymbol(e);
+
+  s.gain = factor / (amplitude * e->grid->length * (double)e->grid->nx * (double)e->grid->ny);
+  return s;
+}
+
+static double NormalAmplitude(SamElasticity e)
+{
+  return 2 * PETSC_PI * e->pair.normal;
+}
+
+static double TangentialAmplitude(SamElasticity e)
+{
+  return 2 * PETSC_PI * (e->pair.shear + e->pair.shear_xx);
+}
+
+static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
+{
+  const Symbol s = SymbolOf(e, 1, NormalAmplitude(e));
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 1, p, 1, u_z, FilterNormal, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
+{
+  const Symbol s = SymbolOf(e, 1, TangentialAmplitude(e));
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 2, q, 2, u_t, FilterTangential, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
+{
+  const Symbol s = SymbolOf(e, factor, NormalAmplitude(e));
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 1, p, 1, u_z, FilterNormal, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
+{
+  const Symbol s = SymbolOf(e, factor, TangentialAmplitude(e));
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 2, q, 2, u_t, FilterTangential, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
+{
+  const Symbol s = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 1, p, 2, u_t, FilterNormalToTangential, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
+{
+  const Symbol s = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 2, q, 1, u_z, FilterTangentialToNormal, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
+{
+  const Symbol s = InverseOf(e, factor, NormalAmplitude(e));
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 1, r, 1, p, FilterNormalInverse, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
+{
+  const Symbol s = InverseOf(e, factor, TangentialAmplitude(e));
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 2, r, 2, q, FilterTangentialInverse, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
+{
+  const Periodic *data = (const Periodic *)e->data;
+
+  PetscFunctionBegin;
+  *normal     = data->normal;
+  *tangential = data->tangential;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the type ---- */
+
+/* Waves with wave numbers of both signs count twice. */
+static inline double Multiplicity(PetscInt k, PetscInt n)
+{
+  return k == 0 || 2 * k == n ? 1 : 2;
+}
+
+/* Sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3. */
+static void SumWaves(SamElasticity e, const Symbol *s, PetscInt m, double sums[3])
+{
+  const double ky = s->step[1] * (double)m, weight = Multiplicity(m, e->grid->ny);
+
+  sums[0] = sums[1] = sums[2] = 0;
+  for (PetscInt l = m ? 0 : 1; l <= e->grid->nx / 2; l++) {
+    const double kx = s->step[0] * (double)l, k2 = kx * kx + ky * ky,
+                 part = weight * Multiplicity(l, e->grid->nx) / sqrt(k2);
+
+    sums[0] += part;
+    sums[1] += part * kx * kx / k2;
+    sums[2] += part * ky * ky / k2;
+  }
+}
+
+/*
+  A unit traction on one cell alone has all waves at the same amplitude, so that a cell's influence on itself is the mean
+  of the symbol over all waves.
+*/
+static PetscErrorCode ComputeSelfInfluence(SamElasticity e, Periodic *data)
+{
+  const Symbol s         = SymbolOf(e, 1, 1);
+  SamTotal     totals[3] = {{0, 0}};
+  double       sums[3];
+  PetscMPIInt  rank, ranks;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(e->grid->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(e->grid->comm, &ranks));
+  for (PetscInt m = rank; m <= e->grid->ny / 2; m += ranks) {
+    SumWaves(e, &s, m, sums);
+    SamAddAll(3, totals, sums);
+  }
+  PetscCall(SamSumTotals(e->grid->comm, 3, totals, sums));
+  data->normal     = NormalAmplitude(e) * s.gain * sums[0];
+  data->tangential = TangentialAmplitude(e) * s.gain * (sums[0] - s.nu * PetscMin(sums[1], sums[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetUp(SamElasticity e)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFourierCreate(e->grid, SAM_FOURIER_EXACT, &e->fft, &e->fourier));
+  PetscCall(ComputeSelfInfluence(e, (Periodic *)e->data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamElasticity e)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(e->data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
+{
+  Periodic *data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&data));
+  e->data   = data;
+  e->traits = (SamElasticityTraits){.coupled = SamElasticityPairIsCoupled(&e->pair)};
+  e->ops    = (SamElasticityOps){.setup                   = SetUp,
+                                 .destroy                 = Destroy,
+                                 .applynormal             = ApplyNormal,
+                                 .applytangential         = ApplyTangential,
+                                 .applynormalsingle       = ApplyNormalSingle,
+                                 .applytangentialsingle   = ApplyTangentialSingle,
+                                 .preconditionnormal      = PreconditionNormal,
+                                 .preconditiontangential  = PreconditionTangential,
+                                 .getselfinfluence        = GetSelfInfluence,
+                                 .applynormaltotangential = ApplyNormalToTangential,
+                                 .applytangentialtonormal = ApplyTangentialToNormal};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,141 @@
+/*
+  What the results hold: the fields of a saved step and the numbers of every step, each a line of a table.
+
+  A new field is a line and, unless the contact has it, a function that computes it; a new number is a line.
+*/
+#include "ioimpl.h"
+
+/* ---- fields ---- */
+
+static PetscErrorCode GetPressure(SamContact contact, Vec work, Vec *field)
+{
+  const SamSolution *solution;
+
+  PetscFunctionBegin;
+  (void)work;
+  PetscCall(SamContactGetSolution(contact, &solution));
+  *field = solution->pressure;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetShear(SamContact contact, Vec work, Vec *field)
+{
+  const SamSolution *solution;
+
+  PetscFunctionBegin;
+  (void)work;
+  PetscCall(SamContactGetSolution(contact, &solution));
+  *field = solution->shear;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetDisplacementZ(SamContact contact, Vec work, Vec *field)
+{
+  const SamSolution *solution;
+
+  PetscFunctionBegin;
+  (void)work;
+  PetscCall(SamContactGetSolution(contact, &solution));
+  *field = solution->displacement_z;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetDisplacementT(SamContact contact, Vec work, Vec *field)
+{
+  const SamSolution *solution;
+
+  PetscFunctionBegin;
+  (void)work;
+  PetscCall(SamContactGetSolution(contact, &solution));
+  *field = solution->displacement_t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetSlip(SamContact contact, Vec work, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactComputeSlip(contact, work));
+  *field = work;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetGap(SamContact contact, Vec work, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactComputeGap(contact, work));
+  *field = work;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetState(SamContact contact, Vec work, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactComputeState(contact, work));
+  *field = work;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Components of one field stand together: it is computed once for them. */
+const SamOutputField SamOutputFields[] = {
+  {{"pressure", "Pa", "contact pressure"}, SAM_FIELD_REAL, GetPressure, 0},
+  {{"shear_x", "Pa", "shear traction along x"}, SAM_FIELD_REAL, GetShear, 0},
+  {{"shear_y", "Pa", "shear traction along y"}, SAM_FIELD_REAL, GetShear, 1},
+  {{"slip_x", "m", "relative tangential displacement along x since the start"}, SAM_FIELD_REAL, GetSlip, 0},
+  {{"slip_y", "m", "relative tangential displacement along y since the start"}, SAM_FIELD_REAL, GetSlip, 1},
+  {{"gap", "m", "gap between the deformed surfaces"}, SAM_FIELD_REAL, GetGap, 0},
+  {{"displacement_x", "m", "relative elastic displacement along x"}, SAM_FIELD_REAL, GetDisplacementT, 0},
+  {{"displacement_y", "m", "relative elastic displacement along y"}, SAM_FIELD_REAL, GetDisplacementT, 1},
+  {{"displacement_z", "m", "relative elastic displacement along z"}, SAM_FIELD_REAL, GetDisplacementZ, 0},
+  {{"state", "1", "state of the cell"}, SAM_FIELD_STATE, GetState, 0}};
+const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputFields[0]);
+
+/* ---- numbers ---- */
+
+#define REAL(name, units, text, member) \
+  { \
+    {name, units, text}, SAM_COLUMN_REAL, offsetof(SamStep, member) \
+  }
+#define INT(name, text, member) \
+  { \
+    {name, "1", text}, SAM_COLUMN_INT, offsetof(SamStep, member) \
+  }
+#define STATUS(name, text, member) \
+  { \
+    {name, "1", text}, SAM_COLUMN_STATUS, offsetof(SamStep, member) \
+  }
+#define OPTIONAL(name, units, text, member) \
+  { \
+    {name, units, text}, SAM_COLUMN_OPTIONAL, offsetof(SamStep, member) \
+  }
+
+/* The first column, the time, is the coordinate of the others. */
+const SamOutputColumn SamOutputColumns[] = {
+  REAL("time", "s", "time of the load step", control.time),
+  REAL("load_n", "N", "normal force", load[SAM_COMPONENT_N]),
+  REAL("load_tx", "N", "tangential force along x", load[SAM_COMPONENT_TX]),
+  REAL("load_ty", "N", "tangential force along y", load[SAM_COMPONENT_TY]),
+  REAL("load_mx", "N m", "moment about x", load[SAM_COMPONENT_MX]),
+  REAL("load_my", "N m", "moment about y", load[SAM_COMPONENT_MY]),
+  REAL("load_mz", "N m", "moment about z", load[SAM_COMPONENT_MZ]),
+  REAL("disp_z", "m", "rigid displacement along z (approach)", rigid[SAM_COMPONENT_N]),
+  REAL("disp_x", "m", "rigid displacement along x", rigid[SAM_COMPONENT_TX]),
+  REAL("disp_y", "m", "rigid displacement along y", rigid[SAM_COMPONENT_TY]),
+  REAL("rot_x", "rad", "rotation about x", rigid[SAM_COMPONENT_MX]),
+  REAL("rot_y", "rad", "rotation about y", rigid[SAM_COMPONENT_MY]),
+  REAL("rot_z", "rad", "rotation about z", rigid[SAM_COMPONENT_MZ]),
+  OPTIONAL("friction_scale", "1", "factor on the coefficient of friction", control.friction_scale),
+  REAL("contact_area", "m2", "area in contact", contact_area),
+  REAL("stick_area", "m2", "area in stick", stick_area),
+  REAL("normal_residual", "1", "relative error of the normal problem, by the check", check.normal),
+  REAL("tangential_residual", "1", "relative error of the tangential problem, by the check", check.tangential),
+  REAL("equilibrium_residual", "1", "relative error of the loads, by the check", check.equilibrium),
+  INT("normal_iterations", "iterations of the normal solver", normal_iterations),
+  INT("tangential_iterations", "iterations of the tangential solver", tangential_iterations),
+  INT("normal_applies", "applications of the normal influence operator", normal_applies),
+  INT("tangential_applies", "applications of the tangential influence operator", tangential_applies),
+  INT("normal_preconditions", "applications of the normal preconditioner", normal_preconditions),
+  INT("tangential_preconditions", "applications of the tangential preconditioner", tangential_preconditions),
+  INT("coupling_iterations", "passes of the normal-tangential coupling", coupling_iterations),
+  STATUS("status", "outcome of the load step", status),
+  REAL("dissipated_energy", "J", "frictional work of the load step", dissipated_energy)};
+const PetscInt SamOutputColumnCount = sizeof(SamOutputColumns) / sizeof(SamOutputColumns[0]);

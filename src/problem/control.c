@@ -1,0 +1,35 @@
+/* The six components and what is prescribed of them. */
+#include <petsam/private/baseimpl.h>
+#include <petsam/control.h>
+#include <string.h>
+
+const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
+  {"load_n", "N", "normal force", "disp_z", "m", "rigid displacement along z (approach)"},
+  {"load_tx", "N", "tangential force along x", "disp_x", "m", "rigid displacement along x"},
+  {"load_ty", "N", "tangential force along y", "disp_y", "m", "rigid displacement along y"},
+  {"load_mx", "N m", "moment about x", "rot_x", "rad", "rotation about x"},
+  {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y"},
+  {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z"}};
+
+PetscErrorCode SamControlInitialize(SamControl *control)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(control, sizeof(*control)));
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) control->force[k] = PETSC_TRUE;
+  control->friction_scale = 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    const PetscBool load = !strcmp(name, SamComponentNames[k].load) ? PETSC_TRUE : PETSC_FALSE;
+
+    if (!load && strcmp(name, SamComponentNames[k].rigid)) continue;
+    control->force[k] = load;
+    control->value[k] = value;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "No load or displacement is named %s", name);
+}
