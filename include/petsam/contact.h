@@ -139,12 +139,12 @@ PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
 /* SamContactGetSolution - of the tried state if there is one, else of the committed one; borrowed until the next call. */
 PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamSolution **solution);
 /*
-  Fields that follow from a solution, written to the caller's vectors: the gap between the deformed surfaces (m, one
-  component), the slip since the start (m, two components), the state of each cell (a SamState, one component).
-  Collective.
+  Fields that follow from the solution, written to the caller's vectors of one component: the gap between the deformed
+  surfaces, with the problem's present separation (m), the slip since the start along x (0) or y (1) (m), the state of
+  each cell (a SamState). Collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactComputeGap(SamContact contact, Vec gap);
-PETSC_EXTERN PetscErrorCode SamContactComputeSlip(SamContact contact, Vec slip);
+PETSC_EXTERN PetscErrorCode SamContactComputeSlip(SamContact contact, PetscInt component, Vec slip);
 PETSC_EXTERN PetscErrorCode SamContactComputeState(SamContact contact, Vec state);
 
 /*

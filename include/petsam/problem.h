@@ -45,7 +45,8 @@ PETSC_EXTERN PetscErrorCode SamProblemSetFrictionFromOptions(SamProblem problem,
 PETSC_EXTERN PetscErrorCode SamProblemGetFriction(SamProblem problem, PetscReal *friction, Vec *field);
 /* SamProblemHasFriction - whether the coefficient is positive anywhere. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemHasFriction(SamProblem problem, PetscBool *has);
-/* SamProblemComputeBound - the largest shear of each cell, scale * friction * pressure (Pa, one component). Collective. */
+/* SamProblemComputeBound - the largest shear of each cell, scale * friction * pressure (Pa, one component);
+   both may be the same vector. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemComputeBound(SamProblem problem, PetscReal scale, Vec pressure, Vec bound);
 
 #endif

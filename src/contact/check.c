@@ -143,18 +143,17 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
 /* The bound of the shear that the check goes by: of the pressure's positive part. */
 static PetscErrorCode CreateBound(SamProblem problem, const SamSolution *s, Vec *bound)
 {
-  const double *p;
-  double       *b;
-  PetscInt      n;
+  SamGrid grid;
+  double *b;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(s->pressure, bound));
-  PetscCall(VecGetLocalSize(s->pressure, &n));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayWrite(*bound, &b));
-  for (PetscInt k = 0; k < n; k++) b[k] = p[k] > 0 ? p[k] : 0;
-  PetscCall(VecRestoreArrayWrite(*bound, &b));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamGridCreateVec(grid, 1, bound));
+  PetscCall(SamVecCopyNonzero(s->pressure, *bound));
+  PetscCall(VecGetArray(*bound, &b));
+  for (PetscInt k = 0; k < grid->cells; k++)
+    if (b[k] < 0) b[k] = 0;
+  PetscCall(VecRestoreArray(*bound, &b));
   PetscCall(SamProblemComputeBound(problem, s->control.friction_scale, *bound, *bound));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

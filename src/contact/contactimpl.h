@@ -70,8 +70,9 @@ PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, c
 /* value = u + h - a - b xi. */
 PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
                                double value[]);
-/* SamSolutionComputeSlip - the slip (m, two components) of a solution. Collective. */
-PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *solution, Vec slip);
+/* SamSolutionComputeSlip - a component of the slip (m) of this rank's cells. Not collective. */
+PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *solution, PetscInt component,
+                                                   double slip[]);
 
 /*
   SamIncrement - the slip of a step, row by row: that of a solution less that of the one before (NULL: none). Compute puts

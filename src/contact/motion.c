@@ -69,23 +69,19 @@ void SamMotionGap(const SamMotion *m, SamMotionRow row, const double u[], const 
   GapRow(m->normal.grid->nx, u, h, row, m->normal.xi0, m->normal.dxi, value);
 }
 
-PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *s, Vec slip)
+PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *s, PetscInt component, double slip[])
 {
   SamMotion     motion;
   const double *u;
-  double       *slips;
 
   PetscFunctionBegin;
   PetscCall(SamMotionSet(&motion, grid, s));
   PetscCall(VecGetArrayRead(s->displacement_t, &u));
-  PetscCall(VecGetArrayWrite(slip, &slips));
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt j = 0; j < grid->rows; j++) {
-      const ptrdiff_t k = (ptrdiff_t)c * grid->cells + (ptrdiff_t)j * grid->nx;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-      SamMotionSubtract(&motion, SamMotionOfSlip(&motion, c, j), u + k, slips + k);
-    }
-  PetscCall(VecRestoreArrayWrite(slip, &slips));
+    SamMotionSubtract(&motion, SamMotionOfSlip(&motion, component, j), u + component * grid->cells + k, slip + k);
+  }
   PetscCall(VecRestoreArrayRead(s->displacement_t, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -127,13 +123,16 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
   }
 }
 
-PetscErrorCode SamContactComputeSlip(SamContact c, Vec slip)
+PetscErrorCode SamContactComputeSlip(SamContact c, PetscInt component, Vec slip)
 {
   const SamSolution *s;
+  double            *values;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamSolutionComputeSlip(c->grid, s, slip));
+  PetscCall(VecGetArrayWrite(slip, &values));
+  PetscCall(SamSolutionComputeSlip(c->grid, s, component, values));
+  PetscCall(VecRestoreArrayWrite(slip, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -219,6 +219,7 @@ static PetscErrorCode CreateOffset(Solve *w, Vec *offset)
   const SamContact c         = w->c;
   const PetscReal *e         = w->s->control.stretch;
   const PetscBool  stretched = (e[0] != 0 || e[1] != 0 || e[2] != 0) ? PETSC_TRUE : PETSC_FALSE;
+  double          *slip;
   Vec              more;
 
   PetscFunctionBegin;
@@ -226,7 +227,10 @@ static PetscErrorCode CreateOffset(Solve *w, Vec *offset)
   if (!w->coupled && !c->steps && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 2, offset));
   if (c->steps) {
-    PetscCall(SamSolutionComputeSlip(c->grid, &c->committed.solution, *offset));
+    PetscCall(VecGetArray(*offset, &slip));
+    for (PetscInt k = 0; k < 2; k++)
+      PetscCall(SamSolutionComputeSlip(c->grid, &c->committed.solution, k, slip + k * c->grid->cells));
+    PetscCall(VecRestoreArray(*offset, &slip));
     PetscCall(VecScale(*offset, -1));
   }
   if (w->coupled) {

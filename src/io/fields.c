@@ -7,75 +7,80 @@
 
 /* ---- fields ---- */
 
-static PetscErrorCode GetPressure(SamContact contact, Vec work, Vec *field)
+static PetscErrorCode GetPressure(SamContact contact, PetscInt component, Vec work, Vec *field)
 {
   const SamSolution *solution;
 
   PetscFunctionBegin;
+  (void)component;
   (void)work;
   PetscCall(SamContactGetSolution(contact, &solution));
   *field = solution->pressure;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetShear(SamContact contact, Vec work, Vec *field)
+static PetscErrorCode GetShear(SamContact contact, PetscInt component, Vec work, Vec *field)
 {
   const SamSolution *solution;
 
   PetscFunctionBegin;
+  (void)component;
   (void)work;
   PetscCall(SamContactGetSolution(contact, &solution));
   *field = solution->shear;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetDisplacementZ(SamContact contact, Vec work, Vec *field)
+static PetscErrorCode GetDisplacementZ(SamContact contact, PetscInt component, Vec work, Vec *field)
 {
   const SamSolution *solution;
 
   PetscFunctionBegin;
+  (void)component;
   (void)work;
   PetscCall(SamContactGetSolution(contact, &solution));
   *field = solution->displacement_z;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetDisplacementT(SamContact contact, Vec work, Vec *field)
+static PetscErrorCode GetDisplacementT(SamContact contact, PetscInt component, Vec work, Vec *field)
 {
   const SamSolution *solution;
 
   PetscFunctionBegin;
+  (void)component;
   (void)work;
   PetscCall(SamContactGetSolution(contact, &solution));
   *field = solution->displacement_t;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetSlip(SamContact contact, Vec work, Vec *field)
+static PetscErrorCode GetSlip(SamContact contact, PetscInt component, Vec work, Vec *field)
 {
   PetscFunctionBegin;
-  PetscCall(SamContactComputeSlip(contact, work));
+  PetscCall(SamContactComputeSlip(contact, component, work));
   *field = work;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetGap(SamContact contact, Vec work, Vec *field)
+static PetscErrorCode GetGap(SamContact contact, PetscInt component, Vec work, Vec *field)
 {
   PetscFunctionBegin;
+  (void)component;
   PetscCall(SamContactComputeGap(contact, work));
   *field = work;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetState(SamContact contact, Vec work, Vec *field)
+static PetscErrorCode GetState(SamContact contact, PetscInt component, Vec work, Vec *field)
 {
   PetscFunctionBegin;
+  (void)component;
   PetscCall(SamContactComputeState(contact, work));
   *field = work;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Components of one field stand together: it is computed once for them. */
 const SamOutputField SamOutputFields[] = {
   {{"pressure", "Pa", "contact pressure"}, SAM_FIELD_REAL, GetPressure, 0},
   {{"shear_x", "Pa", "shear traction along x"}, SAM_FIELD_REAL, GetShear, 0},

@@ -94,14 +94,14 @@ typedef struct {
 } SamOutputLabel;
 
 /*
-  A field: one component of what `get` finds, in a vector of the contact's or in `work`, which has two components. Its
-  values are real numbers, or SamStates, which are stored as bytes.
+  A field: `get` finds it in a vector of the contact's, or computes it in `work`, which has one component; `component`
+  says which one of the former, or is handed to `get`. Its values are real numbers, or SamStates, stored as bytes.
 */
 typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE } SamOutputFieldKind;
 typedef struct {
   SamOutputLabel     label;
   SamOutputFieldKind kind;
-  PetscErrorCode (*get)(SamContact contact, Vec work, Vec *field);
+  PetscErrorCode (*get)(SamContact contact, PetscInt component, Vec work, Vec *field);
   PetscInt component;
 } SamOutputField;
 
@@ -131,7 +131,7 @@ struct _n_SamOutput {
   SamXdmf      xdmf;      /* NULL: none */
   hid_t        time, fields[SAM_OUTPUT_MOST], columns[SAM_OUTPUT_MOST];
   signed char *states; /* of this rank's cells */
-  Vec          work;   /* two components, for fields that have to be computed; NULL until then */
+  Vec          work;   /* for fields that have to be computed; NULL until then */
   /* status */
   hsize_t   steps, saved; /* load steps in the history, steps with fields */
   PetscReal saved_time;   /* of the last step with fields */

@@ -299,40 +299,35 @@ PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where the values of a contact's fields are. */
+/* Where the values of a contact's field are. */
 typedef struct {
   SamContact    contact;
-  Vec           field; /* the last one, whose components may follow; NULL: none */
+  Vec           field; /* NULL: none yet */
   const double *array;
 } ContactFields;
 
-/* The next field, unless it is another component of the last one. */
-static PetscErrorCode MoveTo(SamOutput o, PetscInt f, ContactFields *from)
+static PetscErrorCode Release(ContactFields *from)
 {
   PetscFunctionBegin;
-  if (from->field && f > 0 && f < SamOutputFieldCount && SamOutputFields[f].get == SamOutputFields[f - 1].get)
-    PetscFunctionReturn(PETSC_SUCCESS);
   if (from->field) PetscCall(VecRestoreArrayRead(from->field, &from->array));
   from->field = NULL;
-  if (f == SamOutputFieldCount) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!o->work) PetscCall(SamGridCreateVec(o->f->grid, 2, &o->work));
-  PetscCall(SamOutputFields[f].get(from->contact, o->work, &from->field));
-  PetscCall(VecGetArrayRead(from->field, &from->array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, const void **values)
 {
-  const PetscInt cells = o->f->grid->cells;
-  ContactFields *from  = (ContactFields *)context;
-  const double  *own;
+  const SamOutputField *field = &SamOutputFields[f];
+  const PetscInt        cells = o->f->grid->cells;
+  ContactFields        *from  = (ContactFields *)context;
 
   PetscFunctionBegin;
-  PetscCall(MoveTo(o, f, from));
-  own     = from->array + SamOutputFields[f].component * cells;
-  *values = own;
-  if (SamOutputFields[f].kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)own[k];
+  PetscCall(Release(from));
+  if (!o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
+  PetscCall(field->get(from->contact, field->component, o->work, &from->field));
+  PetscCall(VecGetArrayRead(from->field, &from->array));
+  *values = from->field == o->work ? from->array : from->array + field->component * cells;
+  if (field->kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)from->array[k];
   *values = o->states;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -343,7 +338,7 @@ static PetscErrorCode Write(SamOutput o, const SamStep *step, PetscReal time, Sa
 
   PetscFunctionBegin;
   PetscCall(SamOutputAppend(o, step, time, contact ? GetContactValues : NULL, &from));
-  if (contact) PetscCall(MoveTo(o, SamOutputFieldCount, &from));
+  PetscCall(Release(&from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -180,8 +180,11 @@ PetscErrorCode SamProblemComputeBound(SamProblem p, PetscReal scale, Vec pressur
   PetscCall(PetscMalloc2(nx, &number, nx, &row));
   for (PetscInt i = 0; i < nx; i++) number[i] = p->friction;
   if (p->field) PetscCall(VecGetArrayRead(p->field, &field));
-  PetscCall(VecGetArrayRead(pressure, &pressures));
   PetscCall(VecGetArray(bound, &bounds));
+  if (pressure == bound)
+    pressures = bounds;
+  else
+    PetscCall(VecGetArrayRead(pressure, &pressures));
   for (ptrdiff_t k = 0; k < p->grid->cells; k += nx) {
     const double sum = BoundRow(nx, pressures + k, field ? field + k : number, scale, row);
 
@@ -191,8 +194,8 @@ PetscErrorCode SamProblemComputeBound(SamProblem p, PetscReal scale, Vec pressur
     else
       SamZero(nx, bounds + k);
   }
+  if (pressure != bound) PetscCall(VecRestoreArrayRead(pressure, &pressures));
   PetscCall(VecRestoreArray(bound, &bounds));
-  PetscCall(VecRestoreArrayRead(pressure, &pressures));
   if (p->field) PetscCall(VecRestoreArrayRead(p->field, &field));
   PetscCall(PetscFree2(number, row));
   PetscFunctionReturn(PETSC_SUCCESS);
