@@ -43,7 +43,7 @@ UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help units bench bench-programs peers venv test check-sanitize check-valgrind lint install clean
+.PHONY: all help units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants format check-format lint install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -123,6 +123,22 @@ check-sanitize: ## unit tests under the address and undefined-behaviour sanitize
 check-valgrind: all units ## unit tests under valgrind, one rank
 	for t in $(UNIT); do valgrind -q --error-exitcode=9 $$t > $(B)/valgrind.log 2>&1 || { cat $(B)/valgrind.log; exit 1; }; done
 
+check-mutants: venv ## change lines that guard correctness, one by one, and see that tests notice: ARGS="word ..." for some
+	$(PYTHON) tests/mutants/run.py $(ARGS)
+
+# the layout of the sources; the formatters come with the tests' environment, in fixed versions
+C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
+PYTHON_SOURCES := scripts examples tests scripts/petsam-plot scripts/petsam-study
+format: $(B)/venv/tests-done ## put C and Python in the layout of .clang-format and .ruff.toml
+	$(B)/venv/bin/clang-format -i $(C_SOURCES)
+	$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)
+
+check-format: $(B)/venv/tests-done ## whether they are
+	$(B)/venv/bin/clang-format --dry-run -Werror $(C_SOURCES)
+	@awk 'length > 120 {print FILENAME ":" FNR ": more than 120 columns"; n++} END {exit n > 0}' $(C_SOURCES)
+	$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
+	$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
+
 lint: ## cppcheck over the sources
 	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) src/app/petsam.c
 
@@ -131,12 +147,11 @@ SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*
 share  = $(DESTDIR)$(prefix)/share/petsam
 
 install: all ## install program, library, headers, petsam.pc, scripts, examples: prefix=, DESTDIR=
-	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/petsam
+	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
 	install -m 755 $(B)/bin/petsam $(DESTDIR)$(prefix)/bin
 	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
 	install -m 755 $(B)/lib/libpetsam.so $(DESTDIR)$(prefix)/lib
-	install -m 644 include/petsam.h $(DESTDIR)$(prefix)/include
-	install -m 644 $(filter include/petsam/%,$(HEADERS)) $(DESTDIR)$(prefix)/include/petsam
+	for f in $(HEADERS); do install -D -m 644 $$f $(DESTDIR)$(prefix)/$$f || exit 1; done
 	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lfftw3f_mpi -lfftw3f -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
 	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done
 	for f in $(notdir $(wildcard scripts/petsam-*)); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
