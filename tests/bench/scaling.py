@@ -17,6 +17,7 @@ on the finest grid; as many on every coarser grid down to 64 cells, on all ranks
 one rank, vectors above all, as traffic through memory; and six reductions an application, log2(P) latencies each.
 The numbers do not depend on n (the solvers' measured property).
 """
+
 from math import log2
 from typing import NamedTuple
 
@@ -27,18 +28,18 @@ REDUCTIONS, COARSEST = 6, 64
 class Assumptions(NamedTuple):
     """Of the cluster; everything else is measured."""
 
-    cores: int = 64          # ranks of a node
-    network: float = 25e9    # bytes/s of a node
-    latency: float = 2e-6    # of a message, s
+    cores: int = 64  # ranks of a node
+    network: float = 25e9  # bytes/s of a node
+    latency: float = 2e-6  # of a message, s
 
 
 class Convolution(NamedTuple):
     """Fitted to times of n x n cells on one and two ranks."""
 
-    compute: float    # c, s
-    alone: float      # bandwidth of one rank alone, bytes/s
+    compute: float  # c, s
+    alone: float  # bandwidth of one rank alone, bytes/s
     bandwidth: float  # b beside others, bytes/s
-    node: float       # rate of the exchange between ranks of a node, bytes/s
+    node: float  # rate of the exchange between ranks of a node, bytes/s
     cluster: Assumptions
 
     def seconds(self, n, ranks):
@@ -56,8 +57,11 @@ class Convolution(NamedTuple):
         mine = BYTES_TRANSPOSED * n * n / busy
         near = (min(ranks, self.cluster.cores) - 1) / ranks
         far = max(0, ranks - self.cluster.cores) / ranks
-        return 2 * (mine * near / self.node + mine * far * self.cluster.cores / self.cluster.network
-                    + (busy - 1) * self.cluster.latency)
+        return 2 * (
+            mine * near / self.node
+            + mine * far * self.cluster.cores / self.cluster.network
+            + (busy - 1) * self.cluster.latency
+        )
 
 
 def fit(n, alone, two, messages, bandwidth, cluster):
@@ -78,7 +82,7 @@ class Solve(NamedTuple):
     n: int
     applications: float  # convolutions' worth of products on the finest grid
     preconditionings: float
-    rest: float          # seconds of everything else, on one rank
+    rest: float  # seconds of everything else, on one rank
 
     def transforms(self):
         return self.applications + 0.5 * self.preconditionings
@@ -88,7 +92,7 @@ class Solve(NamedTuple):
         finest = self.transforms() * convolution.seconds(n, ranks)
         coarse = sum(self.transforms() * convolution.seconds(k, ranks) for k in coarser(n))
         per_rank = convolution.alone if ranks == 1 else convolution.bandwidth
-        rest = self.rest * (n / self.n)**2 / ranks * convolution.alone / per_rank
+        rest = self.rest * (n / self.n) ** 2 / ranks * convolution.alone / per_rank
         if ranks > 1:
             rest += REDUCTIONS * self.applications * 2 * log2(ranks) * convolution.cluster.latency
         return finest, coarse, rest

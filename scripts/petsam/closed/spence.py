@@ -1,82 +1,23 @@
-"""Reference solutions for two load histories of a sphere: a tangential loop, and growing load on a dissimilar flat.
+"""Spence's problem: an elastic sphere pressed on a flat of another material, with friction, by a load that grows.
 
-Conventions are those of analytic.py: SI units, relative displacements, shear positive with the load.
-
-The loop (`masing_*`, `partial_loop_energy`, `sliding_*`) supposes constant normal load, similar materials and
-Cattaneo-Mindlin's first loading. Unloading and reloading follow Masing's rule, which Mindlin and Deresiewicz derived
-for this contact: the same curve, doubled in both directions.
-
-The growing load (`goodman_friction`, `SpencePunch`) is Spence's problem: elastic sphere on a flat of another material,
-friction everywhere. While the contact grows, the *rates* are those of a flat punch of the present radius: equal normal
-velocity in the contact, no radial velocity where it sticks, dq = mu dp where it slips. So the ratio stick/contact
-radius c/a is the flat punch's, at every load, and fields follow by integration over the radius.
-With Goodman's approximation (the shear does not move the surface normally) there is a closed relation of c/a to
-mu/beta. Without it `SpencePunch` solves the flat punch's two integral equations numerically, by collocation on rings
-that are fine near c and a; nothing of it is shared with petsam.
-
-Run as a program, this file checks the formulas by quadrature, limits and each other.
+While the contact grows, the *rates* are those of a flat punch of the present radius: equal normal velocity in the
+contact, no radial velocity where it sticks, dq = mu dp where it slips. So the ratio of stick and contact radius c/a is
+the flat punch's at every load, and the fields follow by integration over the radius. With Goodman's approximation (the
+shear does not move the surface normally) there is a closed relation of c/a to mu/beta. Without it `SpencePunch` solves
+the flat punch's two integral equations numerically, by collocation on rings that are fine near c and a; it shares
+nothing with petsam.
 
 References
 ----------
-- R. D. Mindlin, H. Deresiewicz, Elastic spheres in contact under varying oblique forces, J. Appl. Mech. 20 (1953) 327.
 - D. A. Spence, Self similar solutions to adhesive contact problems with incremental loading, Proc. R. Soc. A 305 (1968)
   55; The Hertz contact problem with finite friction, J. Elasticity 5 (1975) 297.
 - L. E. Goodman, Contact stress analysis of normally loaded rough spheres, J. Appl. Mech. 29 (1962) 515.
-- K. L. Johnson, Contact Mechanics, 1985, sections 5.4 and 7.4.
+- K. L. Johnson, Contact Mechanics, 1985, section 5.4.
 """
-import sys
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk, ellipkm1
-
-import analytic
-
-
-# ---------------------------------------------------------------- tangential loops
-
-def first_loading(load, limit, gross):
-    """d_x, m, of the first loading to load (N); limit = mu N, gross = displacement of incipient sliding (m)."""
-    return gross * (1.0 - np.cbrt(1.0 - np.asarray(load, dtype=float) / limit)**2)
-
-
-def masing_displacement(load, turn_load, turn_displacement, limit, gross):
-    """d_x, m, at load (N) after a turning point: the first loading's curve doubled, down or up."""
-    swing = np.asarray(load, dtype=float) - turn_load
-    return turn_displacement + 2.0 * np.sign(swing) * first_loading(0.5 * np.abs(swing), limit, gross)
-
-
-def partial_loop_energy(amplitude, limit, gross):
-    """Energy, J, that friction takes in one cycle between -amplitude and amplitude (N), amplitude <= mu N.
-
-    Mindlin and Deresiewicz; with gross = 3 mu N (sum of (2 - nu)/G)/(16 a) it is Johnson's eq. 7.59.
-    """
-    t = amplitude / limit
-    return 4.0 * limit * gross * (1.2 * (1.0 - np.cbrt(1.0 - t)**5) - t * (1.0 + np.cbrt(1.0 - t)**2))
-
-
-def sliding_displacement_load(displacement, limit, gross):
-    """T, N, of the first loading to displacement (m) >= 0; mu N beyond gross."""
-    return limit * (1.0 - np.clip(1.0 - np.asarray(displacement, dtype=float) / gross, 0.0, None)**1.5)
-
-
-def sliding_masing_load(displacement, turn_load, turn_displacement, limit, gross):
-    """T, N, at displacement (m) after a turning point; the loop's branches end in sliding at mu N."""
-    swing = np.asarray(displacement, dtype=float) - turn_displacement
-    return turn_load + 2.0 * np.sign(swing) * sliding_displacement_load(0.5 * np.abs(swing), limit, gross)
-
-
-def sliding_loop_energy(amplitude, limit, gross):
-    """Energy, J, of one cycle between displacements -amplitude and amplitude (m) >= gross, from sliding to sliding."""
-    return partial_loop_energy(limit, limit, gross) + 4.0 * limit * (amplitude - gross)
-
-
-# ---------------------------------------------------------------- growing load, dissimilar materials
-
-def dundurs_beta(g1, poisson1, g2, poisson2):
-    """Dundurs' second constant; an infinite shear modulus is a rigid body. Its sign says which body is softer."""
-    top = (1.0 - 2.0 * poisson1) / g1 - (1.0 - 2.0 * poisson2) / g2
-    return 0.5 * top / ((1.0 - poisson1) / g1 + (1.0 - poisson2) / g2)
+from scipy.special import ellipe, ellipkm1
 
 
 def goodman_friction(ratio):
@@ -105,7 +46,7 @@ def goodman_ratio(friction_over_beta):
 def _graded(low, high, count, power=3.0):
     """Element ends from low to high, small at both."""
     t = np.linspace(-1.0, 1.0, count + 1)
-    return low + (high - low) * 0.5 * (1.0 + np.sign(t) * (1.0 - (1.0 - np.abs(t))**power))
+    return low + (high - low) * 0.5 * (1.0 + np.sign(t) * (1.0 - (1.0 - np.abs(t)) ** power))
 
 
 class SpencePunch:
@@ -139,7 +80,7 @@ class SpencePunch:
     def _kernels(self, r):
         """u_z of the pressure and u_r of the shear at r from each ring's P = Q = 1; substitution removes the log."""
         x, weight = np.polynomial.legendre.leggauss(12)
-        t, dt = (0.5 * (1.0 + x))**3, 1.5 * (0.5 * (1.0 + x))**2 * weight
+        t, dt = (0.5 * (1.0 + x)) ** 3, 1.5 * (0.5 * (1.0 + x)) ** 2 * weight
         low, high, middle = self.ends[:-1], self.ends[1:], 0.5 * (self.ends[1:] + self.ends[:-1])
         rings = middle.size
         pz, qr = np.zeros((r.size, rings)), np.zeros((r.size, rings))
@@ -182,7 +123,7 @@ class SpencePunch:
         # g a^2/R with g from the surface outside the punch, which must have fallen by r^2/2R when the contact arrives.
         force = 2.0 * np.pi * np.sum(self.pressure * -np.diff(np.cos(self.ends)))
         x, weight = np.polynomial.legendre.leggauss(60)
-        t = (0.5 * (1.0 + x))**2  # 1/rho
+        t = (0.5 * (1.0 + x)) ** 2  # 1/rho
         dt = 0.5 * (1.0 + x) * weight
         outside = self._kernels(1.0 / t)[0] @ self.pressure
         self.approach_ratio = 0.5 / (1.0 - 2.0 * np.sum(dt * outside * t))
@@ -196,7 +137,7 @@ class SpencePunch:
         fields = []
         for rate in (self.pressure, self.shear):
             # p = integral of 2 g rate(r/b)/(b cos) b db over r < b < 1; b = sqrt(r^2 + (1 - r^2) s^2) takes the end out
-            b = np.sqrt(r[:, None]**2 + (1.0 - r[:, None]**2) * s**2)
+            b = np.sqrt(r[:, None] ** 2 + (1.0 - r[:, None] ** 2) * s**2)
             value = np.interp(np.arcsin(r[:, None] / b), self.middle, rate)
             fields.append(0.5 * np.pi * self.approach_ratio * np.sqrt(1.0 - r**2) * np.sum(ds * value, axis=1))
         return fields
@@ -205,58 +146,3 @@ class SpencePunch:
 def full_stick_load(beta):
     """Mossakovskii: load of a flat punch without slip over the frictionless one, ln((1 + beta)/(1 - beta))/(2 beta)."""
     return np.arctanh(beta) / beta
-
-
-# ---------------------------------------------------------------- self-check
-
-def _check_loops():
-    for t in (0.2, 0.8, 1.0):
-        load, weight = np.polynomial.legendre.leggauss(400)
-        up = masing_displacement(t * load, -t, -float(first_loading(t, 1.0, 1.0)), 1.0, 1.0)
-        down = masing_displacement(t * load, t, float(first_loading(t, 1.0, 1.0)), 1.0, 1.0)
-        # the area between the branches, displacement over force
-        area = t * np.sum(weight * (down - up))
-        yield "loop energy, T = {:g} mu N".format(t), partial_loop_energy(t, 1.0, 1.0) / area - 1.0, 1e-5
-        yield "the loop closes, T = {:g} mu N".format(t), float(
-            masing_displacement(-t, t, first_loading(t, 1.0, 1.0), 1.0, 1.0) + first_loading(t, 1.0, 1.0)), 1e-14
-    d = np.linspace(-2.0, 2.0, 400001)
-    down = sliding_masing_load(d, 1.0, 2.0, 1.0, 1.0)
-    up = sliding_masing_load(d, -1.0, -2.0, 1.0, 1.0)
-    area = np.sum(0.5 * ((down - up)[1:] + (down - up)[:-1])) * (d[1] - d[0])
-    yield "sliding loop energy", sliding_loop_energy(2.0, 1.0, 1.0) / abs(area) - 1.0, 1e-7
-    # Johnson 7.59 with G = 1, nu = 0.3, mu = 1, N = 1, a = 1, both bodies
-    gross = analytic.cattaneo_displacement(1.0, 0.0, 1.5 / np.pi, analytic.tangential_compliance(1.0, 0.3, 1.0, 0.3))
-    t = 0.6
-    johnson = 0.9 * 2.0 * 1.7 * (1.0 - 0.4**(5.0 / 3.0) - 5.0 * t / 6.0 * (1.0 + 0.4**(2.0 / 3.0)))
-    yield "Johnson's form of the loop energy", partial_loop_energy(t, 1.0, gross) / johnson - 1.0, 1e-12
-
-
-def _check_punch():
-    plain = SpencePunch(0.5, 1e-6)
-    yield "no coupling: approach, load, pressure of Hertz", np.max(np.abs(np.array(
-        [plain.approach_ratio, plain.load_ratio, plain.pressure_ratio]) - 1.0)), 1e-4
-    r = np.array([0.1, 0.5, 0.9])
-    yield "no coupling: Hertz's pressure", np.max(np.abs(plain.sphere(r)[0] / np.sqrt(1.0 - r**2) - 1.0)), 1e-4
-    for c in (0.2, 0.5, 0.8):
-        punch = SpencePunch(c, 0.5, coupled=False)
-        yield "Goodman's relation, c/a = {:g}".format(c), punch.friction / 0.5 / goodman_friction(c) - 1.0, 2e-3
-    for beta in (0.2, 0.5):
-        coarse, fine = (SpencePunch(0.5, beta, rings=n).friction for n in (70, 140))
-        yield "the punch's rings, beta = {:g}".format(beta), coarse / fine - 1.0, 2e-3
-        stick = SpencePunch(1.0, beta)
-        force = stick.load_ratio / stick.approach_ratio
-        yield "no slip: Mossakovskii's load, beta = {:g}".format(beta), force / full_stick_load(beta) - 1.0, 2e-3
-
-
-def self_check():
-    """Print errors and bounds, return the number of failures."""
-    failed = 0
-    for name, error, bound in [*_check_loops(), *_check_punch()]:
-        bad = not abs(error) <= bound
-        failed += bad
-        print("{:60s} {:10.2e}  (<= {:.0e}){}".format(name, abs(error), bound, "  FAILED" if bad else ""))
-    return failed
-
-
-if __name__ == "__main__":
-    sys.exit(1 if self_check() else 0)
