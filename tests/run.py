@@ -2,7 +2,8 @@
 """Runs all tests and ends with a line `N passed, N failed`.
 
 Unit tests (CMocka programs in build/tests) run on 1, 2 and 3 ranks each; then pytest runs the whole-program tests in
-tests/program. A failing test's output is shown; a passing one is silent. Arguments choose tests by a part of their name.
+tests/program. A failing test's output is shown; a passing one is silent. Arguments choose tests by a part of their
+name.
 
     python3 tests/run.py [--build build] [--ranks 1,2,3] [--units-only] [name ...]
 """

@@ -3,8 +3,8 @@
 
 Reads the HDF5 files that examples/dissimilar/run.sh writes to a directory, draws stick.png (stick radius against
 friction, against the load, and against the number of steps) and fields.png (pressure, shear and slip over r/a), and
-prints the numbers. The reference is petsam.closed.spence.SpencePunch, a solution of the axisymmetric equations that shares
-nothing with petsam; Goodman's closed relation is its approximation.
+prints the numbers. The reference is petsam.closed.spence.SpencePunch, a solution of the axisymmetric equations that
+shares nothing with petsam; Goodman's closed relation is its approximation.
 
 Stick ratio is sqrt(stick_area/contact_area), central pressure the mean of the four cells nearest the axis. Hertz's
 pressure is that of the same load without friction; what is called "equal radius" is Hertz's for the computed radius.
@@ -231,7 +231,8 @@ def figure_fields(directory, case, uncoupled):
         panel.legend(loc="upper left" if panel is axes[2] else "best")
     note(
         figure,
-        f"{case.x.size} x {case.y.size} cells, {case.stick.size} steps, $\\nu = {case.poisson:g}$, $\\mu = {case.friction:g}$;  $p_0$, $\\delta_H$: Hertz at the same load",
+        f"{case.x.size} x {case.y.size} cells, {case.stick.size} steps, $\\nu = {case.poisson:g}$, "
+        f"$\\mu = {case.friction:g}$;  $p_0$, $\\delta_H$: Hertz at the same load",
     )
     save(figure, directory, "fields.png")
 
@@ -283,7 +284,11 @@ class Comparison:
             self.numbers["study"],
         )
         stick = spence.SpencePunch(1.0, 0.5)
-        yield f"\nreference without any slip, beta = 0.5: central pressure {stick.pressure_ratio * stick.load_ratio ** (-1.0 / 3.0):.4f}, at equal radius {stick.pressure_ratio:.4f}"
+        central = stick.pressure_ratio * stick.load_ratio ** (-1.0 / 3.0)
+        yield (
+            f"\nreference without any slip, beta = 0.5: central pressure {central:.4f}, "
+            f"at equal radius {stick.pressure_ratio:.4f}"
+        )
         yield "without coupling: central pressure {central:.4f}, greatest shear {shear:g} Pa".format(
             **self.numbers["uncoupled"]
         )

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Solve the sphere in CalculiX and in petsam under equal forces, and measure what each costs.
 
-The displacement of the hemispheres' flat tops is prescribed in CalculiX: Hertz's approach for the wanted contact radius.
+In CalculiX the displacement of the hemispheres' flat tops is prescribed: Hertz's approach for a wanted contact radius.
 That is not the half-space's approach of distant points, so petsam gets the forces that came out, not the displacements.
 
 Writes to a directory, one HDF5 file a run with its costs as attributes:
-  mesh_N.h5                the sequence of meshes at Table 1's contact, N elements along the cube's edge; mesh_N_direct.h5
-                           the same by the direct solver
+  mesh_N.h5                the sequence of meshes at Table 1's contact, N elements along the cube's edge
+  mesh_N_direct.h5         the same by the direct solver
   small_R.h5               contact radius R times the sphere's
   large_R.h5, neo_R.h5     the same with large displacements, after St. Venant and Kirchhoff, and neo-Hooke
   stiffness_F.h5           the first of these with contact stiffness times F
@@ -96,7 +96,7 @@ def calculix(ccx, base):
     return used
 
 
-def solve_mesh(options, name, n, study=TABLE1, controls=model.Controls(), tangential=0.0):
+def solve_mesh(options, name, n, study=TABLE1, controls=LAWS["small"], tangential=0.0):
     """One CalculiX model and its results in name.h5; the Surface. tangential: displacement along x, mm."""
     base = os.path.join(options.directory, name)
     down = study.contact_radius**2 / study.radius  # of one sphere
@@ -158,7 +158,7 @@ def write_surface(path, surface, study, attributes):
 
 
 def tangential_force(surface, parts):
-    """T_x, N, of both spheres with friction: the sum of the shear. (The top's reaction converges later.) 0 by symmetry."""
+    """T_x, N, of both spheres: the sum of the shear (the top's reaction converges later); 0 for a quarter of one."""
     return parts * float(np.sum(surface.area * surface.shear_x)) if parts == 2 else 0.0
 
 

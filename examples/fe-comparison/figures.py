@@ -4,9 +4,9 @@
 Reads the HDF5 files that examples/fe-comparison/run.sh writes to a directory. All comparisons are at equal force: Hertz
 and Cattaneo-Mindlin for the force that came out of CalculiX.
 
-  p, L2, q, L2  sqrt(sum A (numerical - exact)^2 / sum A exact^2) over all nodes or cells, A their area. Exact is the mean
-                over a node's area for CalculiX, whose pressure is a nodal force over that area; the value at the
-                cell's centre for petsam
+  p, L2, q, L2  sqrt(sum A (numerical - exact)^2 / sum A exact^2) over all nodes or cells, A their area. Exact is for
+                CalculiX, whose pressure is a nodal force over a node's area, the mean over that area; for petsam the
+                value at the cell's centre
   CPRESS        the same for the nodal pressure in CalculiX's own result file, which is extrapolated
   peak          greatest pressure over Hertz's, less 1
   radius        radius of contact less Hertz's, in elements under the contact, or in cells

@@ -192,6 +192,9 @@ class Controls(NamedTuple):
     neo_hooke: bool = False
 
 
+DEFAULTS = Controls()
+
+
 def default_stiffness(study, n):
     """Contact stiffness, MPa/mm: ten times that of an element under the contact."""
     return 10.0 * study.young / element_size(study, n)
@@ -292,7 +295,7 @@ FIELDS = (
 )
 
 
-def normal_deck(path, n, study, displacement, controls=Controls()):
+def normal_deck(path, n, study, displacement, controls=DEFAULTS):
     """A quarter of one hemisphere on a rigid plane, its top moved down by displacement (mm). Returns the mesh."""
     mesh = quarter(n, study)
     side = 2.0 * CONTACT_REACH * study.contact_radius
@@ -317,7 +320,7 @@ def normal_deck(path, n, study, displacement, controls=Controls()):
     return mesh
 
 
-def tangential_deck(path, n, study, displacement, tangential, controls=Controls()):
+def tangential_deck(path, n, study, displacement, tangential, controls=DEFAULTS):
     """Halves of both hemispheres, the upper top moved (mm) down, then along x. Returns the upper half's mesh.
 
     The lower half is its mirror image, with the same numbers after it.
@@ -353,7 +356,7 @@ def main():
     parser.add_argument("--contact-radius", type=float, default=0.8662391, help="expected, mm (0.8662391)")
     parser.add_argument("--displacement", type=float, help="approach of the flat tops, mm (Hertz's)")
     parser.add_argument("--tangential", type=float, help="then along x, mm: both bodies with friction")
-    parser.add_argument("--solver", default=Controls().solver, help="CalculiX's equation solver (ITERATIVE CHOLESKY)")
+    parser.add_argument("--solver", default=DEFAULTS.solver, help="CalculiX's equation solver (ITERATIVE CHOLESKY)")
     parser.add_argument("--stiffness", type=float, default=0.0, help="of the contact, MPa/mm (10 E/element size)")
     parser.add_argument("--nlgeom", action="store_true", help="large displacements")
     parser.add_argument("--neo-hooke", action="store_true", help="neo-Hooke's law, with --nlgeom")

@@ -1,9 +1,10 @@
 """Tractions on the contact surface from what CalculiX prints for a deck of model.py.
 
-The forces on the surface's nodes are those that balance the stresses of the elements beside it: sum of w det(J) B^T sigma
-over the integration points. So they carry the load exactly and know nothing of how contact is modelled. Divided by
-the area that belongs to each node they are pressure and shear. (CalculiX's own nodal pressure, CPRESS in the result
-file, is extrapolated from integration points; in elements that the contact's edge crosses it is far off.)
+The forces on the surface's nodes are those that balance the stresses of the elements beside it: the sum of
+w det(J) B^T sigma over the integration points. So they carry the load exactly and know nothing of how contact is
+modelled. Divided by the area that belongs to each node they are pressure and shear. (CalculiX's own nodal pressure,
+CPRESS in the result file, is extrapolated from integration points; in elements that the contact's edge crosses it is
+far off.)
 """
 
 from typing import NamedTuple
@@ -18,7 +19,8 @@ POINTS = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
 
 
 class Surface(NamedTuple):
-    """The contact surface in SI units: nodes' x, y (m), area (m2), pressure, shear_x, shear_y, cpress (Pa); faces' samples.
+    """The contact surface in SI units: of nodes x, y (m), area (m2), pressure, shear_x, shear_y, cpress (Pa); of faces
+    samples.
 
     sample_r (m), sample_area (m2) and sample_gap (m) have shape (faces, samples), weights (samples, 4), face_nodes
     (faces, 4) counts in the nodes. load_n, load_tx (N) are the reactions of the whole top.

@@ -185,7 +185,8 @@ def figure_loops(directory, partial, gross):
             panel.set(xlim=limits[0], ylim=limits[1])
     note(
         figure,
-        f"{partial[0].x.size} x {partial[0].y.size} cells, {partial[0].steps} steps a cycle;  $\\delta_0$: displacement of incipient sliding",
+        f"{partial[0].x.size} x {partial[0].y.size} cells, {partial[0].steps} steps a cycle;  "
+        "$\\delta_0$: displacement of incipient sliding",
     )
     save(figure, directory, "loops.png")
 

@@ -276,7 +276,9 @@ class Comparison:
             draw_section(
                 panel,
                 case,
-                f"{study.capitalize()}: $P'$ = {1e-3 * case.load:.0f} N/mm, $M'/P'$ = {1e3 * case.moment / case.load + 0.0:.3g} mm, $Q'/\\mu P'$ = {case.shear_load / (case.friction * case.load):.3f}",
+                f"{study.capitalize()}: $P'$ = {1e-3 * case.load:.0f} N/mm, "
+                f"$M'/P'$ = {1e3 * case.moment / case.load + 0.0:.3g} mm, "
+                f"$Q'/\\mu P'$ = {case.shear_load / (case.friction * case.load):.3f}",
             )
         top = max(panel.get_ylim()[1] for panel in axes[0])
         for panel in axes[0]:
@@ -287,7 +289,9 @@ class Comparison:
         case = self.sections["upright", "fine_r" + DRAWN]
         note(
             picture,
-            f"Sections at $y = 0$ for $L/c$ = {DRAWN}, cells {1e6 * case.width:.2f} x {1e6 * (case.y[1] - case.y[0]):.0f} µm;  $c$ = {1e3 * case.punch.c:g} mm, $R$ = {1e3 * case.punch.edge_radius:g} mm, "
+            f"Sections at $y = 0$ for $L/c$ = {DRAWN}, "
+            f"cells {1e6 * case.width:.2f} x {1e6 * (case.y[1] - case.y[0]):.0f} µm;  "
+            f"$c$ = {1e3 * case.punch.c:g} mm, $R$ = {1e3 * case.punch.edge_radius:g} mm, "
             f"$E^*$ = {1e-9 * case.punch.e_star:.1f} GPa, $\\mu$ = {case.friction:g}",
         )
         save(picture, directory, "long-punch.png")

@@ -209,7 +209,8 @@ def finish(figure, directory, name, case, unit, more):
     """The line above a figure, unit being (its value, Pa, its formula); write it."""
     note(
         figure,
-        f"{case.x.size} x {case.y.size} cells;  {unit[1]} = {unit[0] * 1e-6:.4g} MPa, $c$ = {1e3 * case.c:g} mm, $R$ = {case.punch.edge_radius:g} m;  {more}",
+        f"{case.x.size} x {case.y.size} cells;  {unit[1]} = {unit[0] * 1e-6:.4g} MPa, "
+        f"$c$ = {1e3 * case.c:g} mm, $R$ = {case.punch.edge_radius:g} m;  {more}",
     )
     save(figure, directory, name)
 

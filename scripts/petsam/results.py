@@ -85,7 +85,7 @@ class Results:
         raise Error(f"{self.path}: --step {number}: its fields were not saved, those of steps {_some(self.steps)} were")
 
     def of_time(self, time):
-        """Index into the fields of the saved step nearest to time (s), which must lie between the first and the last."""
+        """Index into the fields of the saved step nearest to time (s), between the first and the last."""
         if not self.steps:
             raise Error(f"{self.path}: no fields were saved")
         low, high = float(self.times[0]), float(self.times[-1])

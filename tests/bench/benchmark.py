@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """petsam, FFTW, the memory's bandwidth and other contact programs on the same problems in one run.
 
-    python3 tests/bench/benchmark.py [--quick] [--cases hertz,slip_tx] [--cells 512,1024] [--peers none] [--out build/bench/report] [--anew]
+    python3 tests/bench/benchmark.py [--quick] [--cases hertz,slip_tx] [--cells 512,1024] [--peers none]
+                                     [--out build/bench/report] [--anew]
 
 Writes results.json and results.csv, report.md and its figures (report.py) to --out. A run that breaks off or in which
 something fails leaves its rows there; the same command measures what is missing. Times are medians of repeated runs,
@@ -234,7 +235,7 @@ class Bench:
             say(f"bandwidth on {ranks} ranks: {self.results['bandwidth'][str(ranks)]:.1f} GB/s")
 
     def convolution(self, ranks, cells):
-        """Seconds of FFTW's padded pair and of petsam's convolution: a row {ranks, cells, padded, petsam, messages}, the last by messages."""
+        """Seconds of FFTW's padded pair, of petsam's convolution, and of it by messages: a row a number of ranks."""
         rows = self.results["convolution"]
         if any((r["ranks"], r["cells"]) == (ranks, cells) for r in rows):
             return
@@ -271,7 +272,7 @@ class Bench:
         return numbers
 
     def repeat(self, once):
-        """Medians of runs until there are enough, and the greatest memory; once() gives (seconds, CPU seconds, memory)."""
+        """Medians of enough runs, and the greatest memory; once() gives (seconds, CPU seconds, memory)."""
         runs = []
         while len(runs) < self.args.repeats and (not runs or sum(r[0] for r in runs) < ENOUGH):
             runs.append(once())
@@ -381,7 +382,7 @@ class Bench:
         return [n for n in self.args.cells or cells] if cells else []
 
     def programs(self, kind):
-        """(program, petsam's ranks or None) of every row of a problem: petsam, then a peer's settings, or its name when it cannot."""
+        """(program, petsam's ranks or None) of every row: petsam, then a peer's settings, or its name if it cannot."""
         yield from (("petsam", n) for n in self.args.ranks)
         for name in self.args.peers:
             yield from (

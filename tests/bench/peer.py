@@ -3,8 +3,9 @@
 
     build/peers/bin/python tests/bench/peer.py SETTING FOLDER SOLUTION
 
-Timed is what petsam's own time holds: from building the operator to the solution, without Python's start and reading the
-problem. The settings are the fastest that were found for each peer, with those that win on some grids and lose on others.
+Timed is what petsam's own time holds: from building the operator to the solution, without Python's start and reading
+the problem. The settings are the fastest that were found for each peer, with those that win on some grids and lose on
+others.
 """
 
 import json

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The benchmark's problems, and one measure of accuracy for all programs that solve them.
 
-    python3 tests/bench/problem.py make CASE CELLS FOLDER      write problem.json, gap.npy and petsam's inputs, petsam.opts
+    python3 tests/bench/problem.py make CASE CELLS FOLDER      write problem.json, gap.npy, petsam.opts and its inputs
     python3 tests/bench/problem.py check FOLDER SOLUTION       print the accuracy of results.h5 or pressure.npy as JSON
 
 All are contacts of the steel spheres of examples/sphere, or of a rough plane of the same size and material, on an
@@ -28,7 +28,7 @@ ROUGH_LOADS = {"rough_1": 0.00425, "rough_8": 0.0359, "rough_40": 0.241}
 
 
 def rough_plane(n, width):
-    """Heights of the rough plane (n, n), m, of root mean square slope SLOPE: a sum of waves, each by its number alone."""
+    """Heights of the rough plane (n, n), m, of root mean square slope SLOPE: a sum of waves, each by its number."""
     modes = np.arange(-SHORTEST, SHORTEST + 1)
     kx, ky = np.meshgrid(modes, modes)
     k = np.hypot(kx, ky)

@@ -92,13 +92,14 @@ class Report:
         self.write(
             "# Benchmark\n",
             f"`{d['command']}`, {m['date']}, {m['processor']}, {m['cores']} cores, load at the start "
-            f"{m['load']:.1f}. Seconds are medians of up to {d['repeats']} runs from building the operators to the solution, "
-            "without the start of MPI or Python; a peer runs on one core or all, whichever is the faster. "
-            "CPU seconds are the process's, its start and all ranks with it. Memory is the peak resident set (for several ranks the largest rank's times their number; "
-            "a peer's holds Python). Error is the largest of complementarity sum p |g|/(N u), penetration over u and load, "
+            f"{m['load']:.1f}. Seconds are medians of up to {d['repeats']} runs from building the operators to the "
+            "solution, without the start of MPI or Python; a peer runs on one core or all, whichever is the faster. "
+            "CPU seconds are the process's, its start and all ranks with it. Memory is the peak resident set (for "
+            "several ranks the largest rank's times their number; a peer's holds Python). "
+            "Error is the largest of complementarity sum p |g|/(N u), penetration over u and load, "
             f"by one measure for all (`tests/bench/problem.py`): exact is at most {d['exact']:g}, approximate at most "
-            f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the program's own check "
-            f"certifies, to {d['shear_exact']:g} or {d['shear_approximate']:g} (relative L2).\n",
+            f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the "
+            f"program's own check certifies, to {d['shear_exact']:g} or {d['shear_approximate']:g} (relative L2).\n",
         )
         for r in d.get("resumed", []):
             self.write(f"The run was resumed after {r['rows']} rows: {r['date']}, load {r['load']:.1f}.\n")
@@ -210,9 +211,8 @@ class Report:
                 a = self.best(case, cells, lambda r: r["program"] == "petsam" and r["cores"] == 1)
                 b = self.best("slip_tx", cells, lambda r: r["program"] == "petsam" and r["cores"] == 1)
                 if a and b:
-                    self.write(
-                        f"The {TITLES[case]} at {cells}² costs {a['seconds'] / b['seconds']:.1f} partial-slip solves on one rank.\n"
-                    )
+                    ratio = a["seconds"] / b["seconds"]
+                    self.write(f"The {TITLES[case]} at {cells}² costs {ratio:.1f} partial-slip solves on one rank.\n")
 
     def details(self):
         for case in self.cases():
@@ -334,15 +334,16 @@ class Report:
         solves = self.solves(convolution) if convolution else {}
         if not solves:
             return
-        c = self.cluster
+        c, arithmetic = self.cluster, convolution.compute * n * n * scaling.log2(2 * n)
         self.write(
             "## Scaling on paper\n",
             "```\n" + scaling.__doc__.strip() + "\n```\n",
-            f"Measured: convolution of {n}² on one and two ranks, b = {convolution.bandwidth / 1e9:.1f} GB/s a rank, arithmetic "
-            f"{100 * convolution.compute * n * n * scaling.log2(2 * n) / convolution.seconds(n, 1):.0f} % of the time on one rank, "
-            f"exchange between ranks of a node {convolution.node / 1e9:.1f} GB/s a rank. Assumed: {c.cores} ranks a node, each with "
-            f"this bandwidth; network {c.network / 1e9:g} GB/s a node, latency {1e6 * c.latency:g} microseconds, no contention; no "
-            "setting up or writing beyond what the measured solve holds.\n",
+            f"Measured: convolution of {n}² on one and two ranks, b = {convolution.bandwidth / 1e9:.1f} GB/s a rank, "
+            f"arithmetic {100 * arithmetic / convolution.seconds(n, 1):.0f} % of the time on one rank, "
+            f"exchange between ranks of a node {convolution.node / 1e9:.1f} GB/s a rank. "
+            f"Assumed: {c.cores} ranks a node, each with this bandwidth; network {c.network / 1e9:g} GB/s a node, "
+            f"latency {1e6 * c.latency:g} microseconds, no contention; no setting up or writing beyond what the measured "
+            "solve holds.\n",
         )
         rows = [
             [TITLES[k], f"{s.n}²", seconds(one), seconds(two) if two else "", seconds(s.seconds(convolution, s.n, 2))]

@@ -5,12 +5,12 @@ One convolution of n x n cells on P ranks takes
     t(n, P) = c n^2 log2(2n) / P + m n^2 / (P b) + exchange(n, P)
 
 c      arithmetic, from the time on one rank less its memory traffic
-m      bytes a cell that pass through memory: 88 on one node, whose ranks share it (rows 8 + 16, columns 16 + 16 + 8 with
-       the kernel, rows 16 + 8), 152 on more (the two transposes read and write 16 more each)
+m      bytes a cell that pass through memory: 88 on one node, whose ranks share it (rows 8 + 16, columns 16 + 16 + 8
+       with the kernel, rows 16 + 8), 152 on more (the two transposes read and write 16 more each)
 b      bandwidth of a rank: alone that of the triad, beside others what the time on two ranks implies
-exchange   between nodes two transposes, each of 16 n^2 / P bytes a rank: the share for ranks of the same node at the rate
-       that the time on two ranks by messages implies, the rest at the rank's share of its node's network, and P - 1
-       messages of the latency
+exchange   between nodes two transposes, each of 16 n^2 / P bytes a rank: the share for ranks of the same node at the
+       rate that the time on two ranks by messages implies, the rest at the rank's share of its node's network, and
+       P - 1 messages of the latency
 
 A solve is its measured numbers of applications (two components: twice a convolution) and preconditionings (half of one)
 on the finest grid; as many on every coarser grid down to 64 cells, on all ranks that have rows; the rest of its time on
@@ -65,7 +65,11 @@ class Convolution(NamedTuple):
 
 
 def fit(n, alone, two, messages, bandwidth, cluster):
-    """The convolution's model from its seconds on one rank and on two, by shared memory and by messages, and one rank's bandwidth (bytes/s)."""
+    """The convolution's model.
+
+    From its seconds on one rank (alone) and on two, by shared memory (two) and by messages, and one rank's bandwidth
+    (bytes/s).
+    """
     compute = max(0.0, alone - BYTES_NODE * n * n / bandwidth) / (n * n * log2(2 * n))
     half = compute * n * n * log2(2 * n) / 2
     # two ranks are never more than twice as fast as one

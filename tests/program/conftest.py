@@ -68,7 +68,8 @@ def execute(launcher, directory, options, ranks, check, extra=None):
         stdin=subprocess.DEVNULL,
     )
     assert check is None or done.returncode == check, (
-        f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
+        f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n"
+        f"{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
     )
     return support.Run(done.returncode, done.stdout, done.stderr)
 

@@ -137,7 +137,7 @@ def sliding_pair(case, arm):
 
 
 def elliptic_hertz(load_n, radius_x, radius_y, e_star):
-    """Half axes along x and y (m), greatest pressure (Pa), approach (m) for radius_x > radius_y; Johnson eqs 4.25, 4.26."""
+    """Half axes in x and y (m), greatest pressure (Pa), approach (m), radius_x > radius_y; Johnson eqs 4.25, 4.26."""
     from scipy.optimize import brentq
     from scipy.special import ellipe, ellipk
 
@@ -256,7 +256,7 @@ def assert_same(one, two, tolerance, fields=FIELDS[:-1]):
         assert_close(getattr(one, name), getattr(two, name), tolerance, name, scale)
 
 
-# ---------------------------------------------------------------- influence coefficients, in other words than the program's
+# ---------------------------------------------------------------- influence coefficients, not the program's
 
 
 def corners(function, x, y, dx, dy):
@@ -297,8 +297,9 @@ def kernels(x, y, dx, dy):
 def displacement(results, options, i, j):
     """Relative elastic displacement (x, y, z) of cell (i, j) by direct summation; Johnson eqs 3.17 to 3.75.
 
-    Tractions are those on body 2, on body 1 they are opposite: u_t is body 2's less body 1's, u_z the sum of both inwards.
-    Pressure draws each body's surface towards itself, so the coupling takes body 2 as printed by Johnson, and body 1 reversed.
+    Tractions are those on body 2, on body 1 they are opposite: u_t is body 2's less body 1's, u_z the sum of both
+    inwards. Pressure draws each body's surface towards itself, so the coupling takes body 2 as printed by Johnson, and
+    body 1 reversed.
     """
     k = kernels(results.x[i] - results.xx, results.y[j] - results.yy, results.dx, results.dy)
     p, qx, qy = results.pressure, results.shear_x, results.shear_y

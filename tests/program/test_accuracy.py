@@ -98,7 +98,10 @@ def test_result_does_not_depend_on_half_width(solve):
 
 
 def test_similar_contacts_scale(solve):
-    """Lengths by s and forces by s^2 leave tractions as they are: nothing in the program has a size of its own. Powers of two do not round."""
+    """Lengths by s and forces by s^2 leave tractions as they are: nothing in the program has a size of its own.
+
+    Powers of two do not round.
+    """
     case = dict(ball(61), load_my=0.01e-3, load_tx=30.0, load_mz=1e-3)
     reference = solve(case)
     for s in (2.0**-20, 2.0**13):
@@ -114,7 +117,10 @@ def test_similar_contacts_scale(solve):
 
 
 def test_softer_bodies_scale(solve):
-    """Moduli and forces by s leave displacements as they are; s is no power of two, so rounding differs, and with it what the tolerances leave."""
+    """Moduli and forces by s leave displacements as they are.
+
+    s is no power of two, so rounding differs, and with it what the tolerances leave.
+    """
     case = dict(ball(61), load_tx=30.0, normal_rtol=1e-11, tangential_rtol=1e-9)
     reference = solve(case)
     for s in (1e-9, 1e9):

@@ -1,4 +1,4 @@
-"""The benchmark (tests/bench): it runs, its measure of accuracy tells solutions apart, and its scaling model holds together."""
+"""The benchmark (tests/bench): it runs, its accuracy tells solutions apart, and its scaling model holds together."""
 
 import csv
 import json

@@ -162,7 +162,8 @@ def test_shear_under_normal_load_is_radial(solve):
 def test_shear_under_normal_load_points_as_the_stiffer_body_holds(solve):
     """Pressure draws each surface inwards, the softer body's the more; the stiffer one holds it back.
 
-    With body 1 the softer (positive coupling), body 1 moves inwards over body 2 and drags it along: q on body 2 is inwards.
+    With body 1 the softer (positive coupling), body 1 moves inwards over body 2 and drags it along: q on body 2 is
+    inwards.
     """
     for materials in ("plastic-steel", "steel-plastic"):
         s = solve(pair(materials, friction=0.3))
@@ -311,7 +312,7 @@ def test_cycle_of_dissimilar_bodies(petsam, tmp_path):
 
 
 def test_growing_load_where_little_sticks(petsam):
-    """Four cells in a hundred stick: gradient steps, which only the nearest admissible shear makes go downhill, are needed."""
+    """Four cells in a hundred stick: gradient steps are needed, downhill only by the nearest admissible shear."""
     petsam("-options_file", ROOT / "examples/dissimilar/dissimilar.opts", dict(body1_poisson=0.3, friction=0.1))
 
 

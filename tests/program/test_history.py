@@ -369,7 +369,7 @@ def smooth(n=64, **more):
 
 @pytest.mark.parametrize("n, steps", [(64, 1), (64, 4), (128, 1)])
 def test_shear_on_a_rough_gap_is_mu_times_the_difference_of_two_pressures(drive, rough, n, steps):
-    """Ciavarella and Jaeger: q = mu (p(N) - p(N - T/mu)), at nu = 0 exact for the discrete problem too, without tilt."""
+    """Ciavarella and Jaeger: q = mu (p(N) - p(N - T/mu)), at nu = 0 exact for the discrete problem too, untilted."""
     case = rough(n, body1_poisson=0.0, body2_poisson=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0, load_n=None)
     for t in (0.3, 0.8):
         s = drive(dict(case, steps=steps), ("load_n", "load_tx"), pushed([t * MU_N]))
@@ -575,7 +575,8 @@ def assert_coulomb(s, case, exact=1e-12):
     # along q: only against it
     along = (dx * qx + dy * qy)[slip] / q[slip]
     assert along.max(initial=0) <= 1e-6 * size, along.max() / size
-    # across it nothing, by power: 1e-6 of q in the 2-norm may all be in one of some 1000 cells, whose q is 0.1 of the largest
+    # across it nothing, by power: 1e-6 of q in the 2-norm may all be in one of some 1000 cells, whose q is 0.1 of the
+    # largest
     across, power = np.where(slip, np.abs(dx * qy - dy * qx), 0).max((1, 2)), np.where(slip, q * ds, 0).max((1, 2))
     assert np.all(across <= 1e-4 * power), (across / power).max()
 

@@ -1,4 +1,4 @@
-"""Scripts from the build tree and installed, their Python and petsam; the README's five commands; the package recipes."""
+"""Scripts from the build tree and installed, their Python and petsam; the README's commands; the package recipes."""
 
 import os
 import re

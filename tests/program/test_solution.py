@@ -164,7 +164,7 @@ def test_displacements_are_the_sum_over_all_cells(solve, name):
 
 
 def test_direct_summation_is_an_integral():
-    """The closed forms of this test suite against quadrature of the point-force kernels, beside the cell and from it."""
+    """This test suite's closed forms against quadrature of the point-force kernels, beside the cell and off it."""
     from scipy.integrate import dblquad
 
     dx, dy, x, y = 1.3, 0.7, 2.1, -1.6
@@ -178,9 +178,9 @@ def test_direct_summation_is_an_integral():
         y=lambda u, v: v / (u * u + v * v),
     )
     for name, point in points.items():
-        exact = dblquad(lambda v, u: point(x - u, y - v), -dx / 2, dx / 2, -dy / 2, dy / 2, epsabs=1e-13, epsrel=1e-13)[
-            0
-        ]
+        exact = dblquad(
+            lambda v, u, point=point: point(x - u, y - v), -dx / 2, dx / 2, -dy / 2, dy / 2, epsabs=1e-13, epsrel=1e-13
+        )[0]
         assert k[name] == pytest.approx(exact, rel=1e-11), name
 
 

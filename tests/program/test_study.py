@@ -1,4 +1,4 @@
-"""petsam-study: tables, runs side by side, restarts, failures, results tables; Slurm's jobs with commands that stand for it."""
+"""petsam-study: tables, runs side by side, restarts, failures, results; Slurm's jobs with stand-ins for it."""
 
 import csv
 import os
@@ -346,8 +346,8 @@ def test_a_missing_program_is_named(run, tmp_path):
 def slurm(tmp_path, fake):
     """Variables with an sbatch that runs its script at once for each number of the array, an srun, and an scontrol.
 
-    What they were called with goes to sbatch.txt and scontrol.txt. USR1 is sent to the script once `started` exists when
-    the file `limit` does.
+    What they were called with goes to sbatch.txt and scontrol.txt. USR1 is sent to the script once `started` exists
+    when the file `limit` does.
     """
     executable(
         tmp_path / "bin" / "srun", '#!/bin/sh\n[ "$1" = -n ] && { RANKS=$2; export RANKS; shift 2; }\nexec "$@"\n'

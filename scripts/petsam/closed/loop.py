@@ -1,8 +1,8 @@
 """Tangential loops of a sphere under constant normal load: force against displacement, and the energy of a cycle.
 
-SI units, relative displacements. Similar materials, Cattaneo and Mindlin's first loading. Unloading and reloading follow
-Masing's rule, which Mindlin and Deresiewicz derived for this contact: the same curve, doubled in both directions.
-limit = mu N (N) and gross (m), the displacement of incipient sliding, are those of sphere.Spheres.
+SI units, relative displacements, similar materials. The first loading is Cattaneo and Mindlin's. Unloading and
+reloading follow Masing's rule, which Mindlin and Deresiewicz derived for this contact: the same curve, doubled in both
+directions. limit = mu N (N) and gross (m), the displacement of incipient sliding, are those of sphere.Spheres.
 
 References
 ----------

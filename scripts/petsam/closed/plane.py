@@ -1,8 +1,9 @@
 """Plane solutions for a punch with a flat base and rounded edges, infinitely long in y, on an elastic half-space:
 upright or inclined, under normal load and in partial slip.
 
-Conventions are those of the package's description; loads are per length: load P' (N/m), moment M' = integral of x p (N), shear Q' (N/m). E* is the plane modulus, the same for p and for
-q where the bodies are similar. The separation is h = 0 for |x| <= c, (|x| - c)^2/(2 R) beyond.
+Conventions are those of the package's description; loads are per length: load P' (N/m), moment M' = integral of x p
+(N), shear Q' (N/m). E* is the plane modulus, the same for p and for q where the bodies are similar. The separation is
+h = 0 for |x| <= c, (|x| - c)^2/(2 R) beyond.
 
 In the contact [m - a, m + a] the displacement u satisfies u + h = d + x r, d the approach and r the tilt, so
 (2/(pi E*)) pv int p(s)/(x - s) ds = h'(x) - r. With s = m + a cos(phi), x = m + a cos(theta), the solution that is

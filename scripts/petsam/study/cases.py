@@ -140,7 +140,7 @@ def _choices(path, key, mapping):
 
 
 def _read_yaml(path):
-    """The sections of the YAML file: parameters and options as choices, files as texts, ranks as text; names of lists."""
+    """The YAML file: parameters and options as choices, files as texts, ranks as text; names of those with lists."""
     with open(path, encoding="utf-8") as file:
         try:
             table = yaml.safe_load(file)

@@ -118,31 +118,35 @@ def run(options, cases, waiting):
     return ended
 
 
+def carry_out(options):
+    """Do what the options ask for; the exit code."""
+    cases = read(options.table, common_options(options.words), options.ranks)
+    if options.list:
+        for case in cases:
+            print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
+        return 0
+    os.makedirs(options.directory, exist_ok=True)
+    waiting = [] if options.collect else due(options, cases)
+    if options.slurm:
+        return slurm.submit(options, cases, waiting)
+    ended = run(options, cases, waiting) if waiting else 0
+    if options.case is not None:
+        cases = cases[options.case - 1 : options.case]
+    else:
+        for name in tables.write(options.directory, cases, os.path.basename(options.table)):
+            if not options.quiet:
+                print("wrote " + name)
+    code = summary(options.directory, cases)
+    if ended:
+        print("petsam-study: interrupted; the same command goes on from here", file=sys.stderr)
+    return 128 + ended if ended else code
+
+
 def main():
     """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
     128 + the signal that ended the study."""
-    options = arguments()
     try:
-        cases = read(options.table, common_options(options.words), options.ranks)
-        if options.list:
-            for case in cases:
-                print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
-            return 0
-        os.makedirs(options.directory, exist_ok=True)
-        waiting = [] if options.collect else due(options, cases)
-        if options.slurm:
-            return slurm.submit(options, cases, waiting)
-        ended = run(options, cases, waiting) if waiting else 0
-        if options.case is not None:
-            cases = cases[options.case - 1 : options.case]
-        else:
-            for name in tables.write(options.directory, cases, os.path.basename(options.table)):
-                if not options.quiet:
-                    print("wrote " + name)
-        code = summary(options.directory, cases)
-        if ended:
-            print("petsam-study: interrupted; the same command goes on from here", file=sys.stderr)
-        return 128 + ended if ended else code
+        return carry_out(arguments())
     except (TableError, slurm.SubmitError) as error:
         return fail("petsam-study", error, USAGE)
     except (Error, OSError) as error:

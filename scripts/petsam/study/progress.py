@@ -59,7 +59,8 @@ class Progress:
         if self.live and time.monotonic() - self.shown > 0.5:
             self.shown = time.monotonic()
             print(
-                f"\r\033[K{running} running, {waiting} waiting, {self.done - self.failed} done, {self.failed} failed, {clock(self.shown - self.start)} since the start, {self._left()} left",
+                f"\r\033[K{running} running, {waiting} waiting, {self.done - self.failed} done, {self.failed} failed, "
+                f"{clock(self.shown - self.start)} since the start, {self._left()} left",
                 end="",
                 flush=True,
             )

@@ -48,7 +48,7 @@ def _study_words(options):
 
 
 def submit(options, cases, waiting):
-    """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables when all have ended."""
+    """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables at the end."""
     words, extra = _study_words(options), shlex.split(options.sbatch)
     common = ["--", *options.words] if options.words else []
     log = "--output=" + os.path.join(options.directory, "slurm-%A_%a.out")
