@@ -24,10 +24,10 @@ import sys
 import time
 
 import h5py
-import model
 import numpy as np
-import surface as results_of_calculix
 
+import model
+import surface as results_of_calculix
 from petsam.closed import Bodies, Spheres
 from petsam.errors import fail
 

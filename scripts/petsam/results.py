@@ -14,6 +14,25 @@ BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itsel
 DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
 
 
+class NotSaved(Error):
+    """A step or a time (wanted) that the file has no fields of, and why."""
+
+    def __init__(self, path, wanted, reason):
+        super().__init__(f"{path}: {wanted}: {reason}")
+        self.path, self.wanted, self.reason = path, wanted, reason
+
+
+class Named(dict):
+    """Values by name; a name that is not there is an Error of the file at path."""
+
+    def __init__(self, path, values):
+        super().__init__(values)
+        self.path = path
+
+    def __missing__(self, name):
+        raise Error(f"{self.path}: has no {name}")
+
+
 class Results:
     """One results file, open for reading; Error where it cannot be read.
 
@@ -43,12 +62,9 @@ class Results:
 
     def _read(self):
         self.x, self.y, self.times = (self.file[name][:] for name in ("x", "y", "time"))
-        self.history = {name: data[:] for name, data in self.file["history"].items()}
+        self.history = Named(self.path, {name: data[:] for name, data in self.file["history"].items()})
         self.units = {name: data.attrs["units"] for name, data in self.file["history"].items()}
-        self.parameters = {
-            name: value.item() if np.size(value) == 1 and hasattr(value, "item") else value
-            for name, value in self.file.attrs.items()
-        }
+        self.parameters = Named(self.path, self.file.attrs)
         self.friction = float(self.parameters["friction"])
         time = self.history["time"]
         if not time.size:
@@ -76,23 +92,31 @@ class Results:
         """Index into the fields of the load step number: from 1, or from the end, -1 being the last."""
         count = self.history["time"].size
         step = count + 1 + number if number < 0 else number
-        if not self.steps:
-            raise Error(f"{self.path}: no fields were saved")
+        self._need_fields()
         if not 1 <= step <= count:
-            raise Error(f"{self.path}: --step {number}: there are {count} steps")
+            raise NotSaved(self.path, f"step {number}", f"there are {count} steps")
         if step in self.steps:
             return self.steps.index(step)
-        raise Error(f"{self.path}: --step {number}: its fields were not saved, those of steps {_some(self.steps)} were")
+        reason = f"its fields were not saved, those of steps {_some(self.steps)} were"
+        raise NotSaved(self.path, f"step {number}", reason)
 
     def of_time(self, time):
         """Index into the fields of the saved step nearest to time (s), between the first and the last."""
-        if not self.steps:
-            raise Error(f"{self.path}: no fields were saved")
+        self._need_fields()
         low, high = float(self.times[0]), float(self.times[-1])
         slack = 1e-9 * max(abs(low), abs(high))
         if not low - slack <= time <= high + slack:
-            raise Error(f"{self.path}: --time {time:g}: fields were saved from {low:g} to {high:g}")
+            raise NotSaved(self.path, f"time {time:g}", f"fields were saved from {low:g} to {high:g}")
         return int(np.argmin(np.abs(self.times - time)))
+
+    def of_last(self):
+        """Index into the fields of the last saved step."""
+        self._need_fields()
+        return len(self.steps) - 1
+
+    def _need_fields(self):
+        if not self.steps:
+            raise Error(f"{self.path}: no fields were saved")
 
     def title(self, index):
         """What names a saved step: the label, and the step and its time where there are several."""
@@ -137,15 +161,15 @@ class Snapshot:
     """
 
     def __init__(self, results, index=-1):
-        if not results.steps:
-            raise Error(f"{results.path}: no fields were saved")
-        self.results, self.index, self._fields = results, index, {}
+        self.results, self._fields = results, {}
+        self.index = results.of_last() if index == -1 else index
         self.x, self.y, self.parameters = results.x, results.y, results.parameters
         self.dx, self.dy = (float(axis[1] - axis[0]) for axis in (self.x, self.y))
 
     def __getitem__(self, name):
         if name in self.results.history:
-            return self.results.history[name][self.results.steps[self.index] - 1].item()
+            value = self.results.history[name][self.results.steps[self.index] - 1]
+            return value if value.ndim else value.item()
         if name not in self._fields:
             self._fields[name] = self.results.field(name, self.index)
         return self._fields[name]

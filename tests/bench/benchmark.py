@@ -31,7 +31,6 @@ ROOT = Path(__file__).resolve().parents[2]
 BENCH = ROOT / "tests" / "bench"
 sys.path[:0] = [str(BENCH), str(ROOT / "tests")]
 import peer  # noqa: E402
-
 from run import environment, mpirun  # noqa: E402
 
 # case: (kind, cells of a whole run, cells of a quick one); a cycle's number is its steps

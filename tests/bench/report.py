@@ -13,7 +13,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "bench"), str(ROOT / "scripts")]
 import scaling  # noqa: E402
-
 from petsam.plot.style import STYLE, plt, save  # noqa: E402
 
 TITLES = {
@@ -342,8 +341,8 @@ class Report:
             f"arithmetic {100 * arithmetic / convolution.seconds(n, 1):.0f} % of the time on one rank, "
             f"exchange between ranks of a node {convolution.node / 1e9:.1f} GB/s a rank. "
             f"Assumed: {c.cores} ranks a node, each with this bandwidth; network {c.network / 1e9:g} GB/s a node, "
-            f"latency {1e6 * c.latency:g} microseconds, no contention; no setting up or writing beyond what the measured "
-            "solve holds.\n",
+            f"latency {1e6 * c.latency:g} microseconds, no contention; no setting up or writing beyond what the "
+            "measured solve holds.\n",
         )
         rows = [
             [TITLES[k], f"{s.n}²", seconds(one), seconds(two) if two else "", seconds(s.seconds(convolution, s.n, 2))]

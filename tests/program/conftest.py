@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 import support
 
 TIMEOUT = 120  # seconds for one run

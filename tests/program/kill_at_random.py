@@ -18,9 +18,10 @@ import tempfile
 import time
 from pathlib import Path
 
-import conftest
 import h5py
 import numpy as np
+
+import conftest
 from support import FIELDS, SPHERE, flatten
 
 STEPS = 60

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from support import assert_close, assert_same, ball, closed, elliptic_hertz, hertz, l2, slide_limit
 
 EXACT = dict(young=110e9, poisson=0.0)  # Cattaneo and Mindlin are exact for nu = 0 only

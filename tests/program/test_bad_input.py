@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 import pytest
+
 from support import SPHERE
 
 NAN, INF = float("nan"), float("inf")

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 import support
 
 sys.path.insert(0, str(support.ROOT / "tests" / "bench"))

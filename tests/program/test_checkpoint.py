@@ -7,11 +7,12 @@ import signal
 import subprocess
 import time
 
-import conftest
 import h5py
-import kill_at_random
 import numpy as np
 import pytest
+
+import conftest
+import kill_at_random
 from kill_at_random import CASE, complete_steps, differences, start, write_history
 from support import Results, assert_same, ball
 

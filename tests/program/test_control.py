@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from support import LOADS, RIGID, assert_close, assert_same, ball, hertz, slide_limit
 
 BALL = dict(ball(), grid_n=(80, 73), load_mx=0.01, load_my=0.02, load_tx=25.0, load_ty=-9.0, load_mz=1e-3)

@@ -5,6 +5,7 @@ import re
 import h5py
 import numpy as np
 import pytest
+
 from support import ROOT, assert_close, assert_same, ball, closed, displacement
 
 INF = float("inf")

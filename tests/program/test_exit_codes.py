@@ -5,6 +5,7 @@ import re
 import h5py
 import numpy as np
 import pytest
+
 from support import PUNCH, Results, ball, hertz, slide_limit, sliding_pair
 
 BALL = ball(72)

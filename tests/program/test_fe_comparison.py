@@ -8,6 +8,7 @@ from argparse import Namespace
 
 import numpy as np
 import pytest
+
 import support
 from conftest import PROGRAM
 

@@ -5,6 +5,7 @@ import re
 import h5py
 import numpy as np
 import pytest
+
 from support import FIELDS, LOADS, RIGID, SPHERE, assert_same, ball, slide_limit
 
 CASE = dict(

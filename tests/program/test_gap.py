@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 import pytest
+
 from support import assert_close, assert_same, ball, hertz
 
 D = 2.1e-5

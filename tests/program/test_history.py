@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 import pytest
+
 from support import FIELDS, LOADS, RIGID, SPHERE, assert_close, ball, displacement, flatten, hertz, slide_limit, words
 
 FRICTION = 0.27

@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+
 from conftest import PROGRAM, environment
 from support import ROOT, Results, closed
 

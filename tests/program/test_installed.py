@@ -8,6 +8,7 @@ import sys
 import types
 
 import pytest
+
 from conftest import PROGRAM, environment
 from support import ROOT, ball, words
 

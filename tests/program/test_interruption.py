@@ -8,10 +8,11 @@ import signal
 import subprocess
 from pathlib import Path
 
-import conftest
 import h5py
 import numpy as np
 import pytest
+
+import conftest
 from support import FIELDS, SPHERE, flatten
 
 # a load that goes on changing, so that every step has its own fields

@@ -7,11 +7,11 @@ import sys
 import h5py
 import numpy as np
 import pytest
-from support import ROOT, ball, slide_limit
 
 from petsam.plot import pictures
 from petsam.plot.units import scale
 from petsam.results import Results
+from support import ROOT, ball, slide_limit
 
 PROGRAM = ROOT / "scripts" / "petsam-plot"
 CASE = ball(n=48)

@@ -6,6 +6,7 @@ import subprocess
 import h5py
 import numpy as np
 import pytest
+
 from conftest import PROGRAM
 from support import Results, assert_same, ball, flatten
 

@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 import pytest
+
 from support import FIELDS, ball
 
 # steps of which some have no fields; a grid that is not square, does not lie about the origin and has several chunks

@@ -8,6 +8,7 @@ import subprocess
 import h5py
 import numpy as np
 import pytest
+
 from conftest import PROGRAM, environment
 from support import SPHERE, ball, flatten
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from support import LOADS, PUNCH, assert_close, ball, closed, displacement, kernels, sliding_pair
 
 BALL = ball(96, poisson=0.3)

@@ -10,12 +10,12 @@ import time
 import h5py
 import numpy as np
 import pytest
+
 from conftest import PROGRAM as PETSAM
 from conftest import environment
-from support import ROOT, ball, slide_limit, words
-
 from petsam.study import cases as study_cases
 from petsam.study.slurm import ranges
+from support import ROOT, ball, slide_limit, words
 
 PROGRAM = ROOT / "scripts" / "petsam-study"
 CASE = ball(n=32)

@@ -12,7 +12,7 @@ import argparse
 import os
 
 from ..errors import Error, fail
-from ..results import Results
+from ..results import NotSaved, Results
 from . import pictures
 from .style import STYLE, plt
 
@@ -89,14 +89,14 @@ def chosen(options, results):
 
 def snapshots(options, results):
     """Pairs of a file and an index into its fields, for each step asked for."""
-    if options.time:
-        return [(one, one.of_time(time)) for one in results for time in options.time]
-    if options.step:
-        return [(one, one.of_step(step)) for one in results for step in options.step]
-    for one in results:
-        if not one.steps:
-            raise Error(f"{one.path}: no fields were saved")
-    return [(one, len(one.steps) - 1) for one in results]
+    try:
+        if options.time:
+            return [(one, one.of_time(time)) for one in results for time in options.time]
+        if options.step:
+            return [(one, one.of_step(step)) for one in results for step in options.step]
+        return [(one, one.of_last()) for one in results]
+    except NotSaved as error:
+        raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
 
 
 def path(options, kind, alone):

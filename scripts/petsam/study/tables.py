@@ -26,11 +26,12 @@ def scalars(path):
         with Results(path) as results:
             found = {"steps": (results.history["time"].size, "1")}
             for name, values in results.history.items():
-                found[name] = (values[-1].item(), results.units[name])
+                if values.ndim == 1:
+                    found[name] = (values[-1].item(), results.units[name])
             energy = "dissipated_energy"
             found[energy + "_sum"] = (float(np.sum(results.history[energy])), results.units[energy])
             return found
-    except (Error, KeyError):
+    except Error:
         return {}
 
 
