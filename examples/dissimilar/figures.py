@@ -21,7 +21,7 @@ import petsam
 from petsam import comparison
 from petsam.closed import Spheres, spence
 from petsam.comparison import relative_l2
-from petsam.plot.style import CLOSED, COLORS, note, plt, points, save
+from petsam.plot.style import CLOSED, COLORS, joined, log_ticks, note, plt, points, save
 
 FRICTION = {
     "0": ("0.2", "0.2986", "0.4", "0.5", "0.65", "1"),
@@ -126,16 +126,8 @@ def panel_friction(axes, cases):
         line = PchipInterpolator(ratios, [spence.spence_friction(c, beta) for c in ratios])
         axes.plot(line(fine), fine, color=tint, linewidth=1.3, zorder=2)
         axes.plot(beta * spence.goodman_friction(fine), fine, "--", color=tint, linewidth=0.8, zorder=2)
-        axes.plot(
-            [case.friction for case in group],
-            [case.stick[-1] for case in group],
-            "o",
-            color=tint,
-            markersize=5,
-            markerfacecolor="white",
-            zorder=3,
-            label=rf"$\nu = {poisson}$, $\beta = {beta:.3g}$",
-        )
+        computed = [case.friction for case in group], [case.stick[-1] for case in group]
+        points(axes, *computed, tint, markersize=5, label=rf"$\nu = {poisson}$, $\beta = {beta:.3g}$")
     axes.plot([], [], color="0.4", linewidth=1.3, label="Spence")
     axes.plot([], [], "--", color="0.4", linewidth=0.8, label="Goodman")
     axes.set(xlabel=r"$\mu$", ylabel="$c/a$", xlim=(0.0, 1.05), ylim=(0.0, 1.02), title="Stick radius against friction")
@@ -146,16 +138,8 @@ def panel_load(axes, cases):
     """c/a of every load step."""
     for case, mark in zip(cases, ("o-", "s-", "^-")):
         tint = TINTS[f"{case.poisson:g}"]
-        axes.plot(
-            case.load / case.load[-1],
-            case.stick,
-            mark,
-            color=tint,
-            markersize=3.4,
-            markerfacecolor="white",
-            linewidth=0.8,
-            label=rf"$\beta = {case.beta:.3g}$, $\mu = {case.friction:g}$",
-        )
+        label = rf"$\beta = {case.beta:.3g}$, $\mu = {case.friction:g}$"
+        joined(axes, case.load / case.load[-1], case.stick, tint, mark, markersize=3.4, linewidth=0.8, label=label)
         axes.axhline(case.reference.c, color=tint, linewidth=0.8, linestyle=":")
     axes.set(xlabel="$N_k/N$", ylabel="$c/a$", ylim=(0.0, 1.0), title="The same at every load (dotted: Spence)")
     axes.legend(loc="lower right")
@@ -164,22 +148,12 @@ def panel_load(axes, cases):
 def panel_steps(axes, study, limit):
     """Error of c/a against the number of steps."""
     steps = np.array([case.stick.size for case in study], dtype=float)
-    axes.loglog(
-        steps,
-        [limit - case.stick[-1] for case in study],
-        "o-",
-        color=TINTS["0"],
-        linewidth=1.0,
-        markersize=5,
-        markerfacecolor="white",
-        label="petsam",
-    )
-    axes.loglog(steps, 0.08 / steps, ":", color="0.5", linewidth=1.0, label="slope -1")
+    joined(axes, steps, [limit - case.stick[-1] for case in study], TINTS["0"], "o-", label="petsam")
+    axes.plot(steps, 0.08 / steps, ":", color="0.5", linewidth=1.0, label="slope -1")
     axes.set(
         xlabel="load steps", ylabel="Spence's $c/a$ - petsam's", title=r"Number of steps, $\mu = 0.2986$, $\nu = 0$"
     )
-    axes.set_xticks(steps, [f"{s:g}" for s in steps])
-    axes.minorticks_off()
+    log_ticks(axes, steps)
     axes.legend(loc="upper right")
 
 

@@ -24,7 +24,7 @@ import petsam
 from petsam import comparison
 from petsam.closed import cattaneo_shear, cattaneo_stick_radius, hertz_pressure
 from petsam.comparison import relative_l2
-from petsam.plot.style import plt, points, save
+from petsam.plot.style import joined, plt, points, save
 
 LAWS = ("small", "large", "neo")
 COLOUR_FE, COLOUR_PETSAM, COLOUR_LARGE, COLOUR_NEO = "#c0392b", "#1f5fa8", "#e08e0b", "#6a8f3c"
@@ -214,34 +214,18 @@ def draw_shear(axes, results):
 
 def draw_cost(axes, numbers):
     """Error over CPU time of both sequences, memory written at the points."""
-    for key, colour, marker, label in (("meshes", COLOUR_FE, "s", "CalculiX"), ("grids", COLOUR_PETSAM, "o", "petsam")):
+    for key, colour, marker, label in (
+        ("meshes", COLOUR_FE, "s-", "CalculiX"),
+        ("grids", COLOUR_PETSAM, "o-", "petsam"),
+    ):
         rows = numbers[key]
-        axes.plot(
-            [row["cpu"] for row in rows],
-            [row["pressure_l2"] for row in rows],
-            marker + "-",
-            color=colour,
-            markersize=5,
-            linewidth=1.2,
-            markerfacecolor="white",
-            label=label,
-        )
-        for row in rows:
-            axes.annotate(
-                "{:.0f} MB".format(row["memory"]),
-                (row["cpu"], row["pressure_l2"]),
-                xytext=(5, 4),
-                textcoords="offset points",
-                fontsize=7.5,
-                color=colour,
-            )
-    axes.set(
-        title="Cost of the pressure on one core",
-        xlabel="CPU time, s",
-        ylabel="relative L2 error",
-        xscale="log",
-        yscale="log",
-    )
+        places = [(row["cpu"], row["pressure_l2"]) for row in rows]
+        joined(axes, *zip(*places), colour, marker, linewidth=1.2, label=label)
+        near = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 7.5, "color": colour}
+        for row, place in zip(rows, places):
+            axes.annotate(f"{row['memory']:.0f} MB", place, **near)
+    axes.set(title="Cost of the pressure on one core", xlabel="CPU time, s", ylabel="relative L2 error")
+    axes.set(xscale="log", yscale="log")
     axes.margins(x=0.16, y=0.08)
     axes.legend(loc="upper right")
 
@@ -255,16 +239,8 @@ def draw_ratio(axes, rows, key, label):
         ("large", "D-", COLOUR_LARGE, "FE, large, St. Venant-Kirchhoff"),
         ("neo", "^-", COLOUR_NEO, "FE, large, neo-Hooke"),
     ):
-        axes.plot(
-            [row[name + "_ratio"] for row in rows],
-            [row[name + "_" + key] for row in rows],
-            style,
-            color=colour,
-            markersize=5,
-            linewidth=1.2,
-            markerfacecolor="white",
-            label=legend,
-        )
+        x, y = ([row[f"{name}_{quantity}"] for row in rows] for quantity in ("ratio", key))
+        joined(axes, x, y, colour, style, linewidth=1.2, label=legend)
     axes.set(xlabel="$a/R$", xlim=(0.0, 0.22), xticks=(0.0, 0.05, 0.1, 0.15, 0.2))
     axes.set_title(label, fontsize=10)
 

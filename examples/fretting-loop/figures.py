@@ -17,7 +17,7 @@ import numpy as np
 import petsam
 from petsam import comparison
 from petsam.closed import Spheres, loop
-from petsam.plot.style import CLOSED, COLORS, note, plt, points, save
+from petsam.plot.style import CLOSED, COLORS, joined, log_ticks, note, plt, points, save
 
 PARTIAL = ("partial_nu0", "partial_nu0.3")
 GROSS = ("gross_nu0", "gross_nu0.3")
@@ -93,7 +93,7 @@ class Loop(petsam.Snapshot):
 def loop_numbers(case):
     """Deviations of one loop from the closed solution."""
     result = {"case": case.name, "poisson": case.poisson, "steps": case.steps, "residual": case.residual}
-    given, answer = (case.load, case.displacement)[:: 1 if case.force_controlled else -1]
+    given, answer = (case.load, case.displacement) if case.force_controlled else (case.displacement, case.load)
     scale = np.max(np.abs(case.exact("first", case.amplitude)))
     for name, part in case.branches().items():
         result[name] = float(np.max(np.abs(answer[part] - case.exact(name, given[part]))) / scale)
@@ -151,10 +151,11 @@ def panel_loop(axes, case, tint, title):
     # dense at the turning points, where the branches are steepest
     fine = case.amplitude * np.cos(np.linspace(0.0, np.pi, 2001))
     for name, given in (("first", fine[fine >= 0.0]), ("down", fine), ("up", fine)):
-        pair = (case.exact(name, given), given)[:: 1 if case.force_controlled else -1]
+        answer = case.exact(name, given)
+        displacement, load = (answer, given) if case.force_controlled else (given, answer)
         axes.plot(
-            pair[0] / case.gross,
-            pair[1] / case.limit,
+            displacement / case.gross,
+            load / case.limit,
             zorder=2,
             linestyle="--" if name == "first" else "-",
             label={"first": "Cattaneo-Mindlin", "down": "Masing"}.get(name),
@@ -211,25 +212,15 @@ def panel_steps(axes, study):
     """The energy's errors against the number of steps a cycle."""
     steps = np.array([row["steps"] for row in study], dtype=float)
     for key, label, tint, mark in (
-        ("energy_trapezoid", "dissipated / area", COLORS[0], "o"),
-        ("energy_exact", "dissipated / closed form", COLORS[1], "s"),
-        ("backward_trapezoid", r"$\sum T_k \Delta d_k$ / area", "0.35", "^"),
+        ("energy_trapezoid", "dissipated / area", COLORS[0], "o-"),
+        ("energy_exact", "dissipated / closed form", COLORS[1], "s-"),
+        ("backward_trapezoid", r"$\sum T_k \Delta d_k$ / area", "0.35", "^-"),
     ):
-        axes.loglog(
-            steps,
-            [abs(row[key]) for row in study],
-            mark + "-",
-            color=tint,
-            linewidth=1.0,
-            markersize=5,
-            markerfacecolor="white",
-            label=label,
-        )
+        joined(axes, steps, [abs(row[key]) for row in study], tint, mark, label=label)
     reference = abs(study[0]["energy_trapezoid"]) * (steps[0] / steps) ** 2
-    axes.loglog(steps, 0.5 * reference, ":", color="0.5", linewidth=1.0, label="slope -2")
+    axes.plot(steps, 0.5 * reference, ":", color="0.5", linewidth=1.0, label="slope -2")
     axes.set(title="Energy of the cycle", xlabel="steps a cycle", ylabel="abs(ratio - 1)")
-    axes.set_xticks(steps, [f"{s:g}" for s in steps])
-    axes.minorticks_off()
+    log_ticks(axes, steps)
     axes.legend(loc="center left", bbox_to_anchor=(0.0, 0.24), borderpad=0.2)
 
 

@@ -26,7 +26,7 @@ from petsam import comparison
 from petsam.closed import Bodies, plane
 from petsam.closed.punch import Punch
 from petsam.comparison import relative_l2
-from petsam.plot.style import note, plt, points, save, tint
+from petsam.plot.style import joined, note, plt, points, save, tint
 from petsam.results import STICK
 
 RATIOS = ("2.5", "5", "10", "20", "40")
@@ -168,25 +168,12 @@ def draw_errors(axes, numbers):
 
     for key, colour, name in (("pressure", COLOUR_P, "$p$"), ("shear", COLOUR_Q, "$q_x$")):
         for study, marker in zip(STUDIES, "os"):
-            axes.plot(
-                *curve(study, key + "_ends"),
-                marker,
-                linestyle="-",
-                color=colour,
-                markersize=4.5,
-                linewidth=1.2,
-                label=f"{name} {study}, ends alone",
-            )
-            axes.plot(
-                *curve(study, key + "_l2"),
-                marker,
-                linestyle=":",
-                color=colour,
-                markersize=4.5,
-                markerfacecolor="white",
-                linewidth=1.0,
-                label=f"{name} {study}, ends and grid",
-            )
+            for kind, line, label, style in (
+                ("_ends", "-", "ends alone", {"markerfacecolor": colour, "linewidth": 1.2}),
+                ("_l2", ":", "ends and grid", {}),
+            ):
+                label = f"{name} {study}, {label}"
+                joined(axes, *curve(study, key + kind), colour, marker + line, markersize=4.5, label=label, **style)
     ratio = np.array([4.0, 40.0])
     axes.plot(ratio, 0.024 / ratio**2, color="0.5", linewidth=1.0, linestyle="--")
     axes.text(8.0, 0.00018, "slope $-2$", color="0.4", fontsize=8.5, ha="right")
@@ -206,13 +193,8 @@ def draw_errors(axes, numbers):
 def draw_along(axes, cases):
     """P'(y)/P'(0) of the upright punches."""
     for index, case in enumerate(cases):
-        axes.plot(
-            case.y / case.half_length,
-            case.load_along / case.load,
-            linewidth=1.3,
-            label=f"{case.ratio:g}",
-            color=tint(index, len(cases)),
-        )
+        style = {"color": tint(index, len(cases)), "linewidth": 1.3, "label": f"{case.ratio:g}"}
+        axes.plot(case.y / case.half_length, case.load_along / case.load, **style)
     axes.set(title="Load per length along the upright punch", xlabel="$y/L$", ylabel="$P'(y)/P'(0)$", xlim=(0.0, 1.15))
     axes.set_ylim(bottom=0.0)
     axes.legend(title="$L/c$", loc="upper left")

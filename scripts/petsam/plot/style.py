@@ -29,9 +29,21 @@ def tint(index, count):
 
 
 def points(axes, x, y, color, mark="o", **style):
-    """White points with a coloured edge above all lines, as computed values are drawn."""
-    style = {"markersize": 3.6, "markerfacecolor": "white", "linestyle": "none", "zorder": 3, **style}
+    """White points with a coloured edge above all lines, as computed values are drawn; "o-": joined by a line."""
+    style = {"markersize": 3.6, "markerfacecolor": "white", "zorder": 3, **style}
     axes.plot(x, y, mark, color=color, **style)
+
+
+def joined(axes, x, y, color, mark, **style):
+    """The larger points of a quantity that depends on a few parameters, joined by a thin line."""
+    points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
+
+
+def log_ticks(axes, values):
+    """Two logarithmic scales, with these values alone at x."""
+    axes.set(xscale="log", yscale="log")
+    axes.set_xticks(values, [f"{value:g}" for value in values])
+    axes.minorticks_off()
 
 
 def thinned(cells, count):
