@@ -21,7 +21,7 @@ import petsam
 from petsam import comparison
 from petsam.closed import Spheres, spence
 from petsam.comparison import relative_l2
-from petsam.plot.style import CLOSED, COLORS, joined, log_ticks, note, plt, points, save
+from petsam.plot.style import CLOSED, COLORS, frame, joined, log_ticks, note, plt, points, save
 
 FRICTION = {
     "0": ("0.2", "0.2986", "0.4", "0.5", "0.65", "1"),
@@ -130,7 +130,7 @@ def panel_friction(axes, cases):
         points(axes, *computed, tint, markersize=5, label=rf"$\nu = {poisson}$, $\beta = {beta:.3g}$")
     axes.plot([], [], color="0.4", linewidth=1.3, label="Spence")
     axes.plot([], [], "--", color="0.4", linewidth=0.8, label="Goodman")
-    axes.set(xlabel=r"$\mu$", ylabel="$c/a$", xlim=(0.0, 1.05), ylim=(0.0, 1.02), title="Stick radius against friction")
+    frame(axes, "Stick radius against friction", r"$\mu$", "$c/a$", (0.0, 1.05), (0.0, 1.02))
     axes.legend(loc="lower right")
 
 
@@ -141,7 +141,7 @@ def panel_load(axes, cases):
         label = rf"$\beta = {case.beta:.3g}$, $\mu = {case.friction:g}$"
         joined(axes, case.load / case.load[-1], case.stick, tint, mark, markersize=3.4, linewidth=0.8, label=label)
         axes.axhline(case.reference.c, color=tint, linewidth=0.8, linestyle=":")
-    axes.set(xlabel="$N_k/N$", ylabel="$c/a$", ylim=(0.0, 1.0), title="The same at every load (dotted: Spence)")
+    frame(axes, "The same at every load (dotted: Spence)", "$N_k/N$", "$c/a$", None, (0.0, 1.0))
     axes.legend(loc="lower right")
 
 
@@ -150,9 +150,7 @@ def panel_steps(axes, study, limit):
     steps = np.array([case.stick.size for case in study], dtype=float)
     joined(axes, steps, [limit - case.stick[-1] for case in study], TINTS["0"], "o-", label="petsam")
     axes.plot(steps, 0.08 / steps, ":", color="0.5", linewidth=1.0, label="slope -1")
-    axes.set(
-        xlabel="load steps", ylabel="Spence's $c/a$ - petsam's", title=r"Number of steps, $\mu = 0.2986$, $\nu = 0$"
-    )
+    frame(axes, r"Number of steps, $\mu = 0.2986$, $\nu = 0$", "load steps", "Spence's $c/a$ - petsam's")
     log_ticks(axes, steps)
     axes.legend(loc="upper right")
 
@@ -186,22 +184,15 @@ def figure_fields(directory, case, uncoupled):
             panel.plot(rho, case.friction * p, ":", color="0.35", linewidth=1.0, label=r"$\mu p$")
         points(panel, case.r[keep] / a, values[keep], tint, **style)
     order = np.argsort(uncoupled.r[keep])
-    axes[0].plot(
-        uncoupled.r[keep][order] / a,
-        uncoupled["pressure"][keep][order] / p0,
-        "--",
-        color=TINTS["0.3"],
-        linewidth=1.0,
-        label="petsam, -coupling none",
-    )
+    style = {"color": TINTS["0.3"], "linewidth": 1.0, "label": "petsam, -coupling none"}
+    axes[0].plot(uncoupled.r[keep][order] / a, uncoupled["pressure"][keep][order] / p0, "--", **style)
     axes[2].axvline(case.reference.c, color="0.35", linestyle=":", linewidth=1.0, label="Spence's $c/a$")
     for panel, title, text in zip(
         axes,
         ("Pressure", "Shear", "Tangential displacement since the start"),
         (r"$p/p_0$", r"$|q|/p_0$", r"$|s|/\delta_H$"),
     ):
-        panel.set(title=title, xlabel="$r/a$", ylabel=text, xlim=(0.0, 1.15))
-        panel.set_ylim(bottom=0.0)
+        frame(panel, title, "$r/a$", text, (0.0, 1.15), (0.0, None))
         panel.legend(loc="upper left" if panel is axes[2] else "best")
     note(
         figure,

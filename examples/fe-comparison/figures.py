@@ -24,7 +24,7 @@ import petsam
 from petsam import comparison
 from petsam.closed import cattaneo_shear, cattaneo_stick_radius, hertz_pressure
 from petsam.comparison import relative_l2
-from petsam.plot.style import joined, plt, points, save
+from petsam.plot.style import frame, joined, plt, points, save
 
 LAWS = ("small", "large", "neo")
 COLOUR_FE, COLOUR_PETSAM, COLOUR_LARGE, COLOUR_NEO = "#c0392b", "#1f5fa8", "#e08e0b", "#6a8f3c"
@@ -186,7 +186,7 @@ def draw_pressure(axes, mesh, grid):
         COLOUR_PETSAM,
         label=f"petsam, {grid.x.size} x {grid.x.size} cells",
     )
-    axes.set(title="Pressure", xlabel="$r/a$", ylabel="$p/p_0$", xlim=(0.0, 1.3), ylim=(-0.03, 1.08))
+    frame(axes, "Pressure", "$r/a$", "$p/p_0$", (0.0, 1.3), (-0.03, 1.08))
     axes.legend(loc="lower left")
 
 
@@ -202,13 +202,8 @@ def draw_shear(axes, results):
     points(
         axes, mesh.x[line] / a, mesh.shear_x[line] / unit, COLOUR_FE, "s", markersize=4.2, zorder=4, label="CalculiX"
     )
-    axes.set(
-        title=rf"Shear at $T_x = {results.level:.3f}\,\mu N$",
-        xlabel="$x/a$",
-        ylabel=r"$q_x/(\mu p_0)$",
-        xlim=(-1.3, 1.3),
-        ylim=(-0.03, 1.0),
-    )
+    title = rf"Shear at $T_x = {results.level:.3f}\,\mu N$"
+    frame(axes, title, "$x/a$", r"$q_x/(\mu p_0)$", (-1.3, 1.3), (-0.03, 1.0))
     axes.legend(loc="lower center")
 
 
@@ -224,7 +219,7 @@ def draw_cost(axes, numbers):
         near = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 7.5, "color": colour}
         for row, place in zip(rows, places):
             axes.annotate(f"{row['memory']:.0f} MB", place, **near)
-    axes.set(title="Cost of the pressure on one core", xlabel="CPU time, s", ylabel="relative L2 error")
+    frame(axes, "Cost of the pressure on one core", "CPU time, s", "relative L2 error")
     axes.set(xscale="log", yscale="log")
     axes.margins(x=0.16, y=0.08)
     axes.legend(loc="upper right")

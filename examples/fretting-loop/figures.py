@@ -17,7 +17,7 @@ import numpy as np
 import petsam
 from petsam import comparison
 from petsam.closed import Spheres, loop
-from petsam.plot.style import CLOSED, COLORS, joined, log_ticks, note, plt, points, save
+from petsam.plot.style import CLOSED, COLORS, extent, field, frame, joined, log_ticks, note, plt, points, save
 
 PARTIAL = ("partial_nu0", "partial_nu0.3")
 GROSS = ("gross_nu0", "gross_nu0.3")
@@ -146,7 +146,7 @@ def exact_partial_steps(case):
 # ---------------------------------------------------------------- drawing
 
 
-def panel_loop(axes, case, tint, title):
+def panel_loop(axes, case, tint, title, limits):
     """T/(mu N) against d_x over the gross-slip displacement: both cycles as points, the closed solution as a line."""
     # dense at the turning points, where the branches are steepest
     fine = case.amplitude * np.cos(np.linspace(0.0, np.pi, 2001))
@@ -170,7 +170,7 @@ def panel_loop(axes, case, tint, title):
         markeredgewidth=0.9,
         label="petsam, two cycles",
     )
-    axes.set(title=title, xlabel=r"$d_x/\delta_0$", ylabel=r"$T_x/(\mu N)$")
+    frame(axes, title, r"$d_x/\delta_0$", r"$T_x/(\mu N)$", *limits)
     axes.legend(loc="upper left", borderpad=0.2, handlelength=1.8)
 
 
@@ -182,8 +182,7 @@ def figure_loops(directory, partial, gross):
         (axes[1], gross, "gross slip, displacement control", ((-2.2, 2.2), (-1.15, 1.6))),
     ):
         for panel, case, tint in zip(row, cases, COLORS):
-            panel_loop(panel, case, tint, rf"{what}, $\nu = {case.poisson:g}$")
-            panel.set(xlim=limits[0], ylim=limits[1])
+            panel_loop(panel, case, tint, rf"{what}, $\nu = {case.poisson:g}$", limits)
     note(
         figure,
         f"{partial[0].x.size} x {partial[0].y.size} cells, {partial[0].steps} steps a cycle;  "
@@ -195,17 +194,10 @@ def figure_loops(directory, partial, gross):
 def panel_energy(axes, cases, title):
     """Energy of each step."""
     for case, tint, mark in zip(cases, COLORS, ("o", "+")):
-        points(
-            axes,
-            case.time[1:],
-            case.dissipated[1:] / (case.limit * case.gross),
-            tint,
-            mark,
-            markersize=3.2 if mark == "o" else 5.0,
-            markeredgewidth=0.8,
-            label=rf"petsam, $\nu = {case.poisson:g}$",
-        )
-    axes.set(title="Dissipated a step, " + title, xlabel="cycles", ylabel=r"$W_k/(\mu N \delta_0)$", xlim=(0, 2))
+        style = {"markersize": 3.2 if mark == "o" else 5.0, "markeredgewidth": 0.8}
+        label, energy = rf"petsam, $\nu = {case.poisson:g}$", case.dissipated[1:] / (case.limit * case.gross)
+        points(axes, case.time[1:], energy, tint, mark, label=label, **style)
+    frame(axes, "Dissipated a step, " + title, "cycles", r"$W_k/(\mu N \delta_0)$", (0, 2))
 
 
 def panel_steps(axes, study):
@@ -219,7 +211,7 @@ def panel_steps(axes, study):
         joined(axes, steps, [abs(row[key]) for row in study], tint, mark, label=label)
     reference = abs(study[0]["energy_trapezoid"]) * (steps[0] / steps) ** 2
     axes.plot(steps, 0.5 * reference, ":", color="0.5", linewidth=1.0, label="slope -2")
-    axes.set(title="Energy of the cycle", xlabel="steps a cycle", ylabel="abs(ratio - 1)")
+    frame(axes, "Energy of the cycle", "steps a cycle", "abs(ratio - 1)")
     log_ticks(axes, steps)
     axes.legend(loc="center left", bbox_to_anchor=(0.0, 0.24), borderpad=0.2)
 
@@ -243,22 +235,13 @@ def figure_slip(directory, cases):
     """s_x at the end of the second cycle over the gross-slip displacement, open cells blank."""
     figure, axes = plt.subplots(1, len(cases), figsize=(5.1 * len(cases), 4.5), constrained_layout=True, squeeze=False)
     maps = [np.where(case["pressure"] > 0.0, case["slip_x"] / case.gross, np.nan) for case in cases]
+    low, high = min(0.0, *map(np.nanmin, maps)), max(map(np.nanmax, maps))
     for panel, case, slip in zip(axes[0], cases, maps):
         a = case.spheres.hertz.radius
-        image = panel.imshow(
-            slip,
-            origin="lower",
-            extent=[z / a for z in (*case.x[[0, -1]], *case.y[[0, -1]])],
-            cmap="viridis",
-            vmin=min(0.0, *map(np.nanmin, maps)),
-            vmax=max(map(np.nanmax, maps)),
-        )
+        image = field(panel, slip, extent(case.x, case.y, a), low, high)
         for ratio, style in ((1.0, "-"), (case.spheres.stick_radius(case.amplitude) / a, "--")):
             panel.add_patch(plt.Circle((0, 0), ratio, fill=False, color="0.6", linestyle=style, linewidth=0.9))
-        panel.set(
-            title=rf"$\nu = {case.poisson:g}$", xlabel="$x/a$", ylabel="$y/a$", xlim=(-1.15, 1.15), ylim=(-1.15, 1.15)
-        )
-        panel.grid(False)
+        frame(panel, rf"$\nu = {case.poisson:g}$", "$x/a$", "$y/a$", (-1.15, 1.15), (-1.15, 1.15))
         figure.colorbar(image, ax=panel, label=r"$s_x/\delta_0$", shrink=0.85)
     note(figure, "residual slip at $T_x = 0$ after two cycles of partial slip;  dashed: stick radius at the peaks")
     save(figure, directory, "slip.png")

@@ -26,7 +26,7 @@ from petsam import comparison
 from petsam.closed import Bodies, plane
 from petsam.closed.punch import Punch
 from petsam.comparison import relative_l2
-from petsam.plot.style import joined, note, plt, points, save, tint
+from petsam.plot.style import frame, joined, note, plt, points, save, tint
 from petsam.results import STICK
 
 RATIOS = ("2.5", "5", "10", "20", "40")
@@ -177,13 +177,8 @@ def draw_errors(axes, numbers):
     ratio = np.array([4.0, 40.0])
     axes.plot(ratio, 0.024 / ratio**2, color="0.5", linewidth=1.0, linestyle="--")
     axes.text(8.0, 0.00018, "slope $-2$", color="0.4", fontsize=8.5, ha="right")
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="length over width of the base, $L/c$",
-        ylabel="relative L2 error",
-        title="Error of the middle section",
-    )
+    frame(axes, "Error of the middle section", "length over width of the base, $L/c$", "relative L2 error")
+    axes.set(xscale="log", yscale="log")
     axes.set_xticks([float(r) for r in RATIOS], RATIOS)
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_ylim(1e-5, 0.6)
@@ -195,8 +190,7 @@ def draw_along(axes, cases):
     for index, case in enumerate(cases):
         style = {"color": tint(index, len(cases)), "linewidth": 1.3, "label": f"{case.ratio:g}"}
         axes.plot(case.y / case.half_length, case.load_along / case.load, **style)
-    axes.set(title="Load per length along the upright punch", xlabel="$y/L$", ylabel="$P'(y)/P'(0)$", xlim=(0.0, 1.15))
-    axes.set_ylim(bottom=0.0)
+    frame(axes, "Load per length along the upright punch", "$y/L$", "$P'(y)/P'(0)$", (0.0, 1.15), (0.0, None))
     axes.legend(title="$L/c$", loc="upper left")
 
 

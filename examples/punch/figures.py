@@ -24,7 +24,7 @@ from petsam import comparison
 from petsam.closed import Bodies
 from petsam.closed.punch import Punch, punch_approach, punch_pressure, punch_radius, punch_torsion_limit
 from petsam.comparison import relative_l2
-from petsam.plot.style import extent, note, plt, points, save, thinned, tint
+from petsam.plot.style import extent, field, frame, note, plt, points, save, thinned, tint
 from petsam.results import STICK
 
 MOMENTS = ("0", "5e3", "1e4", "1.5e4", "2e4", "2.5e4", "3e4")
@@ -180,22 +180,13 @@ def draw_maps(panels, cases, field_of, titles, top, label, xlim):
     """Maps of field_of(case) with the outline of the contact (black) and of the stick zone (white)."""
     for axes, case, title in zip(panels, cases, titles):
         contact, stick = case["pressure"] > 0.0, case["state"] == STICK
-        image = axes.imshow(
-            np.where(contact, field_of(case), np.nan),
-            origin="lower",
-            vmin=0.0,
-            vmax=top,
-            extent=extent(case.x, case.y, case.c),
-            cmap="viridis",
-            interpolation="nearest",
-        )
+        image = field(axes, np.where(contact, field_of(case), np.nan), extent(case.x, case.y, case.c), 0.0, top)
         x, y = case.x / case.c, case.y / case.c
         axes.contour(x, y, contact, [0.5], colors="black", linewidths=0.8)
         if np.any(case.shear > 0.0) and np.any(stick):
             axes.contour(x, y, stick, [0.5], colors="white", linewidths=1.2)
         axes.add_patch(plt.Circle((0.0, 0.0), 1.0, fill=False, color="0.5", linewidth=0.8, linestyle=":"))
-        axes.set(title=title, xlabel="$x/c$", xlim=xlim, ylim=(-1.3, 1.3), aspect="equal")
-        axes.grid(False)
+        frame(axes, title, "$x/c$", "", xlim, (-1.3, 1.3))
     panels[0].set_ylabel("$y/c$")
     panels[0].figure.colorbar(image, ax=list(panels), label=label, shrink=0.95, aspect=16)
 
@@ -238,13 +229,8 @@ def figure_pressure(directory, tilts, exact):
     for index, case in enumerate(tilts[1:], 1):
         profile(axes, case, case["pressure"] / unit, color=tint(index, len(tilts)), label=f"{case.moment:g}")
     legend(axes, r"$M_y$, N m", loc="center left")
-    axes.set(
-        title="Tilting moment: pressure along $y = 0$",
-        xlabel="$x/c$",
-        ylabel=label,
-        xlim=(first.x[0] / first.c, 2.25),
-        ylim=(-0.02 * height, 1.2 * height),
-    )
+    title = "Tilting moment: pressure along $y = 0$"
+    frame(axes, title, "$x/c$", label, (first.x[0] / first.c, 2.25), (-0.02 * height, 1.2 * height))
     cases = [tilts[MOMENTS.index(moment)] for moment in MAP_MOMENTS]
     draw_maps(
         panels,
@@ -322,13 +308,8 @@ def figure_torsion(directory, cases, gross, exact):
         profile(axes, case, case.shear / unit, color=tint(index, len(cases)), label="{:g}".format(case["load_mz"]))
     profile_points(axes, gross, gross.shear / unit, "0.25", "{:.2f}, gross slip".format(gross["load_mz"]))
     legend(axes, "$M_z$, N m", loc="center right")
-    axes.set(
-        title="Torque: shear along $y = 0$",
-        xlabel="$x/c$",
-        ylabel=label,
-        xlim=(-1.3, 1.9),
-        ylim=(-0.02 * height, 1.06 * height),
-    )
+    limits = (-1.3, 1.9), (-0.02 * height, 1.06 * height)
+    frame(axes, "Torque: shear along $y = 0$", "$x/c$", label, *limits)
     titles = ["$M_z$ = {:g} N m".format(case["load_mz"]) for case in shown[:-1]] + ["gross slip"]
     draw_maps(panels, shown, lambda case: case.shear / unit, titles, height, label, (-1.3, 1.3))
     finish(figure, directory, "torsion.png", gross, (unit, r"$\mu E^*c/2R$"), "white: stick zone, dotted: flat base")

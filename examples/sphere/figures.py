@@ -20,7 +20,7 @@ import petsam
 from petsam import comparison
 from petsam.closed import Spheres
 from petsam.comparison import relative_l2
-from petsam.plot.style import note, plt, points, save, thinned, tint
+from petsam.plot.style import frame, note, plt, points, save, thinned, tint
 
 LEVELS = ("0.10", "0.30", "0.50", "0.70", "0.90", "0.95")
 LEVELS_EXACT = ("0.30", "0.60", "0.90")
@@ -49,13 +49,13 @@ class Cattaneo(Case):
             raise petsam.Error(f"{self.results.path}: T_x = {self.level:g} mu N is not partial slip")
         self.c = self.spheres.stick_radius(self["load_tx"])
 
-    def exact_shear(self, r):
-        """q_x, Pa, at r (m)."""
+    def exact_shear(self, r, _angle=0.0):
+        """q_x, Pa, at r (m), for any angle."""
         return self.spheres.shear(r, self.c)
 
     def exact_slip(self, r, angle):
-        """s_x, m, at r (m) and angle (rad)."""
-        return self.spheres.slip(r, angle, self.c)
+        """s_x, m, at r (m) and angle (rad); none outside the contact."""
+        return np.where(r <= self.a, self.spheres.slip(r, angle, self.c), np.nan)
 
 
 class Torsion(Case):
@@ -68,8 +68,8 @@ class Torsion(Case):
             raise petsam.Error(f"{self.results.path}: M_z = {self.level:g} of the limit torque is not partial slip")
         self.c = self.spheres.torsion_stick_radius(self["load_mz"])
 
-    def exact_shear(self, r):
-        """|q|, Pa, at r (m)."""
+    def exact_shear(self, r, _angle=0.0):
+        """|q|, Pa, at r (m), for any angle."""
         return self.spheres.torsion_shear(r, self.c)
 
 
@@ -135,10 +135,12 @@ def line_of(case, low, high):
     return x / case.a, np.hypot(x, y), np.arctan2(y, x)
 
 
-def draw(axes, computed, line, color, label, line_label=None):
-    """Computed points on a closed solution's line."""
-    axes.plot(*line, color=color, linewidth=1.3, zorder=2, label=line_label)
-    points(axes, *computed, color, label=label)
+def draw(axes, case, values, exact, unit, low=-1.0, margin=1.12):
+    """A field over its unit, from x = low a to a (both times margin), as points on the line of exact(r, angle)."""
+    color, label = colour(case.level), f"{case.level:.2g}"
+    x, r, angle = line_of(case, low, 1.0)
+    axes.plot(x, exact(r, angle) / unit, color=color, linewidth=1.3, zorder=2)
+    points(axes, *points_of(case, values / unit, low, 1.0, margin), color, label=label)
 
 
 def load_legend(axes, title, **where):
@@ -149,76 +151,37 @@ def load_legend(axes, title, **where):
 def panel_pressure(axes, case):
     """p/p0 along y = 0 against Hertz."""
     p0, (x, r, _) = case.spheres.hertz.pressure, line_of(case, -1.0, 1.0)
-    draw(
-        axes,
-        points_of(case, case["pressure"] / p0, -1.0, 1.0),
-        (x, case.spheres.pressure(r) / p0),
-        TINT,
-        "petsam",
-        "Hertz",
-    )
+    axes.plot(x, case.spheres.pressure(r) / p0, color=TINT, linewidth=1.3, zorder=2, label="Hertz")
+    points(axes, *points_of(case, case["pressure"] / p0, -1.0, 1.0), TINT, label="petsam")
     axes.legend(loc="lower center")
-    axes.set(title="Normal load: pressure", xlabel="$x/a$", ylabel="$p/p_0$", xlim=(-1.15, 1.15), ylim=(-0.03, 1.08))
+    frame(axes, "Normal load: pressure", "$x/a$", "$p/p_0$", (-1.15, 1.15), (-0.03, 1.08))
 
 
 def panel_cattaneo(axes, cases):
     """q_x/(mu p0) along y = 0 against Cattaneo-Mindlin."""
     for case in cases:
-        x, r, _ = line_of(case, -1.0, 1.0)
-        draw(
-            axes,
-            points_of(case, case["shear_x"] / case.mu_p0, -1.0, 1.0),
-            (x, case.exact_shear(r) / case.mu_p0),
-            colour(case.level),
-            f"{case.level:.2g}",
-        )
+        draw(axes, case, case["shear_x"], case.exact_shear, unit=case.mu_p0)
     load_legend(axes, r"$T_x/(\mu N)$", loc="upper right", bbox_to_anchor=(1.0, 1.02))
-    axes.set(
-        title=rf"Tangential force: shear, $\nu = {cases[0].poisson:g}$",
-        xlabel="$x/a$",
-        ylabel=r"$q_x/(\mu p_0)$",
-        xlim=(-1.15, 1.45),
-        ylim=(-0.03, 1.08),
-    )
+    title = rf"Tangential force: shear, $\nu = {cases[0].poisson:g}$"
+    frame(axes, title, "$x/a$", r"$q_x/(\mu p_0)$", (-1.15, 1.45), (-0.03, 1.08))
 
 
 def panel_slip(axes, cases):
     """-s_x over the displacement at gross slip, along y = 0, against Cattaneo-Mindlin."""
-    top = 0.0
     for case in cases:
-        (x, r, angle), gross = line_of(case, -1.0, 1.0), case.spheres.gross
-        exact = np.where(r < case.a, -case.exact_slip(r, angle) / gross, np.nan)
-        draw(
-            axes,
-            points_of(case, -case["slip_x"] / gross, -1.0, 1.0, margin=1.0),
-            (x, exact),
-            colour(case.level),
-            f"{case.level:.2g}",
-        )
-        top = max(top, float(np.nanmax(exact)))
+        draw(axes, case, case["slip_x"], case.exact_slip, unit=-case.spheres.gross, margin=1.0)
+    top = max(float(np.nanmax(line.get_ydata())) for line in axes.lines[::2])
     load_legend(axes, r"$T_x/(\mu N)$", loc="upper center", ncol=2, columnspacing=0.8)
-    axes.set(
-        title=rf"Tangential force: slip, $\nu = {cases[0].poisson:g}$",
-        xlabel="$x/a$",
-        ylabel=r"$-s_x/\delta_0$",
-        xlim=(-1.08, 1.08),
-        ylim=(-0.03 * top, 1.1 * top),
-    )
+    title = rf"Tangential force: slip, $\nu = {cases[0].poisson:g}$"
+    frame(axes, title, "$x/a$", r"$-s_x/\delta_0$", (-1.08, 1.08), (-0.03 * top, 1.1 * top))
 
 
 def panel_torsion(axes, cases):
     """|q|/(mu p0) along y = 0, x > 0, against Lubkin."""
     for case in cases:
-        x, r, _ = line_of(case, 0.0, 1.0)
-        draw(
-            axes,
-            points_of(case, case.shear / case.mu_p0, 0.0, 1.0, margin=1.05),
-            (x, case.exact_shear(r) / case.mu_p0),
-            colour(case.level),
-            f"{case.level:.2g}",
-        )
+        draw(axes, case, case.shear, case.exact_shear, unit=case.mu_p0, low=0.0, margin=1.05)
     load_legend(axes, r"$M_z/M_{lim}$", loc="upper right", bbox_to_anchor=(1.0, 1.02))
-    axes.set(title="Torque: shear", xlabel="$x/a$", ylabel=r"$|q|/(\mu p_0)$", xlim=(0.0, 1.25), ylim=(-0.03, 1.08))
+    frame(axes, "Torque: shear", "$x/a$", r"$|q|/(\mu p_0)$", (0.0, 1.25), (-0.03, 1.08))
 
 
 def figure(directory, name, panels, text, share=False):

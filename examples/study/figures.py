@@ -17,7 +17,7 @@ import petsam
 from petsam import comparison
 from petsam.closed import Spheres, cattaneo_stick_radius
 from petsam.closed.loop import partial_loop_energy
-from petsam.plot.style import CLOSED, COLORS, plt, points, save
+from petsam.plot.style import CLOSED, COLORS, frame, plt, points, save
 from petsam.study.runs import RESULTS
 
 MARKS = ("o", "+", "x")
@@ -98,6 +98,7 @@ class Comparison:
         axes[0].plot(fine, cattaneo_stick_radius(fine, 1.0), label="Cattaneo-Mindlin", **CLOSED)
         axes[1].plot(fine, partial_loop_energy(fine, 1.0, 1.0), label="Mindlin-Deresiewicz", **CLOSED)
         axes[2].axhline(0.0, **CLOSED)
+        style = {"markersize": 5.5, "markerfacecolor": "none", "zorder": 2}
         panels = (
             ("radius", "Stick radius at the peak", "$c/a$", 1.0),
             ("energy", "Energy of a cycle", r"$W/(\mu N \delta_0)$", 1.0),
@@ -107,18 +108,9 @@ class Comparison:
             for nu, tint in zip(np.unique(self.table["nu"]), COLORS):
                 for mu, mark in zip(np.unique(self.table["mu"]), MARKS):
                     rows = (self.table["nu"] == nu) & (self.table["mu"] == mu)
-                    points(
-                        panel,
-                        self.table["ratio"][rows],
-                        factor * self.table[name][rows],
-                        tint,
-                        mark,
-                        markersize=5.5,
-                        markerfacecolor="none",
-                        zorder=2,
-                        label=rf"$\nu = {nu:g}$, $\mu = {mu:g}$",
-                    )
-            panel.set(title=title, xlabel=r"$T_x/(\mu N)$", ylabel=text, xlim=(0.0, 1.0))
+                    x, y = self.table["ratio"][rows], factor * self.table[name][rows]
+                    points(panel, x, y, tint, mark, label=rf"$\nu = {nu:g}$, $\mu = {mu:g}$", **style)
+            frame(panel, title, r"$T_x/(\mu N)$", text, (0.0, 1.0))
         axes[0].legend(loc="lower left")
         save(figure, directory, "study.png")
 

@@ -18,41 +18,10 @@ plane      infinitely long punch with rounded edges, upright or inclined, in par
 `python3 -m petsam.closed` compares every formula with a numerical quadrature and fails when one disagrees.
 """
 
-from .materials import Bodies, dundurs_beta, effective_modulus, effective_radius, shear_modulus, tangential_compliance
-from .sphere import (
-    Hertz,
-    Spheres,
-    cattaneo_displacement,
-    cattaneo_shear,
-    cattaneo_slip,
-    cattaneo_stick_radius,
-    hertz,
-    hertz_pressure,
-    lubkin_shear,
-    lubkin_stick_radius,
-    lubkin_torque_ratio,
-    lubkin_twist,
-    torsion_limit,
-)
-
-__all__ = [
-    "Bodies",
-    "Hertz",
-    "Spheres",
-    "cattaneo_displacement",
-    "cattaneo_shear",
-    "cattaneo_slip",
-    "cattaneo_stick_radius",
-    "dundurs_beta",
-    "effective_modulus",
-    "effective_radius",
-    "hertz",
-    "hertz_pressure",
-    "lubkin_shear",
-    "lubkin_stick_radius",
-    "lubkin_torque_ratio",
-    "lubkin_twist",
-    "shear_modulus",
-    "tangential_compliance",
-    "torsion_limit",
-]
+# fmt: off
+from .materials import (  # isort: skip
+    Bodies, dundurs_beta, effective_modulus, effective_radius, shear_modulus, tangential_compliance)
+from .sphere import (  # isort: skip
+    Hertz, Spheres, cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius, hertz, hertz_pressure,
+    lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit)
+# fmt: on

@@ -9,7 +9,7 @@ from matplotlib.colors import ListedColormap
 
 from ..errors import Error
 from ..results import OPEN, SLIP, STICK
-from .style import colors, extent, plt
+from .style import colors, extent, field, plt
 from .units import label, largest, scale
 
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
@@ -64,26 +64,10 @@ def _map_data(results, index, whole):
 
 
 def _map(axes, data, name, factor, length, vmax):
-    extent = [length * value for value in data["extent"]]
+    edges = [length * value for value in data["extent"]]
     if name == "state":
-        return axes.imshow(
-            data[name],
-            origin="lower",
-            extent=extent,
-            vmin=-0.5,
-            vmax=2.5,
-            interpolation="nearest",
-            cmap=ListedColormap([STATES[k][1] for k in sorted(STATES)]),
-        )
-    return axes.imshow(
-        factor * data[name],
-        origin="lower",
-        extent=extent,
-        vmin=0.0,
-        vmax=vmax or 1.0,
-        cmap="viridis",
-        interpolation="nearest",
-    )
+        return field(axes, data[name], edges, -0.5, 2.5, ListedColormap([STATES[k][1] for k in sorted(STATES)]))
+    return field(axes, factor * data[name], edges, 0.0, vmax or 1.0)
 
 
 def maps(snapshots, whole=False):
@@ -105,7 +89,6 @@ def maps(snapshots, whole=False):
         for row, one in enumerate(data):
             panel = axes[row, column]
             image = _map(panel, one, name, factor, length, factor * top)
-            panel.grid(False)
             panel.set(
                 xlabel=label("$x$", unit),
                 ylabel=label("$y$", unit) if column == 0 else "",

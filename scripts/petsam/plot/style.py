@@ -39,6 +39,19 @@ def joined(axes, x, y, color, mark, **style):
     points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
 
 
+def frame(axes, title, x, y, x_limits=None, y_limits=None):
+    """Title, labels and limits of a panel; without limits these follow the data."""
+    limits = {"xlim": x_limits, "ylim": y_limits}
+    axes.set(title=title, xlabel=x, ylabel=y, **{name: pair for name, pair in limits.items() if pair})
+
+
+def field(axes, values, edges, low=0.0, high=None, color_map="viridis"):
+    """A map of values (ny, nx), the first row below; edges as of extent(); its colours from low to high."""
+    style = {"origin": "lower", "interpolation": "nearest", "extent": edges, "cmap": color_map}
+    axes.grid(False)
+    return axes.imshow(values, vmin=low, vmax=high, **style)
+
+
 def log_ticks(axes, values):
     """Two logarithmic scales, with these values alone at x."""
     axes.set(xscale="log", yscale="log")
