@@ -99,12 +99,13 @@ $(B)/peers/done: tests/bench/requirements.txt
 	    { echo "peers: no $$package: aspher needs g++ and libeigen3-dev" >&2; failed=1; }; \
 	done < $<; [ -n "$$failed" ] || touch $@
 
-# the scripts' Python: one environment, from PyPI, made anew when its list changes
+# the scripts' Python: one environment, from PyPI, made anew when its list changes; it finds the package in scripts/
 venv: $(B)/venv/done ## make the Python environment of the scripts
 $(B)/venv/done: scripts/requirements.txt
 	@mkdir -p $(B)
 	$(PYTHON) -m venv $(B)/venv
 	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
+	@echo '$(CURDIR)/scripts' > $$($(B)/venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/petsam.pth
 	touch $@
 
 # what the tests need besides; where there is no wheel of an optional one, its tests are skipped and say so

@@ -1,6 +1,6 @@
 # What the examples' run.sh share; sourced, with `example` (the folder's name) and `default_n` (cells) set.
 # Sets here, root, petsam, python, mpirun, ranks, grid_n, out and oversubscribe from the environment that each run.sh
-# describes, checks the programs and makes the output folder.
+# describes, checks the programs, lets Python find the package petsam, and makes the output folder.
 # shellcheck shell=sh disable=SC2034,SC2154 # set for, and by, the script that sources this
 
 root=$(CDPATH='' cd -- "$here/../.." && pwd)
@@ -42,4 +42,31 @@ if [ "$(id -u)" -eq 0 ]; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
 
+PYTHONPATH=$root/scripts${PYTHONPATH:+:$PYTHONPATH}
+export PYTHONPATH
 mkdir -p "$out"
+
+# launch OPTION...: petsam on the ranks asked for
+launch() {
+    "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam" "$@" </dev/null
+}
+
+# solve_quietly CASE OPTION...: results to CASE.h5; what the run prints goes to CASE.log, its last line is shown
+solve_quietly() {
+    name=$1
+    shift
+    printf '%s\n' "== $name"
+    status=0
+    launch -output "$out/$name.h5" "$@" >"$out/$name.log" || status=$?
+    [ "$status" -eq 0 ] || fail "case $name failed with exit code $status, see $out/$name.log"
+    tail -n 1 "$out/$name.log"
+}
+
+evaluate() { # evaluate EXPRESSION: its value
+    LC_ALL=C awk "BEGIN { printf \"%.10g\\n\", $1 }"
+}
+
+# compare [OPTION...]: tables and pictures by the example's figures.py, numbers to errors.json
+compare() {
+    "$python" "$here/figures.py" "$out" --json "$out/errors.json" "$@"
+}

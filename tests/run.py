@@ -2,10 +2,12 @@
 """Runs all tests and ends with a line `N passed, N failed`.
 
 Unit tests (CMocka programs in build/tests) run on 1, 2 and 3 ranks each; then pytest runs the whole-program tests in
-tests/program. A failing test's output is shown; a passing one is silent. Arguments choose tests by a part of their name.
+tests/program. A failing test's output is shown; a passing one is silent. Arguments choose tests by a part of their
+name.
 
     python3 tests/run.py [--build build] [--ranks 1,2,3] [--units-only] [name ...]
 """
+
 import argparse
 import os
 import re
@@ -38,8 +40,14 @@ def mpirun(ranks, timeout=TIMEOUT):
 def run_unit(program, launcher):
     """Passed and failed tests of one program; its output when something failed."""
     try:
-        done = subprocess.run(launcher + [str(program)], capture_output=True, text=True, env=environment(),
-                              timeout=TIMEOUT + 30, cwd=program.parent)
+        done = subprocess.run(
+            launcher + [str(program)],
+            capture_output=True,
+            text=True,
+            env=environment(),
+            timeout=TIMEOUT + 30,
+            cwd=program.parent,
+        )
         out, code = done.stdout + done.stderr, done.returncode
     except subprocess.TimeoutExpired as error:
         out, code = f"no end after {error.timeout} s", 1
@@ -71,8 +79,13 @@ def run_pytest(build, names):
     words = [str(python), "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", str(ROOT / "tests" / "program")]
     if names:
         words += ["-k", " or ".join(names)]
-    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env=dict(environment(), PETSAM_BUILD=str(build)))
+    done = subprocess.run(
+        words,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env=dict(environment(), PETSAM_BUILD=str(build)),
+    )
     print(done.stdout, flush=True)
     counts = {word: int(n) for n, word in re.findall(r"(\d+) (passed|failed|error)", done.stdout.splitlines()[-1])}
     failed = counts.get("failed", 0) + counts.get("error", 0)

@@ -22,15 +22,10 @@ default_n=192
 solve() {
     name=$1
     shift
-    printf '%s\n' "== $name"
-    status=0
-    "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam" -options_file "$here/dissimilar.opts" \
-        -grid_n "$grid_n" -output "$out/$name.h5" "$@" </dev/null >"$out/$name.log" || status=$?
-    [ "$status" -eq 0 ] || fail "case $name failed with exit code $status, see $out/$name.log"
-    tail -n 1 "$out/$name.log"
+    solve_quietly "$name" -options_file "$here/dissimilar.opts" -grid_n "$grid_n" "$@"
 }
 
-# Poisson's ratio 0, 0.2, 0.3 is beta = 0.5, 0.375, 0.286. dissimilar_figures.py expects these names.
+# Poisson's ratio 0, 0.2, 0.3 is beta = 0.5, 0.375, 0.286. figures.py expects these names.
 for friction in 0.2 0.2986 0.4 0.5 0.65 1; do
     solve "nu0_mu$friction" -friction "$friction"
 done
@@ -46,4 +41,4 @@ solve uncoupled -coupling none
 for steps in 1 2 5 10 20 40; do
     solve "steps$steps" -steps "$steps" -output_every 1000
 done
-"$python" "$root/scripts/dissimilar_figures.py" "$out" --json "$out/errors.json"
+compare

@@ -3,7 +3,7 @@
 #
 #   examples/fe-comparison/run.sh [OPTION...]
 #
-# Works from any directory; options go to scripts/fe_comparison.py, which lists them. Environment:
+# Works from any directory; options go to compare.py, which lists them. Environment:
 #   CCX      CalculiX, Debian package calculix-ccx  (ccx)
 #   PETSAM   the program              (build/bin/petsam of the repository)
 #   OUT      results and figures, relative to the repository's root  (build/fe-comparison)
@@ -19,5 +19,5 @@ default_n=512
 ccx=${CCX:-ccx}
 command -v "$ccx" >/dev/null || fail "no CalculiX $ccx: install the Debian package calculix-ccx, or set CCX"
 
-"$python" "$root/scripts/fe_comparison.py" "$out" --petsam "$petsam" --ccx "$ccx" "$@"
-"$python" "$root/scripts/fe_figures.py" "$out" --json "$out/errors.json"
+"$python" "$here/compare.py" "$out" --petsam "$petsam" --ccx "$ccx" "$@"
+compare

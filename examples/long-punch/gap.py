@@ -5,6 +5,7 @@ The base is flat over |x| <= c, |y| <= L; beyond it, with d the distance from th
 section at y = 0 is the plane punch, and the ends are rounded as the sides are. With --sharp the punch is cut off at
 |y| = L instead. The cells are those of -grid_n NX,NY -grid_size WX,WY with the centre at 0.
 """
+
 import argparse
 
 import h5py
@@ -29,9 +30,15 @@ def main():
     end = np.where(beyond_y > 0.0, FAR, 0.0) if options.sharp else beyond_y**2 / (2.0 * options.edge_radius)
     with h5py.File(options.file, "w") as file:
         height = file.create_dataset("height", data=end[:, None] + beyond_x**2 / (2.0 * options.edge_radius))
-        height.attrs.update({
-            "units": "m", "flat_half_width": options.flat[0], "flat_half_length": options.flat[1],
-            "edge_radius": options.edge_radius, "sharp_ends": options.sharp})
+        height.attrs.update(
+            {
+                "units": "m",
+                "flat_half_width": options.flat[0],
+                "flat_half_length": options.flat[1],
+                "edge_radius": options.edge_radius,
+                "sharp_ends": options.sharp,
+            }
+        )
 
 
 if __name__ == "__main__":

@@ -19,18 +19,14 @@ default_n=1024
 # shellcheck source=examples/common.sh
 . "$here/../common.sh"
 
-# Length over width of the base, L/c: long_punch_figures.py expects these.
+# Length over width of the base, L/c: figures.py expects these.
 ratios="2.5 5 10 20 40"
 # nu = 0 and E/(1 - nu^2) of the steel: same E*
 young_nu0=230.76923076923077e9
 
-evaluate() { # evaluate EXPRESSION: its value
-    LC_ALL=C awk "BEGIN { printf \"%.10g\\n\", $1 }"
-}
-
 # solve NAME RATIO COLUMNS [--sharp] -- OPTION...: upright and inclined, results to upright_NAME.h5, inclined_NAME.h5
 solve() {
-    name=$1
+    shape=$1
     ratio=$2
     columns=$3
     ends=
@@ -39,19 +35,14 @@ solve() {
     rows=$((grid_n / 4))
     length=$(evaluate "2e-3 * ($ratio + 1.5)")
     load=$(evaluate "1800 * $ratio")
-    "$python" "$here/gap.py" "$out/gap_$name.h5" --n "$columns" "$rows" --size 3.2e-3 "$length" \
+    "$python" "$here/gap.py" "$out/gap_$shape.h5" --n "$columns" "$rows" --size 3.2e-3 "$length" \
         --flat 1e-3 "$(evaluate "1e-3 * $ratio")" --edge-radius 20e-3 ${ends:+"$ends"}
     for study in upright inclined; do
         moment=0
         [ "$study" = upright ] || moment=$(evaluate "0.3e-3 * $load")
-        printf '%s\n' "== ${study}_$name"
-        status=0
-        "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam" -options_file "$here/$study.opts" \
-            -gap_file "$out/gap_$name.h5" -grid_n "$columns,$rows" -grid_size "3.2e-3,$length" \
-            -load_n "$load" -load_tx "$(evaluate "0.06 * $load")" -load_my "$moment" \
-            -output "$out/${study}_$name.h5" "$@" </dev/null >"$out/${study}_$name.log" || status=$?
-        [ "$status" -eq 0 ] || fail "case ${study}_$name failed with exit code $status, see $out/${study}_$name.log"
-        tail -n 1 "$out/${study}_$name.log"
+        solve_quietly "${study}_$shape" -options_file "$here/$study.opts" -gap_file "$out/gap_$shape.h5" \
+            -grid_n "$columns,$rows" -grid_size "3.2e-3,$length" \
+            -load_n "$load" -load_tx "$(evaluate "0.06 * $load")" -load_my "$moment" "$@"
     done
 }
 
@@ -65,4 +56,4 @@ solve sharp_r10 10 "$grid_n" --sharp --
 solve nu0_r10 10 "$grid_n" -- -body1_young "$young_nu0" -body2_young "$young_nu0" -body1_poisson 0 -body2_poisson 0
 
 printf '\n'
-"$python" "$root/scripts/long_punch_figures.py" "$out" --json "$out/errors.json"
+compare

@@ -19,7 +19,7 @@ default_n=512
 # shellcheck source=examples/common.sh
 . "$here/../common.sh"
 
-# Levels in N m, mu N, mu N, N m: punch_figures.py expects these. mu N in N.
+# Levels in N m, mu N, mu N, N m: figures.py expects these. mu N in N.
 moments="0 5e3 1e4 1.5e4 2e4 2.5e4 3e4"
 ratios="0.10 0.30 0.50 0.70 0.90 0.95"
 ratios_exact="0.30 0.60 0.90"
@@ -27,10 +27,6 @@ torques="300 600 900 1200 1500 1700"
 force_limit=1e5
 # nu = 0 and E/(1 - nu^2) of the steel: same E*, so the same pressure.
 young_exact=230.76923076923077e9
-
-evaluate() { # evaluate EXPRESSION: its value
-    LC_ALL=C awk "BEGIN { printf \"%.10g\\n\", $1 }"
-}
 
 # run EXPECTED STUDY NAME OPTION...: run STUDY.opts with further options, results to NAME.h5; EXPECTED is the exit code
 run() {
@@ -40,8 +36,7 @@ run() {
     shift 3
     printf '%s\n' "== $name"
     status=0
-    "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam" -options_file "$here/$study.opts" \
-        -output "$out/$name.h5" "$@" </dev/null || status=$?
+    launch -options_file "$here/$study.opts" -output "$out/$name.h5" "$@" || status=$?
     [ "$status" -eq "$expected" ] || fail "case $name ended with exit code $status, not $expected"
 }
 
@@ -83,7 +78,7 @@ for ratio in $ratios_exact; do
     solve tangential "$name" -load_tx "$(evaluate "$ratio * $force_limit")" \
         -body1_young "$young_exact" -body2_young "$young_exact" -body1_poisson 0 -body2_poisson 0
     # Jaeger: the same tilt under the load N - T_x/mu.
-    tilt=$("$python" -c 'import sys, h5py; print(repr(float(h5py.File(sys.argv[1])["history/rot_y"][-1])))' \
+    tilt=$("$python" -c 'import sys, petsam; print(float(petsam.open(sys.argv[1]).history["rot_y"][-1]))' \
         "$out/$name.h5")
     solve punch "less_t$ratio" -load_n "$(evaluate "1e6 * (1 - $ratio)")" -rot_y "$tilt" \
         -body1_young "$young_exact" -body2_young "$young_exact" -body1_poisson 0 -body2_poisson 0
@@ -102,4 +97,4 @@ refuse 11 refused_mz2e3 -load_mz 2e3
 printf '%s\n' "So M_y was solved on $columns x $grid_n cells, x from -0.03 to 0.045 m, and M_z ends at its limit."
 
 printf '\n'
-"$python" "$root/scripts/punch_figures.py" "$out" --json "$out/errors.json"
+compare

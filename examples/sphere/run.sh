@@ -18,17 +18,13 @@ default_n=512
 # shellcheck source=examples/common.sh
 . "$here/../common.sh"
 
-# Limits and levels of Table 1: mu N in N, 3 pi/16 mu N a in N m. sphere_figures.py expects these levels.
+# Limits and levels of Table 1: mu N in N, 3 pi/16 mu N a in N m. figures.py expects these levels.
 force_limit=100
 torque_limit=51.0257e-3
 levels="0.10 0.30 0.50 0.70 0.90 0.95"
 levels_exact="0.30 0.60 0.90"
 # nu = 0 and E/(1 - nu^2) of Table 1's steel: same E*, so the same p0 and a.
 young_exact=230.76923076923077e9
-
-product() { # product A B: their product
-    LC_ALL=C awk -v a="$1" -v b="$2" 'BEGIN { printf "%.10g\n", a * b }'
-}
 
 # solve STUDY CASE OPTION...: run STUDY.opts with further options, results to CASE.h5
 solve() {
@@ -37,20 +33,19 @@ solve() {
     shift 2
     printf '%s\n' "== $name"
     status=0
-    "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam" -options_file "$here/$study.opts" \
-        -grid_n "$grid_n" -output "$out/$name.h5" "$@" </dev/null || status=$?
+    launch -options_file "$here/$study.opts" -grid_n "$grid_n" -output "$out/$name.h5" "$@" || status=$?
     [ "$status" -eq 0 ] || fail "case $name failed with exit code $status"
 }
 
 solve hertz hertz
 for level in $levels; do
-    solve cattaneo "cattaneo_nu0.3_t$level" -load_tx "$(product "$level" "$force_limit")"
+    solve cattaneo "cattaneo_nu0.3_t$level" -load_tx "$(evaluate "$level * $force_limit")"
 done
 for level in $levels_exact; do
-    solve cattaneo "cattaneo_nu0_t$level" -load_tx "$(product "$level" "$force_limit")" \
+    solve cattaneo "cattaneo_nu0_t$level" -load_tx "$(evaluate "$level * $force_limit")" \
         -body1_young "$young_exact" -body2_young "$young_exact" -body1_poisson 0 -body2_poisson 0
 done
 for level in $levels; do
-    solve torsion "torsion_m$level" -load_mz "$(product "$level" "$torque_limit")"
+    solve torsion "torsion_m$level" -load_mz "$(evaluate "$level * $torque_limit")"
 done
-"$python" "$root/scripts/sphere_figures.py" "$out" --json "$out/errors.json"
+compare

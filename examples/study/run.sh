@@ -24,4 +24,4 @@ status=0
 PETSAM=$petsam PYTHON=$python "$root/scripts/petsam-study" "$here/study.yaml" --directory "$out" --ranks "$ranks" \
     ${CORES:+--cores "$CORES"} -- -grid_n "$grid_n" || status=$?
 [ "$status" -eq 0 ] || fail "petsam-study ended with exit code $status"
-"$python" "$root/scripts/study_figures.py" "$out"
+"$python" "$here/figures.py" "$out"

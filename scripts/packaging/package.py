@@ -8,9 +8,8 @@
 #
 # Never run: no Spack was at hand. It names what the Makefile asks pkg-config for, and what the scripts import.
 
-from spack_repo.builtin.build_systems.makefile import MakefilePackage
-
 from spack.package import *
+from spack_repo.builtin.build_systems.makefile import MakefilePackage
 
 
 class Petsam(MakefilePackage):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """petsam, FFTW, the memory's bandwidth and other contact programs on the same problems in one run.
 
-    python3 tests/bench/benchmark.py [--quick] [--cases hertz,slip_tx] [--cells 512,1024] [--peers none] [--out build/bench/report] [--anew]
+    python3 tests/bench/benchmark.py [--quick] [--cases hertz,slip_tx] [--cells 512,1024] [--peers none]
+                                     [--out build/bench/report] [--anew]
 
 Writes results.json and results.csv, report.md and its figures (report.py) to --out. A run that breaks off or in which
 something fails leaves its rows there; the same command measures what is missing. Times are medians of repeated runs,
@@ -9,6 +10,7 @@ from building the operators to the solution, without the start of MPI or Python;
 set as the kernel tells it (wait4), for several ranks the largest rank's times their number. Every solution is checked
 by the same measure (problem.py). This program stays small, because a child's peak never falls below its parent's size.
 """
+
 import argparse
 import hashlib
 import json
@@ -44,7 +46,10 @@ CASES = {
 }
 CONVOLUTIONS = (512, 1024, 2048, 4096)
 EXACT, APPROXIMATE = 1e-7, 1e-5  # limits of the classes of accuracy: error of a normal solution
-SHEAR_EXACT, SHEAR_APPROXIMATE = 1e-5, 1e-2  # and a peer's shear against petsam's certified one; increments slip on another path
+SHEAR_EXACT, SHEAR_APPROXIMATE = (
+    1e-5,
+    1e-2,
+)  # and a peer's shear against petsam's certified one; increments slip on another path
 PATIENCE = 900.0  # seconds for anything but a peer
 ENOUGH = 30.0  # seconds of repeats after which one median is good enough
 START = time.monotonic()
@@ -63,13 +68,20 @@ class Ran:
     def __init__(self, command, limit, env=None):
         with tempfile.TemporaryFile() as out:
             start = time.perf_counter()
-            child = subprocess.Popen([str(w) for w in command], stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                     env=env or environment(), start_new_session=True)
+            child = subprocess.Popen(
+                [str(w) for w in command],
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+                env=env or environment(),
+                start_new_session=True,
+            )
             late = []
 
             def kill():
                 late.append(True)
                 os.killpg(child.pid, signal.SIGKILL)
+
             timer = threading.Timer(limit, kill)
             timer.start()
             try:
@@ -118,17 +130,31 @@ class Bench:
         self.there = {name: self.version(name) for name in args.peers}
         self.failures = []
         self.results = self.earlier_run() or dict(
-            setup=self.setup(), machine=self.machine(), command=" ".join(["python3", "tests/bench/benchmark.py", *sys.argv[1:]]),
-            bandwidth={}, convolution=[], limit=args.limit, repeats=args.repeats, exact=EXACT, approximate=APPROXIMATE, runs=[],
-            shear_exact=SHEAR_EXACT, shear_approximate=SHEAR_APPROXIMATE, settings=peer.describe(), resumed=[])
+            setup=self.setup(),
+            machine=self.machine(),
+            command=" ".join(["python3", "tests/bench/benchmark.py", *sys.argv[1:]]),
+            bandwidth={},
+            convolution=[],
+            limit=args.limit,
+            repeats=args.repeats,
+            exact=EXACT,
+            approximate=APPROXIMATE,
+            runs=[],
+            shear_exact=SHEAR_EXACT,
+            shear_approximate=SHEAR_APPROXIMATE,
+            settings=peer.describe(),
+            resumed=[],
+        )
         self.rows = self.results["runs"]
 
     # ---------------------------------------------------------------- the run and its rows
 
     def setup(self):
         """All that rows in one report have in common."""
-        digest = {str(path.relative_to(path.parents[1])): hashlib.sha256(path.read_bytes()).hexdigest()[:12]
-                  for path in MEASURING + [self.build / name for name in MEASURED]}
+        digest = {
+            str(path.relative_to(path.parents[1])): hashlib.sha256(path.read_bytes()).hexdigest()[:12]
+            for path in MEASURING + [self.build / name for name in MEASURED]
+        }
         args = {name: getattr(self.args, name) for name in ("quick", "cases", "cells", "ranks", "repeats", "limit")}
         machine = {name: value for name, value in self.machine().items() if name not in ("load", "date")}
         petsam = Ran([self.build / "bin" / "petsam", "-version"], PATIENCE).must("petsam -version")
@@ -145,10 +171,14 @@ class Bench:
         now = self.setup()
         differs = [f"{k} is {now.get(k)}, was {v}" for k, v in results["setup"].items() if now.get(k) != v]
         if differs:
-            sys.exit(f"benchmark.py: {path} has an unfinished run that this one cannot go on with: {'; '.join(differs)}. "
-                     "--anew measures everything again")
+            sys.exit(
+                f"benchmark.py: {path} has an unfinished run that this one cannot go on with: {'; '.join(differs)}. "
+                "--anew measures everything again"
+            )
         results["runs"] = [row for row in results["runs"] if not row["failed"]]
-        results["resumed"].append(dict(date=time.strftime("%Y-%m-%d %H:%M"), load=os.getloadavg()[0], rows=len(results["runs"])))
+        results["resumed"].append(
+            dict(date=time.strftime("%Y-%m-%d %H:%M"), load=os.getloadavg()[0], rows=len(results["runs"]))
+        )
         say(f"goes on with the run in {self.out}, {len(results['runs'])} rows (--anew measures them again)")
         return results
 
@@ -161,14 +191,23 @@ class Bench:
     def add(self, case, cells, program, cores, note="", failed=False, **numbers):
         row = dict(case=case, cells=cells, program=program, cores=cores, note=note, failed=failed, **numbers)
         self.rows.append(row)
-        self.rows.sort(key=lambda r: (list(CASES).index(r["case"]), r["cells"]))  # those of an earlier run may be of larger grids
+        self.rows.sort(
+            key=lambda r: (list(CASES).index(r["case"]), r["cells"])
+        )  # those of an earlier run may be of larger grids
         self.save()
         text = f"{row['seconds']:.2f} s, {row['memory']:.0f} MB, error {row['error']:.1e}" if "error" in row else note
         say(f"{case} {cells}^2 {program} on {cores}: {'FAILED: ' if failed else ''}{text}")
 
     def find(self, case, cells, program, cores=None):
         """The row of a program, of petsam on that many ranks; None when it is not measured."""
-        return next((r for r in self.rows if (r["case"], r["cells"], r["program"]) == (case, cells, program) and cores in (None, r["cores"])), None)
+        return next(
+            (
+                r
+                for r in self.rows
+                if (r["case"], r["cells"], r["program"]) == (case, cells, program) and cores in (None, r["cores"])
+            ),
+            None,
+        )
 
     # ---------------------------------------------------------------- the machine
 
@@ -176,44 +215,63 @@ class Bench:
     def machine():
         text = Path("/proc/cpuinfo").read_text() if Path("/proc/cpuinfo").exists() else ""
         model = re.search(r"model name\s*: (.*)", text)
-        return dict(processor=model[1] if model else platform.machine(), cores=os.cpu_count(), system=platform.platform(),
-                    load=os.getloadavg()[0], date=time.strftime("%Y-%m-%d"))
+        return dict(
+            processor=model[1] if model else platform.machine(),
+            cores=os.cpu_count(),
+            system=platform.platform(),
+            load=os.getloadavg()[0],
+            date=time.strftime("%Y-%m-%d"),
+        )
 
     def bandwidth(self, ranks):
         """GB/s."""
         if str(ranks) not in self.results["bandwidth"]:
-            text = Ran(launch(ranks, PATIENCE) + [self.build / "bench" / "bandwidth"], PATIENCE).must(f"bandwidth on {ranks} ranks")
+            text = Ran(launch(ranks, PATIENCE) + [self.build / "bench" / "bandwidth"], PATIENCE).must(
+                f"bandwidth on {ranks} ranks"
+            )
             self.results["bandwidth"][str(ranks)] = float(re.search(r"([\d.]+) GB/s", text)[1])
             self.save()
             say(f"bandwidth on {ranks} ranks: {self.results['bandwidth'][str(ranks)]:.1f} GB/s")
 
     def convolution(self, ranks, cells):
-        """Seconds of FFTW's padded pair and of petsam's convolution: a row {ranks, cells, padded, petsam, messages}, the last by messages."""
+        """Seconds of FFTW's padded pair, of petsam's convolution, and of it by messages: a row a number of ranks."""
         rows = self.results["convolution"]
         if any((r["ranks"], r["cells"]) == (ranks, cells) for r in rows):
             return
         command = launch(ranks, PATIENCE) + [self.build / "bench" / "convolution", "-sizes", cells]
         what = f"convolution of {cells}^2 on {ranks} ranks"
-        words, other = [Ran(command + ["-fft_exchange", e], PATIENCE).must(what).splitlines()[1].split() for e in ("auto", "transpose")]
-        rows.append(dict(ranks=ranks, cells=cells, padded=float(words[1]), petsam=float(words[2]), messages=float(other[2])))
+        words, other = [
+            Ran(command + ["-fft_exchange", e], PATIENCE).must(what).splitlines()[1].split()
+            for e in ("auto", "transpose")
+        ]
+        rows.append(
+            dict(ranks=ranks, cells=cells, padded=float(words[1]), petsam=float(words[2]), messages=float(other[2]))
+        )
         self.save()
         say("{}: padded {padded:.4f} s, petsam {petsam:.4f} s, by messages {messages:.4f} s".format(what, **rows[-1]))
 
     # ---------------------------------------------------------------- problems
 
     def problem(self, *words):
-        return Ran([self.python, BENCH / "problem.py", *words], PATIENCE).must("problem.py " + " ".join(map(str, words)))
+        return Ran([self.python, BENCH / "problem.py", *words], PATIENCE).must(
+            "problem.py " + " ".join(map(str, words))
+        )
 
     def check(self, folder, solution):
         numbers = json.loads(self.problem("check", folder, solution))
         numbers["error"] = max(numbers["complementarity"], numbers["penetration"], numbers["load"])
         shear = numbers.get("shear_difference", 0.0)
-        numbers["accuracy"] = "exact" if numbers["error"] <= EXACT and shear <= SHEAR_EXACT else \
-            "approximate" if numbers["error"] <= APPROXIMATE and shear <= SHEAR_APPROXIMATE else "poor"
+        numbers["accuracy"] = (
+            "exact"
+            if numbers["error"] <= EXACT and shear <= SHEAR_EXACT
+            else "approximate"
+            if numbers["error"] <= APPROXIMATE and shear <= SHEAR_APPROXIMATE
+            else "poor"
+        )
         return numbers
 
     def repeat(self, once):
-        """Medians of runs until there are enough, and the greatest memory; once() gives (seconds, CPU seconds, memory)."""
+        """Medians of enough runs, and the greatest memory; once() gives (seconds, CPU seconds, memory)."""
         runs = []
         while len(runs) < self.args.repeats and (not runs or sum(r[0] for r in runs) < ENOUGH):
             runs.append(once())
@@ -228,16 +286,23 @@ class Bench:
         folder.mkdir()
         self.problem("make", case, cells, folder)
         options = json.loads((folder / "problem.json").read_text())["options"]
-        Ran([self.build / "bin" / "petsam", *options, "-output", folder / "results.h5", "-output_every", "1000000"], PATIENCE).must("petsam")
+        Ran(
+            [self.build / "bin" / "petsam", *options, "-output", folder / "results.h5", "-output_every", "1000000"],
+            PATIENCE,
+        ).must("petsam")
         return self.check(folder, folder / "results.h5")
 
     def petsam(self, ranks, folder):
         """Times on that many ranks."""
-        command = launch(ranks, PATIENCE) + [self.build / "bin" / "petsam", *json.loads((folder / "problem.json").read_text())["options"]]
+        command = launch(ranks, PATIENCE) + [
+            self.build / "bin" / "petsam",
+            *json.loads((folder / "problem.json").read_text())["options"],
+        ]
 
         def once():
             ran = Ran(command, PATIENCE)
             return float(re.search(r"used\s+([\d.]+) s", ran.must("petsam"))[1]), ran.cpu, ran.memory * ranks
+
         return self.repeat(once)
 
     # ---------------------------------------------------------------- peers
@@ -261,8 +326,11 @@ class Bench:
             return dict(note=f"not within {self.args.limit:g} s")
         said = json.loads(ran.must("peer.py").splitlines()[-1])
         if not said["converged"]:
-            return dict(note="does not converge: {} after {:.1f} s, its residual {:.1e}".format(
-                said.get("reason", "its own test fails"), said["seconds"], said["residual"]))
+            return dict(
+                note="does not converge: {} after {:.1f} s, its residual {:.1e}".format(
+                    said.get("reason", "its own test fails"), said["seconds"], said["residual"]
+                )
+            )
         return dict(said, cpu=ran.cpu, memory=ran.memory)
 
     def peer(self, setting, folder):
@@ -276,13 +344,16 @@ class Bench:
         def once():
             said = runs.pop() if runs else self.run_peer(setting, folder, cores)
             return said.get("seconds", self.args.limit), said.get("cpu", 0.0), said.get("memory", 0.0)
+
         return dict(cores=cores, iterations=first.get("iterations"), **self.repeat(once), **accuracy)
 
     def version(self, name):
         """An installed peer's; None when it is not there."""
         if not self.peer_python.exists():
             return None
-        ran = Ran([self.peer_python, "-c", f"import {name}, importlib.metadata as m; print(m.version('{name}'))"], PATIENCE)
+        ran = Ran(
+            [self.peer_python, "-c", f"import {name}, importlib.metadata as m; print(m.version('{name}'))"], PATIENCE
+        )
         return ran.text.split()[-1] if ran.code == 0 else None
 
     def hindrance(self, name, kind):
@@ -294,8 +365,13 @@ class Bench:
 
     def earlier_note(self, case, setting):
         """Why a setting gave up on a smaller grid, and larger ones need not try; None when it did not."""
-        row = next((r for r in self.rows if (r["case"], r["program"]) == (case, setting) and r["note"] and not r["failed"]), None)
-        return row and row["note"] + ("" if "converge" in row["note"] or " at " in row["note"] else f" at {row['cells']}")
+        row = next(
+            (r for r in self.rows if (r["case"], r["program"]) == (case, setting) and r["note"] and not r["failed"]),
+            None,
+        )
+        return row and row["note"] + (
+            "" if "converge" in row["note"] or " at " in row["note"] else f" at {row['cells']}"
+        )
 
     # ---------------------------------------------------------------- all of it
 
@@ -305,10 +381,12 @@ class Bench:
         return [n for n in self.args.cells or cells] if cells else []
 
     def programs(self, kind):
-        """(program, petsam's ranks or None) of every row of a problem: petsam, then a peer's settings, or its name when it cannot."""
+        """(program, petsam's ranks or None) of every row: petsam, then a peer's settings, or its name if it cannot."""
         yield from (("petsam", n) for n in self.args.ranks)
         for name in self.args.peers:
-            yield from ((program, None) for program in ([name] if self.hindrance(name, kind) else peer.settings(name, kind)))
+            yield from (
+                (program, None) for program in ([name] if self.hindrance(name, kind) else peer.settings(name, kind))
+            )
 
     def measure(self, case, program, ranks, folder, accuracy):
         """A row's numbers, or its note."""
@@ -366,14 +444,24 @@ def numbers(text):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="small grids, two repeats, 5 s a run of a peer: under two minutes")
+    parser.add_argument(
+        "--quick", action="store_true", help="small grids, two repeats, 5 s a run of a peer: under two minutes"
+    )
     parser.add_argument("--cases", type=lambda t: t.split(","), help="of " + ", ".join(CASES))
     parser.add_argument("--cells", type=numbers, help="instead of each case's own grids, e.g. 512,1024")
-    parser.add_argument("--ranks", type=numbers, default=[1, 2], help="of petsam; a peer has as many cores as the largest (1,2)")
-    parser.add_argument("--peers", type=lambda t: t.split(","), default=["tamaas", "aspher"], help="of tamaas,aspher; or none")
-    parser.add_argument("--repeats", type=int, help=f"runs of each, fewer when they take more than {ENOUGH:g} s (5, quick 2)")
+    parser.add_argument(
+        "--ranks", type=numbers, default=[1, 2], help="of petsam; a peer has as many cores as the largest (1,2)"
+    )
+    parser.add_argument(
+        "--peers", type=lambda t: t.split(","), default=["tamaas", "aspher"], help="of tamaas,aspher; or none"
+    )
+    parser.add_argument(
+        "--repeats", type=int, help=f"runs of each, fewer when they take more than {ENOUGH:g} s (5, quick 2)"
+    )
     parser.add_argument("--limit", type=float, help="seconds after which a peer's run is given up (120, quick 5)")
-    parser.add_argument("--anew", action="store_true", help="measure everything again, where an unfinished run would be gone on with")
+    parser.add_argument(
+        "--anew", action="store_true", help="measure everything again, where an unfinished run would be gone on with"
+    )
     parser.add_argument("--build", default=str(ROOT / "build"))
     parser.add_argument("--out", default=str(ROOT / "build" / "bench" / "report"))
     args = parser.parse_args()
@@ -386,7 +474,12 @@ def main():
     for case in args.cases or []:
         if case not in CASES:
             parser.error(f"--cases: no case {case}; there are {', '.join(CASES)}")
-    for name, target in (("bin/petsam", "all"), ("bench/bandwidth", "bench-programs"), ("bench/convolution", "bench-programs"), ("venv/bin/python", "venv")):
+    for name, target in (
+        ("bin/petsam", "all"),
+        ("bench/bandwidth", "bench-programs"),
+        ("bench/convolution", "bench-programs"),
+        ("venv/bin/python", "venv"),
+    ):
         if not (Path(args.build) / name).exists():
             sys.exit(f"benchmark.py: no {args.build}/{name}: make {target}")
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # its children end with it

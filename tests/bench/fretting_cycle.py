@@ -6,6 +6,7 @@
 The sphere of examples/sphere at constant N; T_x goes to 0.8 mu N, to its opposite and back to zero in the given number
 of steps, on one core. The cold solve is T_x = 0.6 mu N from nothing, the median of five. No results are written.
 """
+
 import argparse
 import resource
 import statistics
@@ -48,7 +49,13 @@ def main():
     parser.add_argument("--petsam", default=str(ROOT / "build/bin/petsam"))
     parser.add_argument("options", nargs="*", help="further options of petsam, after --")
     args = parser.parse_args()
-    base = [args.petsam, "-options_file", str(ROOT / "examples/sphere/sphere.opts"), "-grid_n", str(args.cells)] + args.options
+    base = [
+        args.petsam,
+        "-options_file",
+        str(ROOT / "examples/sphere/sphere.opts"),
+        "-grid_n",
+        str(args.cells),
+    ] + args.options
     cold = statistics.median(cpu(base + ["-load_tx", str(0.6 * LIMIT)]) for _ in range(5))
     with tempfile.TemporaryDirectory() as folder:
         history = Path(folder) / "cycle.csv"

@@ -3,9 +3,11 @@
 
     build/peers/bin/python tests/bench/peer.py SETTING FOLDER SOLUTION
 
-Timed is what petsam's own time holds: from building the operator to the solution, without Python's start and reading the
-problem. The settings are the fastest that were found for each peer, with those that win on some grids and lose on others.
+Timed is what petsam's own time holds: from building the operator to the solution, without Python's start and reading
+the problem. The settings are the fastest that were found for each peer, with those that win on some grids and lose on
+others.
 """
+
 import json
 import sys
 import time
@@ -38,8 +40,11 @@ TANGENTIAL_SETTINGS = {
 
 def settings(name, kind):
     """A peer's settings to try on a kind of problem; a cycle has increments of its own."""
-    return [k for k in (SETTINGS if kind in ("normal", "rough") else TANGENTIAL_SETTINGS)
-            if k.split()[0] == name and not (kind == "cycle" and k.endswith("steps"))]
+    return [
+        k
+        for k in (SETTINGS if kind in ("normal", "rough") else TANGENTIAL_SETTINGS)
+        if k.split()[0] == name and not (kind == "cycle" and k.endswith("steps"))
+    ]
 
 
 def describe():
@@ -58,8 +63,10 @@ def cannot(name, kind):
 
 # ---------------------------------------------------------------- runs
 
+
 def run_tamaas(problem, gap):
     import tamaas as tm
+
     tm.set_log_level(tm.LogLevel.error)
     n, width = problem["cells"], problem["width"]
     start = time.perf_counter()
@@ -76,24 +83,42 @@ def run_tamaas(problem, gap):
 
 def run_aspher_normal(problem, gap, arguments):
     import aspher
+
     n, width = problem["cells"], problem["width"]
     single = arguments.get("precision") == "float"
     start = time.perf_counter()
-    r = aspher.solve_nested(grid_size=n, gap=gap.ravel(), p_nominal=problem["load_n"] / width**2, domain_size=width,
-                            E_star=problem["e_star"], tol=SINGLE_TOLERANCE if single else TOLERANCE, light_result=True,
-                            **arguments)
+    r = aspher.solve_nested(
+        grid_size=n,
+        gap=gap.ravel(),
+        p_nominal=problem["load_n"] / width**2,
+        domain_size=width,
+        E_star=problem["e_star"],
+        tol=SINGLE_TOLERANCE if single else TOLERANCE,
+        light_result=True,
+        **arguments,
+    )
     seconds = time.perf_counter() - start
-    return seconds, dict(converged=r.converged, residual=max(r.fw_error, r.penetration_error), iterations=r.iterations), \
-        [r.pressure.reshape(n, n)]
+    return (
+        seconds,
+        dict(converged=r.converged, residual=max(r.fw_error, r.penetration_error), iterations=r.iterations),
+        [r.pressure.reshape(n, n)],
+    )
 
 
 def run_aspher_friction(problem, gap, preconditioner, increments):
     import aspher
+
     n, width = problem["cells"], problem["width"]
     unit = width**-2
     start = time.perf_counter()
-    solver = aspher.FrictionSolver(grid_size=n, domain_size=width, E_star=problem["e_star"], nu=problem["poisson"],
-                                   model=aspher.CoulombFriction(problem["friction"]), precond=preconditioner)
+    solver = aspher.FrictionSolver(
+        grid_size=n,
+        domain_size=width,
+        E_star=problem["e_star"],
+        nu=problem["poisson"],
+        model=aspher.CoulombFriction(problem["friction"]),
+        precond=preconditioner,
+    )
     solver.set_gap(gap.T.ravel())  # its first index is x
     step = solver.step(p_bar=problem["load_n"] * unit, tol_normal=TOLERANCE)
     done = 0
@@ -104,10 +129,21 @@ def run_aspher_friction(problem, gap, preconditioner, increments):
         done += 1
     seconds = time.perf_counter() - start
     if not step.converged:
-        return seconds, dict(converged=False, residual=step.proj_residual, iterations=step.tangential_iters,
-                             reason=f"step {done}: {step.status_reason}"), None
-    return seconds, dict(converged=True, residual=step.proj_residual, iterations=step.tangential_iters), \
-        [solver.pressure.reshape(n, n).T, step.qx.T, step.qy.T]
+        return (
+            seconds,
+            dict(
+                converged=False,
+                residual=step.proj_residual,
+                iterations=step.tangential_iters,
+                reason=f"step {done}: {step.status_reason}",
+            ),
+            None,
+        )
+    return (
+        seconds,
+        dict(converged=True, residual=step.proj_residual, iterations=step.tangential_iters),
+        [solver.pressure.reshape(n, n).T, step.qx.T, step.qy.T],
+    )
 
 
 def run(setting, problem, gap):
@@ -120,6 +156,7 @@ def run(setting, problem, gap):
 
 def main():
     import numpy as np
+
     setting, folder, solution = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
     problem = json.loads((folder / "problem.json").read_text())
     seconds, said, fields = run(setting, problem, np.load(folder / "gap.npy"))

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """The benchmark's problems, and one measure of accuracy for all programs that solve them.
 
-    python3 tests/bench/problem.py make CASE CELLS FOLDER      write problem.json, gap.npy and petsam's inputs, petsam.opts
+    python3 tests/bench/problem.py make CASE CELLS FOLDER      write problem.json, gap.npy, petsam.opts and its inputs
     python3 tests/bench/problem.py check FOLDER SOLUTION       print the accuracy of results.h5 or pressure.npy as JSON
 
 All are contacts of the steel spheres of examples/sphere, or of a rough plane of the same size and material, on an
 elastic half-space that is not periodic. The rough plane is self-affine (Hurst exponent 0.8, wavelengths from a quarter
 to a 64th of the width), the same function of place on every grid, and does not tilt.
 """
+
 import json
 import sys
 from pathlib import Path
@@ -19,7 +20,7 @@ from scipy import fft
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "program"), str(ROOT / "tests" / "bench")]
 import fretting_cycle  # noqa: E402
-from support import SPHERE, Results, analytic, hertz, kernels, l2, slide_limit, words  # noqa: E402
+from support import SPHERE, Results, closed, hertz, kernels, l2, slide_limit, words  # noqa: E402
 
 HURST, SHORTEST, LONGEST, SLOPE = 0.8, 64, 4, 0.1
 # N over (E* slope area of the grid) that brings about this share of the plane into contact, at 512 cells
@@ -27,14 +28,14 @@ ROUGH_LOADS = {"rough_1": 0.00425, "rough_8": 0.0359, "rough_40": 0.241}
 
 
 def rough_plane(n, width):
-    """Heights of the rough plane (n, n), m, of root mean square slope SLOPE: a sum of waves, each by its number alone."""
+    """Heights of the rough plane (n, n), m, of root mean square slope SLOPE: a sum of waves, each by its number."""
     modes = np.arange(-SHORTEST, SHORTEST + 1)
     kx, ky = np.meshgrid(modes, modes)
     k = np.hypot(kx, ky)
     rng = np.random.default_rng(2024)
     size = np.exp(2j * np.pi * rng.random(k.shape)) * ((k >= LONGEST) & (k <= SHORTEST))
-    size *= np.maximum(k, 1.0)**-(1 + HURST)
-    size *= SLOPE / np.sqrt(0.5 * np.sum(np.abs(2 * np.pi * k / width * size)**2))
+    size *= np.maximum(k, 1.0) ** -(1 + HURST)
+    size *= SLOPE / np.sqrt(0.5 * np.sum(np.abs(2 * np.pi * k / width * size) ** 2))
     seen = 2 * np.abs(modes) < n
     waves = np.exp(2j * np.pi * np.outer((np.arange(n) + 0.5) / n, modes[seen]))  # at the cells' centres
     columns = size[np.ix_(seen, seen)] @ waves.T
@@ -48,8 +49,8 @@ def base(n):
     """petsam's options of the sphere and its separation (n, n)."""
     case = dict(SPHERE, grid_n=n)
     x = ((np.arange(n) + 0.5) / n - 0.5) * case["grid_size"]
-    radius = analytic.effective_radius(case["gap_radius1"], case["gap_radius2"])
-    return case, (x[None, :]**2 + x[:, None]**2) / (2 * radius)
+    radius = closed.effective_radius(case["gap_radius1"], case["gap_radius2"])
+    return case, (x[None, :] ** 2 + x[:, None] ** 2) / (2 * radius)
 
 
 def make(name, n, folder):
@@ -65,9 +66,11 @@ def make(name, n, folder):
         gap -= gap.min()
         with h5py.File(folder / "gap.h5", "w") as f:
             f["height"] = gap
-        load = ROUGH_LOADS[name] * e_star * SLOPE * case["grid_size"]**2
+        load = ROUGH_LOADS[name] * e_star * SLOPE * case["grid_size"] ** 2
         case = {k: v for k, v in case.items() if not k.startswith("gap_")}
-        case.update(gap_type="file", gap_file=folder / "gap.h5", load_n=load, rot_x=0.0, rot_y=0.0, allow_edge_contact=True)
+        case.update(
+            gap_type="file", gap_file=folder / "gap.h5", load_n=load, rot_x=0.0, rot_y=0.0, allow_edge_contact=True
+        )
     elif name == "slip_tx":
         kind = "tangential"
         case.update(load_tx=0.6 * force)
@@ -76,21 +79,38 @@ def make(name, n, folder):
         case.update(load_tx=0.5 * force, load_mz=0.5 * torque)
     elif name.startswith("cycle_"):
         kind = "cycle"
-        fretting_cycle.write_history(folder / "cycle.csv", int(name[len("cycle_"):]))
+        fretting_cycle.write_history(folder / "cycle.csv", int(name[len("cycle_") :]))
         case.update(history=folder / "cycle.csv")
     np.save(folder / "gap.npy", gap)
     (folder / "petsam.opts").write_text(" ".join(words(case)).replace(" -", "\n-") + "\n")  # no value is negative
-    (folder / "problem.json").write_text(json.dumps(dict(
-        case=name, kind=kind, cells=n, width=case["grid_size"], e_star=e_star, poisson=case["body1_poisson"],
-        friction=case["friction"], load_n=case["load_n"], load_tx=case.get("load_tx", 0.0),
-        steps=fretting_cycle.forces(int(name[len("cycle_"):])) if kind == "cycle" else [], options=words(case)), indent=1))
+    (folder / "problem.json").write_text(
+        json.dumps(
+            dict(
+                case=name,
+                kind=kind,
+                cells=n,
+                width=case["grid_size"],
+                e_star=e_star,
+                poisson=case["body1_poisson"],
+                friction=case["friction"],
+                load_n=case["load_n"],
+                load_tx=case.get("load_tx", 0.0),
+                steps=fretting_cycle.forces(int(name[len("cycle_") :])) if kind == "cycle" else [],
+                options=words(case),
+            ),
+            indent=1,
+        )
+    )
 
 
 def modulus(case):
-    return analytic.effective_modulus(*[case[k] for k in ("body1_young", "body1_poisson", "body2_young", "body2_poisson")])
+    return closed.effective_modulus(
+        *[case[k] for k in ("body1_young", "body1_poisson", "body2_young", "body2_poisson")]
+    )
 
 
 # ---------------------------------------------------------------- accuracy
+
 
 def displacement(pressure, width, e_star):
     """u_z (n, n), m, by a padded transform of coefficients that are written down apart from the program's."""
@@ -109,21 +129,24 @@ def normal_accuracy(pressure, gap, problem):
     complementarity: sum p |g| / (N u), u the largest displacement; penetration: of the deepest cell, in u;
     load: |sum p dA / N - 1|. g is the gap with the approach that fits it best where the bodies touch.
     """
-    area = (problem["width"] / problem["cells"])**2
+    area = (problem["width"] / problem["cells"]) ** 2
     u = displacement(pressure, problem["width"], problem["e_star"])
     g = u + gap
     g -= np.sum(pressure * g) / np.sum(pressure)
     scale = np.max(u)
-    return dict(complementarity=float(np.sum(pressure * np.abs(g)) * area / (problem["load_n"] * scale)),
-                penetration=float(max(0.0, -np.min(g)) / scale),
-                load=float(abs(np.sum(pressure) * area / problem["load_n"] - 1)), contact=float(np.mean(pressure > 0)))
+    return dict(
+        complementarity=float(np.sum(pressure * np.abs(g)) * area / (problem["load_n"] * scale)),
+        penetration=float(max(0.0, -np.min(g)) / scale),
+        load=float(abs(np.sum(pressure) * area / problem["load_n"] - 1)),
+        contact=float(np.mean(pressure > 0)),
+    )
 
 
 def against_hertz(pressure, problem):
     """Relative L2 error of the pressure."""
     h, n = hertz(SPHERE), problem["cells"]
     x = ((np.arange(n) + 0.5) / n - 0.5) * problem["width"]
-    return float(l2(pressure, analytic.hertz_pressure(np.hypot(x[None, :], x[:, None]), h.radius, h.pressure)))
+    return float(l2(pressure, closed.hertz_pressure(np.hypot(x[None, :], x[:, None]), h.radius, h.pressure)))
 
 
 def check(folder, solution):
@@ -134,7 +157,13 @@ def check(folder, solution):
     if solution.suffix == ".h5":
         r = Results(solution)
         pressure = r.pressure
-        numbers.update({k: float(r[k]) for k in r.history if k.endswith(("_iterations", "_applies", "_preconditions", "_residual"))})
+        numbers.update(
+            {
+                k: float(r[k])
+                for k in r.history
+                if k.endswith(("_iterations", "_applies", "_preconditions", "_residual"))
+            }
+        )
         with h5py.File(solution, "r") as f:
             for k in ("normal_applies", "tangential_applies", "normal_preconditions", "tangential_preconditions"):
                 numbers["total_" + k] = int(np.sum(f["history"][k]))

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """The benchmark's report: results.csv, report.md and figures from results.json; and scaling on paper (scaling.py).
 
-    build/venv/bin/python tests/bench/report.py [--cores-per-node 64] [--network 25] [--latency 2] DIRECTORY
+build/venv/bin/python tests/bench/report.py [--cores-per-node 64] [--network 25] [--latency 2] DIRECTORY
 """
+
 import argparse
 import csv
 import json
@@ -12,16 +13,38 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "bench"), str(ROOT / "scripts")]
 import scaling  # noqa: E402
-from figures import STYLE, plt, save  # noqa: E402
+from petsam.plot.style import STYLE, plt, save  # noqa: E402
 
 TITLES = {
-    "hertz": "Hertz", "rough_1": "rough, 1 % contact", "rough_8": "rough, 8 % contact", "rough_40": "rough, 40 % contact",
-    "slip_tx": "partial slip, T_x = 0.6 mu N", "slip_tx_mz": "partial slip, T_x and M_z, half of each limit",
-    "cycle_80": "fretting cycle, 80 steps", "cycle_16": "fretting cycle, 16 steps",
+    "hertz": "Hertz",
+    "rough_1": "rough, 1 % contact",
+    "rough_8": "rough, 8 % contact",
+    "rough_40": "rough, 40 % contact",
+    "slip_tx": "partial slip, T_x = 0.6 mu N",
+    "slip_tx_mz": "partial slip, T_x and M_z, half of each limit",
+    "cycle_80": "fretting cycle, 80 steps",
+    "cycle_16": "fretting cycle, 16 steps",
 }
-COLUMNS = ("case", "cells", "program", "cores", "seconds", "cpu", "memory", "error", "tangential_residual", "accuracy", "hertz_l2",
-           "contact", "iterations", "normal_iterations", "tangential_iterations", "total_normal_applies",
-           "total_tangential_applies", "note")
+COLUMNS = (
+    "case",
+    "cells",
+    "program",
+    "cores",
+    "seconds",
+    "cpu",
+    "memory",
+    "error",
+    "tangential_residual",
+    "accuracy",
+    "hertz_l2",
+    "contact",
+    "iterations",
+    "normal_iterations",
+    "tangential_iterations",
+    "total_normal_applies",
+    "total_tangential_applies",
+    "note",
+)
 STRONG, WEAK = (4096, 16384), 1024  # cells of a grid; cells of a rank's square
 RANKS, SHOWN = [2**k for k in range(11)], (1, 16, 64, 256, 1024)
 
@@ -47,8 +70,13 @@ class Report:
         self.text += paragraphs
 
     def of(self, case, cells=None, **want):
-        return [r for r in self.rows if r["case"] == case and (cells is None or r["cells"] == cells)
-                and all(r.get(k) == v for k, v in want.items())]
+        return [
+            r
+            for r in self.rows
+            if r["case"] == case
+            and (cells is None or r["cells"] == cells)
+            and all(r.get(k) == v for k, v in want.items())
+        ]
 
     def cases(self):
         return list(dict.fromkeys(r["case"] for r in self.rows))
@@ -60,23 +88,45 @@ class Report:
 
     def head(self):
         m, d = self.data["machine"], self.data
-        self.write("# Benchmark\n", f"`{d['command']}`, {m['date']}, {m['processor']}, {m['cores']} cores, load at the start "
-                   f"{m['load']:.1f}. Seconds are medians of up to {d['repeats']} runs from building the operators to the solution, "
-                   "without the start of MPI or Python; a peer runs on one core or all, whichever is the faster. "
-                   "CPU seconds are the process's, its start and all ranks with it. Memory is the peak resident set (for several ranks the largest rank's times their number; "
-                   "a peer's holds Python). Error is the largest of complementarity sum p |g|/(N u), penetration over u and load, "
-                   f"by one measure for all (`tests/bench/problem.py`): exact is at most {d['exact']:g}, approximate at most "
-                   f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the program's own check "
-                   f"certifies, to {d['shear_exact']:g} or {d['shear_approximate']:g} (relative L2).\n")
+        self.write(
+            "# Benchmark\n",
+            f"`{d['command']}`, {m['date']}, {m['processor']}, {m['cores']} cores, load at the start "
+            f"{m['load']:.1f}. Seconds are medians of up to {d['repeats']} runs from building the operators to the "
+            "solution, without the start of MPI or Python; a peer runs on one core or all, whichever is the faster. "
+            "CPU seconds are the process's, its start and all ranks with it. Memory is the peak resident set (for "
+            "several ranks the largest rank's times their number; a peer's holds Python). "
+            "Error is the largest of complementarity sum p |g|/(N u), penetration over u and load, "
+            f"by one measure for all (`tests/bench/problem.py`): exact is at most {d['exact']:g}, approximate at most "
+            f"{d['approximate']:g}. With friction, a peer's shear must agree with petsam's, whose residual the "
+            f"program's own check certifies, to {d['shear_exact']:g} or {d['shear_approximate']:g} (relative L2).\n",
+        )
         for r in d.get("resumed", []):
             self.write(f"The run was resumed after {r['rows']} rows: {r['date']}, load {r['load']:.1f}.\n")
 
     def machine(self):
-        self.write("## Memory and transforms\n", table(["ranks", "triad, GB/s"], [[n, f"{b:.1f}"] for n, b in self.data["bandwidth"].items()]))
-        rows = [[f"{r['cells']}²", str(r["ranks"]), f"{r['padded']:.4f}", f"{r['petsam']:.4f}", f"{r['petsam'] / r['padded']:.2f}",
-                 self.gain(r), f"{r['messages']:.4f}" if r["ranks"] > 1 else ""] for r in self.data["convolution"]]
-        self.write("One convolution, seconds, against FFTW's padded pair (r2c, product, c2r) on as many ranks:\n",
-                   table(["cells", "ranks", "padded FFTW", "petsam", "ratio", "times one rank", "by messages, as between nodes"], rows))
+        self.write(
+            "## Memory and transforms\n",
+            table(["ranks", "triad, GB/s"], [[n, f"{b:.1f}"] for n, b in self.data["bandwidth"].items()]),
+        )
+        rows = [
+            [
+                f"{r['cells']}²",
+                str(r["ranks"]),
+                f"{r['padded']:.4f}",
+                f"{r['petsam']:.4f}",
+                f"{r['petsam'] / r['padded']:.2f}",
+                self.gain(r),
+                f"{r['messages']:.4f}" if r["ranks"] > 1 else "",
+            ]
+            for r in self.data["convolution"]
+        ]
+        self.write(
+            "One convolution, seconds, against FFTW's padded pair (r2c, product, c2r) on as many ranks:\n",
+            table(
+                ["cells", "ranks", "padded FFTW", "petsam", "ratio", "times one rank", "by messages, as between nodes"],
+                rows,
+            ),
+        )
 
     def gain(self, row):
         one = [r for r in self.data["convolution"] if r["cells"] == row["cells"] and r["ranks"] == 1]
@@ -96,18 +146,47 @@ class Report:
                 best = self.best(case, cells, lambda r: r["program"] == "petsam")
                 if not best:
                     continue
-                peers = [self.best(case, cells, lambda r, a=a: r["program"] != "petsam" and r["accuracy"] == a)
-                         for a in ("exact", "approximate")]
-                rows.append([TITLES[case], f"{cells}²", *[seconds(r["seconds"]) if "seconds" in r else "" for r in sorted(ours, key=lambda r: r["cores"])],
-                             f"{best['total_normal_applies']} + {best['total_tangential_applies']}", f"{ours[0]['memory']:.0f}" if "memory" in ours[0] else "",
-                             *[self.versus(p, best) for p in peers]])
+                peers = [
+                    self.best(case, cells, lambda r, a=a: r["program"] != "petsam" and r["accuracy"] == a)
+                    for a in ("exact", "approximate")
+                ]
+                rows.append(
+                    [
+                        TITLES[case],
+                        f"{cells}²",
+                        *[
+                            seconds(r["seconds"]) if "seconds" in r else ""
+                            for r in sorted(ours, key=lambda r: r["cores"])
+                        ],
+                        f"{best['total_normal_applies']} + {best['total_tangential_applies']}",
+                        f"{ours[0]['memory']:.0f}" if "memory" in ours[0] else "",
+                        *[self.versus(p, best) for p in peers],
+                    ]
+                )
         ranks = sorted({r["cores"] for r in self.rows if r["program"] == "petsam"})
-        self.write("## Summary\n", table(["case", "cells", *[f"petsam on {n}, s" for n in ranks], "products", "MB on one",
-                                          "fastest exact peer", "fastest approximate peer"], rows))
+        self.write(
+            "## Summary\n",
+            table(
+                [
+                    "case",
+                    "cells",
+                    *[f"petsam on {n}, s" for n in ranks],
+                    "products",
+                    "MB on one",
+                    "fastest exact peer",
+                    "fastest approximate peer",
+                ],
+                rows,
+            ),
+        )
 
     @staticmethod
     def versus(row, best):
-        return f"{row['program']}: {seconds(row['seconds'])} s, **{row['seconds'] / best['seconds']:.1f}** times" if row else "none"
+        return (
+            f"{row['program']}: {seconds(row['seconds'])} s, **{row['seconds'] / best['seconds']:.1f}** times"
+            if row
+            else "none"
+        )
 
     def missing(self):
         """Which peers have no answer, and why."""
@@ -116,8 +195,13 @@ class Report:
             if "seconds" not in r:
                 notes.setdefault((r["case"], r["program"], r["note"]), {})[f"{r['cells']}²"] = True
         if notes:
-            self.write("Without an answer:\n", "".join(f"- {TITLES[case]}, {', '.join(cells)}: {program}: {note}\n"
-                                                       for (case, program, note), cells in notes.items()))
+            self.write(
+                "Without an answer:\n",
+                "".join(
+                    f"- {TITLES[case]}, {', '.join(cells)}: {program}: {note}\n"
+                    for (case, program, note), cells in notes.items()
+                ),
+            )
 
     def cycle(self):
         """A cycle in units of one partial-slip solve of the same grid."""
@@ -126,16 +210,31 @@ class Report:
                 a = self.best(case, cells, lambda r: r["program"] == "petsam" and r["cores"] == 1)
                 b = self.best("slip_tx", cells, lambda r: r["program"] == "petsam" and r["cores"] == 1)
                 if a and b:
-                    self.write(f"The {TITLES[case]} at {cells}² costs {a['seconds'] / b['seconds']:.1f} partial-slip solves on one rank.\n")
+                    ratio = a["seconds"] / b["seconds"]
+                    self.write(f"The {TITLES[case]} at {cells}² costs {ratio:.1f} partial-slip solves on one rank.\n")
 
     def details(self):
         for case in self.cases():
             rows = []
             for r in self.of(case):
                 timed = "seconds" in r
-                rest = [seconds(r["seconds"]), self.ratio(r), seconds(r["cpu"]), f"{r['memory']:.0f}", self.error(r), r["accuracy"]] if timed else [""] * 5 + [r["note"]]
+                rest = (
+                    [
+                        seconds(r["seconds"]),
+                        self.ratio(r),
+                        seconds(r["cpu"]),
+                        f"{r['memory']:.0f}",
+                        self.error(r),
+                        r["accuracy"],
+                    ]
+                    if timed
+                    else [""] * 5 + [r["note"]]
+                )
                 rows.append([f"{r['cells']}²", r["program"], str(r["cores"]), *rest])
-            self.write(f"## {TITLES[case]}\n", table(["cells", "program", "cores", "s", "times petsam", "CPU s", "MB", "error", ""], rows))
+            self.write(
+                f"## {TITLES[case]}\n",
+                table(["cells", "program", "cores", "s", "times petsam", "CPU s", "MB", "error", ""], rows),
+            )
         self.write("Settings: " + "; ".join(f"{k}: {v}" for k, v in self.data["settings"].items()) + ".\n")
 
     def ratio(self, row):
@@ -161,26 +260,38 @@ class Report:
 
     def lines(self):
         """(program, cores) of every curve: petsam's ranks apart, a peer's cores not."""
-        return list(dict.fromkeys((r["program"], r["cores"] if r["program"] == "petsam" else None) for r in self.rows if "seconds" in r))
+        return list(
+            dict.fromkeys(
+                (r["program"], r["cores"] if r["program"] == "petsam" else None) for r in self.rows if "seconds" in r
+            )
+        )
 
     def curves(self, key, label):
         """A panel a case: seconds or memory over n, a line a program."""
         cases = self.cases()
         columns = min(3, len(cases))
         lines = -(-len(cases) // columns)
-        figure, axes = plt.subplots(lines, columns, figsize=(4.2 * columns, 3.2 * lines + 0.8), squeeze=False, layout="constrained")
+        figure, axes = plt.subplots(
+            lines, columns, figsize=(4.2 * columns, 3.2 * lines + 0.8), squeeze=False, layout="constrained"
+        )
         handles = {}
         for axis, case in zip(axes.flat, cases):
             for k, (program, cores) in enumerate(self.lines()):
                 rows = [r for r in self.of(case, program=program) if key in r and cores in (None, r["cores"])]
                 if rows:
                     name = program + (f", {cores} rank{'s' if cores > 1 else ''}" if cores else "")
-                    handles[name], = axis.loglog([r["cells"] for r in rows], [r[key] for r in rows], "o-" if cores else "s--", color=f"C{k}", markersize=4)
+                    (handles[name],) = axis.loglog(
+                        [r["cells"] for r in rows],
+                        [r[key] for r in rows],
+                        "o-" if cores else "s--",
+                        color=f"C{k}",
+                        markersize=4,
+                    )
             grids = self.grids(case)
             axis.set_xticks(grids, [str(n) for n in grids])
             axis.xaxis.minorticks_off()
             axis.set(title=TITLES[case], xlabel="n", ylabel=label)
-        for axis in axes.flat[len(cases):]:
+        for axis in axes.flat[len(cases) :]:
             axis.set_visible(False)
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)
         save(figure, self.directory, f"{key}.png")
@@ -207,8 +318,13 @@ class Report:
         for case in ("hertz", "rough_8", "slip_tx"):
             for row in self.timed(case, max(self.grids(case), default=0), 1):
                 two = self.timed(case, row["cells"], 2)
-                solve = scaling.measured_solve(row["cells"], row["seconds"], row["normal_applies"] + 2 * row["tangential_applies"],
-                                               row["normal_preconditions"] + 2 * row["tangential_preconditions"], convolution)
+                solve = scaling.measured_solve(
+                    row["cells"],
+                    row["seconds"],
+                    row["normal_applies"] + 2 * row["tangential_applies"],
+                    row["normal_preconditions"] + 2 * row["tangential_preconditions"],
+                    convolution,
+                )
                 found[case] = solve, row["seconds"], two[0]["seconds"] if two else None
         return found
 
@@ -217,16 +333,25 @@ class Report:
         solves = self.solves(convolution) if convolution else {}
         if not solves:
             return
-        c = self.cluster
-        self.write("## Scaling on paper\n", "```\n" + scaling.__doc__.strip() + "\n```\n",
-                   f"Measured: convolution of {n}² on one and two ranks, b = {convolution.bandwidth / 1e9:.1f} GB/s a rank, arithmetic "
-                   f"{100 * convolution.compute * n * n * scaling.log2(2 * n) / convolution.seconds(n, 1):.0f} % of the time on one rank, "
-                   f"exchange between ranks of a node {convolution.node / 1e9:.1f} GB/s a rank. Assumed: {c.cores} ranks a node, each with "
-                   f"this bandwidth; network {c.network / 1e9:g} GB/s a node, latency {1e6 * c.latency:g} microseconds, no contention; no "
-                   "setting up or writing beyond what the measured solve holds.\n")
-        rows = [[TITLES[k], f"{s.n}²", seconds(one), seconds(two) if two else "", seconds(s.seconds(convolution, s.n, 2))] for k, (s, one, two) in solves.items()]
-        self.write("The model against the solve on two ranks, which it has not seen:\n",
-                   table(["case", "cells", "on one, s", "on two, s", "model on two, s"], rows))
+        c, arithmetic = self.cluster, convolution.compute * n * n * scaling.log2(2 * n)
+        self.write(
+            "## Scaling on paper\n",
+            "```\n" + scaling.__doc__.strip() + "\n```\n",
+            f"Measured: convolution of {n}² on one and two ranks, b = {convolution.bandwidth / 1e9:.1f} GB/s a rank, "
+            f"arithmetic {100 * arithmetic / convolution.seconds(n, 1):.0f} % of the time on one rank, "
+            f"exchange between ranks of a node {convolution.node / 1e9:.1f} GB/s a rank. "
+            f"Assumed: {c.cores} ranks a node, each with this bandwidth; network {c.network / 1e9:g} GB/s a node, "
+            f"latency {1e6 * c.latency:g} microseconds, no contention; no setting up or writing beyond what the "
+            "measured solve holds.\n",
+        )
+        rows = [
+            [TITLES[k], f"{s.n}²", seconds(one), seconds(two) if two else "", seconds(s.seconds(convolution, s.n, 2))]
+            for k, (s, one, two) in solves.items()
+        ]
+        self.write(
+            "The model against the solve on two ranks, which it has not seen:\n",
+            table(["case", "cells", "on one, s", "on two, s", "model on two, s"], rows),
+        )
         self.scaling_tables(convolution, solves)
 
     def scaling_tables(self, convolution, solves):
@@ -248,14 +373,21 @@ class Report:
         figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
         save(figure, self.directory, "scaling.png")
         shown = [f"{p} rank{'s' if p > 1 else ''}" for p in SHOWN]
-        self.write("Strong scaling, seconds (efficiency):\n", table(["case", "cells", *shown], strong),
-                   f"Weak scaling with {WEAK}² cells a rank, seconds (efficiency):\n", table(["case", *shown], weak),
-                   f"Where the time goes on {RANKS[-1]} ranks:\n",
-                   table(["case", "cells", "finest transforms", "coarse grids", "the rest"], shares), "![scaling](scaling.png)\n")
+        self.write(
+            "Strong scaling, seconds (efficiency):\n",
+            table(["case", "cells", *shown], strong),
+            f"Weak scaling with {WEAK}² cells a rank, seconds (efficiency):\n",
+            table(["case", *shown], weak),
+            f"Where the time goes on {RANKS[-1]} ranks:\n",
+            table(["case", "cells", "finest transforms", "coarse grids", "the rest"], shares),
+            "![scaling](scaling.png)\n",
+        )
 
     @staticmethod
     def efficiencies(times, ranks, ideal):
-        return [f"{seconds(t)} ({100 * times[0] / t / gain:.0f} %)" for t, p, gain in zip(times, ranks, ideal) if p in SHOWN]
+        return [
+            f"{seconds(t)} ({100 * times[0] / t / gain:.0f} %)" for t, p, gain in zip(times, ranks, ideal) if p in SHOWN
+        ]
 
     def run(self):
         plt.rcParams.update(STYLE)

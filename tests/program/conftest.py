@@ -1,4 +1,5 @@
 """Fixtures that run the built program: build/bin/petsam, or that of the directory in PETSAM_BUILD."""
+
 import contextlib
 import os
 import signal
@@ -25,7 +26,9 @@ def environment():
 def launcher_words():
     """The launcher's words but the number of ranks."""
     words = os.environ.get("MPIRUN", "mpirun").split()
-    version = subprocess.run(words + ["--version"], capture_output=True, text=True, env=environment(), timeout=60).stdout
+    version = subprocess.run(
+        words + ["--version"], capture_output=True, text=True, env=environment(), timeout=60
+    ).stdout
     return words + (["--oversubscribe", "--timeout", str(TIMEOUT)] if "Open MPI" in version else [])
 
 
@@ -55,18 +58,30 @@ def kill_all(run, ranks):
 def execute(launcher, directory, options, ranks, check, extra=None):
     """One run; with more than one rank by the launcher."""
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM)] + support.flatten(options)
-    done = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=directory, timeout=TIMEOUT + 30,
-                          env={**environment(), **(extra or {})}, stdin=subprocess.DEVNULL)
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        cwd=directory,
+        timeout=TIMEOUT + 30,
+        env={**environment(), **(extra or {})},
+        stdin=subprocess.DEVNULL,
+    )
     assert check is None or done.returncode == check, (
-        f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}")
+        f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n"
+        f"{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
+    )
     return support.Run(done.returncode, done.stdout, done.stderr)
 
 
 @pytest.fixture
 def petsam(launcher, tmp_path):
     """petsam(*options, ranks=1, check=0): runs in tmp_path; options are words and dicts; check=None takes any code."""
+
     def run(*options, ranks=1, check=0, environment=None):
         return execute(launcher, tmp_path, options, ranks, check, environment)
+
     return run
 
 
@@ -82,6 +97,7 @@ def solve(launcher, tmp_path_factory):
             done = execute(launcher, directory, [*options, "-output", "results.h5"], ranks, check)
             known[key] = support.Results(directory / "results.h5", done)
         return known[key]
+
     return run
 
 

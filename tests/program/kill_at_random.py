@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 """Kills runs with checkpoints at random moments, by the signal that nothing can catch, and goes on from what is left.
 
-After every kill there is a checkpoint that can be read, if one was told of, and the results hold the steps that were told;
-what the last run ends with is what a run without kills ends with, to the last bit. Ends with 0 when all of that holds.
+After every kill there is a checkpoint that can be read, if one was told of, and the results hold the steps that were
+told. What the last run ends with is what a run without kills ends with, to the last bit. Ends with 0 when all of that
+holds.
 
     python3 tests/program/kill_at_random.py [--build build] [--kills 50] [--ranks 1] [--seed 1]
 """
+
 import argparse
 import math
 import random
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -36,8 +37,15 @@ def write_history(folder, steps=STEPS):
 
 def start(launcher, folder, options, ranks):
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten(options)]
-    return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=conftest.environment())
+    return subprocess.Popen(
+        command,
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=conftest.environment(),
+    )
 
 
 def complete_steps(path):
@@ -98,7 +106,8 @@ def torture(launcher, folder, kills, ranks, seed, say=lambda text: None):
             steps = complete_steps(folder / "out.h5")
             assert steps >= (int(told[-1]) if told else 0), (steps, told)
             assert told or goes_on
-            say(f"killed after {told[-1] if told else 'no step'}, {steps} complete, checkpoint {'yes' if (folder / 'state.h5').exists() else 'no'}")
+            kept = "yes" if (folder / "state.h5").exists() else "no"
+            say(f"killed after {told[-1] if told else 'no step'}, {steps} complete, checkpoint {kept}")
         else:
             say("killed before its first step")
         assert not goes_on or (folder / "state.h5").exists()

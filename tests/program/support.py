@@ -1,4 +1,5 @@
 """What the whole-program tests share: options from dicts, results from HDF5, and mechanics written anew in numpy."""
+
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -8,20 +9,34 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-import analytic  # noqa: E402
+from petsam import closed  # noqa: E402
 
 LOADS = ("load_n", "load_mx", "load_my", "load_tx", "load_ty", "load_mz")
 RIGID = ("disp_z", "rot_x", "rot_y", "disp_x", "disp_y", "rot_z")
-FIELDS = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "displacement_x", "displacement_y",
-          "displacement_z", "state")
+FIELDS = (
+    "pressure",
+    "shear_x",
+    "shear_y",
+    "slip_x",
+    "slip_y",
+    "gap",
+    "displacement_x",
+    "displacement_y",
+    "displacement_z",
+    "state",
+)
 
 
 # ---------------------------------------------------------------- options
 
+
 def words(options):
     """Command-line words of a dict: None leaves out, True is a bare option, a tuple is joined by commas."""
+
     def text(value):
-        return value if isinstance(value, str) else repr(float(value)) if isinstance(value, np.floating) else repr(value)
+        return (
+            value if isinstance(value, str) else repr(float(value)) if isinstance(value, np.floating) else repr(value)
+        )
 
     line = []
     for name, value in options.items():
@@ -29,8 +44,13 @@ def words(options):
             continue
         line.append("-" + name)
         if value is not True:
-            line.append(",".join(map(text, value)) if isinstance(value, (tuple, list)) else str(value)
-                        if isinstance(value, Path) else text(value))
+            line.append(
+                ",".join(map(text, value))
+                if isinstance(value, (tuple, list))
+                else str(value)
+                if isinstance(value, Path)
+                else text(value)
+            )
     return line
 
 
@@ -42,26 +62,58 @@ def flatten(options):
 # ---------------------------------------------------------------- cases
 
 # Table 1 of the source paper: two steel spheres, at a small number of cells; half width 1.5 a.
-SPHERE = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, friction=0.1,
-              gap_type="sphere", gap_radius1=0.2, gap_radius2=0.2, load_n=1000.0, grid_n=64, grid_size=2.5987173e-3)
+SPHERE = dict(
+    body1_young=210e9,
+    body1_poisson=0.3,
+    body2_young=210e9,
+    body2_poisson=0.3,
+    friction=0.1,
+    gap_type="sphere",
+    gap_radius1=0.2,
+    gap_radius2=0.2,
+    load_n=1000.0,
+    grid_n=64,
+    grid_size=2.5987173e-3,
+)
 
 # A steel punch with a rounded edge; half width 1.75 times its flat radius.
-PUNCH = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, friction=0.3, gap_type="punch",
-             gap_flat_radius=2e-3, gap_edge_radius=0.05, load_n=4000.0, grid_size=7e-3)
+PUNCH = dict(
+    body1_young=210e9,
+    body1_poisson=0.3,
+    body2_young=210e9,
+    body2_poisson=0.3,
+    friction=0.3,
+    gap_type="punch",
+    gap_flat_radius=2e-3,
+    gap_edge_radius=0.05,
+    load_n=4000.0,
+    grid_size=7e-3,
+)
 
 
 def hertz(options):
     """Hertz's contact of the sphere on which options are."""
-    radius = analytic.effective_radius(options["gap_radius1"], options["gap_radius2"])
-    e_star = analytic.effective_modulus(*[options[name] for name in
-                                          ("body1_young", "body1_poisson", "body2_young", "body2_poisson")])
-    return analytic.hertz(options["load_n"], radius, e_star)
+    radius = closed.effective_radius(options["gap_radius1"], options["gap_radius2"])
+    e_star = closed.effective_modulus(
+        *[options[name] for name in ("body1_young", "body1_poisson", "body2_young", "body2_poisson")]
+    )
+    return closed.hertz(options["load_n"], radius, e_star)
 
 
 def ball(n=64, half_width=1.5, young=72e9, poisson=0.34, **more):
     """An aluminium ball on an aluminium flat, on a grid of that half width in contact radii."""
-    case = dict(body1_young=young, body1_poisson=poisson, body2_young=young, body2_poisson=poisson, friction=0.27,
-                gap_type="sphere", gap_radius1=0.06, gap_radius2=float("inf"), load_n=180.0, grid_n=n)
+    case = dict(
+        body1_young=young,
+        body1_poisson=poisson,
+        body2_young=young,
+        body2_poisson=poisson,
+        friction=0.27,
+        gap_type="sphere",
+        gap_radius1=0.06,
+        gap_radius2=float("inf"),
+        load_n=180.0,
+        grid_n=n,
+    )
     case["grid_size"] = 2 * half_width * hertz(case).radius
     return dict(case, **more)
 
@@ -69,7 +121,7 @@ def ball(n=64, half_width=1.5, young=72e9, poisson=0.34, **more):
 def slide_limit(case):
     """Greatest T_x (N) and M_z (N m), each alone, of a sphere."""
     force = case["friction"] * case["load_n"]
-    return force, analytic.torsion_limit(case["load_n"], case["friction"], hertz(case).radius)
+    return force, closed.torsion_limit(case["load_n"], case["friction"], hertz(case).radius)
 
 
 def sliding_pair(case, arm):
@@ -77,7 +129,7 @@ def sliding_pair(case, arm):
     h = hertz(case)
     t = (np.arange(2000) + 0.5) / 2000 * 2 - 1
     x, y = np.meshgrid(t, t)
-    p = analytic.hertz_pressure(np.hypot(x, y), 1.0, 1.0)
+    p = closed.hertz_pressure(np.hypot(x, y), 1.0, 1.0)
     p *= case["friction"] * case["load_n"] / p.sum()
     vx, vy = arm - y, x
     speed = np.hypot(vx, vy)
@@ -85,7 +137,7 @@ def sliding_pair(case, arm):
 
 
 def elliptic_hertz(load_n, radius_x, radius_y, e_star):
-    """Half axes along x and y (m), greatest pressure (Pa), approach (m) for radius_x > radius_y; Johnson eqs 4.25, 4.26."""
+    """Half axes in x and y (m), greatest pressure (Pa), approach (m), radius_x > radius_y; Johnson eqs 4.25, 4.26."""
     from scipy.optimize import brentq
     from scipy.special import ellipe, ellipk
 
@@ -107,6 +159,7 @@ def elliptic_hertz(load_n, radius_x, radius_y, e_star):
 
 
 # ---------------------------------------------------------------- results
+
 
 class Run(NamedTuple):
     code: int
@@ -155,14 +208,22 @@ class Results:
     def loads(self):
         """The six loads by summation over the fields."""
         p, qx, qy, x, y = self.pressure, self.shear_x, self.shear_y, self.xx, self.yy
-        return dict(load_n=np.sum(p) * self.area, load_mx=-np.sum(y * p) * self.area, load_my=np.sum(x * p) * self.area,
-                    load_tx=np.sum(qx) * self.area, load_ty=np.sum(qy) * self.area,
-                    load_mz=np.sum(x * qy - y * qx) * self.area)
+        return dict(
+            load_n=np.sum(p) * self.area,
+            load_mx=-np.sum(y * p) * self.area,
+            load_my=np.sum(x * p) * self.area,
+            load_tx=np.sum(qx) * self.area,
+            load_ty=np.sum(qy) * self.area,
+            load_mz=np.sum(x * qy - y * qx) * self.area,
+        )
 
     def rigid(self):
         """Rigid displacement of every cell: x, y, z."""
-        return (self["disp_x"] - self.yy * self["rot_z"], self["disp_y"] + self.xx * self["rot_z"],
-                self["disp_z"] - self.yy * self["rot_x"] + self.xx * self["rot_y"])
+        return (
+            self["disp_x"] - self.yy * self["rot_z"],
+            self["disp_y"] + self.xx * self["rot_z"],
+            self["disp_z"] - self.yy * self["rot_x"] + self.xx * self["rot_y"],
+        )
 
     def separation(self):
         """The undeformed bodies', from the gap's definition."""
@@ -183,20 +244,29 @@ def assert_close(value, reference, tolerance, name="", scale=None):
 
 def assert_same(one, two, tolerance, fields=FIELDS[:-1]):
     """Fields of two results agree, each to a tolerance of its kind's largest value; gap and slip are displacements."""
-    kinds = [("pressure",), ("shear_x", "shear_y"), ("gap", "displacement_z"),
-             ("slip_x", "slip_y", "displacement_x", "displacement_y")]
+    kinds = [
+        ("pressure",),
+        ("shear_x", "shear_y"),
+        ("gap", "displacement_z"),
+        ("slip_x", "slip_y", "displacement_x", "displacement_y"),
+    ]
     for name in fields:
         kind = next((k for k in kinds if name in k), (name,))
         scale = max(np.max(np.abs(getattr(two, k))) for k in kind)
         assert_close(getattr(one, name), getattr(two, name), tolerance, name, scale)
 
 
-# ---------------------------------------------------------------- influence coefficients, in other words than the program's
+# ---------------------------------------------------------------- influence coefficients, not the program's
+
 
 def corners(function, x, y, dx, dy):
     """Integral over a rectangle about (x, y) from the mixed antiderivative at its corners."""
-    return (function(x + dx / 2, y + dy / 2) - function(x - dx / 2, y + dy / 2) - function(x + dx / 2, y - dy / 2)
-            + function(x - dx / 2, y - dy / 2))
+    return (
+        function(x + dx / 2, y + dy / 2)
+        - function(x - dx / 2, y + dy / 2)
+        - function(x + dx / 2, y - dy / 2)
+        + function(x - dx / 2, y - dy / 2)
+    )
 
 
 def kernels(x, y, dx, dy):
@@ -204,6 +274,7 @@ def kernels(x, y, dx, dy):
 
     Love's logarithms (Phil. Trans. A 228 (1929) 377): the source point moves, so odd kernels keep their sign.
     """
+
     def r(u, v):
         return np.hypot(u, v)
 
@@ -213,24 +284,29 @@ def kernels(x, y, dx, dy):
     def odd(u, v):
         return 0.5 * v * np.log(u * u + v * v) + u * np.arctan(v / u)
 
-    return dict(r=corners(lambda u, v: along(u, v) + along(v, u), x, y, dx, dy),
-                xx=corners(along, x, y, dx, dy), yy=corners(lambda u, v: along(v, u), x, y, dx, dy),
-                xy=corners(lambda u, v: -r(u, v), x, y, dx, dy), x=corners(odd, x, y, dx, dy),
-                y=corners(lambda u, v: odd(v, u), x, y, dx, dy))
+    return dict(
+        r=corners(lambda u, v: along(u, v) + along(v, u), x, y, dx, dy),
+        xx=corners(along, x, y, dx, dy),
+        yy=corners(lambda u, v: along(v, u), x, y, dx, dy),
+        xy=corners(lambda u, v: -r(u, v), x, y, dx, dy),
+        x=corners(odd, x, y, dx, dy),
+        y=corners(lambda u, v: odd(v, u), x, y, dx, dy),
+    )
 
 
 def displacement(results, options, i, j):
     """Relative elastic displacement (x, y, z) of cell (i, j) by direct summation; Johnson eqs 3.17 to 3.75.
 
-    Tractions are those on body 2, on body 1 they are opposite: u_t is body 2's less body 1's, u_z the sum of both inwards.
-    Pressure draws each body's surface towards itself, so the coupling takes body 2 as printed by Johnson, and body 1 reversed.
+    Tractions are those on body 2, on body 1 they are opposite: u_t is body 2's less body 1's, u_z the sum of both
+    inwards. Pressure draws each body's surface towards itself, so the coupling takes body 2 as printed by Johnson, and
+    body 1 reversed.
     """
     k = kernels(results.x[i] - results.xx, results.y[j] - results.yy, results.dx, results.dy)
     p, qx, qy = results.pressure, results.shear_x, results.shear_y
     total = np.zeros(3)
     for body, sign in ((1, -1), (2, 1)):
         young, nu = options[f"body{body}_young"], options.get(f"body{body}_poisson") or 0.0
-        g = analytic.shear_modulus(young, nu)
+        g = closed.shear_modulus(young, nu)
         c, d = 1 / (2 * np.pi * g), sign * (1 - 2 * nu) / (4 * np.pi * g)
         ux = c * np.sum(((1 - nu) * k["r"] + nu * k["xx"]) * qx + nu * k["xy"] * qy) - d * np.sum(k["x"] * p)
         uy = c * np.sum(((1 - nu) * k["r"] + nu * k["yy"]) * qy + nu * k["xy"] * qx) - d * np.sum(k["y"] * p)

@@ -1,4 +1,5 @@
 """Every mistake is answered by exit code 2 or 3 and a line that names it, and nothing is written over."""
+
 import h5py
 import numpy as np
 import pytest
@@ -20,8 +21,17 @@ def numbers(option, texts):
     return [case(f"{option} {text}", {option: text}, says=["-" + option, text]) for text in texts]
 
 
-REQUIRED = ("grid_n", "grid_size", "body1_young", "body1_poisson", "body2_young", "body2_poisson", "gap_type", "gap_radius1",
-            "gap_radius2")
+REQUIRED = (
+    "grid_n",
+    "grid_size",
+    "body1_young",
+    "body1_poisson",
+    "body2_young",
+    "body2_poisson",
+    "gap_type",
+    "gap_radius1",
+    "gap_radius2",
+)
 CASES = [
     # options that do not exist
     case("unknown", {}, "-nonsense", "3"),
@@ -43,12 +53,33 @@ CASES = [
     *[case(f"no {name}", {name: None}) for name in REQUIRED],
     case("neither load_n nor disp_z", dict(load_n=None), says=["-load_n", "-disp_z"]),
     case("nothing at all", {name: None for name in SPHERE}, says="-grid_n"),
-    *[case(f"no value of {name}", {name: True}) for name in ("grid_n", "grid_size", "body1_young", "friction", "gap_type", "load_n", "gap_radius1")],
+    *[
+        case(f"no value of {name}", {name: True})
+        for name in ("grid_n", "grid_size", "body1_young", "friction", "gap_type", "load_n", "gap_radius1")
+    ],
     case("no value of output", {}, "-output"),
     case("no value of normal_type", {}, "-normal_type"),
     # numbers
-    *numbers("grid_n", ("1", "0", "-5", "64.5", "64,64,64", "64,", ",64", "64,1", "abc", "nan", "inf", "1e2", "64x", "2147483648",
-                        "99999999999999999999")),
+    *numbers(
+        "grid_n",
+        (
+            "1",
+            "0",
+            "-5",
+            "64.5",
+            "64,64,64",
+            "64,",
+            ",64",
+            "64,1",
+            "abc",
+            "nan",
+            "inf",
+            "1e2",
+            "64x",
+            "2147483648",
+            "99999999999999999999",
+        ),
+    ),
     *numbers("grid_size", ("0", "-1e-3", "nan", "inf", "abc", "1e-3,0", "1e-3,1e-3,1e-3", "1e-3,", "1e-3 m", "1e400")),
     *numbers("grid_center", ("nan", "inf", "a,b", "0,0,0")),
     *numbers("body1_young", ("0", "-1", "nan", "-inf", "abc", "210e9,1")),
@@ -67,15 +98,36 @@ CASES = [
     case("cells that cannot be told apart", dict(grid_center="1e10,0"), says="-grid_size"),
     # contradictions
     case("both rigid", dict(body1_young=INF, body2_young=INF), says=["-body1_young", "-body2_young"]),
-    *[case(f"both {load} and {rigid}", {load: 1.0, rigid: 1e-6}, says=["-" + load, "-" + rigid]) for load, rigid in
-      zip(("load_n", "load_mx", "load_my", "load_tx", "load_ty", "load_mz"), ("disp_z", "rot_x", "rot_y", "disp_x", "disp_y", "rot_z"))],
+    *[
+        case(f"both {load} and {rigid}", {load: 1.0, rigid: 1e-6}, says=["-" + load, "-" + rigid])
+        for load, rigid in zip(
+            ("load_n", "load_mx", "load_my", "load_tx", "load_ty", "load_mz"),
+            ("disp_z", "rot_x", "rot_y", "disp_x", "disp_y", "rot_z"),
+        )
+    ],
     # gap
     case("gap type unknown", dict(gap_type="cone"), says=["-gap_type", "cone"]),
     case("gap type in capitals", dict(gap_type="Sphere"), says="-gap_type"),
-    case("ellipsoid without a radius", dict(gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=1.0), says="-gap_radius_y"),
-    case("ellipsoid of radius 0", dict(gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=1.0, gap_radius_y=0.0), says="-gap_radius_y"),
-    case("punch without its edge", dict(gap_type="punch", gap_radius1=None, gap_radius2=None, gap_flat_radius=1e-3), says="-gap_edge_radius"),
-    case("punch of negative base", dict(gap_type="punch", gap_radius1=None, gap_radius2=None, gap_flat_radius=-1e-3, gap_edge_radius=1.0), says="-gap_flat_radius"),
+    case(
+        "ellipsoid without a radius",
+        dict(gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=1.0),
+        says="-gap_radius_y",
+    ),
+    case(
+        "ellipsoid of radius 0",
+        dict(gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=1.0, gap_radius_y=0.0),
+        says="-gap_radius_y",
+    ),
+    case(
+        "punch without its edge",
+        dict(gap_type="punch", gap_radius1=None, gap_radius2=None, gap_flat_radius=1e-3),
+        says="-gap_edge_radius",
+    ),
+    case(
+        "punch of negative base",
+        dict(gap_type="punch", gap_radius1=None, gap_radius2=None, gap_flat_radius=-1e-3, gap_edge_radius=1.0),
+        says="-gap_flat_radius",
+    ),
     case("radius that overflows", dict(gap_radius1=1e-320), says="-gap_"),
     # files
     case("no gap file", FILE, says="-gap_file"),
@@ -85,26 +137,126 @@ CASES = [
     case("gap file is text", FILE, "-gap_file", "text.h5", says=["-gap_file", "text.h5"], code=3),
     case("gap file is empty", FILE, "-gap_file", "empty.h5", says=["-gap_file", "empty.h5"], code=3),
     case("gap file is cut", FILE, "-gap_file", "cut.h5", says=["-gap_file", "cut.h5"], code=3),
-    case("gap file lacks the dataset", FILE, "-gap_file", "good.h5", "-gap_dataset", "/depth", says=["good.h5", "/depth"], code=3),
-    case("dataset is a group", FILE, "-gap_file", "good.h5", "-gap_dataset", "/group", says=["good.h5", "/group"], code=3),
+    case(
+        "gap file lacks the dataset",
+        FILE,
+        "-gap_file",
+        "good.h5",
+        "-gap_dataset",
+        "/depth",
+        says=["good.h5", "/depth"],
+        code=3,
+    ),
+    case(
+        "dataset is a group", FILE, "-gap_file", "good.h5", "-gap_dataset", "/group", says=["good.h5", "/group"], code=3
+    ),
     case("dataset is the root", FILE, "-gap_file", "good.h5", "-gap_dataset", "/", says="good.h5", code=3),
-    case("gap file of wrong shape", dict(FILE, grid_n=(9, 8)), "-gap_file", "good.h5", says=["good.h5", "(8, 9)"], code=3),
-    case("gap file transposed", dict(FILE, grid_n=(6, 7)), "-gap_file", "wide.h5", says=["wide.h5", "(6, 7)", "(7, 6)"], code=3),
-    case("gap file of one dimension", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-gap_dataset", "line", says="good.h5", code=3),
-    case("gap file of three dimensions", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-gap_dataset", "cube", says="good.h5", code=3),
-    case("gap file of a scalar", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-gap_dataset", "scalar", says="good.h5", code=3),
-    case("gap file of words", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-gap_dataset", "words", says="good.h5", code=3),
-    case("gap file with nan", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-gap_dataset", "nan", says=["good.h5", "[7, 3]"], code=3),
-    case("gap file with inf", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-gap_dataset", "inf", says="good.h5", code=3),
+    case(
+        "gap file of wrong shape", dict(FILE, grid_n=(9, 8)), "-gap_file", "good.h5", says=["good.h5", "(8, 9)"], code=3
+    ),
+    case(
+        "gap file transposed",
+        dict(FILE, grid_n=(6, 7)),
+        "-gap_file",
+        "wide.h5",
+        says=["wide.h5", "(6, 7)", "(7, 6)"],
+        code=3,
+    ),
+    case(
+        "gap file of one dimension",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-gap_dataset",
+        "line",
+        says="good.h5",
+        code=3,
+    ),
+    case(
+        "gap file of three dimensions",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-gap_dataset",
+        "cube",
+        says="good.h5",
+        code=3,
+    ),
+    case(
+        "gap file of a scalar",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-gap_dataset",
+        "scalar",
+        says="good.h5",
+        code=3,
+    ),
+    case(
+        "gap file of words",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-gap_dataset",
+        "words",
+        says="good.h5",
+        code=3,
+    ),
+    case(
+        "gap file with nan",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-gap_dataset",
+        "nan",
+        says=["good.h5", "[7, 3]"],
+        code=3,
+    ),
+    case(
+        "gap file with inf", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-gap_dataset", "inf", says="good.h5", code=3
+    ),
     case("roughness missing", {}, "-gap_rough_file", "nowhere.h5", says=["-gap_rough_file", "nowhere.h5"], code=3),
-    case("roughness with nan", dict(FLAT, grid_n=8), "-gap_rough_file", "good.h5", "-gap_rough_dataset", "nan", says="-gap_rough_file", code=3),
+    case(
+        "roughness with nan",
+        dict(FLAT, grid_n=8),
+        "-gap_rough_file",
+        "good.h5",
+        "-gap_rough_dataset",
+        "nan",
+        says="-gap_rough_file",
+        code=3,
+    ),
     case("roughness dataset without a file", dict(gap_rough_dataset="/height"), says="-gap_rough_dataset"),
     case("output in no directory", {}, "-output", "nowhere/out.h5", says=["-output", "nowhere/out.h5"], code=3),
     case("output in a file", {}, "-output", "text.h5/out.h5", says="-output", code=3),
     case("output is a directory", {}, "-output", "folder", says=["-output", "folder"], code=3),
-    case("output is the gap", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-output", "good.h5", says=["-output", "good.h5"]),
-    case("output is the gap by another name", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-output", "./folder/../good.h5", says="-output"),
-    case("output is a link to the gap", dict(FILE, grid_n=8), "-gap_file", "good.h5", "-output", "link.h5", says="-output"),
+    case(
+        "output is the gap",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-output",
+        "good.h5",
+        says=["-output", "good.h5"],
+    ),
+    case(
+        "output is the gap by another name",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-output",
+        "./folder/../good.h5",
+        says="-output",
+    ),
+    case(
+        "output is a link to the gap",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-output",
+        "link.h5",
+        says="-output",
+    ),
     case("output is the roughness", dict(grid_n=8), "-gap_rough_file", "good.h5", "-output", "good.h5", says="-output"),
     case("options file missing", {}, "-options_file", "nowhere.opts", says="nowhere.opts", code=3),
     case("options file is HDF5", {}, "-options_file", "good.h5", says="good.h5"),
@@ -114,7 +266,11 @@ CASES = [
     # solvers
     case("normal type unknown", dict(normal_type="foo"), says=["-normal_type", "foo", "activeset"]),
     case("tangential type unknown", dict(tangential_type="foo"), says=["-tangential_type", "foo", "newton"]),
-    *[item for solver in ("normal", "tangential") for item in numbers(f"{solver}_rtol", ("abc", "0", "-1", "nan", "inf"))],
+    *[
+        item
+        for solver in ("normal", "tangential")
+        for item in numbers(f"{solver}_rtol", ("abc", "0", "-1", "nan", "inf"))
+    ],
     *numbers("normal_max_it", ("-1", "1.5", "abc")),
     *numbers("tangential_levels", ("-1", "x")),
     case("coupling unknown", dict(coupling="half"), says=["-coupling", "half"]),
@@ -132,7 +288,7 @@ def folder(tmp_path):
     (tmp_path / "crowded.opts").write_text("-load_tx 1  # newtons\n-grid_n 64 -load_ty 2\n")
     (tmp_path / "empty.h5").write_bytes(b"")
     (tmp_path / "folder").mkdir()
-    bowl = np.add.outer((np.arange(8) - 3.5)**2, (np.arange(8) - 3.5)**2) * 1e-8
+    bowl = np.add.outer((np.arange(8) - 3.5) ** 2, (np.arange(8) - 3.5) ** 2) * 1e-8
     with h5py.File(tmp_path / "good.h5", "w") as f:
         f["height"] = bowl
         f["line"], f["cube"], f["scalar"], f["words"] = bowl[0], np.stack([bowl, bowl]), 1.0, [[b"a"] * 8] * 8
@@ -171,8 +327,17 @@ def test_mistake_is_named(petsam, folder, change, extra, says, code):
     assert_refused(petsam, folder, change, extra, says, code)
 
 
-PARALLEL = ("unknown", "positional word", "load_n nan", "gap file missing", "gap file is cut", "gap file with nan", "output in no directory",
-            "normal_rtol 0", "grid too large for memory, 32-bit")
+PARALLEL = (
+    "unknown",
+    "positional word",
+    "load_n nan",
+    "gap file missing",
+    "gap file is cut",
+    "gap file with nan",
+    "output in no directory",
+    "normal_rtol 0",
+    "grid too large for memory, 32-bit",
+)
 
 
 @pytest.mark.parametrize("change, extra, says, code", [item for item in CASES if item.id in PARALLEL])
@@ -191,20 +356,36 @@ def test_mistakes_in_the_environment_are_found(petsam, sphere):
     assert "-lood_ty" in done.complaint[0]
 
 
-@pytest.mark.parametrize("change", [
-    dict(body2_young=INF, body2_poisson=None), dict(body2_young="Inf", body2_poisson="0.3"), dict(gap_radius2="infinity"),
-    dict(grid_n="64,64"), dict(grid_size="2.6e-3,2.7e-3"), dict(load_tx="-50"), dict(load_my="-1e-3", rot_x="-0"),
-    dict(friction="0"), dict(load_n="+1e3"), dict(allow_edge_contact="yes"), dict(grid_center="-1e-4,2e-4"),
-    dict(body1_poisson="-0.5", body2_poisson="-.5"), dict(Load_tx="60"),
-], ids=str)
+@pytest.mark.parametrize(
+    "change",
+    [
+        dict(body2_young=INF, body2_poisson=None),
+        dict(body2_young="Inf", body2_poisson="0.3"),
+        dict(gap_radius2="infinity"),
+        dict(grid_n="64,64"),
+        dict(grid_size="2.6e-3,2.7e-3"),
+        dict(load_tx="-50"),
+        dict(load_my="-1e-3", rot_x="-0"),
+        dict(friction="0"),
+        dict(load_n="+1e3"),
+        dict(allow_edge_contact="yes"),
+        dict(grid_center="-1e-4,2e-4"),
+        dict(body1_poisson="-0.5", body2_poisson="-.5"),
+        dict(Load_tx="60"),
+    ],
+    ids=str,
+)
 def test_good_input_is_taken(petsam, sphere, change):
     petsam(dict(sphere, **change))
 
 
 def test_options_file_and_environment_count_as_the_command_line(petsam, sphere, tmp_path):
     from support import Results, words
+
     line = words(dict(sphere, load_tx=40.0))
-    (tmp_path / "study.opts").write_text("# a comment\n" + "\n".join(" ".join(p) for p in zip(line[::2], line[1::2])) + "\n")
+    (tmp_path / "study.opts").write_text(
+        "# a comment\n" + "\n".join(" ".join(p) for p in zip(line[::2], line[1::2])) + "\n"
+    )
     petsam("-options_file", "study.opts", "-output", "a.h5")
     petsam("-output", "b.h5", environment=dict(PETSC_OPTIONS=" ".join(line)))
     petsam(*line, "-output", "c.h5")
@@ -214,6 +395,7 @@ def test_options_file_and_environment_count_as_the_command_line(petsam, sphere, 
 
 def test_command_line_overrides_the_options_file(petsam, sphere, tmp_path):
     from support import Results, words
+
     line = words(sphere)
     (tmp_path / "study.opts").write_text("\n".join(" ".join(p) for p in zip(line[::2], line[1::2])) + "\n-load_tx 10\n")
     petsam("-options_file", "study.opts", "-output", "a.h5", "-load_tx", "20")

@@ -1,4 +1,5 @@
-"""The benchmark (tests/bench): it runs, its measure of accuracy tells solutions apart, and its scaling model holds together."""
+"""The benchmark (tests/bench): it runs, its accuracy tells solutions apart, and its scaling model holds together."""
+
 import csv
 import json
 import os
@@ -52,14 +53,19 @@ def test_every_case_is_solved_on_one_and_two_ranks(report):
 
 
 def test_memory_is_a_process_s(report):
-    assert all(10 < r["memory"] / r["cores"] < 1000 for r in rows(report))  # MB: PETSc alone takes 30, a grid of 32 next to nothing
+    assert all(
+        10 < r["memory"] / r["cores"] < 1000 for r in rows(report)
+    )  # MB: PETSc alone takes 30, a grid of 32 next to nothing
 
 
 def test_report_has_all_rows_and_figures(report):
     with open(report / "results.csv", newline="") as file:
         assert len(list(csv.DictReader(file))) == 2 * len(CASES)
     text = (report / "report.md").read_text()
-    assert all(f"![{name}]({name}.png)" in text and (report / f"{name}.png").exists() for name in ("seconds", "memory", "scaling"))
+    assert all(
+        f"![{name}]({name}.png)" in text and (report / f"{name}.png").exists()
+        for name in ("seconds", "memory", "scaling")
+    )
     assert "| 32² | 2 |" in text  # FFTW's padded pair beside petsam's convolution
 
 
@@ -81,7 +87,7 @@ def test_killed_run_goes_on_where_it_was(killed):
     done = run(*words)
     assert done.returncode == 0, done.stdout + done.stderr
     assert 0 < len(before) < 4 and len(rows(out)) == 4
-    assert rows(out)[:len(before)] == before  # the times, too
+    assert rows(out)[: len(before)] == before  # the times, too
     assert f"resumed after {len(before)} rows" in (out / "report.md").read_text()
 
 
@@ -107,7 +113,9 @@ def test_failing_case_is_named_and_loses_no_other(tmp_path):
     for name in ("bench", "venv"):
         (build / name).symlink_to(BUILD / name)
     program = build / "bin" / "petsam"
-    program.write_text(f'#!/bin/sh\ncase "$*" in *load_mz*) [ -e {tmp_path}/mended ] || exit 3;; esac\nexec {BUILD}/bin/petsam "$@"\n')
+    program.write_text(
+        f'#!/bin/sh\ncase "$*" in *load_mz*) [ -e {tmp_path}/mended ] || exit 3;; esac\nexec {BUILD}/bin/petsam "$@"\n'
+    )
     program.chmod(0o755)
     words = (*TINY, "--cases", "slip_tx_mz,hertz", "--out", tmp_path / "out")
     done = run(*words, build=build)

@@ -1,4 +1,5 @@
 """Checkpoints: what goes on from one is what would have come without it; a wrong or damaged one is refused."""
+
 import os
 import re
 import shutil
@@ -13,7 +14,7 @@ import pytest
 import conftest
 import kill_at_random
 from kill_at_random import CASE, complete_steps, differences, start, write_history
-from support import SPHERE, Results, assert_same, ball
+from support import Results, assert_same, ball
 
 STEPS = 24
 KEPT = dict(checkpoint="state.h5", checkpoint_every=7)
@@ -55,15 +56,23 @@ def is_closed(path):
 # over the grid and takes the tangential solver's window with it
 DISSIMILAR = dict(CASE, grid_size=6e-3, body2_young=9e9, body2_poisson=0.4, friction=0.3)
 CONSTANT = dict(CASE, load_n=1000.0), "time, load_tx", lambda k: (60 * np.sin(k / 5),)
-ROLLING = dict(CASE, grid_n=64, grid_size=4e-3, load_n=300.0), "time, load_my, load_tx", lambda k: (0.05 * np.sin(k / 4), 10 * np.cos(k / 5))
+ROLLING = (
+    dict(CASE, grid_n=64, grid_size=4e-3, load_n=300.0),
+    "time, load_my, load_tx",
+    lambda k: (0.05 * np.sin(k / 4), 10 * np.cos(k / 5)),
+)
 
 
 def write(folder, header, values):
-    (folder / "history.csv").write_text(header + "\n" + "".join(f"{k + 1}, {', '.join(repr(float(v)) for v in values(k))}\n" for k in range(STEPS)))
+    (folder / "history.csv").write_text(
+        header + "\n" + "".join(f"{k + 1}, {', '.join(repr(float(v)) for v in values(k))}\n" for k in range(STEPS))
+    )
 
 
 @pytest.mark.parametrize("ranks", [1, 2, 3])
-@pytest.mark.parametrize("case", [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING], ids=["similar", "dissimilar", "constant", "rolling"])
+@pytest.mark.parametrize(
+    "case", [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING], ids=["similar", "dissimilar", "constant", "rolling"]
+)
 def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
     """To the last bit, which asks for all of the state: what is lost of it shows at the solvers' tolerance."""
     if len(case) > 1:
@@ -105,7 +114,9 @@ def test_run_that_was_at_its_end_is_left_as_it_is(folder, petsam):
 
 def test_run_goes_on_without_results(stopped, petsam):
     done = petsam(CASE, dict(output=None), ON)
-    assert re.search(r"restart +after step 21, from state.h5", done.stdout) and re.search(r"^ *22 +22 ", done.stdout, re.M)
+    assert re.search(r"restart +after step 21, from state.h5", done.stdout) and re.search(
+        r"^ *22 +22 ", done.stdout, re.M
+    )
 
 
 def test_worst_status_is_kept(folder, petsam):
@@ -117,6 +128,7 @@ def test_worst_status_is_kept(folder, petsam):
 
 
 # ---------------------------------------------------------------- the results
+
 
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("every", [1, 5])
@@ -146,13 +158,17 @@ def test_results_that_were_closed_go_on_in_place(folder, launcher, petsam):
     assert (folder / "out.h5").stat().st_ino == before and steps(folder / "out.h5") == STEPS
 
 
-@pytest.mark.parametrize("spoil, code, word", [
-    (lambda f: f.unlink(), 3, "No such file"),
-    (lambda f: f.write_text("no"), 3, "not an HDF5 file"),
-    (lambda f: shutil.copy(f.with_name("short.h5"), f), 3, "3 of the 21 steps"),
-    (lambda f: shutil.copy(f.with_name("other.h5"), f), 2, "-friction is 0.3 there, not 0.1"),
-    (lambda f: shutil.copy(f.with_name("late.h5"), f), 2, "times"),
-], ids=["missing", "text", "short", "friction", "times"])
+@pytest.mark.parametrize(
+    "spoil, code, word",
+    [
+        (lambda f: f.unlink(), 3, "No such file"),
+        (lambda f: f.write_text("no"), 3, "not an HDF5 file"),
+        (lambda f: shutil.copy(f.with_name("short.h5"), f), 3, "3 of the 21 steps"),
+        (lambda f: shutil.copy(f.with_name("other.h5"), f), 2, "-friction is 0.3 there, not 0.1"),
+        (lambda f: shutil.copy(f.with_name("late.h5"), f), 2, "times"),
+    ],
+    ids=["missing", "text", "short", "friction", "times"],
+)
 def test_results_of_another_run_are_left_alone(stopped, petsam, spoil, code, word):
     rows = (stopped / "history.csv").read_text()
     petsam(CASE, dict(output="other.h5", friction=0.3))
@@ -170,6 +186,7 @@ def test_results_of_another_run_are_left_alone(stopped, petsam, spoil, code, wor
 
 
 # ---------------------------------------------------------------- when
+
 
 def test_without_every_nothing_is_written(folder, petsam):
     petsam(CASE, dict(checkpoint="state.h5"))
@@ -273,11 +290,16 @@ def test_wrong_time_limit_is_refused(folder, petsam, text):
     assert "-max_walltime" in done.complaint[0]
 
 
-@pytest.mark.parametrize("options, word", [
-    (dict(checkpoint_every=2), "-checkpoint_every"), (dict(max_walltime=60), "-max_walltime"),
-    (dict(checkpoint="out.h5"), "-checkpoint out.h5"), (dict(checkpoint="history.csv"), "-history"),
-    (dict(checkpoint="state.h5", checkpoint_every=-1), "-checkpoint_every -1"),
-])
+@pytest.mark.parametrize(
+    "options, word",
+    [
+        (dict(checkpoint_every=2), "-checkpoint_every"),
+        (dict(max_walltime=60), "-max_walltime"),
+        (dict(checkpoint="out.h5"), "-checkpoint out.h5"),
+        (dict(checkpoint="history.csv"), "-history"),
+        (dict(checkpoint="state.h5", checkpoint_every=-1), "-checkpoint_every -1"),
+    ],
+)
 def test_contradictory_options_are_refused(folder, petsam, options, word):
     done = petsam(CASE, options, check=2)
     assert word in done.complaint[0] and not (folder / "out.h5").exists()
@@ -286,7 +308,11 @@ def test_contradictory_options_are_refused(folder, petsam, options, word):
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_checkpoint_that_cannot_be_written_is_told_at_the_start(folder, petsam, ranks):
     done = petsam(CASE, dict(checkpoint="nowhere/state.h5"), ranks=ranks, check=3)
-    assert len(done.complaint) == 1 and "-checkpoint nowhere/state.h5" in done.complaint[0] and not (folder / "out.h5").exists()
+    assert (
+        len(done.complaint) == 1
+        and "-checkpoint nowhere/state.h5" in done.complaint[0]
+        and not (folder / "out.h5").exists()
+    )
 
 
 def test_results_may_not_replace_the_checkpoint(stopped, petsam):
@@ -310,7 +336,9 @@ def test_lost_folder_ends_the_run(launcher, folder, ranks):
 def small_disk(folder):
     """away/ on a disk that holds one checkpoint of 128 x 128 cells and not two."""
     (folder / "away").mkdir()
-    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=3m", "tmpfs", str(folder / "away")], capture_output=True, text=True)
+    done = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=3m", "tmpfs", str(folder / "away")], capture_output=True, text=True
+    )
     if done.returncode:
         pytest.skip("no right to mount a small disk")
     yield folder
@@ -321,7 +349,11 @@ def small_disk(folder):
 def test_full_disk_ends_the_run_and_leaves_the_checkpoint_before(small_disk, petsam, ranks):
     case = dict(CASE, grid_n=128)
     done = petsam(case, dict(checkpoint="away/state.h5", checkpoint_every=2), ranks=ranks, check=3)
-    assert len(done.complaint) == 1 and "-checkpoint away/state.h5" in done.complaint[0] and "No space left" in done.complaint[0]
+    assert (
+        len(done.complaint) == 1
+        and "-checkpoint away/state.h5" in done.complaint[0]
+        and "No space left" in done.complaint[0]
+    )
     assert [path.name for path in (small_disk / "away").iterdir()] == ["state.h5"]
     assert complete_steps(small_disk / "out.h5") == 4
     petsam(case, dict(restart="away/state.h5"), ranks=ranks)
@@ -330,8 +362,17 @@ def test_full_disk_ends_the_run_and_leaves_the_checkpoint_before(small_disk, pet
 
 # ---------------------------------------------------------------- another run's
 
-OTHERS = dict(friction=0.2, grid_n=33, grid_size=2.7e-3, grid_center=1e-5, body1_young=200e9, body2_poisson=0.29, gap_radius1=0.21,
-              coupling="none", steps=2)
+OTHERS = dict(
+    friction=0.2,
+    grid_n=33,
+    grid_size=2.7e-3,
+    grid_center=1e-5,
+    body1_young=200e9,
+    body2_poisson=0.29,
+    gap_radius1=0.21,
+    coupling="none",
+    steps=2,
+)
 
 
 @pytest.mark.parametrize("name", OTHERS)
@@ -360,13 +401,17 @@ def test_gap_file_that_has_changed_is_refused(folder, petsam):
     assert "-gap_rough_file is" in petsam(CASE, ON, check=2).complaint[0]
 
 
-@pytest.mark.parametrize("change, word", [
-    (lambda rows: re.sub(r"^5, \S+,", "5, 1000,", rows, flags=re.M), "-load_n"),
-    (lambda rows: re.sub(r"^(5, \S+), .*", r"\1, 1", rows, flags=re.M), "-load_tx"),
-    (lambda rows: rows.replace("load_tx", "disp_x"), "-disp_x"),
-    (lambda rows: re.sub(r"^5,", "5.5,", rows, flags=re.M), "times"),
-    (lambda rows: "\n".join(rows.splitlines()[:11]) + "\n", "-history"),
-], ids=["load_n", "load_tx", "control", "times", "short"])
+@pytest.mark.parametrize(
+    "change, word",
+    [
+        (lambda rows: re.sub(r"^5, \S+,", "5, 1000,", rows, flags=re.M), "-load_n"),
+        (lambda rows: re.sub(r"^(5, \S+), .*", r"\1, 1", rows, flags=re.M), "-load_tx"),
+        (lambda rows: rows.replace("load_tx", "disp_x"), "-disp_x"),
+        (lambda rows: re.sub(r"^5,", "5.5,", rows, flags=re.M), "times"),
+        (lambda rows: "\n".join(rows.splitlines()[:11]) + "\n", "-history"),
+    ],
+    ids=["load_n", "load_tx", "control", "times", "short"],
+)
 def test_checkpoint_of_another_history_is_refused_by_name(stopped, petsam, change, word):
     history = stopped / "history.csv"
     history.write_text(change(history.read_text()))
@@ -384,6 +429,7 @@ def test_checkpoint_of_another_version_is_refused(stopped, petsam, name, value):
 
 # ---------------------------------------------------------------- damage
 
+
 def flip(path, where):
     data = bytearray(path.read_bytes())
     data[where] ^= 4
@@ -391,14 +437,26 @@ def flip(path, where):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("damage", [
-    lambda f: f.unlink(), lambda f: f.write_text("no"), lambda f: os.truncate(f, f.stat().st_size // 2), lambda f: os.truncate(f, 0),
-    lambda f: flip(f, f.stat().st_size // 2), lambda f: shutil.copy(f.with_name("out.h5"), f),
-], ids=["missing", "text", "half", "empty", "one bit", "results"])
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda f: f.unlink(),
+        lambda f: f.write_text("no"),
+        lambda f: os.truncate(f, f.stat().st_size // 2),
+        lambda f: os.truncate(f, 0),
+        lambda f: flip(f, f.stat().st_size // 2),
+        lambda f: shutil.copy(f.with_name("out.h5"), f),
+    ],
+    ids=["missing", "text", "half", "empty", "one bit", "results"],
+)
 def test_damaged_checkpoint_is_an_error_that_names_the_one_before(stopped, petsam, damage, ranks):
     damage(stopped / "state.h5")
     done = petsam(CASE, ON, ranks=ranks, check=3)
-    assert len(done.complaint) == 1 and "-restart state.h5:" in done.complaint[0] and "-restart state.h5.1" in done.complaint[0]
+    assert (
+        len(done.complaint) == 1
+        and "-restart state.h5:" in done.complaint[0]
+        and "-restart state.h5.1" in done.complaint[0]
+    )
     shutil.copy(stopped / "state.h5.1", stopped / "state.h5.0")
     flip(stopped / "state.h5.1", (stopped / "state.h5.1").stat().st_size // 2)
     assert "state.h5.1" not in petsam(CASE, ON, ranks=ranks, check=3).complaint[0]
@@ -422,6 +480,7 @@ def test_no_damaged_bit_is_taken_for_good(stopped, petsam):
 
 
 # ---------------------------------------------------------------- killed
+
 
 @pytest.mark.parametrize("ranks, kills", [(1, 12), (2, 4), (3, 3)])
 def test_run_that_is_killed_again_and_again_gets_to_the_same_end(launcher, folder, ranks, kills):

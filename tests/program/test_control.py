@@ -1,4 +1,5 @@
 """Force and displacement control of the six components, and moments."""
+
 import numpy as np
 import pytest
 
@@ -17,13 +18,18 @@ def controlled(solution, names):
 def assert_loads(solution, tolerance):
     arm = hertz(BALL).radius
     for name in LOADS:
-        scale = (BALL["load_n"] if name in LOADS[:3] else np.hypot(BALL["load_tx"], BALL["load_ty"])) * (arm if name[5] == "m" else 1)
+        scale = (BALL["load_n"] if name in LOADS[:3] else np.hypot(BALL["load_tx"], BALL["load_ty"])) * (
+            arm if name[5] == "m" else 1
+        )
         assert solution[name] == pytest.approx(BALL[name], abs=tolerance * scale), name
         assert solution.loads()[name] == pytest.approx(BALL[name], abs=tolerance * scale), name
 
 
-@pytest.mark.parametrize("names", [LOADS, LOADS[:1], LOADS[1:3], LOADS[:3], LOADS[3:4], LOADS[4:], LOADS[5:], LOADS[::2]],
-                         ids=lambda names: "-".join(name[5:] for name in names))
+@pytest.mark.parametrize(
+    "names",
+    [LOADS, LOADS[:1], LOADS[1:3], LOADS[:3], LOADS[3:4], LOADS[4:], LOADS[5:], LOADS[::2]],
+    ids=lambda names: "-".join(name[5:] for name in names),
+)
 def test_rigid_displacements_give_back_the_loads(solve, names):
     # 1e-5: ten times the tangential tolerance
     assert_loads(solve(controlled(solve(BALL), names)), 1e-5)
@@ -32,7 +38,12 @@ def test_rigid_displacements_give_back_the_loads(solve, names):
 def test_displacement_control_gives_the_same_fields(solve):
     # near the edge of the stick zone the shear is off by some ten times the residual; 1e-7 leaves a margin of ten
     tight = dict(BALL, normal_rtol=1e-9, tangential_rtol=1e-9)
-    assert_same(solve(dict(controlled(solve(tight), LOADS), normal_rtol=1e-9, tangential_rtol=1e-9)), solve(tight), 1e-7, ("pressure", "shear_x", "shear_y", "displacement_z"))
+    assert_same(
+        solve(dict(controlled(solve(tight), LOADS), normal_rtol=1e-9, tangential_rtol=1e-9)),
+        solve(tight),
+        1e-7,
+        ("pressure", "shear_x", "shear_y", "displacement_z"),
+    )
 
 
 def test_given_displacements_stay_as_given(solve):
@@ -45,14 +56,19 @@ def test_stiffness_is_symmetric(solve):
     """d T_x/d r_z = d M_z/d d_x etc. in full stick: the work-conjugate pairs are of the right signs."""
     case = dict(ball(61), disp_x=0.0, disp_y=0.0, rot_z=0.0, load_my=0.02, load_mx=-0.01, friction=1e3)
     step = {"disp_x": 1e-9, "disp_y": 1e-9, "rot_z": 1e-6}
-    stiffness = np.array([[solve(dict(case, **{rigid: step[rigid]}))[load] / step[rigid] for load in LOADS[3:]] for rigid in step])
+    stiffness = np.array(
+        [[solve(dict(case, **{rigid: step[rigid]}))[load] / step[rigid] for load in LOADS[3:]] for rigid in step]
+    )
     size = np.sqrt(np.outer(np.diag(stiffness), np.diag(stiffness)))
     assert_close(stiffness / size, stiffness.T / size, 1e-5)  # ten times the tangential tolerance
     assert np.abs(stiffness[0, 2]) > 0.01 * size[0, 2]  # the contact is off the origin: the test sees the coupling
 
 
-@pytest.mark.parametrize("motion", [dict(disp_x=1e-3), dict(disp_y=-1e-3), dict(rot_z=1.0), dict(disp_x=1e-3, rot_z=0.7)],
-                         ids=lambda motion: "-".join(motion))
+@pytest.mark.parametrize(
+    "motion",
+    [dict(disp_x=1e-3), dict(disp_y=-1e-3), dict(rot_z=1.0), dict(disp_x=1e-3, rot_z=0.7)],
+    ids=lambda motion: "-".join(motion),
+)
 def test_gross_sliding_under_displacement_control_is_a_solution(solve, motion):
     case = ball(72, **motion)
     s = solve(case)
@@ -69,7 +85,7 @@ def test_force_beside_given_sliding(solve):
     case = ball(72, disp_x=2e-6, load_ty=5.0)
     s = solve(case)
     assert s["load_ty"] == pytest.approx(5.0, rel=1e-9)
-    assert s["load_tx"] <= np.sqrt((case["friction"] * case["load_n"])**2 - 25.0) * (1 + 1e-9)
+    assert s["load_tx"] <= np.sqrt((case["friction"] * case["load_n"]) ** 2 - 25.0) * (1 + 1e-9)
 
 
 def test_separated_bodies_carry_nothing(solve):
@@ -100,6 +116,7 @@ def test_approach_alone_is_hertz(solve):
 
 # ---- moments
 
+
 def test_moments_shift_the_pressure_by_their_lever(solve):
     """A tilted paraboloid is a shifted one: p moves by (M_y, -M_x)/N, and the fields with it."""
     case = dict(ball(0), grid_n=(96, 90))
@@ -109,7 +126,9 @@ def test_moments_shift_the_pressure_by_their_lever(solve):
     shift = (2e-5 * i, 2e-5 * j)
     s = solve(dict(case, load_my=180.0 * shift[0], load_mx=-180.0 * shift[1]))
     h, radius = hertz(case), case["gap_radius1"]
-    assert_close(s.pressure, np.roll(centred.pressure, (j, i), (0, 1)), 1e-5)  # 1e-8 on u; p is its derivative over a cell
+    assert_close(
+        s.pressure, np.roll(centred.pressure, (j, i), (0, 1)), 1e-5
+    )  # 1e-8 on u; p is its derivative over a cell
     assert s["rot_y"] == pytest.approx(shift[0] / radius, rel=1e-5)
     assert s["rot_x"] == pytest.approx(-shift[1] / radius, rel=1e-5)
     # the approach is of the origin, now beside the contact
@@ -144,4 +163,6 @@ def test_grid_centre_does_not_change_the_physics(solve, center):
         for name in ("pressure", "shear_x", "shear_y"):
             assert_close(getattr(s, name), getattr(reference, name), 1e-5, name, reference.pressure.max())
         assert s["rot_z"] == pytest.approx(reference["rot_z"], rel=1e-5)
-        assert s["disp_y"] == pytest.approx(reference["disp_y"] - x * reference["rot_z"], rel=1e-4, abs=1e-6 * reference["disp_x"])
+        assert s["disp_y"] == pytest.approx(
+            reference["disp_y"] - x * reference["rot_z"], rel=1e-4, abs=1e-6 * reference["disp_x"]
+        )

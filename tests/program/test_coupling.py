@@ -1,24 +1,27 @@
 """Dissimilar bodies: pressure moves the surfaces along, shear moves them apart."""
+
 import re
 
 import h5py
 import numpy as np
 import pytest
 
-from support import ROOT, assert_close, assert_same, ball, displacement
-from support import analytic
+from support import ROOT, assert_close, assert_same, ball, closed, displacement
 
 INF = float("inf")
 
 
 # ---------------------------------------------------------------- cases
 
+
 def dundurs(case):
     """Dundurs' second constant of a case's materials: the strength of the coupling, positive when body 1 is softer."""
+
     def terms(body):
         young, nu = case[f"body{body}_young"], case.get(f"body{body}_poisson") or 0.0
-        g = analytic.shear_modulus(young, nu)
+        g = closed.shear_modulus(young, nu)
         return (1 - 2 * nu) / g, (1 - nu) / g
+
     (o1, z1), (o2, z2) = terms(1), terms(2)
     return (o1 - o2) / (2 * (z1 + z2))
 
@@ -40,8 +43,8 @@ def pair(materials, n=64, **more):
     young1, nu1, young2, nu2 = MATERIALS[materials] if isinstance(materials, str) else materials
     case = ball(n)
     case.update(body1_young=young1, body1_poisson=nu1, body2_young=young2, body2_poisson=nu2)
-    e_star = analytic.effective_modulus(young1, nu1 or 0, young2, nu2 or 0)
-    case["grid_size"] = 3 * analytic.hertz(case["load_n"], case["gap_radius1"], e_star).radius
+    e_star = closed.effective_modulus(young1, nu1 or 0, young2, nu2 or 0)
+    case["grid_size"] = 3 * closed.hertz(case["load_n"], case["gap_radius1"], e_star).radius
     return dict(case, **more)
 
 
@@ -50,14 +53,20 @@ def similar(case):
     a = b = 0.0
     for body in (1, 2):
         nu = case[f"body{body}_poisson"] or 0.0
-        g = analytic.shear_modulus(case[f"body{body}_young"], nu)
+        g = closed.shear_modulus(case[f"body{body}_young"], nu)
         a, b = a + (1 - nu) / g, b + nu / g
     g, nu = 2 / (a + b), b / (a + b)
     return dict(case, body1_young=2 * g * (1 + nu), body1_poisson=nu, body2_young=2 * g * (1 + nu), body2_poisson=nu)
 
 
 def swapped(case):
-    return dict(case, body1_young=case["body2_young"], body1_poisson=case["body2_poisson"], body2_young=case["body1_young"], body2_poisson=case["body1_poisson"])
+    return dict(
+        case,
+        body1_young=case["body2_young"],
+        body1_poisson=case["body2_poisson"],
+        body2_young=case["body1_young"],
+        body2_poisson=case["body1_poisson"],
+    )
 
 
 # ---------------------------------------------------------------- convergence
@@ -118,6 +127,7 @@ def test_incompressible_and_rigid_do_not_couple(solve):
 
 # ---------------------------------------------------------------- the solution
 
+
 def test_displacements_are_those_of_both_tractions(solve):
     """By direct summation of Johnson's point forces, coupling included."""
     case = dict(STEEL, load_tx=20.0)
@@ -136,7 +146,9 @@ def test_tolerance_of_the_coupling_is_that_of_the_solution(solve):
         s = solve(dict(case, coupling_rtol=rtol))
         for name in ("pressure", "shear_x", "shear_y"):
             scale = np.abs(tight.pressure if name == "pressure" else tight.shear).max()
-            assert_close(getattr(s, name), getattr(tight, name), max(3 * rtol, 1e-5), name, scale)  # 1e-5: the tangential solver's
+            assert_close(
+                getattr(s, name), getattr(tight, name), max(3 * rtol, 1e-5), name, scale
+            )  # 1e-5: the tangential solver's
 
 
 def test_shear_under_normal_load_is_radial(solve):
@@ -151,7 +163,8 @@ def test_shear_under_normal_load_is_radial(solve):
 def test_shear_under_normal_load_points_as_the_stiffer_body_holds(solve):
     """Pressure draws each surface inwards, the softer body's the more; the stiffer one holds it back.
 
-    With body 1 the softer (positive coupling), body 1 moves inwards over body 2 and drags it along: q on body 2 is inwards.
+    With body 1 the softer (positive coupling), body 1 moves inwards over body 2 and drags it along: q on body 2 is
+    inwards.
     """
     for materials in ("plastic-steel", "steel-plastic"):
         s = solve(pair(materials, friction=0.3))
@@ -174,7 +187,7 @@ def test_stick_grows_with_friction_only(solve):
     assert 0.1 < share < 0.9
     more = solve(dict(case, friction=0.4))
     assert more["stick_area"] / more["contact_area"] > share + 0.05
-    scale = 0.5**(1 / 3)
+    scale = 0.5 ** (1 / 3)
     half = solve(dict(case, load_n=90.0, grid_size=case["grid_size"] * scale))
     # similar in all: the same picture, smaller
     assert half["stick_area"] / half["contact_area"] == pytest.approx(share)
@@ -183,6 +196,7 @@ def test_stick_grows_with_friction_only(solve):
 
 
 # ---------------------------------------------------------------- symmetries
+
 
 @pytest.mark.parametrize("materials", ["steel-aluminium", "cork-rigid"])
 def test_swapped_bodies_have_the_same_pressure_and_opposite_shear(solve, materials):
@@ -216,6 +230,7 @@ def test_opposite_force_is_the_mirrored_solution(solve):
 
 
 # ---------------------------------------------------------------- options
+
 
 def test_coupling_none_is_the_similar_pair(solve):
     """The other coefficients add up over the bodies, so a similar pair has the same ones."""
@@ -253,7 +268,10 @@ def test_one_pass_is_enough_where_nothing_couples(petsam):
 
 def changes(done):
     """The monitor's lines: pass, change of p, change of q."""
-    return [(int(k), float(p), float(q)) for k, p, q in re.findall(r"^ *(\d+) coupling \D*? p (\S+) q (\S+)$", done.stdout, re.M)]
+    return [
+        (int(k), float(p), float(q))
+        for k, p, q in re.findall(r"^ *(\d+) coupling \D*? p (\S+) q (\S+)$", done.stdout, re.M)
+    ]
 
 
 def test_monitor_prints_a_line_a_pass(petsam, tmp_path):
@@ -279,10 +297,13 @@ def test_tolerance_of_the_coupling_is_that_of_the_last_pass(petsam):
 
 # ---------------------------------------------------------------- histories
 
+
 def test_cycle_of_dissimilar_bodies(petsam, tmp_path):
     """Loading, fretting and unloading at strong coupling: every step converges and dissipates."""
     rows = [(60, 0), (120, 0), (180, 0), (180, 40), (180, 0), (180, -40), (180, 0), (90, 0), (20, 0), (0, 0), (180, 0)]
-    (tmp_path / "h.csv").write_text("time,load_n,load_tx\n" + "".join(f"{k + 1},{n},{t}\n" for k, (n, t) in enumerate(rows)))
+    (tmp_path / "h.csv").write_text(
+        "time,load_n,load_tx\n" + "".join(f"{k + 1},{n},{t}\n" for k, (n, t) in enumerate(rows))
+    )
     petsam(dict(pair("cork-rigid", friction=0.5), load_n=None, history="h.csv", output="out.h5"))
     with h5py.File(tmp_path / "out.h5") as f:
         h = {name: data[:] for name, data in f["history"].items()}
@@ -292,7 +313,7 @@ def test_cycle_of_dissimilar_bodies(petsam, tmp_path):
 
 
 def test_growing_load_where_little_sticks(petsam):
-    """Four cells in a hundred stick: gradient steps, which only the nearest admissible shear makes go downhill, are needed."""
+    """Four cells in a hundred stick: gradient steps are needed, downhill only by the nearest admissible shear."""
     petsam("-options_file", ROOT / "examples/dissimilar/dissimilar.opts", dict(body1_poisson=0.3, friction=0.1))
 
 

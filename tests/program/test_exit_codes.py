@@ -1,4 +1,5 @@
 """Exit codes 10, 11, 12: what did not converge, what has no equilibrium, what reached the edge."""
+
 import re
 
 import h5py
@@ -13,10 +14,14 @@ FORCE, TORQUE = slide_limit(BALL)
 
 def limits(done):
     """The limits that the message tells, by load."""
-    return {name: float(limit) for name, limit in re.findall(r"(load_\w+) = \S+ (?:N m|N) \(limit (\S+)\)", done.complaint[0])}
+    return {
+        name: float(limit)
+        for name, limit in re.findall(r"(load_\w+) = \S+ (?:N m|N) \(limit (\S+)\)", done.complaint[0])
+    }
 
 
 # ---- 11
+
 
 @pytest.mark.parametrize("name", ["load_tx", "load_ty"])
 @pytest.mark.parametrize("factor", [1.0001, -1.3, 50.0])
@@ -93,6 +98,7 @@ def test_no_equilibrium_leaves_a_marked_file_without_fields(petsam, tmp_path):
 
 # ---- 12
 
+
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_contact_at_the_edge_is_told_and_written(petsam, tmp_path, ranks):
     done = petsam(ball(40, half_width=0.9), dict(output="out.h5"), ranks=ranks, check=12)
@@ -126,6 +132,7 @@ def test_contact_in_the_last_but_one_cell_is_not_at_the_edge(petsam):
 
 # ---- 10
 
+
 @pytest.mark.parametrize("option", ["normal_max_it", "tangential_max_it", "coupling_max_it"])
 def test_no_convergence_is_told_and_written(petsam, tmp_path, option):
     case = dict(BALL, load_tx=30.0, output="out.h5")
@@ -144,8 +151,13 @@ def test_no_convergence_by_a_tolerance_out_of_reach(petsam):
 
 def test_loose_tolerance_converges_sooner(solve):
     case = dict(BALL, load_tx=30.0)
-    loose, tight = solve(case, dict(normal_rtol=1e-4, tangential_rtol=1e-3)), solve(case, dict(normal_rtol=1e-11, tangential_rtol=1e-9))
-    assert loose["normal_applies"] < tight["normal_applies"] and loose["tangential_applies"] < tight["tangential_applies"]
+    loose, tight = (
+        solve(case, dict(normal_rtol=1e-4, tangential_rtol=1e-3)),
+        solve(case, dict(normal_rtol=1e-11, tangential_rtol=1e-9)),
+    )
+    assert (
+        loose["normal_applies"] < tight["normal_applies"] and loose["tangential_applies"] < tight["tangential_applies"]
+    )
     assert tight["normal_residual"] <= 1.05e-11 and tight["tangential_residual"] <= 1.05e-9
 
 

@@ -1,4 +1,5 @@
 """The results file, and what the program prints."""
+
 import re
 
 import h5py
@@ -7,14 +8,60 @@ import pytest
 
 from support import FIELDS, LOADS, RIGID, SPHERE, assert_same, ball, slide_limit
 
-CASE = dict(ball(), grid_n=(34, 41), grid_size=(1.9e-3, 2.1e-3), grid_center=(1e-4, -5e-5), load_tx=20.0, load_my=0.01, rot_z=1e-5)
-UNITS = dict(pressure="Pa", shear_x="Pa", shear_y="Pa", slip_x="m", slip_y="m", gap="m", displacement_x="m", displacement_y="m",
-             displacement_z="m", state="1", x="m", y="m", time="s")
-HISTORY = dict(time="s", load_n="N", load_tx="N", load_ty="N", load_mx="N m", load_my="N m", load_mz="N m", disp_z="m", disp_x="m",
-               disp_y="m", rot_x="rad", rot_y="rad", rot_z="rad", contact_area="m2", stick_area="m2", normal_residual="1",
-               tangential_residual="1", dissipated_energy="J")
-COUNTS = ("normal_iterations", "tangential_iterations", "normal_applies", "tangential_applies", "normal_preconditions",
-          "tangential_preconditions", "coupling_iterations", "status")
+CASE = dict(
+    ball(),
+    grid_n=(34, 41),
+    grid_size=(1.9e-3, 2.1e-3),
+    grid_center=(1e-4, -5e-5),
+    load_tx=20.0,
+    load_my=0.01,
+    rot_z=1e-5,
+)
+UNITS = dict(
+    pressure="Pa",
+    shear_x="Pa",
+    shear_y="Pa",
+    slip_x="m",
+    slip_y="m",
+    gap="m",
+    displacement_x="m",
+    displacement_y="m",
+    displacement_z="m",
+    state="1",
+    x="m",
+    y="m",
+    time="s",
+)
+HISTORY = dict(
+    time="s",
+    load_n="N",
+    load_tx="N",
+    load_ty="N",
+    load_mx="N m",
+    load_my="N m",
+    load_mz="N m",
+    disp_z="m",
+    disp_x="m",
+    disp_y="m",
+    rot_x="rad",
+    rot_y="rad",
+    rot_z="rad",
+    contact_area="m2",
+    stick_area="m2",
+    normal_residual="1",
+    tangential_residual="1",
+    dissipated_energy="J",
+)
+COUNTS = (
+    "normal_iterations",
+    "tangential_iterations",
+    "normal_applies",
+    "tangential_applies",
+    "normal_preconditions",
+    "tangential_preconditions",
+    "coupling_iterations",
+    "status",
+)
 
 
 @pytest.fixture
@@ -47,8 +94,13 @@ def test_history_has_a_value_a_step(file, name):
 
 def test_every_dataset_has_units_and_a_name(file):
     lacking = []
-    file.visititems(lambda name, item: lacking.append(name) if isinstance(item, h5py.Dataset) and not (
-        item.attrs.get("units") and item.attrs.get("long_name")) else None)
+    file.visititems(
+        lambda name, item: (
+            lacking.append(name)
+            if isinstance(item, h5py.Dataset) and not (item.attrs.get("units") and item.attrs.get("long_name"))
+            else None
+        )
+    )
     assert not lacking
 
 
@@ -83,9 +135,22 @@ def test_grid_parameters_have_their_options_names(file):
 
 def test_gap_and_roughness_files_are_known(petsam, tmp_path):
     with h5py.File(tmp_path / "g.h5", "w") as f:
-        f["h"] = np.add.outer((np.arange(9) - 4.0)**2, (np.arange(8) - 3.5)**2) * 1e-7
-    petsam(dict(SPHERE, grid_n=(8, 9), gap_type="file", gap_radius1=None, gap_radius2=None, gap_file="g.h5", gap_dataset="/h", load_n=1.0,
-                gap_rough_file="g.h5", gap_rough_dataset="/h", output="out.h5"))
+        f["h"] = np.add.outer((np.arange(9) - 4.0) ** 2, (np.arange(8) - 3.5) ** 2) * 1e-7
+    petsam(
+        dict(
+            SPHERE,
+            grid_n=(8, 9),
+            gap_type="file",
+            gap_radius1=None,
+            gap_radius2=None,
+            gap_file="g.h5",
+            gap_dataset="/h",
+            load_n=1.0,
+            gap_rough_file="g.h5",
+            gap_rough_dataset="/h",
+            output="out.h5",
+        )
+    )
     with h5py.File(tmp_path / "out.h5") as f:
         assert f.attrs["gap_type"] == "file"
         assert "-gap_file g.h5" in f.attrs["options"] and "-gap_rough_dataset /h" in f.attrs["options"]
@@ -118,14 +183,36 @@ def test_compressed_fields_are_the_same(solve, ranks):
 
 # ---- what is printed
 
+
 @pytest.mark.parametrize("word, ranks", [("-help", 1), ("--help", 2), ("-h", 1)])
 def test_help_names_every_option_once(petsam, tmp_path, word, ranks):
     done = petsam(word, ranks=ranks)
-    for name in list(SPHERE) + ["grid_center", *LOADS, *RIGID, "gap_file", "gap_dataset", "gap_rough_file", "gap_rough_dataset", "gap_radius_x",
-                                "gap_radius_y", "gap_flat_radius", "gap_edge_radius", "coupling", "coupling_rtol", "coupling_max_it", "output",
-                                "allow_edge_contact"] + [
-                                f"{solver}_{option}" for solver in ("normal", "tangential") for option in
-                                ("type", "rtol", "max_it", "monitor", "converged_reason", "view")]:
+    for name in (
+        list(SPHERE)
+        + [
+            "grid_center",
+            *LOADS,
+            *RIGID,
+            "gap_file",
+            "gap_dataset",
+            "gap_rough_file",
+            "gap_rough_dataset",
+            "gap_radius_x",
+            "gap_radius_y",
+            "gap_flat_radius",
+            "gap_edge_radius",
+            "coupling",
+            "coupling_rtol",
+            "coupling_max_it",
+            "output",
+            "allow_edge_contact",
+        ]
+        + [
+            f"{solver}_{option}"
+            for solver in ("normal", "tangential")
+            for option in ("type", "rtol", "max_it", "monitor", "converged_reason", "view")
+        ]
+    ):
         assert len(re.findall(rf"^  -{name} ", done.stdout, re.M)) == 1, name
     assert done.stderr == "" and not list(tmp_path.iterdir())
 
@@ -171,7 +258,10 @@ def test_reason_of_failure_is_printed(petsam, solver):
     assert re.search(rf"^The {solver} solve did not converge due to \w+", done.stdout, re.M)
 
 
-@pytest.mark.parametrize("solver, kind", [("normal", "polonskykeer"), ("tangential", "gradient"), ("normal", "activeset"), ("tangential", "newton")])
+@pytest.mark.parametrize(
+    "solver, kind",
+    [("normal", "polonskykeer"), ("tangential", "gradient"), ("normal", "activeset"), ("tangential", "newton")],
+)
 def test_view_prints_the_settings(petsam, solver, kind):
     done = petsam(ball(40), f"-{solver}_view", f"-{solver}_type", kind, f"-{solver}_rtol", "3e-7")
     assert re.search(rf"{solver} problem: type {kind}\n.*rtol 3e-07", done.stdout)
@@ -183,7 +273,9 @@ def test_view_may_go_to_a_file(petsam, tmp_path):
 
 
 def test_contact_check_prints_the_check(petsam):
-    assert re.search(r"check: normal \S+ tangential \S+ equilibrium \S+ cone \S+", petsam(CASE, "-contact_check").stdout)
+    assert re.search(
+        r"check: normal \S+ tangential \S+ equilibrium \S+ cone \S+", petsam(CASE, "-contact_check").stdout
+    )
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -198,15 +290,27 @@ def test_log_view_goes_to_xml(petsam, tmp_path):
     assert "<petscroot>" in (tmp_path / "log.xml").read_text()
 
 
-@pytest.mark.parametrize("change, code", [({}, 0), (dict(body2_young=9e9, load_n=20.0, load_my=0.0, load_tx=2.0), 0),
-                                          (dict(ball(40), normal_type="polonskykeer", tangential_type="gradient", load_my=None, grid_center=None), 0),
-                                          (dict(load_tx=900.0), 11), (dict(load_my=9.0), 11), (dict(grid_size=5e-4), 12),
-                                          (dict(tangential_max_it=1), 10), (dict(load_n=-1.0), 2), (dict(gap_rough_file="nowhere.h5"), 3)],
-                         ids=lambda value: "-".join(value) if isinstance(value, dict) else str(value))
+@pytest.mark.parametrize(
+    "change, code",
+    [
+        ({}, 0),
+        (dict(body2_young=9e9, load_n=20.0, load_my=0.0, load_tx=2.0), 0),
+        (dict(ball(40), normal_type="polonskykeer", tangential_type="gradient", load_my=None, grid_center=None), 0),
+        (dict(load_tx=900.0), 11),
+        (dict(load_my=9.0), 11),
+        (dict(grid_size=5e-4), 12),
+        (dict(tangential_max_it=1), 10),
+        (dict(load_n=-1.0), 2),
+        (dict(gap_rough_file="nowhere.h5"), 3),
+    ],
+    ids=lambda value: "-".join(value) if isinstance(value, dict) else str(value),
+)
 def test_nothing_leaks(petsam, change, code):
     done = petsam({**CASE, "output": "out.h5", **change}, "-malloc_debug", "-malloc_dump", check=code)
     text = done.stdout + done.stderr
-    assert not re.search(r"^\[ *\d+\] ?\d+ bytes|Memory was not freed|\[\d+\]Total space allocated (?!0)", text, re.M), text[-3000:]
+    assert not re.search(
+        r"^\[ *\d+\] ?\d+ bytes|Memory was not freed|\[\d+\]Total space allocated (?!0)", text, re.M
+    ), text[-3000:]
 
 
 def test_objects_dump_lists_nothing(petsam):
@@ -222,20 +326,42 @@ def test_known_petsc_options_are_taken(petsam):
 FORCE, TORQUE = slide_limit(ball())
 
 
-@pytest.mark.parametrize("load", [{}, dict(load_tx=0.5 * FORCE), dict(load_mz=0.5 * TORQUE), dict(rot_x=1e-4, rot_y=2e-4), dict(load_my=0.02),
-                                  dict(grid_center=(1e-4, -5e-5)), dict(rot_x=0.0, rot_y=0.0, grid_center=(1e-4, -5e-5))], ids=str)
+@pytest.mark.parametrize(
+    "load",
+    [
+        {},
+        dict(load_tx=0.5 * FORCE),
+        dict(load_mz=0.5 * TORQUE),
+        dict(rot_x=1e-4, rot_y=2e-4),
+        dict(load_my=0.02),
+        dict(grid_center=(1e-4, -5e-5)),
+        dict(rot_x=0.0, rot_y=0.0, grid_center=(1e-4, -5e-5)),
+    ],
+    ids=str,
+)
 def test_polonsky_and_keer_agree_with_the_active_set(solve, load):
     case = dict(ball(80), **load)
     # 1e-8 in u; p is its derivative over a cell
     assert_same(solve(dict(case, normal_type="polonskykeer")), solve(case), 1e-5, ("pressure", "gap", "displacement_z"))
 
 
-@pytest.mark.parametrize("load", [dict(load_tx=0.5 * FORCE), dict(load_tx=0.9 * FORCE), dict(load_mz=0.8 * TORQUE),
-                                  dict(load_tx=0.4 * FORCE, load_mz=0.4 * TORQUE), dict(disp_x=1e-6)], ids=str)
+@pytest.mark.parametrize(
+    "load",
+    [
+        dict(load_tx=0.5 * FORCE),
+        dict(load_tx=0.9 * FORCE),
+        dict(load_mz=0.8 * TORQUE),
+        dict(load_tx=0.4 * FORCE, load_mz=0.4 * TORQUE),
+        dict(disp_x=1e-6),
+    ],
+    ids=str,
+)
 def test_gradient_agrees_with_newton(solve, load):
     case = dict(ball(80), **load)
     # 1e-6 in the residual of the shear, which bounds its error up to the condition of the contact's stiffness
-    assert_same(solve(dict(case, tangential_type="gradient")), solve(case), 1e-4, ("shear_x", "shear_y", "slip_x", "slip_y"))
+    assert_same(
+        solve(dict(case, tangential_type="gradient")), solve(case), 1e-4, ("shear_x", "shear_y", "slip_x", "slip_y")
+    )
 
 
 def test_levels_do_not_change_the_answer(solve):

@@ -1,4 +1,5 @@
 """Gaps and roughness from files."""
+
 import h5py
 import numpy as np
 import pytest
@@ -34,8 +35,11 @@ def test_file_is_read_in_parallel(solve, tmp_path, ranks):
     assert_same(solve(dict(FILE, gap_file=gap), ranks=ranks), solve(BASE), 1e-9)
 
 
-@pytest.mark.parametrize("more", [dict(dtype="f4"), dict(dtype=">f8"), dict(chunks=(16, 16), compression="gzip"), dict(name="surface/h")],
-                         ids=["float32", "big-endian", "compressed", "group"])
+@pytest.mark.parametrize(
+    "more",
+    [dict(dtype="f4"), dict(dtype=">f8"), dict(chunks=(16, 16), compression="gzip"), dict(name="surface/h")],
+    ids=["float32", "big-endian", "compressed", "group"],
+)
 def test_file_may_store_in_other_ways(solve, tmp_path, more):
     x, y = cells()
     gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"], **more)
@@ -53,14 +57,14 @@ def test_rows_of_the_file_are_y(solve, tmp_path):
     """An asymmetrical gap on a grid that is not square: contact where the file has it."""
     x, y = cells()
     x0, y0 = 9 * D, -6 * D
-    gap = write(tmp_path / "gap.h5", (x - x0)**2 / 2 / 0.09 + (y - y0)**2 / 2 / 0.04)
+    gap = write(tmp_path / "gap.h5", (x - x0) ** 2 / 2 / 0.09 + (y - y0) ** 2 / 2 / 0.04)
     s = solve(dict(FILE, gap_file=gap, rot_x=0.0, rot_y=0.0, load_n=40.0, load_tx=5.0))
     p = s.pressure / s.pressure.sum()
     # the centre lies on a cell boundary in x, so half a cell of error could not be overlooked
     assert np.sum(p * s.xx) == pytest.approx(x0, abs=0.05 * D)
     assert np.sum(p * s.yy) == pytest.approx(y0, abs=0.05 * D)
-    assert np.sum(p * (s.xx - x0)**2) > 1.3 * np.sum(p * (s.yy - y0)**2)  # longer along the larger radius
-    assert_close(s.separation(), (x - x0)**2 / 2 / 0.09 + (y - y0)**2 / 2 / 0.04, 1e-13)
+    assert np.sum(p * (s.xx - x0) ** 2) > 1.3 * np.sum(p * (s.yy - y0) ** 2)  # longer along the larger radius
+    assert_close(s.separation(), (x - x0) ** 2 / 2 / 0.09 + (y - y0) ** 2 / 2 / 0.04, 1e-13)
 
 
 @pytest.mark.parametrize("kind", ["sphere", "file", "flat"])
@@ -68,8 +72,11 @@ def test_roughness_is_added(solve, tmp_path, kind):
     """Curvatures add: a second paraboloid as roughness is a sphere of smaller radius."""
     x, y = cells()
     h = (x**2 + y**2) / 2
-    base = {"sphere": dict(BASE, gap_radius1=0.1), "file": dict(FILE, gap_file=write(tmp_path / "gap.h5", h / 0.1)),
-            "flat": dict(BASE, gap_type="flat", gap_radius1=None, gap_radius2=None)}[kind]
+    base = {
+        "sphere": dict(BASE, gap_radius1=0.1),
+        "file": dict(FILE, gap_file=write(tmp_path / "gap.h5", h / 0.1)),
+        "flat": dict(BASE, gap_type="flat", gap_radius1=None, gap_radius2=None),
+    }[kind]
     rough = write(tmp_path / "rough.h5", h / BASE["gap_radius1"] - (0 if kind == "flat" else h / 0.1), "z")
     assert_same(solve(dict(base, gap_rough_file=rough, gap_rough_dataset="z")), solve(BASE), 1e-9)
 
@@ -78,8 +85,11 @@ def test_rough_surfaces_touch_in_places(solve, tmp_path):
     x, y = cells()
     waves = 2e-7 * (np.cos(x * 2.9e4 + 0.3) * np.cos(y * 3.3e4) + 0.5 * np.sin(5.1e4 * x - 4.3e4 * y))
     s = solve(dict(BASE, gap_rough_file=write(tmp_path / "rough.h5", waves)))
-    assert s["contact_area"] < np.pi * hertz(BASE).radius**2
-    assert s["normal_residual"] <= 1.05 * BASE["normal_rtol"] and s["tangential_residual"] <= 1.05 * BASE["tangential_rtol"]
+    assert s["contact_area"] < np.pi * hertz(BASE).radius ** 2
+    assert (
+        s["normal_residual"] <= 1.05 * BASE["normal_rtol"]
+        and s["tangential_residual"] <= 1.05 * BASE["tangential_rtol"]
+    )
     assert s.loads()["load_n"] == pytest.approx(180.0, rel=1e-10)
 
 

@@ -1,4 +1,5 @@
 """Load histories through the whole program: files, steps, and mechanics that depend on the path."""
+
 import h5py
 import numpy as np
 import pytest
@@ -11,9 +12,12 @@ MU_N = FRICTION * 180.0
 
 # ---------------------------------------------------------------- helpers
 
+
 def csv(path, columns, rows):
     """A history: rows of numbers without their time, which counts from 1."""
-    lines = ["time," + ",".join(columns)] + [",".join(repr(float(v)) for v in (k + 1, *np.atleast_1d(row))) for k, row in enumerate(rows)]
+    lines = ["time," + ",".join(columns)] + [
+        ",".join(repr(float(v)) for v in (k + 1, *np.atleast_1d(row))) for k, row in enumerate(rows)
+    ]
     path.write_text("\n".join(lines) + "\n")
     return path
 
@@ -43,6 +47,7 @@ class Path:
 def drive(launcher, tmp_path_factory):
     """drive(case, columns, rows, ranks=1, check=0): all steps of that history, solved once a session."""
     from conftest import execute
+
     known = {}
 
     def run(case, columns=None, rows=None, ranks=1, check=0):
@@ -57,6 +62,7 @@ def drive(launcher, tmp_path_factory):
             known[key] = Path(directory / "results.h5")
             known[key].run = done
         return known[key]
+
     return run
 
 
@@ -69,7 +75,7 @@ def roughness(path, n, height, waves=6, seed=5):
         for ky in range(-waves, waves + 1):
             phase, size = rng.uniform(0, 2 * np.pi), rng.normal()
             if 4 <= kx * kx + ky * ky <= waves * waves:
-                z += size / (kx * kx + ky * ky)**0.9 * np.cos(kx * x[None, :] + ky * x[:, None] + phase)
+                z += size / (kx * kx + ky * ky) ** 0.9 * np.cos(kx * x[None, :] + ky * x[:, None] + phase)
     with h5py.File(path, "w") as f:
         f["height"] = height * z
     return path
@@ -86,6 +92,7 @@ def rough(tmp_path_factory):
         if not path.exists():
             roughness(path, n, 6e-7)
         return dict(base, gap_rough_file=path, **more)
+
     return case
 
 
@@ -96,7 +103,13 @@ def pushed(loads, n=180.0):
 
 def cycle(top, steps):
     """0 to top, then to -top, and back to top, in that many steps a stroke."""
-    return np.concatenate([top * np.arange(1, steps + 1) / steps, np.linspace(top, -top, steps + 1)[1:], np.linspace(-top, top, steps + 1)[1:]])
+    return np.concatenate(
+        [
+            top * np.arange(1, steps + 1) / steps,
+            np.linspace(top, -top, steps + 1)[1:],
+            np.linspace(-top, top, steps + 1)[1:],
+        ]
+    )
 
 
 def mindlin(case):
@@ -111,13 +124,21 @@ def six(rows, n=180.0, radius=None):
     t = np.arange(1, rows + 1) / rows
     w = 2 * np.pi * t
     start = np.minimum(1, 8 * t)
-    load_n = n * (1 - 0.35 * np.sin(2 * w)**2) * start
-    return np.column_stack([load_n, 0.12 * load_n * radius * np.sin(3 * w), 0.10 * load_n * radius * np.cos(2 * w + 0.4),
-                            0.35 * FRICTION * load_n * np.sin(4 * w), 0.30 * FRICTION * load_n * np.cos(3 * w + 1.0),
-                            0.12 * FRICTION * load_n * radius * np.sin(5 * w + 0.7)])
+    load_n = n * (1 - 0.35 * np.sin(2 * w) ** 2) * start
+    return np.column_stack(
+        [
+            load_n,
+            0.12 * load_n * radius * np.sin(3 * w),
+            0.10 * load_n * radius * np.cos(2 * w + 0.4),
+            0.35 * FRICTION * load_n * np.sin(4 * w),
+            0.30 * FRICTION * load_n * np.cos(3 * w + 1.0),
+            0.12 * FRICTION * load_n * radius * np.sin(5 * w + 0.7),
+        ]
+    )
 
 
 # ---------------------------------------------------------------- malformed files
+
 
 def malformed(name, text, *says, options=(), code=2):
     return pytest.param(text, says, options, code, id=name)
@@ -140,7 +161,9 @@ MALFORMED = [
     malformed("time that goes back", "time,load_tx\r\n1,2\r\n# pause\r\n0.5,3\r\n", "line 4", "time"),
     malformed("negative load_n", "time,load_n\n1,2\n2,-3\n", "line 3", "load_n", options=("-load_n", None)),
     malformed("load_tx and disp_x", "time,load_tx,disp_x\n1,2,0\n", "line 1", "load_tx", "disp_x"),
-    malformed("load_n and disp_z", "time,load_n,disp_z\n1,2,0\n", "line 1", "load_n", "disp_z", options=("-load_n", None)),
+    malformed(
+        "load_n and disp_z", "time,load_n,disp_z\n1,2,0\n", "line 1", "load_n", "disp_z", options=("-load_n", None)
+    ),
     malformed("column and option", "time,load_tx\n1,2\n", "-load_tx", options=("-load_tx", "3")),
     malformed("column and option of load_n", "time,load_n\n1,2\n", "-load_n"),
     malformed("column and conjugate option", "time,load_tx\n1,2\n", "-disp_x", "load_tx", options=("-disp_x", "1e-7")),
@@ -189,7 +212,9 @@ def test_malformed_history_is_named(petsam, tmp_path, text, says, options, code)
 
 
 @pytest.mark.parametrize("how", ["command line", "options file", "environment"])
-@pytest.mark.parametrize("text, says, options, code", [item for item in MALFORMED if item.id in ("nan", "missing", "column and option")])
+@pytest.mark.parametrize(
+    "text, says, options, code", [item for item in MALFORMED if item.id in ("nan", "missing", "column and option")]
+)
 def test_malformed_history_is_named_once_on_three_ranks(petsam, tmp_path, text, says, options, code, how):
     done = refuse(petsam, tmp_path, text, says, options, code, how, ranks=3)
     assert len([line for line in done.complaint if "loads.csv" in line]) == 1
@@ -208,7 +233,10 @@ def test_wrong_number_of_steps_is_named(petsam, steps):
 def test_too_many_steps_are_refused(petsam, tmp_path):
     """Three rows of so many increments are more than an index counts, be it of 32 or of 64 bits."""
     csv(tmp_path / "loads.csv", ("load_tx",), [1, 2, 3])
-    assert "-steps" in petsam(dict(SPHERE, grid_n=8), "-history", "loads.csv", "-steps", str(2**63 - 1), check=2).complaint[0]
+    assert (
+        "-steps"
+        in petsam(dict(SPHERE, grid_n=8), "-history", "loads.csv", "-steps", str(2**63 - 1), check=2).complaint[0]
+    )
 
 
 @pytest.mark.parametrize("value", ["0", "-1", "2.5"])
@@ -255,6 +283,7 @@ def test_history_may_lie_where_nobody_may_write(petsam, tmp_path):
 
 # ---------------------------------------------------------------- steps and their results
 
+
 def test_rows_are_steps_in_the_results(drive):
     s = drive(ball(32), ("load_tx", "load_ty"), [(5, 0), (10, -3), (0, 0)])
     assert s["time"].tolist() == s.time.tolist() == [1, 2, 3]
@@ -275,7 +304,9 @@ def test_steps_are_interpolated_in_the_history(drive):
     assert s["load_n"] == pytest.approx(np.interp(t, knots[:, 0], knots[:, 1]), rel=1e-9)  # equilibrium of the solution
 
 
-@pytest.mark.parametrize("every, saved", [(1, range(1, 11)), (3, [3, 6, 9, 10]), (5, [5, 10]), (10, [10]), (99, [10])], ids=str)
+@pytest.mark.parametrize(
+    "every, saved", [(1, range(1, 11)), (3, [3, 6, 9, 10]), (5, [5, 10]), (10, [10]), (99, [10])], ids=str
+)
 def test_output_every_saves_fields_of_those_steps_and_the_last(drive, every, saved):
     case, columns, rows = ball(32), ("load_tx",), 40 * np.sin(np.arange(10))
     every_step, s = drive(case, columns, rows), drive(dict(case, output_every=every), columns, rows)
@@ -332,13 +363,14 @@ def test_edge_contact_in_one_step_is_the_exit_code_and_the_run_goes_on(drive):
 
 # ---------------------------------------------------------------- paths with known answers, nu = 0
 
+
 def smooth(n=64, **more):
     return dict(ball(n, poisson=0.0), load_n=None, **more)
 
 
 @pytest.mark.parametrize("n, steps", [(64, 1), (64, 4), (128, 1)])
 def test_shear_on_a_rough_gap_is_mu_times_the_difference_of_two_pressures(drive, rough, n, steps):
-    """Ciavarella and Jaeger: q = mu (p(N) - p(N - T/mu)), at nu = 0 exact for the discrete problem too, without tilt."""
+    """Ciavarella and Jaeger: q = mu (p(N) - p(N - T/mu)), at nu = 0 exact for the discrete problem too, untilted."""
     case = rough(n, body1_poisson=0.0, body2_poisson=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0, load_n=None)
     for t in (0.3, 0.8):
         s = drive(dict(case, steps=steps), ("load_n", "load_tx"), pushed([t * MU_N]))
@@ -351,6 +383,7 @@ def test_shear_on_a_rough_gap_is_mu_times_the_difference_of_two_pressures(drive,
 
 def test_shear_of_a_rough_gap_on_a_coarse_grid_comes_near_that_on_a_fine_one(drive, rough):
     """Against the pressures of the finest grid the error is that of the discretisation, and falls."""
+
     def shear(n):
         case = rough(n, body1_poisson=0.0, body2_poisson=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0, load_n=None)
         return drive(dict(case, steps=1), ("load_n", "load_tx"), pushed([0.6 * MU_N])).shear_x[-1]
@@ -378,8 +411,8 @@ def test_unloading_follows_masing(drive):
     s = loop(drive)
     back = slice(STROKE, 2 * STROKE + 1)
     d, t = s["disp_x"][back], s["load_tx"][back] / MU_N
-    first = mindlin(ball(poisson=0.0)) * (1 - (1 - TOP)**(2 / 3))
-    expected = first - 2 * mindlin(ball(poisson=0.0)) * (1 - (1 - (TOP - t) / 2)**(2 / 3))
+    first = mindlin(ball(poisson=0.0)) * (1 - (1 - TOP) ** (2 / 3))
+    expected = first - 2 * mindlin(ball(poisson=0.0)) * (1 - (1 - (TOP - t) / 2) ** (2 / 3))
     assert_close(d, expected, 1e-2)
 
 
@@ -387,7 +420,7 @@ def test_unloading_follows_masing_on_the_grid_too(drive):
     """The discrete problem of nu = 0 obeys the rule itself: every second step back is one of first loading."""
     s = loop(drive)
     d = np.concatenate([[0], s["disp_x"][1:]])
-    rise, fall = d[:STROKE + 1], d[STROKE:2 * STROKE + 1]
+    rise, fall = d[: STROKE + 1], d[STROKE : 2 * STROKE + 1]
     assert_close(fall[0] - fall, 2 * rise, 2e-5)  # tolerance of either solution, ten times
 
 
@@ -400,8 +433,14 @@ def test_reloading_closes_the_loop(drive):
 
 def test_dissipation_of_a_cycle_is_that_of_mindlin_and_deresiewicz(drive):
     """Johnson eq. 7.59: 24/5 mu N d0 (1 - (1-t)^(5/3) - 5t/6 (1 + (1-t)^(2/3)))."""
-    closed = 24 / 5 * MU_N * mindlin(ball(poisson=0.0)) * (1 - (1 - TOP)**(5 / 3) - 5 * TOP / 6 * (1 + (1 - TOP)**(2 / 3)))
-    assert loop(drive)["dissipated_energy"][STROKE + 1:].sum() == pytest.approx(closed, rel=2e-2)
+    closed = (
+        24
+        / 5
+        * MU_N
+        * mindlin(ball(poisson=0.0))
+        * (1 - (1 - TOP) ** (5 / 3) - 5 * TOP / 6 * (1 + (1 - TOP) ** (2 / 3)))
+    )
+    assert loop(drive)["dissipated_energy"][STROKE + 1 :].sum() == pytest.approx(closed, rel=2e-2)
 
 
 def test_dissipation_of_a_stroke_does_not_depend_on_its_steps(drive):
@@ -417,7 +456,7 @@ def test_dissipation_of_a_cycle_is_the_area_of_its_loop(drive):
     s = loop(drive)
     t, d = s["load_tx"][STROKE:], s["disp_x"][STROKE:]
     work = np.sum((t[1:] + t[:-1]) / 2 * np.diff(d))
-    assert s["dissipated_energy"][STROKE + 1:].sum() == pytest.approx(work, rel=1e-3)
+    assert s["dissipated_energy"][STROKE + 1 :].sum() == pytest.approx(work, rel=1e-3)
 
 
 def test_work_of_the_end_loads_is_dissipated_or_stored(drive, rough):
@@ -426,13 +465,20 @@ def test_work_of_the_end_loads_is_dissipated_or_stored(drive, rough):
     rows = np.vstack([rows, rows[:1]])  # closed
     s = drive(rough(64, load_n=None), LOADS, rows)
     work = sum(s[load][1:] * np.diff(s[rigid]) for load, rigid in zip(LOADS[3:], RIGID[3:]))
-    stored = sum(np.sum(getattr(s, "shear_" + a)[1:] * np.diff(getattr(s, "displacement_" + a), axis=0), (1, 2)) for a in "xy") * s.area
+    stored = (
+        sum(
+            np.sum(getattr(s, "shear_" + a)[1:] * np.diff(getattr(s, "displacement_" + a), axis=0), (1, 2))
+            for a in "xy"
+        )
+        * s.area
+    )
     # work and stored energy nearly cancel; 1e-6 of their size is rounding, not the solvers'
     assert_close(work - stored, s["dissipated_energy"][1:], 1e-6, scale=np.abs(work).max())
     assert (work - stored).sum() == pytest.approx(s["dissipated_energy"][1:].sum(), rel=1e-3)
 
 
 # ---------------------------------------------------------------- all components
+
 
 def long_path(drive, rough, ranks=1):
     return drive(rough(64, load_n=None), LOADS, six(60), ranks=ranks)
@@ -455,16 +501,30 @@ def test_every_step_of_a_long_path_carries_its_loads(drive, rough):
 
 def test_fields_of_a_long_path_do_not_depend_on_the_ranks(drive, rough):
     one, three = long_path(drive, rough), long_path(drive, rough, 3)
-    for names in (("pressure",), ("shear_x", "shear_y"), ("slip_x", "slip_y"), ("gap", "displacement_z"), ("displacement_x", "displacement_y")):
+    for names in (
+        ("pressure",),
+        ("shear_x", "shear_y"),
+        ("slip_x", "slip_y"),
+        ("gap", "displacement_z"),
+        ("displacement_x", "displacement_y"),
+    ):
         scale = max(np.max(np.abs(getattr(one, name))) for name in names)
         for name in names:
             # tolerances 1e-8 and 1e-6 a step; the slip of 60 steps adds up
-            assert_close(getattr(three, name), getattr(one, name), 1e-6 if name in ("pressure", "gap", "displacement_z") else 1e-4, name, scale)
+            assert_close(
+                getattr(three, name),
+                getattr(one, name),
+                1e-6 if name in ("pressure", "gap", "displacement_z") else 1e-4,
+                name,
+                scale,
+            )
 
 
 def test_dissipation_of_a_step_is_never_negative(drive, rough):
     for s in (long_path(drive, rough), loop(drive), drive(rough(64, load_n=None), LOADS, six(12))):
-        assert s["dissipated_energy"].min() >= -1e-5 * s["dissipated_energy"].max()  # ten times the tangential tolerance
+        assert (
+            s["dissipated_energy"].min() >= -1e-5 * s["dissipated_energy"].max()
+        )  # ten times the tangential tolerance
 
 
 def test_driven_by_its_displacements_the_path_gives_back_its_loads(drive, rough):
@@ -483,12 +543,18 @@ def test_mixed_control_gives_back_the_path(drive, rough):
     forced = drive(rough(64, load_n=None), LOADS, rows)
     columns = ("load_n", "rot_x", "load_my", "disp_x", "load_ty", "rot_z")
     driven = drive(rough(64, load_n=None), columns, np.column_stack([forced[name] for name in columns]))
-    for names, scale in ((("shear_x", "shear_y"), FRICTION * forced.pressure.max()), (("pressure",), forced.pressure.max())):
+    for names, scale in (
+        (("shear_x", "shear_y"), FRICTION * forced.pressure.max()),
+        (("pressure",), forced.pressure.max()),
+    ):
         for name in names:
-            assert_close(getattr(driven, name), getattr(forced, name), 1e-4, name, scale)  # 1e-6 a step, times the condition
+            assert_close(
+                getattr(driven, name), getattr(forced, name), 1e-4, name, scale
+            )  # 1e-6 a step, times the condition
 
 
 # ---------------------------------------------------------------- stick and slip, recomputed
+
 
 def assert_coulomb(s, case, exact=1e-12):
     """Stick, slip, and the slip reference of every cell, open ones included, from fields alone."""
@@ -510,7 +576,8 @@ def assert_coulomb(s, case, exact=1e-12):
     # along q: only against it
     along = (dx * qx + dy * qy)[slip] / q[slip]
     assert along.max(initial=0) <= 1e-6 * size, along.max() / size
-    # across it nothing, by power: 1e-6 of q in the 2-norm may all be in one of some 1000 cells, whose q is 0.1 of the largest
+    # across it nothing, by power: 1e-6 of q in the 2-norm may all be in one of some 1000 cells, whose q is 0.1 of the
+    # largest
     across, power = np.where(slip, np.abs(dx * qy - dy * qx), 0).max((1, 2)), np.where(slip, q * ds, 0).max((1, 2))
     assert np.all(across <= 1e-4 * power), (across / power).max()
 
@@ -554,7 +621,15 @@ def test_growing_contact_keeps_the_slip_with_which_its_points_came(drive):
 
 # ---------------------------------------------------------------- sliding
 
-SLIDES = [0.0, 2e-7, 4e-6, 8e-6, 7.9e-6, 0.0, -2e-6]  # stick, partial slip, sliding twice, back to stick, sliding back twice
+SLIDES = [
+    0.0,
+    2e-7,
+    4e-6,
+    8e-6,
+    7.9e-6,
+    0.0,
+    -2e-6,
+]  # stick, partial slip, sliding twice, back to stick, sliding back twice
 
 
 def test_sliding_under_displacement_control_is_a_solution(drive):
@@ -563,7 +638,9 @@ def test_sliding_under_displacement_control_is_a_solution(drive):
     for k in (2, 3, 5, 6):
         assert s["stick_area"][k] == 0
         assert_close(np.hypot(s.shear_x[k], s.shear_y[k]), FRICTION * s.pressure[k], 1e-12)  # on the cone to rounding
-    assert s["load_tx"][[2, 3, 5, 6]] == pytest.approx(MU_N * np.array([1, 1, -1, -1]), rel=1e-3)  # nearly parallel to x
+    assert s["load_tx"][[2, 3, 5, 6]] == pytest.approx(
+        MU_N * np.array([1, 1, -1, -1]), rel=1e-3
+    )  # nearly parallel to x
     assert_coulomb(s, ball(64))
 
 
@@ -582,7 +659,12 @@ def test_dissipation_of_sliding_is_mu_n_times_the_way(drive):
 def test_gross_slip_in_a_later_step_ends_the_run_and_keeps_the_earlier_ones(drive, ranks):
     s = drive(ball(48), ("load_tx",), [20.0, 40.0, 60.0, 10.0], ranks=ranks, check=11)
     assert s["status"].tolist() == [0, 0, 11]
-    assert len(s.run.complaint) == 1 and "step 3" in s.run.complaint[0] and "load_tx" in s.run.complaint[0] and "limit" in s.run.complaint[0]
+    assert (
+        len(s.run.complaint) == 1
+        and "step 3" in s.run.complaint[0]
+        and "load_tx" in s.run.complaint[0]
+        and "limit" in s.run.complaint[0]
+    )
     assert s.time.tolist() == [1, 2]
     loads = s.shear_x.sum((1, 2)) * s.area
     assert loads == pytest.approx([20.0, 40.0], rel=1e-9)
@@ -604,7 +686,10 @@ def test_step_without_convergence_ends_the_run_and_is_marked(drive):
 
 # ---------------------------------------------------------------- loss of contact
 
-@pytest.mark.parametrize("column, values", [("load_n", [180.0, 0.0, 180.0]), ("disp_z", [3e-6, -1e-6, 3e-6])], ids=["load_n", "disp_z"])
+
+@pytest.mark.parametrize(
+    "column, values", [("load_n", [180.0, 0.0, 180.0]), ("disp_z", [3e-6, -1e-6, 3e-6])], ids=["load_n", "disp_z"]
+)
 def test_contact_is_lost_and_found(drive, column, values):
     case = dict(ball(48), load_n=None)
     s = drive(case, (column, "load_tx"), np.column_stack([values, [10.0, 0.0, 10.0]]))
@@ -651,8 +736,11 @@ def test_contact_shrinks_to_a_few_cells(drive, n):
 
 
 def test_bodies_moved_while_apart_meet_without_shear(drive):
-    s = drive(dict(ball(48), load_n=None), ("disp_z", "disp_x", "disp_y", "rot_z"),
-              [(3e-6, 1e-7, 0, 0), (-1e-6, 5e-7, -2e-7, 1e-3), (3e-6, 5e-7, -2e-7, 1e-3), (3e-6, 6e-7, -2e-7, 1e-3)])
+    s = drive(
+        dict(ball(48), load_n=None),
+        ("disp_z", "disp_x", "disp_y", "rot_z"),
+        [(3e-6, 1e-7, 0, 0), (-1e-6, 5e-7, -2e-7, 1e-3), (3e-6, 5e-7, -2e-7, 1e-3), (3e-6, 6e-7, -2e-7, 1e-3)],
+    )
     assert not s["status"].any()
     assert s["load_tx"][0] > 1 and s["load_tx"][1] == 0
     assert np.hypot(s.shear_x[2], s.shear_y[2]).max() <= 1e-6 * FRICTION * s.pressure[2].max()
@@ -665,7 +753,9 @@ def test_contact_found_again_without_tangential_load_has_no_shear(drive):
     s = drive(dict(ball(48), load_n=None), ("load_n", "load_tx"), [(180, 10), (0, 0), (180, 0), (180, 10)])
     assert not s["status"].any()
     assert np.hypot(s.shear_x[2], s.shear_y[2]).max() <= 1e-6 * FRICTION * s.pressure[2].max()
-    assert s["disp_x"][3] - s["disp_x"][2] == pytest.approx(drive(dict(ball(48), load_n=None), ("load_n", "load_tx"), [(180, 0), (180, 10)])["disp_x"][1], rel=1e-5)
+    assert s["disp_x"][3] - s["disp_x"][2] == pytest.approx(
+        drive(dict(ball(48), load_n=None), ("load_n", "load_tx"), [(180, 0), (180, 10)])["disp_x"][1], rel=1e-5
+    )
 
 
 def test_sliding_ahead_of_a_contact_that_grows_from_nothing(drive):
@@ -688,12 +778,18 @@ def test_contact_that_tips_over_is_told_at_its_step(drive):
 
 # ---------------------------------------------------------------- what must not matter
 
+
 def test_warm_start_does_not_change_the_path(drive):
     t = np.concatenate([np.linspace(5, 40, 8), np.linspace(35, -40, 16)])
     case = dict(ball(64), load_n=None)
-    warm, cold = (drive(dict(case, warm_start=w), ("load_n", "load_tx", "load_mz"), np.column_stack([0 * t + 180, t, t * 1e-5])) for w in (1, 0))
+    warm, cold = (
+        drive(dict(case, warm_start=w), ("load_n", "load_tx", "load_mz"), np.column_stack([0 * t + 180, t, t * 1e-5]))
+        for w in (1, 0)
+    )
     for name in ("shear_x", "shear_y"):
-        assert_close(getattr(warm, name), getattr(cold, name), 1e-4, name, FRICTION * warm.pressure.max())  # 1e-6 a step, 24 steps
+        assert_close(
+            getattr(warm, name), getattr(cold, name), 1e-4, name, FRICTION * warm.pressure.max()
+        )  # 1e-6 a step, 24 steps
 
 
 def test_turned_path_is_the_turned_solution(drive):
@@ -704,7 +800,9 @@ def test_turned_path_is_the_turned_solution(drive):
     scale = FRICTION * x.pressure.max()
     assert_close(y.shear_y, x.shear_x.transpose(0, 2, 1), 2e-5, "q", scale)  # ten times the tolerance of either
     assert_close(y["disp_y"], x["disp_x"], 2e-5)
-    assert y["dissipated_energy"] == pytest.approx(x["dissipated_energy"], rel=1e-4, abs=1e-5 * x["dissipated_energy"].max())
+    assert y["dissipated_energy"] == pytest.approx(
+        x["dissipated_energy"], rel=1e-4, abs=1e-5 * x["dissipated_energy"].max()
+    )
 
 
 def test_limit_of_sliding_is_approached_in_steps(drive):

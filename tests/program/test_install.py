@@ -1,4 +1,5 @@
 """`make install` puts in place what a user of the program and of the library needs, and it works from there."""
+
 import os
 import re
 import subprocess
@@ -7,14 +8,16 @@ import sys
 import pytest
 
 from conftest import PROGRAM, environment
-from support import ROOT, Results, analytic
+from support import ROOT, Results, closed
 
 BUILD = PROGRAM.parents[1]
 CONTACT = dict(radius=0.1, e_star=210e9 / (2 * (1 - 0.3**2)), load=1000.0)  # examples/library/contact.c
 
 
 def make_install(*words):
-    done = subprocess.run(["make", f"B={BUILD}", "install", *words], cwd=ROOT, capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        ["make", f"B={BUILD}", "install", *words], cwd=ROOT, capture_output=True, text=True, timeout=600
+    )
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
 
 
@@ -31,16 +34,29 @@ def files(folder):
 
 def test_all_that_users_need_is_installed(prefix):
     installed = files(prefix)
-    assert {"bin/petsam", "lib/libpetsam.a", "lib/libpetsam.so", "lib/pkgconfig/petsam.pc", "include/petsam.h", "share/petsam/README.md",
-            "share/petsam/LICENSE"} <= installed
+    assert {
+        "bin/petsam",
+        "lib/libpetsam.a",
+        "lib/libpetsam.so",
+        "lib/pkgconfig/petsam.pc",
+        "include/petsam.h",
+        "share/petsam/README.md",
+        "share/petsam/LICENSE",
+    } <= installed
     for folder, place in (("include", "include"), ("examples", "share/petsam/examples")):
         wanted = {f"{place}/{name}" for name in files(ROOT / folder) if "__pycache__" not in name}
         assert wanted <= installed, wanted - installed
-    assert "share/petsam/scripts/sphere_figures.py" in installed and "share/petsam/scripts/requirements.txt" in installed
+    assert (
+        "share/petsam/scripts/petsam/results.py" in installed and "share/petsam/scripts/requirements.txt" in installed
+    )
 
 
 def test_nothing_private_is_installed(prefix):
-    assert not [name for name in files(prefix) if "impl.h" in name or "maintain/" in name or "__pycache__" in name or name.endswith(".o")]
+    assert not [
+        name
+        for name in files(prefix)
+        if "impl.h" in name or "maintain/" in name or "__pycache__" in name or name.endswith(".o")
+    ]
 
 
 def test_DESTDIR_is_before_the_prefix_and_not_in_the_files(tmp_path, prefix):
@@ -52,24 +68,40 @@ def test_DESTDIR_is_before_the_prefix_and_not_in_the_files(tmp_path, prefix):
 
 
 def test_installed_program_runs(prefix, tmp_path):
-    done = subprocess.run([str(prefix / "bin/petsam"), "--version"], capture_output=True, text=True, cwd=tmp_path, env=environment())
+    done = subprocess.run(
+        [str(prefix / "bin/petsam"), "--version"], capture_output=True, text=True, cwd=tmp_path, env=environment()
+    )
     assert done.returncode == 0 and done.stdout.startswith("petsam ")
 
 
 # ---- the library
 
+
 def pkg_config(prefix, *words):
     """With the PETSc that petsam was built with, which may not be the system's."""
     petsc = os.environ.get("PETSC_DIR")
-    paths = [str(prefix / "lib/pkgconfig")] + ([f"{petsc}/{os.environ.get('PETSC_ARCH', '')}/lib/pkgconfig", f"{petsc}/lib/pkgconfig"] if petsc else [])
-    done = subprocess.run(["pkg-config", *words, "petsam"], capture_output=True, text=True, env={**os.environ, "PKG_CONFIG_PATH": ":".join(paths)})
+    paths = [str(prefix / "lib/pkgconfig")] + (
+        [f"{petsc}/{os.environ.get('PETSC_ARCH', '')}/lib/pkgconfig", f"{petsc}/lib/pkgconfig"] if petsc else []
+    )
+    done = subprocess.run(
+        ["pkg-config", *words, "petsam"],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PKG_CONFIG_PATH": ":".join(paths)},
+    )
     assert done.returncode == 0, done.stderr
     return done.stdout.split()
 
 
 def library_flags(prefix, kind):
-    rpath = [f"-Wl,-rpath,{prefix / 'lib'}"] + ([f"-Wl,-rpath,{os.environ['PETSC_DIR']}/{os.environ.get('PETSC_ARCH', '')}/lib",
-                                                f"-Wl,-rpath,{os.environ['PETSC_DIR']}/lib"] if os.environ.get("PETSC_DIR") else [])
+    rpath = [f"-Wl,-rpath,{prefix / 'lib'}"] + (
+        [
+            f"-Wl,-rpath,{os.environ['PETSC_DIR']}/{os.environ.get('PETSC_ARCH', '')}/lib",
+            f"-Wl,-rpath,{os.environ['PETSC_DIR']}/lib",
+        ]
+        if os.environ.get("PETSC_DIR")
+        else []
+    )
     if kind == "shared":
         return pkg_config(prefix, "--libs") + rpath
     flags = pkg_config(prefix, "--static", "--libs")
@@ -80,15 +112,26 @@ def library_flags(prefix, kind):
 def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, launcher, kind):
     """examples/library/contact.c, with nothing of the sources in reach."""
     source = prefix / "share/petsam/examples/library/contact.c"
-    command = ["mpicc", "-std=c11", "-Wall", "-Werror", str(source), "-o", str(tmp_path / "contact"), *pkg_config(prefix, "--cflags"),
-               *library_flags(prefix, kind)]
+    command = [
+        "mpicc",
+        "-std=c11",
+        "-Wall",
+        "-Werror",
+        str(source),
+        "-o",
+        str(tmp_path / "contact"),
+        *pkg_config(prefix, "--cflags"),
+        *library_flags(prefix, kind),
+    ]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     for ranks in (1, 2):
         words = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(tmp_path / "contact")]
         text = subprocess.run(words, capture_output=True, text=True, env=environment(), timeout=120).stdout
-        status, approach, tangential = re.fullmatch(r"status (\d), approach (\S+) m, tangential displacement (\S+) m\n", text).groups()
-        hertz = analytic.hertz(CONTACT["load"], CONTACT["radius"], CONTACT["e_star"])
+        status, approach, tangential = re.fullmatch(
+            r"status (\d), approach (\S+) m, tangential displacement (\S+) m\n", text
+        ).groups()
+        hertz = closed.hertz(CONTACT["load"], CONTACT["radius"], CONTACT["e_star"])
         assert status == "0"
         # the grid's error at 256 cells; that of the tangential displacement against the program's own
         assert float(approach) == pytest.approx(hertz.approach, rel=1e-4)
@@ -97,11 +140,24 @@ def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, lau
 
 # ---- the examples
 
+
 def test_installed_example_runs_from_anywhere(prefix, tmp_path):
     """Its figures come from the installed scripts, its results go to where the user is."""
-    env = {**environment(), "GRID_N": "48", "NP": "1", "PYTHON": sys.executable, "MPIRUN": os.environ.get("MPIRUN", "mpirun")}
-    done = subprocess.run([str(prefix / "share/petsam/examples/sphere/run.sh")], cwd=tmp_path, env={k: v for k, v in env.items() if k != "OUT"},
-                          capture_output=True, text=True, timeout=300)
+    env = {
+        **environment(),
+        "GRID_N": "48",
+        "NP": "1",
+        "PYTHON": sys.executable,
+        "MPIRUN": os.environ.get("MPIRUN", "mpirun"),
+    }
+    done = subprocess.run(
+        [str(prefix / "share/petsam/examples/sphere/run.sh")],
+        cwd=tmp_path,
+        env={k: v for k, v in env.items() if k != "OUT"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     assert any(path.suffix == ".png" for path in (tmp_path / "sphere").iterdir())
     assert Results(tmp_path / "sphere" / "hertz.h5").saved == 1

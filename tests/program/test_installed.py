@@ -1,4 +1,5 @@
-"""Scripts from the build tree and installed, their Python and petsam; the README's five commands; the package recipes."""
+"""Scripts from the build tree and installed, their Python and petsam; the README's commands; the package recipes."""
+
 import os
 import re
 import shutil
@@ -19,8 +20,9 @@ def shell(command, cwd, check=0, **variables):
     """Run a line of a shell in cwd, without PYTHON and PETSAM unless given; its output."""
     env = {key: value for key, value in environment().items() if key not in ("PYTHON", "PETSAM")}
     env.update(OMPI_MCA_rmaps_base_oversubscribe="1", **{k: str(v) for k, v in variables.items()})
-    done = subprocess.run(command, shell=True, cwd=cwd, env=env, capture_output=True, text=True, timeout=300,
-                          stdin=subprocess.DEVNULL)
+    done = subprocess.run(
+        command, shell=True, cwd=cwd, env=env, capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL
+    )
     assert done.returncode == check, (command, done.stdout, done.stderr)
     return done.stdout + done.stderr
 
@@ -36,7 +38,7 @@ def tree(tmp_path):
     (tree / "build" / "bin" / "petsam").symlink_to(PROGRAM)
     python = tree / "build" / "venv" / "bin" / "python"
     python.parent.mkdir(parents=True)
-    python.write_text('#!/bin/sh\necho used >>{}/used.txt\nexec {} "$@"\n'.format(tmp_path, sys.executable))
+    python.write_text(f'#!/bin/sh\necho used >>{tmp_path}/used.txt\nexec {sys.executable} "$@"\n')
     python.chmod(0o755)
     return tree
 
@@ -46,12 +48,18 @@ def prefix(tmp_path_factory):
     """make install."""
     folder = tmp_path_factory.mktemp("stage")
     build = os.path.relpath(PROGRAM.parents[1], ROOT)
-    subprocess.run(["make", "-s", "install", "B=" + build, "prefix=/opt/p", "DESTDIR=" + str(folder)], cwd=ROOT, check=True,
-                   capture_output=True, timeout=600)
+    subprocess.run(
+        ["make", "-s", "install", "B=" + build, "prefix=/opt/p", "DESTDIR=" + str(folder)],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        timeout=600,
+    )
     return folder / "opt" / "p"
 
 
 # ---------------------------------------------------------------- where things are found
+
 
 def test_in_the_build_tree_scripts_use_its_environment_and_program(tree, tmp_path):
     (tmp_path / "one.csv").write_text("load_tx\n1\n")
@@ -61,17 +69,20 @@ def test_in_the_build_tree_scripts_use_its_environment_and_program(tree, tmp_pat
 
 
 def test_installed_scripts_find_the_installed_program(prefix, tmp_path):
-    assert (prefix / "bin" / "petsam-study").is_symlink() and not os.path.isabs(os.readlink(prefix / "bin" / "petsam-study"))
+    assert (prefix / "bin" / "petsam-study").is_symlink() and not os.path.isabs(
+        os.readlink(prefix / "bin" / "petsam-study")
+    )
     (tmp_path / "one.csv").write_text("load_tx\n1\n")
     path = "{}:/usr/bin:/bin:{}".format(os.path.dirname(sys.executable), os.environ["PATH"])
     shell("{}/bin/petsam-study one.csv -- {}".format(prefix, " ".join(words(ball(n=24)))), tmp_path, PATH=path)
-    shell("{}/bin/petsam-plot --maps -o maps.pdf one/case/results.h5".format(prefix), tmp_path, PATH=path)
+    shell(f"{prefix}/bin/petsam-plot --maps -o maps.pdf one/case/results.h5", tmp_path, PATH=path)
     assert (tmp_path / "maps.pdf").exists()
 
 
 def test_job_scripts_are_installed_beside_petsam_study(prefix):
     assert sorted(path.name for path in (prefix / "share/petsam/scripts/slurm").iterdir()) == sorted(
-        path.name for path in (ROOT / "scripts/slurm").iterdir())
+        path.name for path in (ROOT / "scripts/slurm").iterdir()
+    )
 
 
 def test_petsam_of_the_environment_comes_first(tree, tmp_path):
@@ -85,17 +96,18 @@ def test_petsam_of_the_environment_comes_first(tree, tmp_path):
 @pytest.mark.parametrize("script", ["petsam-plot", "petsam-study"])
 def test_missing_libraries_are_named_with_the_remedy(tree, tmp_path, script):
     bare = tmp_path / "bare"
-    bare.write_text('#!/bin/sh\nexec {} -E -S "$@"\n'.format(sys.executable))
+    bare.write_text(f'#!/bin/sh\nexec {sys.executable} -E -S "$@"\n')
     bare.chmod(0o755)
-    said = shell("petsam/scripts/{} --help".format(script), tmp_path, check=1, PYTHON=bare)
+    said = shell(f"petsam/scripts/{script} --help", tmp_path, check=1, PYTHON=bare)
     assert len(said.splitlines()) == 1 and "h5py" in said and "make venv" in said
 
 
 # ---------------------------------------------------------------- what the README says
 
+
 def block(heading):
     """Commands of the first indented block after a heading, continued lines joined."""
-    text = (ROOT / "README.md").read_text().split("\n## {}\n".format(heading))[1].split("\n## ")[0]
+    text = (ROOT / "README.md").read_text().split(f"\n## {heading}\n")[1].split("\n## ")[0]
     lines = re.search(r"(?:^    .*\n|^\n(?=    ))+", text, re.M).group(0).replace("\\\n", " ")
     return [re.sub(r" +", " ", line.strip()) for line in lines.splitlines() if line.strip()]
 
@@ -126,13 +138,15 @@ def test_the_example_study_runs_to_its_figure(tree, tmp_path):
     table.write_text(cut)
     said = shell("examples/study/run.sh", tree, GRID_N=64, OUT=tmp_path / "out", CORES=2)
     assert "4 cases: 4 finished, 0 failed" in said and (tmp_path / "out" / "study.png").exists()
-    nu, cases, radius, energy, mu = [line for line in said.splitlines() if "between mu" in line or line.strip().startswith(
-        "0 ")][-1].split()
+    nu, cases, radius, energy, mu = [
+        line for line in said.splitlines() if "between mu" in line or line.strip().startswith("0 ")
+    ][-1].split()
     # nu = 0, where the closed solution is exact: about 42 cells in the contact's radius; mu is only a factor
     assert cases == "4" and float(radius) < 0.02 and float(energy) < 0.01 and float(mu) < 1e-5
 
 
 # ---------------------------------------------------------------- recipes, which are not run
+
 
 def test_apptainer_definition_names_files_that_exist_and_this_version():
     text = (ROOT / "scripts/packaging/petsam.def").read_text()
@@ -143,7 +157,7 @@ def test_apptainer_definition_names_files_that_exist_and_this_version():
         assert (ROOT / source).exists(), source
     # all that the build and the scripts need is taken along
     assert {"Makefile", "src", "include", "scripts"} <= set(sources)
-    assert "version {}\n".format(VERSION) in sections["labels"]
+    assert f"version {VERSION}\n" in sections["labels"]
     assert subprocess.run(["sh", "-n"], input=sections["post"], text=True).returncode == 0
     assert "Never built" in text
 
@@ -174,7 +188,9 @@ def test_spack_recipe_asks_for_what_makefile_and_scripts_need(monkeypatch):
     assert VERSION in versions
     packages = {re.match(r"[\w-]+", spec).group(0) for spec in depends}
     assert {"mpi", "petsc", "fftw", "hdf5", "pkgconfig", "cmocka"} <= packages
-    libraries = {re.match(r"\w+", line).group(0).lower() for line in (ROOT / "scripts/requirements.txt").read_text().splitlines()}
+    libraries = {
+        re.match(r"\w+", line).group(0).lower() for line in (ROOT / "scripts/requirements.txt").read_text().splitlines()
+    }
     assert {name[3:] for name in packages if name.startswith("py-")} == libraries - {"pytest"}
     recipe = names["Petsam"]()
     recipe.prefix = "/opt/petsam"
@@ -182,4 +198,4 @@ def test_spack_recipe_asks_for_what_makefile_and_scripts_need(monkeypatch):
     for word in recipe.build_targets + recipe.install_targets:
         name, _, value = word.partition("=")
         # variables and targets that the Makefile knows
-        assert re.search(r"^ *{} *[:?]?=".format(name) if value else r"^{}:".format(name), MAKEFILE, re.M), word
+        assert re.search(rf"^ *{name} *[:?]?=" if value else rf"^{name}:", MAKEFILE, re.M), word

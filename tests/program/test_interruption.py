@@ -1,4 +1,5 @@
 """A full disk, a lost folder, a run that is killed: the file stays readable up to its last complete step."""
+
 import os
 import re
 import resource
@@ -44,8 +45,16 @@ def assert_intact(path, least):
 
 def start(launcher, folder, ranks, *options, **how):
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten([CASE, *options])]
-    return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=conftest.environment(), **how)
+    return subprocess.Popen(
+        command,
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=conftest.environment(),
+        **how,
+    )
 
 
 def wait_for(run, step):
@@ -68,12 +77,15 @@ def ended(run):
 
 # ---- no room
 
+
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("options", [{}, dict(output_compress=4)], ids=["plain", "compressed"])
 def test_file_that_may_not_grow_ends_the_run(launcher, folder, ranks, options):
     """The limit of a file's size stands for a quota."""
     limit = 12 << 20
-    run = start(launcher, folder, ranks, options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    run = start(
+        launcher, folder, ranks, options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+    )
     code, steps, complaint = ended(run)
     assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0]
     assert steps >= 10
@@ -84,7 +96,9 @@ def test_file_that_may_not_grow_ends_the_run(launcher, folder, ranks, options):
 def small_disk(folder):
     """out/ on a disk of 16 MB."""
     disk = folder / "out"
-    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "tmpfs", str(disk)], capture_output=True, text=True)
+    done = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=16m", "tmpfs", str(disk)], capture_output=True, text=True
+    )
     if done.returncode:
         pytest.skip("no right to mount a small disk")
     yield folder
@@ -101,6 +115,7 @@ def test_full_disk_ends_the_run(launcher, small_disk, ranks):
 
 # ---- no folder
 
+
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("lose", [lambda out: out.rename(out.parent / "away"), shutil.rmtree], ids=["moved", "removed"])
 def test_lost_folder_ends_the_run(launcher, folder, ranks, lose):
@@ -114,6 +129,7 @@ def test_lost_folder_ends_the_run(launcher, folder, ranks, lose):
 
 
 # ---- killed
+
 
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("step", [1, 5, 20])
@@ -142,6 +158,7 @@ def test_file_can_be_read_at_any_time(launcher, folder):
 
 def test_XDMF_of_a_killed_run_is_whole(launcher, folder):
     from xml.etree import ElementTree
+
     run = start(launcher, folder, 1)
     wait_for(run, 6)
     run.kill()
@@ -153,6 +170,7 @@ def test_XDMF_of_a_killed_run_is_whole(launcher, folder):
 
 # ---- killed at every write of a step
 
+
 @pytest.fixture(scope="module")
 def deadly(tmp_path_factory):
     """A library that kills the program before a write that is counted."""
@@ -160,15 +178,34 @@ def deadly(tmp_path_factory):
     compiler = shutil.which("cc") or shutil.which("gcc")
     if not compiler:
         pytest.skip("no C compiler")
-    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", str(library), str(Path(__file__).with_name("die_at_write.c")), "-ldl"], check=True)
+    subprocess.run(
+        [
+            compiler,
+            "-shared",
+            "-fPIC",
+            "-O1",
+            "-o",
+            str(library),
+            str(Path(__file__).with_name("die_at_write.c")),
+            "-ldl",
+        ],
+        check=True,
+    )
     return library
 
 
 def die(deadly, folder, **variables):
     """Steps told before the end, and how the run ended."""
     command = [str(conftest.PROGRAM), *flatten([CASE, dict(grid_n=24)])]
-    run = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,
-                         env={**conftest.environment(), "LD_PRELOAD": str(deadly), **variables})
+    run = subprocess.run(
+        command,
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env={**conftest.environment(), "LD_PRELOAD": str(deadly), **variables},
+    )
     return told(run.stdout), run.returncode
 
 

@@ -1,4 +1,5 @@
 """Products with the influence operator: few, whatever the grid (the counts of method.md)."""
+
 import sys
 from pathlib import Path
 
@@ -27,13 +28,23 @@ def test_normal_products_of_a_punch_with_moment_at_most_20(solve, n):
 def test_normal_products_of_a_rough_plane_at_most_30(solve, tmp_path, n):
     """About 8 % of it in contact."""
     case = {k: v for k, v in ball(n, friction=0).items() if not k.startswith("gap_")}
-    case.update(gap_type="file", gap_file=tmp_path / "gap.h5", grid_size=1e-3, load_n=146.0, rot_x=0.0, rot_y=0.0, allow_edge_contact=True)
+    case.update(
+        gap_type="file",
+        gap_file=tmp_path / "gap.h5",
+        grid_size=1e-3,
+        load_n=146.0,
+        rot_x=0.0,
+        rot_y=0.0,
+        allow_edge_contact=True,
+    )
     with h5py.File(case["gap_file"], "w") as f:
         f["height"] = rough_plane(n, 1e-3)
     assert solve(case)["normal_applies"] <= 30
 
 
-@pytest.mark.parametrize("tx, mz", [(0.01, 0), (0.3, 0), (0.6, 0), (0.9, 0), (0.99, 0), (0, 0.1), (0, 0.7), (0, 0.95), (0, 0.99)])
+@pytest.mark.parametrize(
+    "tx, mz", [(0.01, 0), (0.3, 0), (0.6, 0), (0.9, 0), (0.99, 0), (0, 0.1), (0, 0.7), (0, 0.95), (0, 0.99)]
+)
 def test_tangential_products_at_512_at_most_25(solve, tx, mz):
     case = ball(512, poisson=0.3)
     force, torque = slide_limit(case)
@@ -48,8 +59,11 @@ def test_tangential_products_of_force_with_torque_at_512_at_most_25(solve, arm, 
     assert solve(case, dict(load_tx=part * force, load_mz=part * torque))["tangential_applies"] <= 25
 
 
-@pytest.mark.parametrize("load", [dict(load_tx=800.0), dict(load_tx=800.0, load_my=1.0), dict(load_mz=1.2), dict(load_ty=-900.0, load_mz=0.6)],
-                         ids=["tx", "tx-my", "mz", "ty-mz"])
+@pytest.mark.parametrize(
+    "load",
+    [dict(load_tx=800.0), dict(load_tx=800.0, load_my=1.0), dict(load_mz=1.2), dict(load_ty=-900.0, load_mz=0.6)],
+    ids=["tx", "tx-my", "mz", "ty-mz"],
+)
 def test_tangential_products_of_a_punch_at_most_25(solve, load):
     assert solve(PUNCH, dict(grid_n=256), load)["tangential_applies"] <= 25
 
@@ -62,7 +76,9 @@ def test_tangential_products_at_1024_at_most_25(solve):
 @pytest.mark.parametrize("n", [128, 512])
 def test_products_of_a_dissimilar_contact_that_nearly_slides_at_most_25_a_pass(solve, n):
     """Friction is used up by the coupling: but for a few cells everything slips, in all directions."""
-    s = solve(ball(n, poisson=0.3, body2_young=1e15, friction=0.1), dict(load_tx=0.6 * slide_limit(ball(n, friction=0.1))[0]))
+    s = solve(
+        ball(n, poisson=0.3, body2_young=1e15, friction=0.1), dict(load_tx=0.6 * slide_limit(ball(n, friction=0.1))[0])
+    )
     assert s["tangential_applies"] <= 25 * s["coupling_iterations"]
 
 

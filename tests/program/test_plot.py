@@ -1,4 +1,5 @@
 """petsam-plot: each picture from true results, its steps, files and messages."""
+
 import os
 import subprocess
 import sys
@@ -7,10 +8,10 @@ import h5py
 import numpy as np
 import pytest
 
+from petsam.plot import pictures
+from petsam.plot.units import scale
+from petsam.results import Results
 from support import ROOT, ball, slide_limit
-
-import pictures
-from results import Results
 
 PROGRAM = ROOT / "scripts" / "petsam-plot"
 CASE = ball(n=48)
@@ -34,17 +35,26 @@ def single(solve):
 @pytest.fixture
 def plot(tmp_path):
     """petsam-plot in tmp_path: the completed process."""
+
     def run(*words, check=0):
-        done = subprocess.run([sys.executable, str(PROGRAM), *map(str, words)], cwd=tmp_path, capture_output=True,
-                              text=True, timeout=120, env=dict(os.environ, PYTHON=sys.executable))
+        done = subprocess.run(
+            [sys.executable, str(PROGRAM), *map(str, words)],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            timeout=120,
+            env=dict(os.environ, PYTHON=sys.executable),
+        )
         assert done.returncode == check, done.stderr
         return done
+
     return run
 
 
 def pixels(path):
     """Width and height of a PNG whose every quarter has been drawn on."""
     import matplotlib.image
+
     image = matplotlib.image.imread(path)[:, :, :3]
     height, width = image.shape[:2]
     for rows in (slice(0, height // 2), slice(height // 2, height)):
@@ -60,10 +70,11 @@ def lines(axes):
 
 # ---------------------------------------------------------------- the program
 
+
 def test_a_history_gives_all_four_pictures(plot, strokes, tmp_path):
     plot(strokes)
     names = sorted(path.name for path in tmp_path.iterdir())
-    assert names == ["results_{}.png".format(kind) for kind in ("history", "loop", "maps", "profiles")]
+    assert names == [f"results_{kind}.png" for kind in ("history", "loop", "maps", "profiles")]
     for name in names:
         assert min(pixels(tmp_path / name)) > 300
 
@@ -86,14 +97,17 @@ def test_several_files_of_different_grids_are_compared(plot, strokes, single, tm
     assert pixels(tmp_path / "two.png")[1] > 1.5 * pixels(tmp_path / "one.png")[1]
 
 
-@pytest.mark.parametrize("words, message", [
-    (["--step", "99"], "--step 99: there are 16 steps"),
-    (["--step", "7"], "--step 7: its fields were not saved"),
-    (["--time", "8"], "--time 8: fields were saved from"),
-    (["--names", "load_q"], "--names load_q: has no such dataset"),
-    (["--profiles", "--at", "1,1"], "--at 1,1: is not on the grid"),
-    (["--maps", "-o", "nowhere/picture.png"], "nowhere/picture.png"),
-])
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (["--step", "99"], "--step 99: there are 16 steps"),
+        (["--step", "7"], "--step 7: its fields were not saved"),
+        (["--time", "8"], "--time 8: fields were saved from"),
+        (["--names", "load_q"], "--names load_q: has no such dataset"),
+        (["--profiles", "--at", "1,1"], "--at 1,1: is not on the grid"),
+        (["--maps", "-o", "nowhere/picture.png"], "nowhere/picture.png"),
+    ],
+)
 def test_what_the_file_has_not_is_named(plot, strokes, words, message):
     errors = plot(strokes, *words, check=3).stderr.splitlines()
     assert len(errors) == 1 and errors[0].startswith("petsam-plot: error: ") and message in errors[0]
@@ -103,8 +117,12 @@ def test_a_file_that_is_no_results_file_is_named(plot, tmp_path):
     (tmp_path / "text.h5").write_text("no HDF5")
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = [1.0]
-    for name, reason in (("absent.h5", "no such file"), ("text.h5", "not an HDF5 file"), ("other.h5", "not a results file")):
-        assert "{}: ".format(name) in (error := plot(name, check=3).stderr) and reason in error
+    for name, reason in (
+        ("absent.h5", "no such file"),
+        ("text.h5", "not an HDF5 file"),
+        ("other.h5", "not a results file"),
+    ):
+        assert f"{name}: " in (error := plot(name, check=3).stderr) and reason in error
 
 
 def test_bad_usage_is_exit_code_2(plot, single):
@@ -114,6 +132,7 @@ def test_bad_usage_is_exit_code_2(plot, single):
 
 
 # ---------------------------------------------------------------- what is drawn
+
 
 def test_maps_show_the_fields_of_the_step_in_the_units_of_the_labels(strokes):
     results = Results(str(strokes))
@@ -140,7 +159,7 @@ def test_maps_are_of_the_contact_unless_the_whole_grid_is_asked_for(strokes):
 
 
 def test_windows_and_strides_are_those_of_the_field(strokes, monkeypatch):
-    monkeypatch.setattr("results.BLOCK", 8)
+    monkeypatch.setattr("petsam.results.BLOCK", 8)
     results = Results(str(strokes))
     with h5py.File(strokes, "r") as file:
         expected = file["pressure"][1][5:41:2, 3:30:2]
@@ -174,8 +193,10 @@ def test_loop_is_force_over_displacement_of_every_step(strokes):
     factor = {"µm": 1e6, "nm": 1e9}[axes.get_xlabel().split()[-1]]
     assert np.allclose(x, factor * history["disp_x"]) and np.allclose(y, history["load_tx"])
     text = axes.get_legend().get_texts()[0].get_text()
-    assert "{:.4g}".format(1e9 * history["dissipated_energy"].sum()) in text or "{:.4g}".format(
-        1e6 * history["dissipated_energy"].sum()) in text
+    assert (
+        "{:.4g}".format(1e9 * history["dissipated_energy"].sum()) in text
+        or "{:.4g}".format(1e6 * history["dissipated_energy"].sum()) in text
+    )
 
 
 def test_loop_is_that_of_the_load_which_works(solve, tmp_path):
@@ -194,15 +215,30 @@ def test_history_leaves_out_what_is_zero_but_for_rounding(strokes):
 def test_history_sums_the_energy(strokes):
     results = Results(str(strokes))
     axes = pictures.history([results], ["dissipated_energy"]).axes[0]
-    assert np.isclose(lines(axes)[0][1][-1] * (1e-9 if "nJ" in axes.get_ylabel() else 1e-6),
-                      results.history["dissipated_energy"].sum(), rtol=1e-12)
+    assert np.isclose(
+        lines(axes)[0][1][-1] * (1e-9 if "nJ" in axes.get_ylabel() else 1e-6),
+        results.history["dissipated_energy"].sum(),
+        rtol=1e-12,
+    )
 
 
-@pytest.mark.parametrize("unit, value, factor, text", [
-    ("Pa", 636e6, 1e-6, "MPa"), ("Pa", 2e9, 1e-9, "GPa"), ("m", 0.9e-3, 1e6, "µm"), ("m", 3.0, 1.0, "m"),
-    ("m", 5e3, 1.0, "m"), ("m2", 2.3e-6, 1e6, "mm²"), ("N m", 0.05, 1e3, "mN m"), ("rad", 2e-9, 1e9, "nrad"),
-    ("J", 1e-12, 1e9, "nJ"), ("1", 1e-9, 1.0, ""), ("s", 1e-3, 1.0, "s"), ("N", 0.0, 1.0, "N"),
-])
+@pytest.mark.parametrize(
+    "unit, value, factor, text",
+    [
+        ("Pa", 636e6, 1e-6, "MPa"),
+        ("Pa", 2e9, 1e-9, "GPa"),
+        ("m", 0.9e-3, 1e6, "µm"),
+        ("m", 3.0, 1.0, "m"),
+        ("m", 5e3, 1.0, "m"),
+        ("m2", 2.3e-6, 1e6, "mm²"),
+        ("N m", 0.05, 1e3, "mN m"),
+        ("rad", 2e-9, 1e9, "nrad"),
+        ("J", 1e-12, 1e9, "nJ"),
+        ("1", 1e-9, 1.0, ""),
+        ("s", 1e-3, 1.0, "s"),
+        ("N", 0.0, 1.0, "N"),
+    ],
+)
 def test_prefix_suits_the_largest_value(unit, value, factor, text):
-    got = pictures.scale(unit, value)
+    got = scale(unit, value)
     assert np.isclose(got[0], factor, rtol=1e-12) and got[1] == text

@@ -1,4 +1,5 @@
 """The number of ranks does not change the results."""
+
 import concurrent.futures
 import subprocess
 
@@ -11,17 +12,35 @@ from support import Results, assert_same, ball, flatten
 
 BALL = dict(ball(), grid_n=(75, 62), load_my=0.02, load_tx=30.0, load_ty=9.0, load_mz=1e-3)
 # 4 rows for 5 ranks; flat bodies touch everywhere, so the contact is at the edge
-STRIP = dict(body1_young=70e9, body1_poisson=0.3, body2_young=70e9, body2_poisson=0.3, friction=0.2, gap_type="flat",
-             grid_n=(40, 4), grid_size=(4e-3, 4e-4), load_n=50.0, load_tx=6.0, load_ty=1.0, load_mz=1e-3, allow_edge_contact=True,
-             # flat bodies are ill-conditioned: rounding shows up to the tolerance, which must be below what is asked here
-             normal_rtol=1e-11, tangential_rtol=1e-10)
-DISSIMILAR = dict(BALL, body2_young=9e9, body2_poisson=0.4, load_n=60.0, load_my=0.004, load_tx=3.0, load_ty=1.0, load_mz=1e-4)
+STRIP = dict(
+    body1_young=70e9,
+    body1_poisson=0.3,
+    body2_young=70e9,
+    body2_poisson=0.3,
+    friction=0.2,
+    gap_type="flat",
+    grid_n=(40, 4),
+    grid_size=(4e-3, 4e-4),
+    load_n=50.0,
+    load_tx=6.0,
+    load_ty=1.0,
+    load_mz=1e-3,
+    allow_edge_contact=True,
+    # flat bodies are ill-conditioned: rounding shows up to the tolerance, which must be below what is asked here
+    normal_rtol=1e-11,
+    tangential_rtol=1e-10,
+)
+DISSIMILAR = dict(
+    BALL, body2_young=9e9, body2_poisson=0.4, load_n=60.0, load_my=0.004, load_tx=3.0, load_ty=1.0, load_mz=1e-4
+)
 CLASSICAL = dict(BALL, normal_type="polonskykeer", tangential_type="gradient", tangential_max_it=20000)
 SLIDING = dict(BALL, load_tx=1e4)  # refused, with its limit
 
 
 @pytest.mark.parametrize("ranks", [2, 3, 5])
-@pytest.mark.parametrize("case", [BALL, STRIP, DISSIMILAR, CLASSICAL, SLIDING], ids=["ball", "strip", "dissimilar", "classical", "sliding"])
+@pytest.mark.parametrize(
+    "case", [BALL, STRIP, DISSIMILAR, CLASSICAL, SLIDING], ids=["ball", "strip", "dissimilar", "classical", "sliding"]
+)
 def test_results_do_not_depend_on_ranks(petsam, tmp_path, case, ranks):
     """To the last bit, numbers of the steps and fields: sums over rows do not depend on where the rows are."""
     codes = {petsam(case, dict(output=f"{n}.h5"), ranks=n, check=None).code for n in (1, ranks)}
@@ -59,7 +78,7 @@ def test_rank_that_nobody_launched_needs_no_environment(tmp_path):
 
 
 def test_runs_at_the_same_time_do_not_meet(petsam, tmp_path):
-    """As the cases of a study do: no file or folder of the launcher's is shared. One in a hundred failed when it was."""
+    """As the cases of a study do: no file or folder of the launcher's is shared; one in 100 failed when it was."""
     with concurrent.futures.ThreadPoolExecutor(8) as pool:
         runs = list(pool.map(lambda k: petsam(ball(16), dict(output=f"{k}.h5")), range(96)))
     assert {run.stderr for run in runs} == {""}

@@ -1,4 +1,5 @@
 """The results open where users look: h5py, xarray, VTK through VTKHDF and through XDMF, with the same values in all."""
+
 import h5py
 import numpy as np
 import pytest
@@ -6,7 +7,15 @@ import pytest
 from support import FIELDS, ball
 
 # steps of which some have no fields; a grid that is not square, does not lie about the origin and has several chunks
-CASE = dict(ball(48), grid_n=(50, 41), grid_size=(2.4e-3, 2.2e-3), grid_center=(1e-4, -5e-5), load_tx=20.0, steps=5, output_every=2)
+CASE = dict(
+    ball(48),
+    grid_n=(50, 41),
+    grid_size=(2.4e-3, 2.2e-3),
+    grid_center=(1e-4, -5e-5),
+    load_tx=20.0,
+    steps=5,
+    output_every=2,
+)
 CHUNKED = dict(CASE, output_chunk=(16, 9), output_compress=4)
 SAVED = [0.4, 0.8, 1.0]
 
@@ -24,8 +33,17 @@ def values(path):
 
 # ---- HDF5
 
-@pytest.mark.parametrize("options, chunks", [({}, (1, 41, 50)), (dict(output_chunk=16), (1, 14, 13)), (dict(output_chunk=(16, 9)), (1, 9, 13)),
-                                             (dict(output_chunk=1000), (1, 41, 50))], ids=str)
+
+@pytest.mark.parametrize(
+    "options, chunks",
+    [
+        ({}, (1, 41, 50)),
+        (dict(output_chunk=16), (1, 14, 13)),
+        (dict(output_chunk=(16, 9)), (1, 9, 13)),
+        (dict(output_chunk=1000), (1, 41, 50)),
+    ],
+    ids=str,
+)
 def test_chunks_are_the_fewest_of_at_most_that_size(solve, options, chunks):
     with h5py.File(solve(CASE, options).path) as f:
         assert f["pressure"].chunks == f["state"].chunks == chunks
@@ -47,8 +65,15 @@ def test_impossible_chunk_is_refused(petsam, text):
     assert "-output_chunk" in petsam(CASE, "-output_chunk", text, "-output", "out.h5", check=2).complaint[0]
 
 
-@pytest.mark.parametrize("name, axis, standard", [("x", "X", "projection_x_coordinate"), ("y", "Y", "projection_y_coordinate"),
-                                                  ("time", "T", "time"), ("history/time", "T", "time")])
+@pytest.mark.parametrize(
+    "name, axis, standard",
+    [
+        ("x", "X", "projection_x_coordinate"),
+        ("y", "Y", "projection_y_coordinate"),
+        ("time", "T", "time"),
+        ("history/time", "T", "time"),
+    ],
+)
 def test_coordinates_are_those_of_CF(path, name, axis, standard):
     with h5py.File(path) as f:
         assert f[name].attrs["axis"] == axis and f[name].attrs["standard_name"] == standard
@@ -56,6 +81,7 @@ def test_coordinates_are_those_of_CF(path, name, axis, standard):
 
 
 # ---- xarray
+
 
 def test_xarray_opens_fields_with_coordinates(path, values):
     xarray = pytest.importorskip("xarray", reason="xarray is not installed")
@@ -81,13 +107,16 @@ def test_xarray_opens_the_history(path):
 
 # ---- VTK
 
+
 def vtk_arrays(data):
     from vtkmodules.util.numpy_support import vtk_to_numpy
+
     return {data.GetArrayName(k): vtk_to_numpy(data.GetArray(k)) for k in range(data.GetNumberOfArrays())}
 
 
 def vtk_times(reader):
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
     reader.UpdateInformation()
     return reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
 
@@ -110,14 +139,18 @@ def assert_vtk_reads(reader, path, of_cells, bounds, values):
 def test_vtk_reads_the_file_itself(path, values):
     pytest.importorskip("vtkmodules", reason="vtk is not installed")
     from vtkmodules.vtkIOHDF import vtkHDFReader
+
     c, w = CASE["grid_center"], CASE["grid_size"]
-    assert_vtk_reads(vtkHDFReader(), path, True, (c[0] - w[0] / 2, c[0] + w[0] / 2, c[1] - w[1] / 2, c[1] + w[1] / 2), values)
+    assert_vtk_reads(
+        vtkHDFReader(), path, True, (c[0] - w[0] / 2, c[0] + w[0] / 2, c[1] - w[1] / 2, c[1] + w[1] / 2), values
+    )
 
 
 def test_vtk_reads_the_XDMF_beside_it(path, values):
     """Cell centres are points there."""
     pytest.importorskip("vtkmodules", reason="vtk is not installed")
     from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+
     x, y = values["x"], values["y"]
     assert_vtk_reads(vtkXdmfReader(), path.with_suffix(".xdmf"), False, (x[0], x[-1], y[0], y[-1]), values)
 
@@ -125,6 +158,7 @@ def test_vtk_reads_the_XDMF_beside_it(path, values):
 def test_results_that_moved_with_their_XDMF_are_found(petsam, tmp_path, monkeypatch):
     pytest.importorskip("vtkmodules", reason="vtk is not installed")
     from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+
     (tmp_path / "a").mkdir()
     petsam(CASE, dict(output="a/a & b.h5"))
     (tmp_path / "a").rename(tmp_path / "b")
@@ -133,13 +167,24 @@ def test_results_that_moved_with_their_XDMF_are_found(petsam, tmp_path, monkeypa
     reader = vtkXdmfReader()
     reader.SetFileName(str(tmp_path / "b" / "a & b.xdmf"))
     reader.UpdateTimeStep(vtk_times(reader)[-1])
-    assert np.array_equal(vtk_arrays(reader.GetOutputDataObject(0).GetPointData())["pressure"].reshape(41, 50), pressure)
+    assert np.array_equal(
+        vtk_arrays(reader.GetOutputDataObject(0).GetPointData())["pressure"].reshape(41, 50), pressure
+    )
 
 
 # ---- the XDMF file's name
 
-@pytest.mark.parametrize("name, beside", [("out.h5", "out.xdmf"), ("out.hdf5", "out.xdmf"), ("out.vtkhdf", "out.xdmf"), ("out", "out.xdmf"),
-                                          ("out.v2", "out.v2.xdmf")])
+
+@pytest.mark.parametrize(
+    "name, beside",
+    [
+        ("out.h5", "out.xdmf"),
+        ("out.hdf5", "out.xdmf"),
+        ("out.vtkhdf", "out.xdmf"),
+        ("out", "out.xdmf"),
+        ("out.v2", "out.v2.xdmf"),
+    ],
+)
 def test_XDMF_has_the_name_of_the_results(petsam, tmp_path, name, beside):
     done = petsam(CASE, dict(output=name))
     assert {path.name for path in tmp_path.iterdir()} == {name, beside}

@@ -1,4 +1,5 @@
 """What a run says: banner, a line a load step, closing table, progress; and where it says it."""
+
 import os
 import pty
 import re
@@ -12,15 +13,31 @@ from conftest import PROGRAM, environment
 from support import SPHERE, ball, flatten
 
 STEPS = dict(ball(48), load_tx=20.0, steps=4)
-HEADING = ["step", "time/s", "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2", "stick/m2", "it n", "it t", "res n", "res t", "s",
-           "left"]
+HEADING = [
+    "step",
+    "time/s",
+    "N/N",
+    "Tx/N",
+    "Ty/N",
+    "Mx/Nm",
+    "My/Nm",
+    "Mz/Nm",
+    "contact/m2",
+    "stick/m2",
+    "it n",
+    "it t",
+    "res n",
+    "res t",
+    "s",
+    "left",
+]
 
 
 def table(text):
     """Heading and lines of the steps."""
     lines = text.splitlines()
     first = next(k for k, line in enumerate(lines) if line.split()[:2] == ["step", "time/s"])
-    return lines[first], [line for line in lines[first + 1:] if re.match(r" *\d+ ", line)]
+    return lines[first], [line for line in lines[first + 1 :] if re.match(r" *\d+ ", line)]
 
 
 def banner(text, name):
@@ -32,6 +49,7 @@ def seconds(text, name):
 
 
 # ---- banner
+
 
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_banner_tells_version_libraries_ranks_and_grid(petsam, ranks):
@@ -57,18 +75,34 @@ def test_memory_estimate_is_what_the_run_uses(petsam, ranks):
 
 # ---- steps
 
+
 def test_each_step_is_a_line_of_fixed_columns(petsam, tmp_path):
     heading, lines = table(petsam(STEPS, dict(output="out.h5")).stdout)
     assert heading.split() == " ".join(HEADING).split()
     assert len({len(line) for line in [heading, *lines]}) == 1
-    names = ("time", "load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz", "contact_area", "stick_area", "normal_iterations",
-             "tangential_iterations", "normal_residual", "tangential_residual")
+    names = (
+        "time",
+        "load_n",
+        "load_tx",
+        "load_ty",
+        "load_mx",
+        "load_my",
+        "load_mz",
+        "contact_area",
+        "stick_area",
+        "normal_iterations",
+        "tangential_iterations",
+        "normal_residual",
+        "tangential_residual",
+    )
     with h5py.File(tmp_path / "out.h5") as f:
         for k, line in enumerate(lines):
             values = line.split()
             assert int(values[0]) == k + 1
             for name, shown in zip(names, values[1:]):
-                assert float(shown) == pytest.approx(f["history"][name][k], rel=0.06 if "residual" in name else 6e-3, abs=1e-300), name
+                assert float(shown) == pytest.approx(
+                    f["history"][name][k], rel=0.06 if "residual" in name else 6e-3, abs=1e-300
+                ), name
     assert len(lines) == 4
 
 
@@ -78,7 +112,7 @@ def test_time_left_is_what_the_other_steps_take(petsam):
     left = [sum(int(part) * unit for part, unit in zip(line.split()[-1].split(":"), (3600, 60, 1))) for line in lines]
     assert left[-1] == 0
     for k in range(6):  # of the mean so far times the steps to come, rounded to seconds
-        recent = taken[max(0, k - 4):k + 1]
+        recent = taken[max(0, k - 4) : k + 1]
         assert left[k] == pytest.approx(np.mean(recent) * (5 - k), abs=0.51 + 0.005 * 5)
 
 
@@ -89,8 +123,14 @@ def test_failed_step_is_a_line_too(petsam):
 
 def test_steps_are_told_when_they_are_done(tmp_path):
     """Into a pipe as well, which C's streams would fill before they say anything."""
-    run = subprocess.Popen([str(PROGRAM), *flatten([STEPS, dict(steps=100000)])], stdout=subprocess.PIPE, text=True, env=environment(),
-                           cwd=tmp_path, stdin=subprocess.DEVNULL)
+    run = subprocess.Popen(
+        [str(PROGRAM), *flatten([STEPS, dict(steps=100000)])],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=environment(),
+        cwd=tmp_path,
+        stdin=subprocess.DEVNULL,
+    )
     try:
         assert any(re.match(r" *3 ", line) for line in run.stdout)
         assert run.poll() is None
@@ -101,9 +141,12 @@ def test_steps_are_told_when_they_are_done(tmp_path):
 
 # ---- the end
 
+
 def test_parts_of_the_time_make_up_the_whole(petsam):
     text = petsam(dict(STEPS, grid_n=200), dict(output="out.h5")).stdout
-    parts = [seconds(text, name) for name in ("set-up", "normal problem", "tangential problem", "check", "results", "other")]
+    parts = [
+        seconds(text, name) for name in ("set-up", "normal problem", "tangential problem", "check", "results", "other")
+    ]
     total = seconds(text, "total")
     assert sum(parts) == pytest.approx(total, abs=0.005 * 7) and total > 0
     assert parts[1] > 0 and parts[2] > 0
@@ -137,6 +180,7 @@ def test_nested_log_of_petsc_stays_as_it_is(petsam, tmp_path):
 
 
 # ---- quiet, stderr
+
 
 def test_quiet_says_nothing_and_computes_the_same(petsam, tmp_path):
     done = petsam(STEPS, "-quiet", "-output", "a.h5")
@@ -215,6 +259,7 @@ def test_progress_may_be_asked_for(petsam):
 
 # ---- help and version
 
+
 def test_help_is_grouped(petsam):
     text = petsam("-help").stdout
     groups = re.findall(r"^([A-Z]\w+(?: \w+)*)$", text, re.M)
@@ -235,7 +280,14 @@ def test_version_is_told_by_either_word(petsam, word):
 
 
 def test_help_into_a_pipe_that_closes_is_no_crash(tmp_path):
-    run = subprocess.Popen([str(PROGRAM), "-help"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment(), cwd=tmp_path)
+    run = subprocess.Popen(
+        [str(PROGRAM), "-help"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment(),
+        cwd=tmp_path,
+    )
     run.stdout.close()
     assert "PETSC ERROR" not in run.stderr.read()
     run.wait()

@@ -1,4 +1,5 @@
-"""petsam-study: tables, runs side by side, restarts, failures, results tables; Slurm's jobs with commands that stand for it."""
+"""petsam-study: tables, runs side by side, restarts, failures, results; Slurm's jobs with stand-ins for it."""
+
 import csv
 import os
 import signal
@@ -10,11 +11,11 @@ import h5py
 import numpy as np
 import pytest
 
-from conftest import PROGRAM as PETSAM, environment
+from conftest import PROGRAM as PETSAM
+from conftest import environment
+from petsam.study import cases as study_cases
+from petsam.study.slurm import ranges
 from support import ROOT, ball, slide_limit, words
-
-import study_cases
-from study_slurm import ranges
 
 PROGRAM = ROOT / "scripts" / "petsam-study"
 CASE = ball(n=32)
@@ -32,21 +33,36 @@ def executable(path, text):
 @pytest.fixture
 def study(tmp_path):
     """study(*words): the process of petsam-study in tmp_path, not waited for; PETSAM is the built program."""
+
     def start(*arguments, **variables):
-        env = {**environment(), "PYTHON": sys.executable, "PETSAM": str(PETSAM), **{k: str(v) for k, v in variables.items()}}
-        return subprocess.Popen([sys.executable, str(PROGRAM), *map(str, arguments)], cwd=tmp_path, env=env, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        env = {
+            **environment(),
+            "PYTHON": sys.executable,
+            "PETSAM": str(PETSAM),
+            **{k: str(v) for k, v in variables.items()},
+        }
+        return subprocess.Popen(
+            [sys.executable, str(PROGRAM), *map(str, arguments)],
+            cwd=tmp_path,
+            env=env,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
+
     return start
 
 
 @pytest.fixture
 def run(study):
     """run(*words, check=0): the same, waited for."""
+
     def finish(*arguments, check=0, **variables):
         process = study(*arguments, **variables)
         out, err = process.communicate(timeout=240)
         assert process.returncode == check, (process.returncode, out, err)
         return out + err
+
     return finish
 
 
@@ -56,9 +72,12 @@ def fake(tmp_path):
 
     -wait SECONDS waits, -code N ends with N; -stoppable ends with 75 and a checkpoint on USR1.
     """
-    mpirun = executable(tmp_path / "bin" / "mpirun", '#!/bin/sh\n[ "$1" = -n ] || exit 0\n'
-                        'RANKS=$2; export RANKS; shift 2; exec "$@"\n')
-    petsam = executable(tmp_path / "bin" / "petsam", r'''#!/bin/bash
+    mpirun = executable(
+        tmp_path / "bin" / "mpirun", '#!/bin/sh\n[ "$1" = -n ] || exit 0\nRANKS=$2; export RANKS; shift 2; exec "$@"\n'
+    )
+    petsam = executable(
+        tmp_path / "bin" / "petsam",
+        r"""#!/bin/bash
 echo "$RANKS ${PWD##*/} $*" >>../../runs.txt
 code=0
 trap 'kill $!' EXIT
@@ -77,7 +96,8 @@ echo "$RANKS $$" >>../../started.txt
 sleep "${wait:-0}" & wait
 [ "$code" = 0 ] || echo "petsam: it is $code" >&2
 exit "$code"
-''')
+""",
+    )
     return {"MPIRUN": mpirun, "PETSAM": petsam}
 
 
@@ -102,6 +122,7 @@ def runs(tmp_path):
 
 # ---------------------------------------------------------------- tables
 
+
 def test_csv_columns_are_options(tmp_path):
     path = table(tmp_path, '# comment\nload_tx, -grid_center, ranks, case\n\n10, "0,1e-4", 2, one\n20, , , two\n')
     one, two = study_cases.read(str(path), study_cases.common_options(["-grid_n", "64", "-allow_edge_contact"]), 3)
@@ -111,15 +132,33 @@ def test_csv_columns_are_options(tmp_path):
 
 
 def test_yaml_combines_all_lists_and_computes_expressions(tmp_path):
-    path = table(tmp_path, 'parameters:\n  ratio: [0.25, 0.5]\n  load: 1000\noptions:\n  friction: [0.1, 0.2]\n'
-                 '  load_tx: "{ratio * friction * load}"\n  load_n: "{load}"\n  coupling: none\n  allow_edge_contact: true\n'
-                 'files:\n  h.csv: "time,disp_z\\n1,{-sqrt(load_tx**2)}"\nranks: "{load / 500}"\n', "t.yaml")
+    path = table(
+        tmp_path,
+        "parameters:\n  ratio: [0.25, 0.5]\n  load: 1000\noptions:\n  friction: [0.1, 0.2]\n"
+        '  load_tx: "{ratio * friction * load}"\n  load_n: "{load}"\n  coupling: none\n  allow_edge_contact: true\n'
+        'files:\n  h.csv: "time,disp_z\\n1,{-sqrt(load_tx**2)}"\nranks: "{load / 500}"\n',
+        "t.yaml",
+    )
     cases = study_cases.read(str(path))
     assert [(case.options["load_tx"], case.files["h.csv"].split(",")[-1]) for case in cases] == [
-        ("25", "-25"), ("50", "-50"), ("50", "-50"), ("100", "-100")]
+        ("25", "-25"),
+        ("50", "-50"),
+        ("50", "-50"),
+        ("100", "-100"),
+    ]
     assert cases[3].name == "ratio=0.5_friction=0.2" and cases[3].ranks == 2
-    assert cases[0].words() == ["-friction", "0.1", "-load_tx", "25", "-load_n", "1000", "-coupling", "none",
-                                "-allow_edge_contact", "true"]
+    assert cases[0].words() == [
+        "-friction",
+        "0.1",
+        "-load_tx",
+        "25",
+        "-load_n",
+        "1000",
+        "-coupling",
+        "none",
+        "-allow_edge_contact",
+        "true",
+    ]
 
 
 def test_options_for_all_cases_count_in_expressions(tmp_path):
@@ -133,27 +172,30 @@ def test_files_are_meant_relative_to_the_table(tmp_path):
     assert study_cases.read(str(path))[0].options == {"options_file": str(tmp_path / "a.opts"), "history": "/b.csv"}
 
 
-@pytest.mark.parametrize("name, text, message", [
-    ("t.csv", "load_tx,friction\n1,2\n3\n", "t.csv, line 3: 1 values for 2 columns"),
-    ("t.csv", "load_tx,load_tx\n1,2\n", "t.csv, line 1: column load_tx: appears twice"),
-    ("t.csv", "load tx\n1\n", "t.csv, line 1: column load tx"),
-    ("t.csv", "load_tx\n", "at least one case"),
-    ("t.csv", "load_tx\n1\n2\n1\n", "t.csv, line 4: the same name, load_tx=1, as"),
-    ("t.csv", "load_tx,ranks\n1,0\n", "t.csv, line 2: ranks 0"),
-    ("t.csv", "load_tx,output\n1,a.h5\n", "t.csv, line 2: -output: petsam-study names the results"),
-    ("t.csv", "load_tx,case\n1,../a\n", "t.csv, line 2: case ../a"),
-    ("t.yaml", "options:\n  load_tx: [1\n", "t.yaml, line 3:"),
-    ("t.yaml", "options:\n  load_tx: 1\nrank: 1\n", "t.yaml: rank: unknown"),
-    ("t.yaml", "parameters: {a: 1}\n", "t.yaml: expected a section `options`"),
-    ("t.yaml", "options:\n  load_tx: \"{2 * a}\"\n", "t.yaml: {2 * a}: there is no parameter or option a"),
-    ("t.yaml", "options:\n  load_tx: \"{load_tx}\"\n", "refers to itself"),
-    ("t.yaml", "options:\n  load_tx: \"{1 / 0}\"\n", "t.yaml: {1 / 0}: "),
-    ("t.yaml", "options:\n  load_tx: \"{open(1)}\"\n", "only numbers, names"),
-    ("t.yaml", "options:\n  a: x\n  load_tx: \"{2 * a}\"\n", "a = x is no number"),
-    ("t.yaml", "options:\n  load_tx: {a: 1}\n", "t.yaml: options: load_tx: expected a value or a list"),
-    ("t.yaml", "options:\n  load_tx: 1\nfiles:\n  ../a: b\n", "t.yaml: files: expected names without folders"),
-    ("t.yaml", "options:\n  a: 1\nparameters:\n  a: 1\n", "t.yaml: a: is both"),
-])
+@pytest.mark.parametrize(
+    "name, text, message",
+    [
+        ("t.csv", "load_tx,friction\n1,2\n3\n", "t.csv, line 3: 1 values for 2 columns"),
+        ("t.csv", "load_tx,load_tx\n1,2\n", "t.csv, line 1: column load_tx: appears twice"),
+        ("t.csv", "load tx\n1\n", "t.csv, line 1: column load tx"),
+        ("t.csv", "load_tx\n", "at least one case"),
+        ("t.csv", "load_tx\n1\n2\n1\n", "t.csv, line 4: the same name, load_tx=1, as"),
+        ("t.csv", "load_tx,ranks\n1,0\n", "t.csv, line 2: ranks 0"),
+        ("t.csv", "load_tx,output\n1,a.h5\n", "t.csv, line 2: -output: petsam-study names the results"),
+        ("t.csv", "load_tx,case\n1,../a\n", "t.csv, line 2: case ../a"),
+        ("t.yaml", "options:\n  load_tx: [1\n", "t.yaml, line 3:"),
+        ("t.yaml", "options:\n  load_tx: 1\nrank: 1\n", "t.yaml: rank: unknown"),
+        ("t.yaml", "parameters: {a: 1}\n", "t.yaml: expected a section `options`"),
+        ("t.yaml", 'options:\n  load_tx: "{2 * a}"\n', "t.yaml: {2 * a}: there is no parameter or option a"),
+        ("t.yaml", 'options:\n  load_tx: "{load_tx}"\n', "refers to itself"),
+        ("t.yaml", 'options:\n  load_tx: "{1 / 0}"\n', "t.yaml: {1 / 0}: "),
+        ("t.yaml", 'options:\n  load_tx: "{open(1)}"\n', "only numbers, names"),
+        ("t.yaml", 'options:\n  a: x\n  load_tx: "{2 * a}"\n', "a = x is no number"),
+        ("t.yaml", "options:\n  load_tx: {a: 1}\n", "t.yaml: options: load_tx: expected a value or a list"),
+        ("t.yaml", "options:\n  load_tx: 1\nfiles:\n  ../a: b\n", "t.yaml: files: expected names without folders"),
+        ("t.yaml", "options:\n  a: 1\nparameters:\n  a: 1\n", "t.yaml: a: is both"),
+    ],
+)
 def test_a_bad_table_is_exit_code_2_with_its_place(run, tmp_path, name, text, message):
     table(tmp_path, text, name)
     said = run(name, check=2).splitlines()
@@ -167,8 +209,9 @@ def test_a_missing_table_is_exit_code_3(run):
 
 # ---------------------------------------------------------------- runs of petsam
 
+
 def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
-    table(tmp_path, "load_tx,load_mz\n{!r},0\n{!r},1e-3\n".format(float(0.3 * LIMIT), float(0.5 * LIMIT)))
+    table(tmp_path, f"load_tx,load_mz\n{float(0.3 * LIMIT)!r},0\n{float(0.5 * LIMIT)!r},1e-3\n")
     run("cases.csv", "--", *words(CASE), "-steps", "2")
     with open(tmp_path / "cases" / "results.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -186,7 +229,7 @@ def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
 
 
 def test_failures_are_listed_with_exit_code_and_message(run, tmp_path):
-    table(tmp_path, "load_tx,case\n{!r},good\n{!r},slides\n".format(float(0.3 * LIMIT), float(1.5 * LIMIT)))
+    table(tmp_path, f"load_tx,case\n{float(0.3 * LIMIT)!r},good\n{float(1.5 * LIMIT)!r},slides\n")
     said = run("cases.csv", "--", *words(CASE), check=1)
     assert "2 cases: 1 finished, 1 failed" in said and "slides  exit 11: gross slip" in said
     with h5py.File(tmp_path / "cases" / "results.h5", "r") as file:
@@ -215,8 +258,10 @@ def test_a_changed_table_or_options_file_runs_its_cases_again(run, tmp_path, fak
 
 
 def test_ranks_at_once_fill_but_never_exceed_the_cores(run, tmp_path, fake):
-    executable(tmp_path / "bin" / "petsam", '#!/bin/sh\necho "+$RANKS" >>../../load.txt\nsleep 0.4\n'
-               'echo "-$RANKS" >>../../load.txt\n')
+    executable(
+        tmp_path / "bin" / "petsam",
+        '#!/bin/sh\necho "+$RANKS" >>../../load.txt\nsleep 0.4\necho "-$RANKS" >>../../load.txt\n',
+    )
     table(tmp_path, "ranks,load_tx\n2,1\n1,2\n3,3\n1,4\n1,5\n2,6\n1,7\n")
     run("cases.csv", "--cores", 3, **fake)
     load = np.cumsum([int(line) for line in (tmp_path / "load.txt").read_text().split()])
@@ -226,7 +271,9 @@ def test_ranks_at_once_fill_but_never_exceed_the_cores(run, tmp_path, fake):
 def test_more_ranks_than_cores_are_refused(run, tmp_path, fake):
     table(tmp_path, "ranks,load_tx\n2,1\n4,2\n")
     assert "case ranks=4_load_tx=2" not in run("cases.csv", "--cores", 4, **fake)
-    assert "case load_tx=2: 4 ranks do not fit into 3 cores" in run("cases.csv", "--cores", 3, "-d", "d", check=2, **fake)
+    assert "case load_tx=2: 4 ranks do not fit into 3 cores" in run(
+        "cases.csv", "--cores", 3, "-d", "d", check=2, **fake
+    )
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -264,7 +311,8 @@ def test_a_stopped_case_goes_on_from_its_checkpoint(study, run, tmp_path, fake):
     out, err = process.communicate(timeout=60)
     assert process.returncode == 75 and "1 stopped early" in out, (out, err)
     assert "-restart" not in runs(tmp_path)[0] and " ".join(runs(tmp_path)[0]).endswith(
-        "-checkpoint checkpoint.h5 -checkpoint_every 5")
+        "-checkpoint checkpoint.h5 -checkpoint_every 5"
+    )
     process = study("cases.csv", "--checkpoint", 5, **fake)
     until(lambda: len(runs(tmp_path)) == 2)
     process.send_signal(signal.SIGINT)
@@ -279,7 +327,10 @@ def test_progress_counts_and_estimates(run, tmp_path, fake):
     table(tmp_path, "load_tx\n1\n2\n3\n")
     said = run("cases.csv", "--cores", 1, **fake)
     assert "[1/3] load_tx=1  exit 0  (0:0" in said and "[3/3] load_tx=3  exit 0  (0:00 left)" in said
-    assert run("cases.csv", "--list", **fake).split() == "1 finished load_tx=1 2 finished load_tx=2 3 finished load_tx=3".split()
+    assert (
+        run("cases.csv", "--list", **fake).split()
+        == "1 finished load_tx=1 2 finished load_tx=2 3 finished load_tx=3".split()
+    )
 
 
 def test_a_missing_program_is_named(run, tmp_path):
@@ -290,16 +341,21 @@ def test_a_missing_program_is_named(run, tmp_path):
 
 # ---------------------------------------------------------------- Slurm, by commands that stand for it
 
+
 @pytest.fixture
 def slurm(tmp_path, fake):
     """Variables with an sbatch that runs its script at once for each number of the array, an srun, and an scontrol.
 
-    What they were called with goes to sbatch.txt and scontrol.txt. USR1 is sent to the script once `started` exists when
-    the file `limit` does.
+    What they were called with goes to sbatch.txt and scontrol.txt. USR1 is sent to the script once `started` exists
+    when the file `limit` does.
     """
-    executable(tmp_path / "bin" / "srun", '#!/bin/sh\n[ "$1" = -n ] && { RANKS=$2; export RANKS; shift 2; }\nexec "$@"\n')
-    executable(tmp_path / "bin" / "scontrol", '#!/bin/sh\necho "$@" >>{}/scontrol.txt\n'.format(tmp_path))
-    executable(tmp_path / "bin" / "sbatch", r'''#!/usr/bin/env python3
+    executable(
+        tmp_path / "bin" / "srun", '#!/bin/sh\n[ "$1" = -n ] && { RANKS=$2; export RANKS; shift 2; }\nexec "$@"\n'
+    )
+    executable(tmp_path / "bin" / "scontrol", f'#!/bin/sh\necho "$@" >>{tmp_path}/scontrol.txt\n')
+    executable(
+        tmp_path / "bin" / "sbatch",
+        r"""#!/usr/bin/env python3
 import os, re, shutil, signal, subprocess, sys, tempfile, time
 here = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 with open(here + "/sbatch.txt", "a") as log:
@@ -329,7 +385,8 @@ for number in numbers:
         with open(here + "/codes.txt", "a") as codes:
             print(process.wait(), file=codes)
 print(job)
-''')
+""",
+    )
     return dict(fake, PATH="{}:{}".format(tmp_path / "bin", os.environ["PATH"]))
 
 
@@ -344,7 +401,9 @@ def test_array_numbers_are_written_as_ranges():
 def test_a_study_is_submitted_as_arrays_and_collected(run, tmp_path, slurm):
     table(tmp_path, "load_tx,code,ranks\n1,0,1\n2,3,1\n3,0,2\n4,0,1\n")
     run("cases.csv", "--case", 1, **slurm)
-    said = run("cases.csv", "--slurm", "--cores", 4, "--sbatch", "--time=1:00 --qos=short", "--", "-grid_n", "64", **slurm)
+    said = run(
+        "cases.csv", "--slurm", "--cores", 4, "--sbatch", "--time=1:00 --qos=short", "--", "-grid_n", "64", **slurm
+    )
     # other options for all cases: case 1 runs again
     submitted = lines(tmp_path / "sbatch.txt")
     assert "job 1: 3 cases of 1 rank" in said and "job 2: 1 cases of 2 ranks" in said and len(submitted) == 3
@@ -353,8 +412,10 @@ def test_a_study_is_submitted_as_arrays_and_collected(run, tmp_path, slurm):
     assert "--dependency=afterany:1:2" in submitted[2]
     assert sorted(line[:2] + line[-4:-2] for line in runs(tmp_path)[1:]) == [
         ["1", "load_tx=1_code=0", "-grid_n", "64"],
-        ["1", "load_tx=2_code=3", "-grid_n", "64"], ["1", "load_tx=4_code=0", "-grid_n", "64"],
-        ["2", "load_tx=3_code=0", "-grid_n", "64"]]
+        ["1", "load_tx=2_code=3", "-grid_n", "64"],
+        ["1", "load_tx=4_code=0", "-grid_n", "64"],
+        ["2", "load_tx=3_code=0", "-grid_n", "64"],
+    ]
     assert lines(tmp_path / "codes.txt") == ["0", "1", "0", "0", "1"]
     with open(tmp_path / "cases" / "results.csv", encoding="utf-8") as file:
         assert [row["exit_code"] for row in csv.DictReader(file)] == ["0", "3", "0", "0"]
@@ -378,28 +439,41 @@ def test_without_sbatch_slurm_is_refused(run, tmp_path, fake):
 
 
 # one large run: the program writes checkpoints to the path it is given
-LARGE = r'''#!/bin/bash
+LARGE = r"""#!/bin/bash
 echo "$*" >>{0}/runs.txt
 while [ $# -gt 0 ]; do [ "$1" != -checkpoint ] || file=$2; shift; done
 trap 'echo "$$ $RANDOM" >"$file"; exit 75' USR1
 : >{0}/started.txt
 {1}
-'''
+"""
 
 
 @pytest.fixture
 def large(tmp_path, slurm):
     """large(script): runs scripts/slurm/run.sbatch with a petsam that does script; exit code and requeues."""
+
     def submit(script, limit=False):
         executable(tmp_path / "bin" / "petsam", LARGE.format(tmp_path, script))
         for name in ("started.txt", "scontrol.txt", "codes.txt"):
             (tmp_path / name).unlink(missing_ok=True)
         if limit:
             (tmp_path / "limit").touch()
-        env = {**environment(), **{k: str(v) for k, v in slurm.items()}, "CHECKPOINT": "big.checkpoint.h5", "GRACE": "1"}
-        subprocess.run(["sbatch", "--nodes=2", str(ROOT / "scripts/slurm/run.sbatch"), "-grid_n", "64", "-output", "big.h5"],
-                       cwd=tmp_path, env=env, check=True, timeout=120, stdout=subprocess.DEVNULL)
+        env = {
+            **environment(),
+            **{k: str(v) for k, v in slurm.items()},
+            "CHECKPOINT": "big.checkpoint.h5",
+            "GRACE": "1",
+        }
+        subprocess.run(
+            ["sbatch", "--nodes=2", str(ROOT / "scripts/slurm/run.sbatch"), "-grid_n", "64", "-output", "big.h5"],
+            cwd=tmp_path,
+            env=env,
+            check=True,
+            timeout=120,
+            stdout=subprocess.DEVNULL,
+        )
         return int(lines(tmp_path / "codes.txt")[-1]), lines(tmp_path / "scontrol.txt")
+
     return submit
 
 
@@ -413,7 +487,7 @@ def test_a_large_run_is_stopped_before_the_limit_and_goes_on(large, tmp_path):
 
 @pytest.mark.parametrize("code", [0, 2, 10, 11])
 def test_a_large_run_that_ends_by_itself_is_not_queued_again(large, code):
-    assert large("echo state >$file; exit {}".format(code)) == (code, [])
+    assert large(f"echo state >$file; exit {code}") == (code, [])
 
 
 def test_a_large_run_without_a_new_checkpoint_is_not_queued_again(large, tmp_path):

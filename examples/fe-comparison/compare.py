@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
 """Solve the sphere in CalculiX and in petsam under equal forces, and measure what each costs.
 
-The displacement of the hemispheres' flat tops is prescribed in CalculiX: Hertz's approach for the wanted contact radius.
+In CalculiX the displacement of the hemispheres' flat tops is prescribed: Hertz's approach for a wanted contact radius.
 That is not the half-space's approach of distant points, so petsam gets the forces that came out, not the displacements.
 
 Writes to a directory, one HDF5 file a run with its costs as attributes:
-  mesh_N.h5                the sequence of meshes at Table 1's contact, N elements along the cube's edge; mesh_N_direct.h5
-                           the same by the direct solver
+  mesh_N.h5                the sequence of meshes at Table 1's contact, N elements along the cube's edge
+  mesh_N_direct.h5         the same by the direct solver
   small_R.h5               contact radius R times the sphere's
   large_R.h5, neo_R.h5     the same with large displacements, after St. Venant and Kirchhoff, and neo-Hooke
   stiffness_F.h5           the first of these with contact stiffness times F
   tangential.h5            both hemispheres with friction
   petsam_...h5             petsam at the same loads; the grids at Table 1's contact are petsam_grid_N.h5
-fe_figures.py reads these. Every run has one process and one thread.
+figures.py reads these. Every run has one process and one thread.
 """
+
 import argparse
 import glob
 import os
@@ -25,17 +26,21 @@ import time
 import h5py
 import numpy as np
 
-import analytic
-import fe_model
-import fe_results
+import model
+import surface as results_of_calculix
+from petsam.closed import Bodies, Spheres
+from petsam.errors import fail
 
 PACKAGE = "calculix-ccx"
 HALF_WIDTH = 1.5  # of petsam's grids in contact radii, as in Table 1
 LOAD_RATIO = 0.6  # tangential force over mu N that the tangential displacement is of
-TABLE1 = fe_model.Study()
+TABLE1 = model.Study()
 # small strains and displacements; large ones with two laws of material
-LAWS = {"small": fe_model.Controls(), "large": fe_model.Controls(nlgeom=True),
-        "neo": fe_model.Controls(nlgeom=True, neo_hooke=True)}
+LAWS = {
+    "small": model.Controls(),
+    "large": model.Controls(nlgeom=True),
+    "neo": model.Controls(nlgeom=True, neo_hooke=True),
+}
 
 
 class RunError(Exception):
@@ -62,11 +67,18 @@ print(used.ru_utime + used.ru_stime, used.ru_maxrss)
 def measured(command, directory, log):
     """Run a program to its end; its CPU time (s), wall time (s) and peak memory (bytes)."""
     start = time.monotonic()
-    done = subprocess.run([sys.executable, "-I", "-S", "-c", STARTER, log, *command], cwd=directory, check=True, text=True,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, env=dict(os.environ, OMP_NUM_THREADS="1"))
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", STARTER, log, *command],
+        cwd=directory,
+        check=True,
+        text=True,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        env=dict(os.environ, OMP_NUM_THREADS="1"),
+    )
     code, cpu, memory = done.stdout.split()
     if code != "0":
-        raise RunError("{} failed with exit code {}, see {}".format(command[0], code, log))
+        raise RunError(f"{command[0]} failed with exit code {code}, see {log}")
     unit = 1 if sys.platform == "darwin" else 1024
     return {"cpu": float(cpu), "wall": time.monotonic() - start, "memory": unit * int(memory)}
 
@@ -84,59 +96,76 @@ def calculix(ccx, base):
     return used
 
 
-def solve_mesh(options, name, n, study=TABLE1, controls=fe_model.Controls(), tangential=0.0):
+def solve_mesh(options, name, n, study=TABLE1, controls=LAWS["small"], tangential=0.0):
     """One CalculiX model and its results in name.h5; the Surface. tangential: displacement along x, mm."""
     base = os.path.join(options.directory, name)
     down = study.contact_radius**2 / study.radius  # of one sphere
     if tangential:
-        mesh = fe_model.tangential_deck(base + ".inp", n, study, 2.0 * down, tangential, controls)
+        mesh = model.tangential_deck(base + ".inp", n, study, 2.0 * down, tangential, controls)
     else:
-        mesh = fe_model.normal_deck(base + ".inp", n, study, down, controls)
+        mesh = model.normal_deck(base + ".inp", n, study, down, controls)
     used = calculix(options.ccx, base)
     parts, bodies = (2, 2) if tangential else (4, 1)
-    surface = fe_results.read_surface(base, mesh, fe_model.rim(mesh)[0], parts, controls.nlgeom, bool(tangential))
+    surface = results_of_calculix.read_surface(base, mesh, model.rim(mesh)[0], parts, controls.nlgeom, bool(tangential))
     for ending in (".inp", ".frd", ".12d", ".sta"):
         if os.path.exists(base + ending) and not options.keep:
             os.remove(base + ending)
-    write_surface(base + ".h5", surface, study, {
-        **used, "parts": parts, "n": n, "elements": bodies * len(mesh.elements), "nodes": bodies * len(mesh.nodes),
-        "element_size": 1e-3 * fe_model.element_size(study, n), "solver": controls.solver,
-        "stiffness": 1e9 * (controls.stiffness or fe_model.default_stiffness(study, n))})
-    report(name, used, "{} elements, N = {:.6g} N".format(bodies * len(mesh.elements), surface.load_n))
+    write_surface(
+        base + ".h5",
+        surface,
+        study,
+        {
+            **used,
+            "parts": parts,
+            "n": n,
+            "elements": bodies * len(mesh.elements),
+            "nodes": bodies * len(mesh.nodes),
+            "element_size": 1e-3 * model.element_size(study, n),
+            "solver": controls.solver,
+            "stiffness": 1e9 * (controls.stiffness or model.default_stiffness(study, n)),
+        },
+    )
+    report(name, used, f"{bodies * len(mesh.elements)} elements, N = {surface.load_n:.6g} N")
     return surface
 
 
 def write_surface(path, surface, study, attributes):
     """A Surface, with the closed solutions for its loads and what was known before, in SI units."""
-    hertz = hertz_of(surface.load_n, study)
-    level = tangential_force(surface, attributes["parts"]) / (study.friction * surface.load_n)
-    stick = analytic.cattaneo_stick_radius(level, hertz.radius)
-    pressure = surface.nodal_mean(lambda r: analytic.hertz_pressure(r, hertz.radius, hertz.pressure))
-    shear = surface.nodal_mean(
-        lambda r: analytic.cattaneo_shear(r, hertz.radius, stick, study.friction * hertz.pressure))
+    load_tx = tangential_force(surface, attributes["parts"])
+    spheres = spheres_of(surface.load_n, study)
+    stick = spheres.stick_radius(load_tx)
     with h5py.File(path, "w") as file:
         for name in ("x", "y", "area", "pressure", "shear_x", "shear_y", "cpress"):
             file[name] = getattr(surface, name)
-        file["hertz_pressure"], file["cattaneo"] = pressure, shear
+        file["hertz_pressure"] = surface.nodal_mean(spheres.pressure)
+        file["cattaneo"] = surface.nodal_mean(lambda r: spheres.shear(r, stick))
         file.attrs.update(attributes)
-        file.attrs.update({
-            "load_n": surface.load_n, "load_tx": tangential_force(surface, attributes["parts"]),
-            "contact_radius": surface.contact_radius(1.0 / attributes["parts"]), "hertz_radius": hertz.radius,
-            "hertz_peak": hertz.pressure, "hertz_approach": hertz.approach,
-            "approach": 2e-3 * study.contact_radius**2 / study.radius, "sphere_radius": 1e-3 * study.radius,
-            "young": 1e6 * study.young, "poisson": study.poisson, "friction": study.friction})
+        file.attrs.update(
+            {
+                "load_n": surface.load_n,
+                "load_tx": load_tx,
+                "contact_radius": surface.contact_radius(1.0 / attributes["parts"]),
+                "hertz_radius": spheres.hertz.radius,
+                "hertz_peak": spheres.hertz.pressure,
+                "hertz_approach": spheres.hertz.approach,
+                "approach": 2e-3 * study.contact_radius**2 / study.radius,
+                "sphere_radius": 1e-3 * study.radius,
+                "young": 1e6 * study.young,
+                "poisson": study.poisson,
+                "friction": study.friction,
+            }
+        )
 
 
 def tangential_force(surface, parts):
-    """T_x, N, of both spheres with friction: the sum of the shear. (The top's reaction converges later.) 0 by symmetry."""
+    """T_x, N, of both spheres: the sum of the shear (the top's reaction converges later); 0 for a quarter of one."""
     return parts * float(np.sum(surface.area * surface.shear_x)) if parts == 2 else 0.0
 
 
-def hertz_of(load_n, study):
-    """Hertz's contact of two such spheres under load_n (N), SI units."""
-    young = 1e6 * study.young
-    e_star = analytic.effective_modulus(young, study.poisson, young, study.poisson)
-    return analytic.hertz(load_n, 0.5e-3 * study.radius, e_star)
+def spheres_of(load_n, study):
+    """Two such spheres under load_n (N), SI units."""
+    body = (1e6 * study.young, study.poisson)
+    return Spheres(Bodies(*body, *body), 0.5e-3 * study.radius, study.friction, load_n)
 
 
 def solve_petsam(options, name, grid, surface, study=TABLE1, parts=4, true_sphere=False):
@@ -145,8 +174,8 @@ def solve_petsam(options, name, grid, surface, study=TABLE1, parts=4, true_spher
     size = 2.0 * HALF_WIDTH * 1e-3 * study.contact_radius
     words = {"grid_n": grid, "grid_size": size, "load_n": surface.load_n, "friction": study.friction, "output": path}
     for body in (1, 2):
-        words["body{}_young".format(body)], words["body{}_poisson".format(body)] = 1e6 * study.young, study.poisson
-        words["gap_radius{}".format(body)] = 1e-3 * study.radius
+        words[f"body{body}_young"], words[f"body{body}_poisson"] = 1e6 * study.young, study.poisson
+        words[f"gap_radius{body}"] = 1e-3 * study.radius
     words["gap_type"] = "sphere"
     if true_sphere:
         del words["gap_radius1"], words["gap_radius2"]
@@ -159,14 +188,14 @@ def solve_petsam(options, name, grid, surface, study=TABLE1, parts=4, true_spher
     used = measured(command, options.directory, path[:-3] + ".log")
     with h5py.File(path, "a") as file:
         file.attrs.update(used)
-    report(name, used, "{0} x {0} cells".format(grid))
+    report(name, used, f"{grid} x {grid} cells")
 
 
 def write_sphere(path, grid, size, radius):
     """Separation of two spheres of that radius (m) that touch at a point."""
     x = ((np.arange(grid) + 0.5) / grid - 0.5) * size
     with h5py.File(path, "w") as file:
-        file["height"] = 2.0 * (radius - np.sqrt(radius**2 - x[:, None]**2 - x**2))
+        file["height"] = 2.0 * (radius - np.sqrt(radius**2 - x[:, None] ** 2 - x**2))
 
 
 def forget(options, pattern):
@@ -182,42 +211,39 @@ def report(name, used, what):
 
 # ---------------------------------------------------------------- the studies
 
+
 def table_of_meshes(options):
     """Meshes and grids at Table 1's contact. The finest mesh's load is petsam's."""
     forget(options, "mesh_*.h5")
     forget(options, "petsam_grid_*.h5")
     for n in options.meshes:
-        surface = solve_mesh(options, "mesh_{}".format(n), n)
+        surface = solve_mesh(options, f"mesh_{n}", n)
     for grid in options.grids:
-        solve_petsam(options, "petsam_grid_{}".format(grid), grid, surface)
-    solve_mesh(options, "mesh_{}_direct".format(options.direct), options.direct,
-               controls=fe_model.Controls(solver="SPOOLES"))
+        solve_petsam(options, f"petsam_grid_{grid}", grid, surface)
+    solve_mesh(options, f"mesh_{options.direct}_direct", options.direct, controls=model.Controls(solver="SPOOLES"))
 
 
 def growing_contact(options):
     """Contact radii up to a fifth of the sphere's; and what the contact stiffness does to the smallest."""
     for kind in LAWS:
-        forget(options, "*{}_*.h5".format(kind))
+        forget(options, f"*{kind}_*.h5")
     for ratio in (TABLE1.contact_radius / TABLE1.radius, 0.05, 0.1, 0.2):
         study = TABLE1._replace(contact_radius=ratio * TABLE1.radius)
         for kind, controls in LAWS.items():
-            name = "{}_{:.4g}".format(kind, ratio)
+            name = f"{kind}_{ratio:.4g}"
             surface = solve_mesh(options, name, options.sweep, study, controls)
             if kind == "small":
                 solve_petsam(options, "petsam_" + name, options.grids[-1], surface, study)
                 solve_petsam(options, "petsam_true_" + name, options.grids[-1], surface, study, true_sphere=True)
     for factor in (0.1, 10.0):
-        stiffness = factor * fe_model.default_stiffness(TABLE1, options.sweep)
-        solve_mesh(options, "stiffness_{:g}".format(factor), options.sweep, controls=fe_model.Controls(stiffness=stiffness))
+        stiffness = factor * model.default_stiffness(TABLE1, options.sweep)
+        solve_mesh(options, f"stiffness_{factor:g}", options.sweep, controls=model.Controls(stiffness=stiffness))
 
 
 def friction(options):
     """Both spheres with friction: normal load, then a tangential displacement."""
-    hertz = hertz_of(1000.0, TABLE1)
-    g = analytic.shear_modulus(1e6 * TABLE1.young, TABLE1.poisson)
-    along = 1e3 * analytic.cattaneo_displacement(
-        hertz.radius, analytic.cattaneo_stick_radius(LOAD_RATIO, hertz.radius), TABLE1.friction * hertz.pressure,
-        analytic.tangential_compliance(g, TABLE1.poisson, g, TABLE1.poisson))
+    spheres = spheres_of(1000.0, TABLE1)
+    along = 1e3 * spheres.displacement(spheres.stick_radius(LOAD_RATIO * spheres.limit))
     surface = solve_mesh(options, "tangential", options.tangential, tangential=along)
     solve_petsam(options, "petsam_tangential", options.grids[-1], surface, parts=2)
 
@@ -229,8 +255,9 @@ def main():
     parser.add_argument("directory", help="where results go")
     parser.add_argument("--petsam", default="petsam", help="the program")
     parser.add_argument("--ccx", default="ccx", help="CalculiX")
-    parser.add_argument("--meshes", type=int, nargs="+", default=[6, 8, 12, 16, 20],
-                        help="elements along the cube's edge")
+    parser.add_argument(
+        "--meshes", type=int, nargs="+", default=[6, 8, 12, 16, 20], help="elements along the cube's edge"
+    )
     parser.add_argument("--grids", type=int, nargs="+", default=[32, 64, 128, 256, 512], help="petsam's cells")
     parser.add_argument("--direct", type=int, default=12, help="mesh for the direct solver")
     parser.add_argument("--sweep", type=int, default=12, help="mesh for growing contact and for the contact stiffness")
@@ -241,7 +268,7 @@ def main():
     try:
         for program, hint in ((options.ccx, "install the Debian package " + PACKAGE), (options.petsam, "run make")):
             if not shutil.which(program):
-                raise RunError("no program {}: {}".format(program, hint))
+                raise RunError(f"no program {program}: {hint}")
         options.directory = os.path.abspath(options.directory)
         options.petsam = os.path.abspath(shutil.which(options.petsam))
         os.makedirs(options.directory, exist_ok=True)
@@ -249,8 +276,7 @@ def main():
             if options.only in (None, name):
                 study(options)
     except (RunError, OSError, ValueError, subprocess.SubprocessError) as error:
-        print("fe_comparison.py: error: {}".format(error), file=sys.stderr)
-        return 1
+        return fail("compare.py", error, 1)
     return 0
 
 

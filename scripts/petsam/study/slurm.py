@@ -1,16 +1,18 @@
 """A study as Slurm jobs: an array of scripts/slurm/array.sbatch for each number of ranks, and a job that collects."""
+
 import os
 import shlex
 import shutil
 import subprocess
 
-import environment
+from .. import environment
+from ..errors import Error
 
 SCRIPT = environment.SCRIPTS / "slurm" / "array.sbatch"
 STUDY = environment.SCRIPTS / "petsam-study"
 
 
-class SubmitError(Exception):
+class SubmitError(Error):
     """sbatch is missing or refuses; the message is its own."""
 
 
@@ -22,7 +24,7 @@ def ranges(numbers):
             parts[-1][1] = number
         else:
             parts.append([number, number])
-    return ",".join(str(low) if low == high else "{}-{}".format(low, high) for low, high in parts)
+    return ",".join(str(low) if low == high else f"{low}-{high}" for low, high in parts)
 
 
 def _sbatch(words):
@@ -31,8 +33,9 @@ def _sbatch(words):
         raise SubmitError("--slurm: no sbatch on PATH")
     done = subprocess.run(["sbatch", "--parsable", *words], capture_output=True, text=True, check=False)
     if done.returncode:
-        raise SubmitError("sbatch: {}".format(" ".join((done.stderr or done.stdout).split()) or "exit code {}".format(
-            done.returncode)))
+        raise SubmitError(
+            "sbatch: {}".format(" ".join((done.stderr or done.stdout).split()) or f"exit code {done.returncode}")
+        )
     return done.stdout.strip().split(";")[0]  # number;cluster
 
 
@@ -45,23 +48,43 @@ def _study_words(options):
 
 
 def submit(options, cases, waiting):
-    """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables when all have ended."""
+    """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables at the end."""
     words, extra = _study_words(options), shlex.split(options.sbatch)
-    common = (["--", *options.words] if options.words else [])
+    common = ["--", *options.words] if options.words else []
     log = "--output=" + os.path.join(options.directory, "slurm-%A_%a.out")
     jobs = []
     for ranks in sorted({case.ranks for case in waiting}):
         numbers = [case.number for case in waiting if case.ranks == ranks]
-        limit = "%{}".format(max(1, options.cores // ranks)) if options.cores else ""
-        job = _sbatch(["--array=" + ranges(numbers) + limit, "--ntasks={}".format(ranks), "--chdir=" + os.getcwd(), log,
-                       "--export=ALL,PETSAM_STUDY={}".format(STUDY), *extra, str(SCRIPT), *words, *common])
+        limit = f"%{max(1, options.cores // ranks)}" if options.cores else ""
+        job = _sbatch(
+            [
+                "--array=" + ranges(numbers) + limit,
+                f"--ntasks={ranks}",
+                "--chdir=" + os.getcwd(),
+                log,
+                f"--export=ALL,PETSAM_STUDY={STUDY}",
+                *extra,
+                str(SCRIPT),
+                *words,
+                *common,
+            ]
+        )
         print("job {}: {} cases of {} rank{}".format(job, len(numbers), ranks, "s" if ranks > 1 else ""))
         jobs.append(job)
     if not jobs:
-        print("all {} cases need not run".format(len(cases)))
+        print(f"all {len(cases)} cases need not run")
         return 0
     collect = shlex.join([str(STUDY), *words, "--collect", *common])
-    job = _sbatch(["--dependency=afterany:" + ":".join(jobs), "--ntasks=1", "--chdir=" + os.getcwd(),
-                   "--output=" + os.path.join(options.directory, "slurm-%j.out"), *extra, "--wrap", collect])
+    job = _sbatch(
+        [
+            "--dependency=afterany:" + ":".join(jobs),
+            "--ntasks=1",
+            "--chdir=" + os.getcwd(),
+            "--output=" + os.path.join(options.directory, "slurm-%j.out"),
+            *extra,
+            "--wrap",
+            collect,
+        ]
+    )
     print("job {}: writes {} when they have ended".format(job, os.path.join(options.directory, "results.csv")))
     return 0

@@ -7,6 +7,7 @@ HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, a
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
 results file.
 """
+
 import csv
 import io
 import os
@@ -14,24 +15,23 @@ import os
 import h5py
 import numpy as np
 
-from study_runs import RESULTS, record, write_atomically
+from ..errors import Error
+from ..results import Results
+from .runs import RESULTS, record, write_atomically
 
 
 def scalars(path):
-    """Name: (value, unit) of a results file, empty where there is none that can be read."""
+    """Name: (value, unit) of a results file's last load step, empty where there is none that can be read."""
     try:
-        with h5py.File(path, "r") as file:
-            history = file["history"]
-            steps = history["time"].shape[0]
-            if not steps:
-                return {}
-            found = {"steps": (steps, "1")}
-            for name, data in history.items():
-                found[name] = (data[-1].item(), data.attrs["units"])
-            energy = history["dissipated_energy"]
-            found["dissipated_energy_sum"] = (float(np.sum(energy[:])), energy.attrs["units"])
+        with Results(path) as results:
+            found = {"steps": (results.history["time"].size, "1")}
+            for name, values in results.history.items():
+                if values.ndim == 1:
+                    found[name] = (values[-1].item(), results.units[name])
+            energy = "dissipated_energy"
+            found[energy + "_sum"] = (float(np.sum(results.history[energy])), results.units[energy])
             return found
-    except (OSError, KeyError, ValueError):
+    except Error:
         return {}
 
 
@@ -57,13 +57,30 @@ def write_csv(path, found):
     inputs, units = _names(found)
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(["case", "exit_code", "seconds", "ranks", *inputs,
-                    *[name + "_end" if name in inputs else name for name in units], "message"])
+    table.writerow(
+        [
+            "case",
+            "exit_code",
+            "seconds",
+            "ranks",
+            *inputs,
+            *[name + "_end" if name in inputs else name for name in units],
+            "message",
+        ]
+    )
     for case, known, values in found:
         code = known.get("exit_code")
-        table.writerow([case.name, "" if code is None else code, known.get("seconds", ""), case.ranks,
-                        *[case.inputs.get(name, "") for name in inputs],
-                        *[repr(values[name][0]) if name in values else "" for name in units], known.get("message", "")])
+        table.writerow(
+            [
+                case.name,
+                "" if code is None else code,
+                known.get("seconds", ""),
+                case.ranks,
+                *[case.inputs.get(name, "") for name in inputs],
+                *[repr(values[name][0]) if name in values else "" for name in units],
+                known.get("message", ""),
+            ]
+        )
     write_atomically(path, text.getvalue())
 
 
@@ -91,10 +108,13 @@ def write_hdf5(path, found, study):
     shared = set.intersection(*[set(case.options.items()) for case, _, _ in found])
     with h5py.File(path + ".tmp", "w") as file:
         file.attrs["study"] = study
-        file.attrs["options"] = " ".join("-" + name + (" " + value if value else "")
-                                         for name, value in sorted(shared, key=str))
-        for name, values in (("case", [case.name for case, _, _ in found]),
-                             ("message", [known.get("message", "") for _, known, _ in found])):
+        file.attrs["options"] = " ".join(
+            "-" + name + (" " + value if value else "") for name, value in sorted(shared, key=str)
+        )
+        for name, values in (
+            ("case", [case.name for case, _, _ in found]),
+            ("message", [known.get("message", "") for _, known, _ in found]),
+        ):
             file.create_dataset(name, data=values, dtype=h5py.string_dtype())
         codes = [known.get("exit_code") for _, known, _ in found]
         _write(file, "exit_code", np.array([-1 if code is None else code for code in codes], dtype=int))

@@ -4,6 +4,7 @@ A case's folder holds petsam.log (all that the run printed), results.h5, the fil
 identity of its inputs, its exit code (none until it has ended), seconds and message. A case is finished when its record
 has this identity and exit code 0. A lock, which the run inherits, keeps two studies from running one case at once.
 """
+
 import contextlib
 import errno
 import fcntl
@@ -13,12 +14,18 @@ import signal
 import subprocess
 import time
 
-import environment
+from .. import environment
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
-MEANINGS = {2: "bad usage", 3: "a file", 10: "not converged", 11: "no equilibrium", 12: "contact at the grid's edge",
-            STOPPED: "stopped early, to be run again"}
+MEANINGS = {
+    2: "bad usage",
+    3: "a file",
+    10: "not converged",
+    11: "no equilibrium",
+    12: "contact at the grid's edge",
+    STOPPED: "stopped early, to be run again",
+}
 PATIENCE = 10.0  # seconds that runs get to end when asked to
 GRACE = float(os.environ.get("GRACE", 90.0))  # seconds that they get to write a checkpoint and stop
 PAUSE = 0.05  # seconds between looks at the runs
@@ -29,6 +36,7 @@ class Busy(Exception):
 
 
 # ---------------------------------------------------------------- records
+
 
 def write_atomically(path, text):
     """The file holds either what it held before or all of the text."""
@@ -62,16 +70,17 @@ def _message(log, code):
             lines = [line.strip() for line in file if line.strip()]
     except OSError:
         lines = []
-    own = [line[len("petsam: "):] for line in lines if line.startswith("petsam: ") and "warning: " not in line]
+    own = [line[len("petsam: ") :] for line in lines if line.startswith("petsam: ") and "warning: " not in line]
     if own:
         return own[0]
     if code < 0 or code > 128:
         number = -code if code < 0 else code - 128
-        return "ended by signal {}".format(number)
+        return f"ended by signal {number}"
     return lines[-1] if lines and code else ""
 
 
 # ---------------------------------------------------------------- one case
+
 
 class Run:
     """A case that is running."""
@@ -87,12 +96,25 @@ class Run:
         self.start, self.told = time.monotonic(), None
         self.before = record(directory, case).get("seconds", 0.0) if goes_on else 0.0
         self._note(None, "")
-        words = [*command(case.ranks), *case.words(), "-output", RESULTS, *self._checkpointing(checkpoint_every, goes_on)]
+        words = [
+            *command(case.ranks),
+            *case.words(),
+            "-output",
+            RESULTS,
+            *self._checkpointing(checkpoint_every, goes_on),
+        ]
         with open(os.path.join(self.folder, LOG), "a" if goes_on else "w", encoding="utf-8") as log:
             # its own session: the terminal's Ctrl-C reaches the study alone, which then ends the runs in order
-            self.process = subprocess.Popen(words, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=log,
-                                            stderr=subprocess.STDOUT, env=environment.run_environment(),
-                                            start_new_session=True, pass_fds=(self.lock,))
+            self.process = subprocess.Popen(
+                words,
+                cwd=self.folder,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                env=environment.run_environment(),
+                start_new_session=True,
+                pass_fds=(self.lock,),
+            )
 
     def _lock(self):
         lock = os.open(os.path.join(self.folder, "lock"), os.O_RDWR | os.O_CREAT, 0o666)
@@ -121,9 +143,21 @@ class Run:
 
     def _note(self, code, message):
         seconds = self.before + time.monotonic() - self.start
-        write_atomically(os.path.join(self.folder, RECORD), json.dumps(
-            {"identity": self.case.identity(), "inputs": self.case.inputs, "ranks": self.case.ranks, "exit_code": code,
-             "seconds": round(seconds, 3), "message": message}, indent=2) + "\n")
+        write_atomically(
+            os.path.join(self.folder, RECORD),
+            json.dumps(
+                {
+                    "identity": self.case.identity(),
+                    "inputs": self.case.inputs,
+                    "ranks": self.case.ranks,
+                    "exit_code": code,
+                    "seconds": round(seconds, 3),
+                    "message": message,
+                },
+                indent=2,
+            )
+            + "\n",
+        )
 
     def ended(self):
         """Exit code when the run has ended by itself, which is then on record; else None."""
@@ -158,6 +192,7 @@ class Run:
 
 # ---------------------------------------------------------------- all cases
 
+
 class Study:
     """Runs cases side by side within cores; report(case, exit code or None when busy) is called as they end."""
 
@@ -178,8 +213,11 @@ class Study:
     def run(self, cases):
         """Run all; the number of the signal that ended it early, or 0."""
         # what the caller ignores (nohup) stays ignored
-        caught = [number for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
-                  if signal.getsignal(number) != signal.SIG_IGN]
+        caught = [
+            number
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
+            if signal.getsignal(number) != signal.SIG_IGN
+        ]
         before = {number: signal.signal(number, self._catch) for number in caught}
         try:
             self._loop(list(cases))

@@ -9,29 +9,30 @@ text, `ranks` is the number of MPI ranks. Anywhere a text may hold {expressions}
 
 Options that name files are meant relative to the table.
 """
-import ast
+
 import csv
 import hashlib
 import itertools
-import math
-import operator
 import os
 import re
 from typing import NamedTuple
 
 import yaml
 
+from ..errors import Error
+from .expressions import Expander
+
 PATHS = ("options_file", "history", "gap_file", "gap_rough_file")
 HASHED = ("options_file", "history")  # small texts; of the others size and time tell whether they have changed
-TAKEN = {"output": "petsam-study names the results", "checkpoint": "see --checkpoint", "restart": "see --checkpoint",
-         "checkpoint_every": "see --checkpoint"}
-FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log", "pi")}
-FUNCTIONS.update(abs=abs, min=min, max=max)
-OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
-             ast.Pow: operator.pow, ast.USub: operator.neg, ast.UAdd: operator.pos}
+TAKEN = {
+    "output": "petsam-study names the results",
+    "checkpoint": "see --checkpoint",
+    "restart": "see --checkpoint",
+    "checkpoint_every": "see --checkpoint",
+}
 
 
-class TableError(Exception):
+class TableError(Error):
     """A table that cannot be understood; the message names the file, and the line or the key."""
 
 
@@ -48,8 +49,11 @@ class Case(NamedTuple):
 
     def words(self):
         """The command line of petsam but for the results' name."""
-        return [word for name, value in self.options.items()
-                for word in (["-" + name] if value is None else ["-" + name, value])]
+        return [
+            word
+            for name, value in self.options.items()
+            for word in (["-" + name] if value is None else ["-" + name, value])
+        ]
 
     def identity(self):
         """Digest of all that determines the results: options, and the contents of the files they name."""
@@ -74,73 +78,13 @@ def _content(path):
 def _stamp(path):
     try:
         status = os.stat(path)
-        return "{} {} {}".format(path, status.st_size, status.st_mtime_ns)
+        return f"{path} {status.st_size} {status.st_mtime_ns}"
     except OSError:
         return ""
 
 
-# ---------------------------------------------------------------- expressions
-
-def _number(node, lookup):
-    """Value of an arithmetic expression's syntax tree."""
-    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
-        return node.value
-    if isinstance(node, ast.Name):
-        return FUNCTIONS[node.id] if node.id == "pi" else lookup(node.id)
-    if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
-        return OPERATORS[type(node.op)](_number(node.left, lookup), _number(node.right, lookup))
-    if isinstance(node, ast.UnaryOp) and type(node.op) in OPERATORS:
-        return OPERATORS[type(node.op)](_number(node.operand, lookup))
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FUNCTIONS and not node.keywords:
-        return FUNCTIONS[node.func.id](*[_number(argument, lookup) for argument in node.args])
-    raise ValueError("only numbers, names, + - * / **, and {} are understood".format(", ".join(sorted(FUNCTIONS))))
-
-
-class Expander:
-    """Replaces {expressions} by values of names, which may hold expressions themselves."""
-
-    def __init__(self, values):
-        self.values, self.open = values, []
-
-    def text(self, name):
-        """Value of a name, expanded."""
-        if name not in self.values:
-            raise ValueError("there is no parameter or option {}".format(name))
-        if name in self.open:
-            raise ValueError("{} refers to itself".format(name))
-        self.open.append(name)
-        try:
-            return self.expand(self.values[name])
-        finally:
-            self.open.pop()
-
-    def _lookup(self, name):
-        text = self.text(name)
-        try:
-            return float(text)
-        except (TypeError, ValueError):
-            raise ValueError("{} = {} is no number".format(name, text)) from None
-
-    def _value(self, match):
-        expression = match.group(1).strip()
-        if expression in self.values:
-            return self.text(expression)
-        try:
-            value = _number(ast.parse(expression, mode="eval").body, self._lookup)
-        except (SyntaxError, ArithmeticError, TypeError) as error:
-            raise ValueError(getattr(error, "msg", None) or str(error)) from error
-        return "{:.15g}".format(value)
-
-    def expand(self, text):
-        """The text with its expressions replaced; None stays."""
-        try:
-            return None if text is None else re.sub(r"\{([^{}]*)\}", self._value, text)
-        except ValueError as error:
-            raise ValueError("{}: {}".format(text.strip().splitlines()[0], error) if "{" not in str(error)
-                             else str(error)) from error
-
-
 # ---------------------------------------------------------------- reading
+
 
 def _plain(name):
     return name.strip().lstrip("-")
@@ -159,53 +103,64 @@ def _read_csv(path):
     """Names of the columns, and rows as (line's number, values by name without the empty ones)."""
     with open(path, encoding="utf-8-sig", newline="") as file:
         # blank lines and comments go, but lines are counted
-        lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.lstrip().startswith("#")]
-    rows = [(number, [cell.strip() for cell in row])
-            for (number, _), row in zip(lines, csv.reader((line for _, line in lines), skipinitialspace=True))]
+        lines = [
+            (number, line) for number, line in enumerate(file, 1) if line.strip() and not line.lstrip().startswith("#")
+        ]
+    rows = [
+        (number, [cell.strip() for cell in row])
+        for (number, _), row in zip(lines, csv.reader((line for _, line in lines), skipinitialspace=True))
+    ]
     if len(rows) < 2:
-        raise TableError("{}: expected a line of option names and at least one case".format(path))
+        raise TableError(f"{path}: expected a line of option names and at least one case")
     names = [_plain(name) for name in rows[0][1]]
     for name in names:
         if not re.fullmatch(r"[A-Za-z]\w*", name) or names.count(name) > 1:
-            raise TableError("{}, line {}: column {}: {}".format(
-                path, rows[0][0], name or "''", "is no option's name" if names.count(name) == 1 else "appears twice"))
+            raise TableError(
+                "{}, line {}: column {}: {}".format(
+                    path, rows[0][0], name or "''", "is no option's name" if names.count(name) == 1 else "appears twice"
+                )
+            )
     for number, row in rows[1:]:
         if len(row) != len(names):
-            raise TableError("{}, line {}: {} values for {} columns".format(path, number, len(row), len(names)))
+            raise TableError(f"{path}, line {number}: {len(row)} values for {len(names)} columns")
     return names, [(number, {name: value for name, value in zip(names, row) if value}) for number, row in rows[1:]]
 
 
 def _choices(path, key, mapping):
     """Name: list of texts, of a section of the YAML file."""
     if not isinstance(mapping, dict):
-        raise TableError("{}: {}: expected names and values".format(path, key))
+        raise TableError(f"{path}: {key}: expected names and values")
     choices = {}
     for name, value in mapping.items():
         values = value if isinstance(value, list) else [value]
         if not values or any(isinstance(one, (list, dict)) for one in values):
-            raise TableError("{}: {}: {}: expected a value or a list of values".format(path, key, name))
+            raise TableError(f"{path}: {key}: {name}: expected a value or a list of values")
         choices[_plain(str(name))] = [_text(one) for one in values]
     return choices
 
 
 def _read_yaml(path):
-    """The sections of the YAML file: parameters and options as choices, files as texts, ranks as text; names of lists."""
+    """The YAML file: parameters and options as choices, files as texts, ranks as text; names of those with lists."""
     with open(path, encoding="utf-8") as file:
         try:
             table = yaml.safe_load(file)
         except yaml.YAMLError as error:
             mark = getattr(error, "problem_mark", None)
-            raise TableError("{}{}: {}".format(path, ", line {}".format(mark.line + 1) if mark else "",
-                                               getattr(error, "problem", None) or error)) from error
+            raise TableError(
+                "{}{}: {}".format(
+                    path, f", line {mark.line + 1}" if mark else "", getattr(error, "problem", None) or error
+                )
+            ) from error
     if not isinstance(table, dict) or "options" not in table:
-        raise TableError("{}: expected a section `options`".format(path))
+        raise TableError(f"{path}: expected a section `options`")
     for key in table:
         if key not in ("options", "parameters", "files", "ranks"):
-            raise TableError("{}: {}: unknown; known are options, parameters, files and ranks".format(path, key))
+            raise TableError(f"{path}: {key}: unknown; known are options, parameters, files and ranks")
     files = table.get("files") or {}
-    if not isinstance(files, dict) or not all(isinstance(text, str) and os.path.basename(name) == name
-                                              for name, text in files.items()):
-        raise TableError("{}: files: expected names without folders, and texts".format(path))
+    if not isinstance(files, dict) or not all(
+        isinstance(text, str) and os.path.basename(name) == name for name, text in files.items()
+    ):
+        raise TableError(f"{path}: files: expected names without folders, and texts")
     sections = [table.get("parameters") or {}, table["options"]]
     parameters, options = (_choices(path, key, one) for key, one in zip(("parameters", "options"), sections))
     lists = [_plain(str(name)) for one in sections for name, value in one.items() if isinstance(value, list)]
@@ -213,6 +168,7 @@ def _read_yaml(path):
 
 
 # ---------------------------------------------------------------- cases
+
 
 def _name(inputs):
     """A folder's name for what differs, which does not change when cases are added."""
@@ -229,14 +185,16 @@ def _ranks(text, where):
     except ValueError:
         ranks = 0
     if ranks < 1:
-        raise TableError("{}: ranks {}: expected a number from 1".format(where, text))
+        raise TableError(f"{where}: ranks {text}: expected a number from 1")
     return ranks
 
 
 def _located(options, files, folder):
     """Options with their files' absolute paths; those that the case gets in its own folder stay."""
-    return {name: os.path.normpath(os.path.join(folder, value)) if name in PATHS and value and value not in files
-            else value for name, value in options.items()}
+    return {
+        name: os.path.normpath(os.path.join(folder, value)) if name in PATHS and value and value not in files else value
+        for name, value in options.items()
+    }
 
 
 def common_options(words):
@@ -247,7 +205,7 @@ def common_options(words):
             name = word[1:]
             options[name] = None
         elif name is None or options[name] is not None:
-            raise TableError("{}: expected an option, that is a word that begins with a dash".format(word))
+            raise TableError(f"{word}: expected an option, that is a word that begins with a dash")
         else:
             options[name] = word
     return _located(options, {}, os.getcwd())
@@ -256,12 +214,19 @@ def common_options(words):
 def _csv_cases(path, _common):
     """(where, inputs, options, files, ranks, name) of each row; what differs makes the name."""
     names, rows = _read_csv(path)
-    varied = [name for name in names if name not in ("ranks", "case")
-              and len({values.get(name) for _, values in rows}) > 1]
+    varied = [
+        name for name in names if name not in ("ranks", "case") and len({values.get(name) for _, values in rows}) > 1
+    ]
     for number, values in rows:
         ranks, name = values.pop("ranks", None), values.pop("case", None)
-        yield ("line {}".format(number), values, values, {}, ranks,
-               name or _name({key: values[key] for key in varied if key in values}))
+        yield (
+            f"line {number}",
+            values,
+            values,
+            {},
+            ranks,
+            name or _name({key: values[key] for key in varied if key in values}),
+        )
 
 
 def _yaml_cases(path, common):
@@ -270,17 +235,17 @@ def _yaml_cases(path, common):
     options.update({name: [value] for name, value in common.items() if name in options})
     double = set(parameters) & set(options)
     if double:
-        raise TableError("{}: {}: is both a parameter and an option".format(path, sorted(double)[0]))
+        raise TableError(f"{path}: {sorted(double)[0]}: is both a parameter and an option")
     choices = {**parameters, **options}
     for combination in itertools.product(*choices.values()):
         values = dict(zip(choices, combination))
-        expander, where = Expander(values), ", ".join("{} = {}".format(name, values[name]) for name in lists)
+        expander, where = Expander(values), ", ".join(f"{name} = {values[name]}" for name in lists)
         try:
             expanded = {name: expander.text(name) for name in values}
             texts = {name: expander.expand(text) for name, text in files.items()}
             count = expanded.get("ranks") or expander.expand(ranks)
         except ValueError as error:
-            raise TableError("{}: {}".format(path, error)) from error
+            raise TableError(f"{path}: {error}") from error
         inputs = {name: expanded[name] for name in lists}
         yield where, inputs, {name: expanded[name] for name in options}, texts, count, _name(inputs)
 
@@ -290,15 +255,23 @@ def read(path, common=None, ranks=1):
     kind = _yaml_cases if path.endswith((".yaml", ".yml")) else _csv_cases
     folder, common, cases, seen = os.path.dirname(os.path.abspath(path)), common or {}, [], {}
     for where, inputs, options, files, count, name in kind(path, common):
-        where = "{}, {}".format(path, where) if where else path
+        where = f"{path}, {where}" if where else path
         for option in {**options, **common}:
             if option in TAKEN:
-                raise TableError("{}: -{}: {}".format(where, option, TAKEN[option]))
+                raise TableError(f"{where}: -{option}: {TAKEN[option]}")
         if not re.fullmatch(r"[A-Za-z0-9.,=+_-]+", name) or not name.strip("."):
-            raise TableError("{}: case {}: expected letters, digits and .,=+_-".format(where, name))
+            raise TableError(f"{where}: case {name}: expected letters, digits and .,=+_-")
         if name in seen:
-            raise TableError("{}: the same name, {}, as {}; a column `case` tells them apart".format(where, name, seen[name]))
+            raise TableError(f"{where}: the same name, {name}, as {seen[name]}; a column `case` tells them apart")
         seen[name] = where
-        cases.append(Case(len(cases) + 1, name, inputs, {**_located(options, files, folder), **common}, files,
-                          _ranks(count, where) if count else ranks))
+        cases.append(
+            Case(
+                len(cases) + 1,
+                name,
+                inputs,
+                {**_located(options, files, folder), **common},
+                files,
+                _ranks(count, where) if count else ranks,
+            )
+        )
     return cases

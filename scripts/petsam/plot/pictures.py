@@ -1,55 +1,48 @@
 """The pictures of petsam-plot; each function takes results.Results and gives a matplotlib figure.
 
-A snapshot is a pair (Results, index into its saved fields). Axes carry units with the prefix that suits the values.
+A saved step is given as a pair (Results, index into its saved fields), and read no further than is drawn. Axes carry
+units with the prefix that suits the values.
 """
+
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from figures import InputError, plt
-from results import OPEN, SLIP, STICK
+from ..errors import Error
+from ..results import OPEN, SLIP, STICK
+from .style import colors, extent, field, plt
+from .units import label, largest, scale
 
-COLORS = ("#3b4cc0", "#c44e52", "#2a9d8f", "#e9a03b", "#7a5195", "#5a5a5a")
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
 
 # the loads and what they work on
-PAIRS = {"tx": ("load_tx", "disp_x"), "ty": ("load_ty", "disp_y"), "mz": ("load_mz", "rot_z"),
-         "n": ("load_n", "disp_z"), "mx": ("load_mx", "rot_x"), "my": ("load_my", "rot_y")}
-SYMBOLS = {"load_n": "$N$", "load_tx": "$T_x$", "load_ty": "$T_y$", "load_mx": "$M_x$", "load_my": "$M_y$",
-           "load_mz": "$M_z$", "disp_z": "$d_z$", "disp_x": "$d_x$", "disp_y": "$d_y$", "rot_x": "$r_x$",
-           "rot_y": "$r_y$", "rot_z": "$r_z$", "dissipated_energy": "dissipated energy, sum"}
-PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-
-
-# ---------------------------------------------------------------- units
-
-def scale(unit, largest):
-    """Factor and unit with the prefix in which largest has up to three digits before the point."""
-    if unit in ("1", "s") or not np.isfinite(largest) or largest == 0.0:
-        return 1.0, "" if unit == "1" else unit
-    power = 2 if unit == "m2" else 1
-    # no kilometres, and no kilo-radians
-    prefixes = [(size**power, prefix) for size, prefix in PREFIXES if size <= 1.0 or unit not in ("m", "m2", "rad")]
-    size, prefix = next((pair for pair in prefixes if largest >= pair[0]), prefixes[-1])
-    return 1.0 / size, prefix + {"m2": "m²", "N m": "N m"}.get(unit, unit)
-
-
-def label(text, unit):
-    """Text with its unit, as an axis' label."""
-    return "{}, {}".format(text, unit) if unit else text
-
-
-def largest(arrays):
-    """Largest magnitude in arrays, 0 without any number."""
-    return max((float(np.nanmax(np.abs(a))) for a in arrays if a.size and not np.all(np.isnan(a))), default=0.0)
-
-
-def colors(count):
-    """As many colours, of a sequence when there are more than can be told apart."""
-    return COLORS[:count] if count <= len(COLORS) else [plt.cm.viridis(t) for t in np.linspace(0.0, 0.9, count)]
+PAIRS = {
+    "tx": ("load_tx", "disp_x"),
+    "ty": ("load_ty", "disp_y"),
+    "mz": ("load_mz", "rot_z"),
+    "n": ("load_n", "disp_z"),
+    "mx": ("load_mx", "rot_x"),
+    "my": ("load_my", "rot_y"),
+}
+SYMBOLS = {
+    "load_n": "$N$",
+    "load_tx": "$T_x$",
+    "load_ty": "$T_y$",
+    "load_mx": "$M_x$",
+    "load_my": "$M_y$",
+    "load_mz": "$M_z$",
+    "disp_z": "$d_z$",
+    "disp_x": "$d_x$",
+    "disp_y": "$d_y$",
+    "rot_x": "$r_x$",
+    "rot_y": "$r_y$",
+    "rot_z": "$r_z$",
+    "dissipated_energy": "dissipated energy, sum",
+}
 
 
 # ---------------------------------------------------------------- maps
+
 
 def _map_data(results, index, whole):
     """Fields of one snapshot on the window of its contact, no more cells than the picture has pixels."""
@@ -61,60 +54,78 @@ def _map_data(results, index, whole):
 
     state = read("state")
     slip = np.where(state == OPEN, np.nan, np.hypot(read("slip_x"), read("slip_y")))
-    x, y = results.x[columns][::stride], results.y[rows][::stride]
-    dx, dy = (stride * (axis[1] - axis[0]) / 2.0 for axis in (results.x, results.y))
-    return {"extent": (x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy), "state": state, "slip": slip,
-            "pressure": read("pressure"), "shear": np.hypot(read("shear_x"), read("shear_y"))}
+    return {
+        "extent": extent(results.x[columns], results.y[rows], stride=stride),
+        "state": state,
+        "slip": slip,
+        "pressure": read("pressure"),
+        "shear": np.hypot(read("shear_x"), read("shear_y")),
+    }
 
 
 def _map(axes, data, name, factor, length, vmax):
-    extent = [length * value for value in data["extent"]]
+    edges = [length * value for value in data["extent"]]
     if name == "state":
-        return axes.imshow(data[name], origin="lower", extent=extent, vmin=-0.5, vmax=2.5, interpolation="nearest",
-                           cmap=ListedColormap([STATES[k][1] for k in sorted(STATES)]))
-    return axes.imshow(factor * data[name], origin="lower", extent=extent, vmin=0.0, vmax=vmax or 1.0, cmap="viridis",
-                       interpolation="nearest")
+        return field(axes, data[name], edges, -0.5, 2.5, ListedColormap([STATES[k][1] for k in sorted(STATES)]))
+    return field(axes, factor * data[name], edges, 0.0, vmax or 1.0)
 
 
 def maps(snapshots, whole=False):
     """Pressure, |q|, |s| and state: a row a snapshot, one scale a column."""
     data = [_map_data(results, index, whole) for results, index in snapshots]
     length, unit = scale("m", largest(np.array(one["extent"]) for one in data))
-    columns = (("pressure", "pressure $p$", "Pa"), ("shear", "shear $|q|$", "Pa"), ("slip", "slip $|s|$", "m"),
-               ("state", "state", ""))
-    figure, axes = plt.subplots(len(data), 4, figsize=(14.0, 2.9 * len(data) + 0.3), squeeze=False,
-                                constrained_layout=True)
+    columns = (
+        ("pressure", "pressure $p$", "Pa"),
+        ("shear", "shear $|q|$", "Pa"),
+        ("slip", "slip $|s|$", "m"),
+        ("state", "state", ""),
+    )
+    figure, axes = plt.subplots(
+        len(data), 4, figsize=(14.0, 2.9 * len(data) + 0.3), squeeze=False, constrained_layout=True
+    )
     for column, (name, text, base) in enumerate(columns):
         top = largest(one[name] for one in data)
         factor, prefixed = scale(base, top) if base else (1.0, "")
         for row, one in enumerate(data):
             panel = axes[row, column]
             image = _map(panel, one, name, factor, length, factor * top)
-            panel.grid(False)
-            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if column == 0 else "",
-                      title=text if row == 0 else "")
+            panel.set(
+                xlabel=label("$x$", unit),
+                ylabel=label("$y$", unit) if column == 0 else "",
+                title=text if row == 0 else "",
+            )
             bar = figure.colorbar(image, ax=panel, aspect=25, label=label(text.split()[-1], prefixed) if base else "")
             if name == "state":
                 bar.set_ticks(sorted(STATES), labels=[STATES[k][0] for k in sorted(STATES)])
     for row, (results, index) in enumerate(snapshots):
-        axes[row, 0].annotate(results.title(index), (0.03, 0.97), xycoords="axes fraction", va="top", fontsize=8,
-                              color="white", bbox={"facecolor": "black", "alpha": 0.45, "linewidth": 0, "pad": 2})
+        axes[row, 0].annotate(
+            results.title(index),
+            (0.03, 0.97),
+            xycoords="axes fraction",
+            va="top",
+            fontsize=8,
+            color="white",
+            bbox={"facecolor": "black", "alpha": 0.45, "linewidth": 0, "pad": 2},
+        )
     return figure
 
 
 # ---------------------------------------------------------------- profiles
 
+
 def _profile(results, index, axis, at, whole):
     """Fields along x (axis 0) or y (axis 1) through the cells nearest to the point at."""
-    window = ((slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index))
+    window = (slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index)
     across, along = (results.y, results.x) if axis == 0 else (results.x, results.y)
     half = 0.5 * (across[1] - across[0])
     if not across[0] - half <= at[1 - axis] <= across[-1] + half:
-        raise InputError("{}: --at {:g},{:g}: is not on the grid".format(results.path, *at))
+        raise Error("{}: --at {:g},{:g}: is not on the grid".format(results.path, *at))
     k = int(np.argmin(np.abs(across - at[1 - axis])))
     rows, columns = (slice(k, k + 1), window[1]) if axis == 0 else (window[0], slice(k, k + 1))
-    data = {name: results.field(name, index, rows, columns).ravel()
-            for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state")}
+    data = {
+        name: results.field(name, index, rows, columns).ravel()
+        for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state")
+    }
     for name in ("slip_x", "slip_y"):
         data[name] = np.where(data["state"] == OPEN, np.nan, data[name])
     return dict(data, along=along[window[1] if axis == 0 else window[0]])
@@ -125,27 +136,53 @@ def _profile_panel(axes, lines, names, length, factor, friction):
     for data, color, mu, text in lines:
         if friction and mu > 0.0:
             for sign in (1.0, -1.0):
-                axes.plot(length * data["along"], sign * factor * mu * data["pressure"], ":", color=color, linewidth=0.9,
-                          alpha=0.7)
+                axes.plot(
+                    length * data["along"],
+                    sign * factor * mu * data["pressure"],
+                    ":",
+                    color=color,
+                    linewidth=0.9,
+                    alpha=0.7,
+                )
         for name, style in zip(names, ("-", "--")):
-            axes.plot(length * data["along"], factor * data[name], style, color=color, linewidth=1.3,
-                      label=text if style == "-" else None)
+            axes.plot(
+                length * data["along"],
+                factor * data[name],
+                style,
+                color=color,
+                linewidth=1.3,
+                label=text if style == "-" else None,
+            )
 
 
 def profiles(snapshots, at=(0.0, 0.0), whole=False):
     """Pressure, shear and slip along x (left) and y (right)."""
     tints = colors(len(snapshots))
-    lines = [[(_profile(results, index, axis, at, whole), tint, results.friction, results.title(index))
-              for (results, index), tint in zip(snapshots, tints)] for axis in (0, 1)]
+    lines = [
+        [
+            (_profile(results, index, axis, at, whole), tint, results.friction, results.title(index))
+            for (results, index), tint in zip(snapshots, tints)
+        ]
+        for axis in (0, 1)
+    ]
     every = [line[0] for side in lines for line in side]
     length, unit = scale("m", largest(data["along"] for data in every))
-    rows = [(("pressure",), "pressure $p$", "Pa", False),
-            (("shear_x", "shear_y"), "shear $q_x$ (line), $q_y$ (dashed), $\\pm\\mu p$ (dots)", "Pa", True),
-            (("slip_x", "slip_y"), "slip $s_x$ (line), $s_y$ (dashed)", "m", False)]
+    rows = [
+        (("pressure",), "pressure $p$", "Pa", False),
+        (("shear_x", "shear_y"), "shear $q_x$ (line), $q_y$ (dashed), $\\pm\\mu p$ (dots)", "Pa", True),
+        (("slip_x", "slip_y"), "slip $s_x$ (line), $s_y$ (dashed)", "m", False),
+    ]
     tops = [largest(data[name] for data in every for name in row[0]) for row in rows]
     shown = [(row, top) for row, top in zip(rows, tops) if top > 0.0] or [(rows[0], 0.0)]
-    figure, axes = plt.subplots(len(shown), 2, figsize=(11.0, 2.7 * len(shown) + 0.4), squeeze=False, sharey="row",
-                                sharex="col", constrained_layout=True)
+    figure, axes = plt.subplots(
+        len(shown),
+        2,
+        figsize=(11.0, 2.7 * len(shown) + 0.4),
+        squeeze=False,
+        sharey="row",
+        sharex="col",
+        constrained_layout=True,
+    )
     for panels, ((names, text, base, friction), top) in zip(axes, shown):
         factor, prefixed = scale(base, top)
         for panel, side in zip(panels, lines):
@@ -164,8 +201,10 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False):
 
 # ---------------------------------------------------------------- loops and histories
 
+
 def busiest(results):
     """The pair of load and displacement whose product varies most; None where none does."""
+
     def work(pair):
         load, way = (results.history[name] for name in PAIRS[pair])
         return float(np.ptp(load) * np.ptp(way))
@@ -181,19 +220,34 @@ def loop(results, pair=None):
     """A load over its displacement, of every file."""
     pair = pair or busiest(results[0])
     if pair is None:
-        raise InputError("{}: no load varies, a loop needs several steps".format(results[0].path))
+        raise Error(f"{results[0].path}: no load varies, a loop needs several steps")
     force, way = PAIRS[pair]
-    factors = {name: scale(results[0].units[name], largest(one.history[name] for one in results))
-               for name in (force, way)}
+    factors = {
+        name: scale(results[0].units[name], largest(one.history[name] for one in results)) for name in (force, way)
+    }
     figure, axes = plt.subplots(figsize=(6.4, 4.8), constrained_layout=True)
     for one, tint in zip(results, colors(len(results))):
         x, y = (factors[name][0] * one.history[name] for name in (way, force))
         energy = float(np.sum(one.history["dissipated_energy"]))
         factor, unit = scale("J", energy)
-        axes.plot(x, y, ".-", color=tint, linewidth=1.2, markersize=4.0,
-                  label="{}: {:.4g} {} dissipated".format(one.label, factor * energy, unit))
-        axes.plot(x[-1], y[-1], "o", color=tint, markersize=6.0, markerfacecolor="white",
-                  label="last step" if one is results[-1] else None)
+        axes.plot(
+            x,
+            y,
+            ".-",
+            color=tint,
+            linewidth=1.2,
+            markersize=4.0,
+            label=f"{one.label}: {factor * energy:.4g} {unit} dissipated",
+        )
+        axes.plot(
+            x[-1],
+            y[-1],
+            "o",
+            color=tint,
+            markersize=6.0,
+            markerfacecolor="white",
+            label="last step" if one is results[-1] else None,
+        )
     axes.set(xlabel=label(SYMBOLS[way], factors[way][1]), ylabel=label(SYMBOLS[force], factors[force][1]))
     axes.legend(loc="upper left")
     axes.margins(y=0.15)
@@ -209,11 +263,17 @@ def _series(results, name):
 def _varying(results):
     """Names that a picture of the history shows by itself: what is zero but for rounding does not vary."""
     length = max(largest((one.x, one.y)) for one in results)
-    force, way = (max(largest(one.history[name] for one in results) for name in names)
-                  for names in (("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y")))
+    force, way = (
+        max(largest(one.history[name] for one in results) for name in names)
+        for names in (("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y"))
+    )
     size = {"N": force, "N m": force * length, "m": way, "rad": way / length}
-    loads = [name for pair in PAIRS.values() for name in pair
-             if any(np.ptp(one.history[name]) > 1e-9 * size[one.units[name]] for one in results)]
+    loads = [
+        name
+        for pair in PAIRS.values()
+        for name in pair
+        if any(np.ptp(one.history[name]) > 1e-9 * size[one.units[name]] for one in results)
+    ]
     return [*loads, "contact_area", "stick_area", "dissipated_energy", "tangential_iterations"]
 
 
@@ -222,22 +282,33 @@ def history(results, names=None):
     for one in results:
         for name in names or ():
             if name not in one.history:
-                raise InputError("{}: --names {}: has no such dataset; it has {}".format(
-                    one.path, name, ", ".join(sorted(one.history))))
+                raise Error(
+                    "{}: --names {}: has no such dataset; it has {}".format(
+                        one.path, name, ", ".join(sorted(one.history))
+                    )
+                )
     names = names or _varying(results)
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(4.2 * columns, 2.6 * rows + 0.3), squeeze=False, sharex=True,
-                                constrained_layout=True)
+    figure, axes = plt.subplots(
+        rows, columns, figsize=(4.2 * columns, 2.6 * rows + 0.3), squeeze=False, sharex=True, constrained_layout=True
+    )
     for panel, name in zip(axes.flat, names):
         factor, unit = scale(results[0].units[name], largest(_series(one, name) for one in results))
         for one, tint in zip(results, colors(len(results))):
-            panel.plot(one.history["time"], factor * _series(one, name), ".-", color=tint, linewidth=1.1,
-                       markersize=3.0, label=one.label)
+            panel.plot(
+                one.history["time"],
+                factor * _series(one, name),
+                ".-",
+                color=tint,
+                linewidth=1.1,
+                markersize=3.0,
+                label=one.label,
+            )
         panel.set(ylabel=label(SYMBOLS.get(name, name.replace("_", " ")), unit))
-    for panel in axes.flat[len(names):]:
+    for panel in axes.flat[len(names) :]:
         panel.set_axis_off()
-    for panel in axes.flat[max(0, len(names) - columns):len(names)]:
+    for panel in axes.flat[max(0, len(names) - columns) : len(names)]:
         panel.set_xlabel("time, s")
         panel.tick_params(labelbottom=True)
     axes.flat[0].legend(loc="best")

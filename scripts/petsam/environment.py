@@ -1,7 +1,9 @@
-"""Where petsam-plot and petsam-study find Python's libraries and petsam, in the build tree as well as installed.
+"""Where the commands find Python's libraries and petsam, in the build tree as well as installed.
 
 Standard library only: it is imported before the libraries are known to be there.
 """
+
+import importlib
 import importlib.util
 import os
 import shlex
@@ -10,23 +12,26 @@ import subprocess
 import sys
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parent
+from .errors import Missing
+
+SCRIPTS = Path(__file__).resolve().parents[1]
 TREE = SCRIPTS.parent  # the repository, or prefix/share/petsam
 ENTERED = "PETSAM_ENTERED"
 
 
-class Missing(Exception):
-    """A program or a library that is not there; the message says what to do."""
-
-
 # ---------------------------------------------------------------- Python
+
 
 def _interpreter():
     """The Python to use: $PYTHON, that of `make venv`, or this one."""
     if os.environ.get("PYTHON"):
         found = shutil.which(os.environ["PYTHON"])
         if not found:
-            sys.exit("{}: error: no Python {}, which PYTHON names".format(os.path.basename(sys.argv[0]), os.environ["PYTHON"]))
+            sys.exit(
+                "{}: error: no Python {}, which PYTHON names".format(
+                    os.path.basename(sys.argv[0]), os.environ["PYTHON"]
+                )
+            )
         return found
     for venv in (TREE / "build" / "venv", TREE / "venv"):
         if os.access(venv / "bin" / "python", os.X_OK):
@@ -44,11 +49,21 @@ def enter(*libraries):
         os.execv(python, [python, *sys.argv])
     lacking = [name for name in libraries if importlib.util.find_spec(name) is None]
     if lacking:
-        sys.exit("{}: error: {} has no {}: run `make venv`, or set PYTHON to one with {}".format(
-            os.path.basename(sys.argv[0]), sys.executable, ", ".join(lacking), SCRIPTS / "requirements.txt"))
+        sys.exit(
+            "{}: error: {} has no {}: run `make venv`, or set PYTHON to one with {}".format(
+                os.path.basename(sys.argv[0]), sys.executable, ", ".join(lacking), SCRIPTS / "requirements.txt"
+            )
+        )
+
+
+def run(module, *libraries):
+    """A command: end with the exit code of main() in a module of this package that needs these libraries."""
+    enter(*libraries)
+    sys.exit(importlib.import_module(module).main())
 
 
 # ---------------------------------------------------------------- petsam
+
 
 def petsam():
     """Path of the program: $PETSAM, build/bin, prefix/bin, or PATH."""
@@ -70,9 +85,11 @@ def launcher(words=None):
     """The MPI launcher's words, to which `-n RANKS PROGRAM` is added: words, $MPIRUN, or mpirun."""
     command = shlex.split(words or os.environ.get("MPIRUN") or "mpirun")
     if not command or not shutil.which(command[0]):
-        raise Missing("no MPI launcher {}: set MPIRUN".format(command[0] if command else words))
+        raise Missing(f"no MPI launcher {command[0] if command else words}: set MPIRUN")
     try:
-        version = subprocess.run(command + ["--version"], capture_output=True, text=True, check=False, timeout=60).stdout
+        version = subprocess.run(
+            command + ["--version"], capture_output=True, text=True, check=False, timeout=60
+        ).stdout
     except (OSError, subprocess.TimeoutExpired):
         version = ""
     if "Open MPI" in version or "OpenRTE" in version:

@@ -1,10 +1,12 @@
-"""Tractions on the contact surface from what CalculiX prints for a deck of fe_model.py.
+"""Tractions on the contact surface from what CalculiX prints for a deck of model.py.
 
-The forces on the surface's nodes are those that balance the stresses of the elements beside it: sum of w det(J) B^T sigma
-over the integration points. So they carry the load exactly and know nothing of how contact is modelled. Divided by
-the area that belongs to each node they are pressure and shear. (CalculiX's own nodal pressure, CPRESS in the result
-file, is extrapolated from integration points; in elements that the contact's edge crosses it is far off.)
+The forces on the surface's nodes are those that balance the stresses of the elements beside it: the sum of
+w det(J) B^T sigma over the integration points. So they carry the load exactly and know nothing of how contact is
+modelled. Divided by the area that belongs to each node they are pressure and shear. (CalculiX's own nodal pressure,
+CPRESS in the result file, is extrapolated from integration points; in elements that the contact's edge crosses it is
+far off.)
 """
+
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +19,8 @@ POINTS = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
 
 
 class Surface(NamedTuple):
-    """The contact surface in SI units: nodes' x, y (m), area (m2), pressure, shear_x, shear_y, cpress (Pa); faces' samples.
+    """The contact surface in SI units: of nodes x, y (m), area (m2), pressure, shear_x, shear_y, cpress (Pa); of faces
+    samples.
 
     sample_r (m), sample_area (m2) and sample_gap (m) have shape (faces, samples), weights (samples, 4), face_nodes
     (faces, 4) counts in the nodes. load_n, load_tx (N) are the reactions of the whole top.
@@ -49,7 +52,9 @@ class Surface(NamedTuple):
 
     def nodal_mean(self, function):
         """Mean of function(r) over each node's area, as the nodal pressure is one."""
-        return gather(self.face_nodes, self.sample_area * function(self.sample_r), self.weights, self.x.size) / self.area
+        return (
+            gather(self.face_nodes, self.sample_area * function(self.sample_r), self.weights, self.x.size) / self.area
+        )
 
 
 def gather(face_nodes, values, weights, count):
@@ -113,7 +118,7 @@ def nodal_forces(nodes, elements, stresses):
 
 
 def read_surface(base, mesh, elements, parts, nlgeom=False, lower=False):
-    """The Surface of base.dat and base.frd; elements: fe_model.rim(); parts: models in the whole, 4 or 2.
+    """The Surface of base.dat and base.frd; elements: model.rim(); parts: models in the whole, 4 or 2.
 
     lower: the mirror image of the mesh is the other body, instead of the plane z = 0.
     """
@@ -134,10 +139,24 @@ def read_surface(base, mesh, elements, parts, nlgeom=False, lower=False):
     x, y = (1e-3 * place[used, axis] for axis in (0, 1))
     corners = np.stack([x[face_nodes], y[face_nodes]], axis=-1)
     (ax, ay), (bx, by) = ((corners[:, j] - corners[:, i]).T for i, j in ((0, 2), (1, 3)))
-    sample_area = np.repeat(0.5 * np.abs(ax * by - ay * bx)[:, None] / len(s), len(s), axis=1)  # onto the plane of contact
+    sample_area = np.repeat(
+        0.5 * np.abs(ax * by - ay * bx)[:, None] / len(s), len(s), axis=1
+    )  # onto the plane of contact
     area = gather(face_nodes, sample_area, weights, used.size)
     traction = force[used] / area[:, None]
     return Surface(
-        x, y, area, traction[:, 2], -traction[:, 0], -traction[:, 1], 1e6 * read_cpress(base + ".frd", count)[used],
-        face_nodes, weights, np.hypot(x[face_nodes] @ weights.T, y[face_nodes] @ weights.T), sample_area,
-        1e-3 * gap[used][face_nodes] @ weights.T, -parts * reaction[2], parts * reaction[0])
+        x,
+        y,
+        area,
+        traction[:, 2],
+        -traction[:, 0],
+        -traction[:, 1],
+        1e6 * read_cpress(base + ".frd", count)[used],
+        face_nodes,
+        weights,
+        np.hypot(x[face_nodes] @ weights.T, y[face_nodes] @ weights.T),
+        sample_area,
+        1e-3 * gap[used][face_nodes] @ weights.T,
+        -parts * reaction[2],
+        parts * reaction[0],
+    )

@@ -16,6 +16,7 @@ nodes lie at distance d from the pole and at angle t arccos(d/2R) from the axis,
 itself, so that surface nodes lie on it exactly and the initial gap at the nodes is the sphere's. The shells grow in
 geometric progression up to the flat top, about as fast as their elements grow sideways.
 """
+
 import argparse
 import sys
 from typing import NamedTuple
@@ -112,7 +113,7 @@ def quarter(n, study):
     fraction = np.arctan2(np.hypot(points[:, 0], points[:, 1]), points[:, 2]) / (0.5 * np.pi)
     start, end = distance[surface], distance_to_top(fraction[surface], radius)
     layers = max(2, int(np.ceil(np.log(np.mean(end / start)) / np.log(1.0 + GROWTH * 0.25 * np.pi / n))))
-    shells = start * (end / start)**(np.arange(1, layers + 1)[:, None] / layers)
+    shells = start * (end / start) ** (np.arange(1, layers + 1)[:, None] / layers)
 
     distance = np.concatenate([distance, shells.ravel()])
     azimuth = np.concatenate([azimuth, np.tile(azimuth[surface], layers)])
@@ -123,7 +124,7 @@ def quarter(n, study):
 
     grid = np.arange(points.shape[0]).reshape(3 * [n + 1])
     steps = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
-    core = np.stack([grid[i:n + i, j:n + j, k:n + k] for i, j, k in steps], axis=-1).reshape(-1, 8)
+    core = np.stack([grid[i : n + i, j : n + j, k : n + k] for i, j, k in steps], axis=-1).reshape(-1, 8)
     core_face = np.zeros((n, n, n), dtype=int)
     core_face[:, :, 0] = 1
     quads, quad_face = shell_quads(n, index.reshape(3 * [n + 1]))
@@ -161,9 +162,12 @@ def joined(one, two, shared=None):
     shared = np.zeros(len(two.nodes), dtype=bool) if shared is None else shared
     number = np.where(shared, np.arange(len(two.nodes)), len(one.nodes) + np.cumsum(~shared) - 1)
     faces = two.faces + np.array([len(one.elements), 0])
-    return Mesh(np.concatenate([one.nodes, two.nodes[~shared]]),
-                np.concatenate([one.elements, number[two.elements]]), np.concatenate([one.faces, faces]),
-                np.concatenate([one.face_nodes, number[two.face_nodes]]))
+    return Mesh(
+        np.concatenate([one.nodes, two.nodes[~shared]]),
+        np.concatenate([one.elements, number[two.elements]]),
+        np.concatenate([one.faces, faces]),
+        np.concatenate([one.face_nodes, number[two.face_nodes]]),
+    )
 
 
 def half(n, study):
@@ -173,6 +177,7 @@ def half(n, study):
 
 
 # ---------------------------------------------------------------- the deck
+
 
 class Controls(NamedTuple):
     """What a deck may vary besides mesh and study: equation solver, contact stiffness (MPa/mm), large displacements.
@@ -185,6 +190,9 @@ class Controls(NamedTuple):
     stiffness: float = 0.0  # 0: default_stiffness()
     nlgeom: bool = False
     neo_hooke: bool = False
+
+
+DEFAULTS = Controls()
 
 
 def default_stiffness(study, n):
@@ -218,7 +226,7 @@ class Deck:
     def numbers(self, kind, name, indices):
         """A set (NSET, ELSET) of nodes or elements by their index from 0, ten a line."""
         values = [str(1 + v) for v in indices]
-        self.add("*{0}, {0}={1}".format(kind, name), *(", ".join(values[i:i + 10]) + "," for i in range(0, len(values), 10)))
+        self.add(f"*{kind}, {kind}={name}", *(", ".join(values[i : i + 10]) + "," for i in range(0, len(values), 10)))
 
     def body(self, name, mesh, after=None):
         """Nodes, elements and contact surface of a body, numbered after those of another mesh."""
@@ -227,8 +235,8 @@ class Deck:
         self.add(*("{}, {:.12g}, {:.12g}, {:.12g}".format(node + i, *p) for i, p in enumerate(mesh.nodes)))
         self.add("*ELEMENT, TYPE=C3D8, ELSET=E" + name)
         self.add(*(", ".join(map(str, (element + i, *(node + e)))) for i, e in enumerate(mesh.elements)))
-        self.add("*SOLID SECTION, ELSET=E{}, MATERIAL=STEEL".format(name), "*SURFACE, NAME=S" + name)
-        self.add(*("{}, S{}".format(element + e, face) for e, face in mesh.faces))
+        self.add(f"*SOLID SECTION, ELSET=E{name}, MATERIAL=STEEL", "*SURFACE, NAME=S" + name)
+        self.add(*(f"{element + e}, S{face}" for e, face in mesh.faces))
 
     def material(self, study, neo_hooke):
         """Steel, or what has its E and nu."""
@@ -240,17 +248,28 @@ class Deck:
 
     def contact(self, independent, stiffness, friction=0.0):
         """Surface-to-surface penalty contact of the upper body; its pressure is linear in the overclosure."""
-        self.add("*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
-                 "{:.12g}".format(stiffness))
+        self.add(
+            "*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:.12g}"
+        )
         if friction:
-            self.add("*FRICTION", "{:.12g}, {:.12g}".format(friction, stiffness))
+            self.add("*FRICTION", f"{friction:.12g}, {stiffness:.12g}")
         self.add("*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "SUPPER, S" + independent)
 
     def step(self, controls, boundary, *requests):
         """A static step of one increment with a prescribed displacement of the top; requests are output cards."""
-        self.add("*STEP, INC=100" + (", NLGEOM" if controls.nlgeom else ""), "*STATIC, SOLVER=" + controls.solver, "1., 1.",
-                 "*CONTROLS, PARAMETERS=FIELD", TOLERANCES, "*CONTROLS, PARAMETERS=TIME INCREMENTATION", ITERATIONS,
-                 "*BOUNDARY", boundary, *requests, "*END STEP")
+        self.add(
+            "*STEP, INC=100" + (", NLGEOM" if controls.nlgeom else ""),
+            "*STATIC, SOLVER=" + controls.solver,
+            "1., 1.",
+            "*CONTROLS, PARAMETERS=FIELD",
+            TOLERANCES,
+            "*CONTROLS, PARAMETERS=TIME INCREMENTATION",
+            ITERATIONS,
+            "*BOUNDARY",
+            boundary,
+            *requests,
+            "*END STEP",
+        )
 
     def write(self, path):
         """Write the file."""
@@ -262,11 +281,21 @@ class Deck:
 TOLERANCES = "2.e-4, 1.e-3, , , 2.e-4, , , "  # residual force, correction; and residual force after many iterations
 ITERATIONS = "4, 8, 9, 100"  # the last: how many before the increment is given up
 
-FIELDS = ("*NODE PRINT, NSET=TOP, TOTALS=ONLY", "RF", "*NODE PRINT, NSET=PRINTED", "U", "*EL PRINT, ELSET=RIM", "S",
-          "*NODE FILE, NSET=TOP", "U", "*CONTACT FILE", "CSTR")
+FIELDS = (
+    "*NODE PRINT, NSET=TOP, TOTALS=ONLY",
+    "RF",
+    "*NODE PRINT, NSET=PRINTED",
+    "U",
+    "*EL PRINT, ELSET=RIM",
+    "S",
+    "*NODE FILE, NSET=TOP",
+    "U",
+    "*CONTACT FILE",
+    "CSTR",
+)
 
 
-def normal_deck(path, n, study, displacement, controls=Controls()):
+def normal_deck(path, n, study, displacement, controls=DEFAULTS):
     """A quarter of one hemisphere on a rigid plane, its top moved down by displacement (mm). Returns the mesh."""
     mesh = quarter(n, study)
     side = 2.0 * CONTACT_REACH * study.contact_radius
@@ -286,12 +315,12 @@ def normal_deck(path, n, study, displacement, controls=Controls()):
     deck.numbers("ELSET", "RIM", elements)
     deck.numbers("NSET", "PRINTED", printed)
     deck.add("*BOUNDARY", "SIDEX, 1, 1", "SIDEY, 2, 2", "NPLANE, 1, 3", "TOP, 1, 2")
-    deck.step(controls, "TOP, 3, 3, {:.12g}".format(-displacement), *FIELDS)
+    deck.step(controls, f"TOP, 3, 3, {-displacement:.12g}", *FIELDS)
     deck.write(path)
     return mesh
 
 
-def tangential_deck(path, n, study, displacement, tangential, controls=Controls()):
+def tangential_deck(path, n, study, displacement, tangential, controls=DEFAULTS):
     """Halves of both hemispheres, the upper top moved (mm) down, then along x. Returns the upper half's mesh.
 
     The lower half is its mirror image, with the same numbers after it.
@@ -312,8 +341,8 @@ def tangential_deck(path, n, study, displacement, tangential, controls=Controls(
     deck.numbers("ELSET", "RIM", elements)
     deck.numbers("NSET", "PRINTED", np.concatenate([printed, count + np.unique(mesh.face_nodes)]))
     deck.add("*BOUNDARY", "SIDEY, 2, 2", "BOTTOM, 1, 3", "TOP, 1, 2")
-    deck.step(controls, "TOP, 3, 3, {:.12g}".format(-displacement))
-    deck.step(controls, "TOP, 1, 1, {:.12g}".format(tangential), *FIELDS)
+    deck.step(controls, f"TOP, 3, 3, {-displacement:.12g}")
+    deck.step(controls, f"TOP, 1, 1, {tangential:.12g}", *FIELDS)
     deck.write(path)
     return mesh
 
@@ -327,7 +356,7 @@ def main():
     parser.add_argument("--contact-radius", type=float, default=0.8662391, help="expected, mm (0.8662391)")
     parser.add_argument("--displacement", type=float, help="approach of the flat tops, mm (Hertz's)")
     parser.add_argument("--tangential", type=float, help="then along x, mm: both bodies with friction")
-    parser.add_argument("--solver", default=Controls().solver, help="CalculiX's equation solver (ITERATIVE CHOLESKY)")
+    parser.add_argument("--solver", default=DEFAULTS.solver, help="CalculiX's equation solver (ITERATIVE CHOLESKY)")
     parser.add_argument("--stiffness", type=float, default=0.0, help="of the contact, MPa/mm (10 E/element size)")
     parser.add_argument("--nlgeom", action="store_true", help="large displacements")
     parser.add_argument("--neo-hooke", action="store_true", help="neo-Hooke's law, with --nlgeom")
@@ -344,7 +373,7 @@ def main():
         mesh = tangential_deck(options.file, options.n, study, approach, options.tangential, controls)
     else:
         mesh = normal_deck(options.file, options.n, study, 0.5 * approach, controls)
-    print("{} elements, {} nodes a body".format(len(mesh.elements), len(mesh.nodes)))
+    print(f"{len(mesh.elements)} elements, {len(mesh.nodes)} nodes a body")
 
 
 if __name__ == "__main__":

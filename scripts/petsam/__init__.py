@@ -1,0 +1,37 @@
+"""The Python side of petsam.
+
+    import petsam
+    results = petsam.open("sphere.h5")
+    print(results.history["stick_area"][-1], results.field("pressure").max())
+
+open, Results   reading of results files (results.py)
+closed          closed solutions of contact mechanics
+plot            pictures: petsam-plot
+study           many runs from a table: petsam-study
+comparison      what the examples' comparisons with other solutions share
+environment     where the interpreter, its libraries and petsam are found
+
+Importing this package alone needs the standard library only: each part imports its libraries when it is used.
+"""
+
+import importlib
+
+from .errors import Error, Missing
+
+__all__ = ["Error", "Missing", "Results", "Snapshot", "open"]
+
+# names that need libraries: their modules are imported when they are first asked for
+_HOMES = {"Results": ".results", "Snapshot": ".results"}
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(_HOMES[name], __name__), name)
+
+
+def open(path, label=None):
+    """The Results of a file of petsam; label names it in pictures (the file's name). Error where it cannot be read."""
+    from .results import Results
+
+    return Results(path, label)

@@ -1,0 +1,27 @@
+"""Closed solutions for elastic half-spaces in contact, with which results are compared.
+
+Conventions
+-----------
+SI units. A contact of two half-spaces, loaded through body 1; r is the distance from the contact's centre.
+Displacements, rotations and slips are relative (body 1 against body 2), so both bodies' compliances add: the functions
+take sums such as ``1/G1 + 1/G2``. Shear q is positive in the direction of the positive load, slip is
+``s = u_t - rigid`` and therefore opposite to the shear: under a positive T_x, q_x >= 0 and s_x <= 0; under a positive
+M_z, q_theta >= 0. All functions accept numpy arrays wherever the argument is a coordinate.
+
+materials  elastic constants
+sphere     Hertz; Cattaneo and Mindlin; Lubkin
+loop       tangential loops of a sphere and their energy: Mindlin and Deresiewicz
+spence     elastic sphere on a dissimilar flat with friction: Spence
+punch      flat circular punch with a rounded edge under normal load
+plane      infinitely long punch with rounded edges, upright or inclined, in partial slip
+
+`python3 -m petsam.closed` compares every formula with a numerical quadrature and fails when one disagrees.
+"""
+
+# fmt: off
+from .materials import (  # isort: skip
+    Bodies, dundurs_beta, effective_modulus, effective_radius, shear_modulus, tangential_compliance)
+from .sphere import (  # isort: skip
+    Hertz, Spheres, cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius, hertz, hertz_pressure,
+    lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit)
+# fmt: on

@@ -1,0 +1,7 @@
+"""`python3 -m petsam.closed` checks the closed solutions: exit code 1 when one disagrees."""
+
+import sys
+
+from .checks import self_check
+
+sys.exit(1 if self_check() else 0)

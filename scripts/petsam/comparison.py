@@ -1,0 +1,69 @@
+"""What the examples' comparisons with other solutions share: command line, tables, numbers as JSON, error norms.
+
+A comparison is a class with
+
+    __init__(directory)  reads the results that the example's run.sh writes to a directory
+    numbers              all numbers of the tables, as JSON takes them
+    tables()             yields what is printed: texts, and tables as (title, columns, rows)
+    draw(directory)      writes the pictures
+"""
+
+import argparse
+import json
+import os
+import sys
+
+import numpy as np
+
+from .errors import Error, Missing, fail
+
+
+def relative_l2(numerical, exact):
+    """sqrt(sum (numerical - exact)^2 / sum exact^2) over all cells."""
+    return float(np.sqrt(np.sum((numerical - exact) ** 2) / np.sum(exact**2)))
+
+
+def print_table(title, columns, rows):
+    """Print rows (dicts) under a title; columns: "heading = key:format; ...", the format being that of format()."""
+    columns = [column.split(" = ") for column in columns.split("; ")]
+    print("\n" + title)
+    print("  " + "".join(f"{heading:>14s}" for heading, _ in columns))
+    for row in rows:
+        cells = [format(row[key], form) for key, _, form in (place.partition(":") for _, place in columns)]
+        print("  " + "".join(f"{cell:>14s}" for cell in cells))
+
+
+def _run(kind, options):
+    """Read, print the tables, write the numbers and the pictures."""
+    from .plot.style import STYLE, plt
+
+    comparison = kind(options.directory)
+    for part in comparison.tables():
+        print(part) if isinstance(part, str) else print_table(*part)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(comparison.numbers, file, indent=2)
+            file.write("\n")
+    directory = options.figures or options.directory
+    os.makedirs(directory, exist_ok=True)
+    print()
+    with plt.rc_context(STYLE):
+        comparison.draw(directory)
+
+
+def main(kind, description, example, arguments=None):
+    """The program of an example's comparison.
+
+    Exit code: 0, or 1 with a message when a file is missing, unreadable or cannot be written.
+    """
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", help=f"the HDF5 files of examples/{example}/run.sh")
+    parser.add_argument("--figures", metavar="DIR", help="write the PNG files here (default: the same directory)")
+    parser.add_argument("--json", metavar="FILE", help="write the numbers to FILE too")
+    try:
+        _run(kind, parser.parse_args(arguments))
+    except Missing as error:
+        return fail(os.path.basename(sys.argv[0]), f"{error}; run examples/{example}/run.sh first", 1)
+    except (Error, OSError) as error:
+        return fail(os.path.basename(sys.argv[0]), error, 1)
+    return 0

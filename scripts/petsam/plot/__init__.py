@@ -1,0 +1,1 @@
+"""Pictures: command (petsam-plot), pictures (maps, profiles, loops, histories), units (prefixes), style (the look)."""

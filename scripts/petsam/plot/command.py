@@ -1,0 +1,138 @@
+"""Draw what petsam has computed: maps, profiles, fretting loops, histories.
+
+    petsam-plot sphere.h5                          all pictures that the file is good for
+    petsam-plot --loop -o loop.pdf a.h5 b.h5       one picture, two files compared
+    petsam-plot --maps --step 20,-1 strokes.h5     two steps below each other
+
+Without a kind given, maps and profiles of the last saved step are drawn, and of several load steps the loop and the
+history too. Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
+"""
+
+import argparse
+import os
+
+from ..errors import Error, fail
+from ..results import NotSaved, Results
+from . import pictures
+from .style import STYLE, plt
+
+KINDS = ("maps", "profiles", "loop", "history")
+FORMATS = (".png", ".pdf")
+
+
+def numbers(kind):
+    """Reader of a comma-separated list for argparse."""
+
+    def read(text):
+        try:
+            return [kind(word) for word in text.split(",")]
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(f"{text}: expected numbers separated by commas") from error
+
+    return read
+
+
+def point(text):
+    """Reader of a point X,Y for argparse."""
+    values = numbers(float)(text)
+    if len(values) != 2:
+        raise argparse.ArgumentTypeError(f"{text}: expected X,Y")
+    return values
+
+
+def arguments():
+    """Read the command line."""
+    parser = argparse.ArgumentParser(
+        prog="petsam-plot", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("files", nargs="+", metavar="FILE.h5", help="results of petsam; several are compared")
+    kinds = parser.add_argument_group("pictures")
+    kinds.add_argument("--maps", action="store_true", help="pressure, shear, slip and state over the surface")
+    kinds.add_argument("--profiles", action="store_true", help="pressure, shear and slip along x and y")
+    kinds.add_argument("--loop", action="store_true", help="a load over its displacement")
+    kinds.add_argument("--load", choices=tuple(pictures.PAIRS), help="the loop's load (that which does the most work)")
+    kinds.add_argument("--history", action="store_true", help="scalars over time")
+    kinds.add_argument("--names", metavar="NAME,...", help="the history's datasets (loads that vary, areas, energy)")
+    which = parser.add_argument_group("steps (the last saved)").add_mutually_exclusive_group()
+    which.add_argument(
+        "--step", type=numbers(int), metavar="K,...", help="load steps from 1, as the run prints them; -1 is the last"
+    )
+    which.add_argument("--time", type=numbers(float), metavar="T,...", help="the saved steps nearest to times, s")
+    look = parser.add_argument_group("look")
+    look.add_argument("--at", type=point, default=(0.0, 0.0), metavar="X,Y", help="where profiles cross, m (0,0)")
+    look.add_argument("--whole-grid", action="store_true", help="maps and profiles of the grid, not of the contact")
+    look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
+    look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png or .pdf")
+    look.add_argument("--format", choices=("png", "pdf"), help="instead of an end of the name (png)")
+    look.add_argument("--dpi", type=int, default=150, help="pixels an inch of a PNG (150)")
+    options = parser.parse_args()
+    if options.labels and len(options.labels.split(",")) != len(options.files):
+        parser.error(f"--labels: expected as many as files, {len(options.files)}")
+    ending = os.path.splitext(options.output or "")[1].lower()
+    if options.format and ending in FORMATS and ending != "." + options.format:
+        parser.error(f"--format {options.format}: the name {options.output} says otherwise")
+    return options
+
+
+def chosen(options, results):
+    """The kinds of picture asked for, or all that the files are good for."""
+    kinds = [
+        kind
+        for kind in KINDS
+        if getattr(options, kind) or (kind == "loop" and options.load) or (kind == "history" and options.names)
+    ]
+    if kinds:
+        return kinds
+    several = any(one.history["time"].size > 1 for one in results)
+    return [kind for kind in KINDS if kind in ("maps", "profiles") or several]
+
+
+def snapshots(options, results):
+    """Pairs of a file and an index into its fields, for each step asked for."""
+    try:
+        if options.time:
+            return [(one, one.of_time(time)) for one in results for time in options.time]
+        if options.step:
+            return [(one, one.of_step(step)) for one in results for step in options.step]
+        return [(one, one.of_last()) for one in results]
+    except NotSaved as error:
+        raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
+
+
+def path(options, kind, alone):
+    """The picture's file: exactly the name given when it is the only picture of one kind asked for."""
+    base, ending = os.path.splitext(options.output or os.path.basename(options.files[0]))
+    if options.output and ending.lower() not in FORMATS:
+        base, ending = options.output, ""
+    if not options.output or not ending:
+        ending = "." + (options.format or "png")
+    return "{}{}{}".format(base, "" if alone and options.output else "_" + kind, ending)
+
+
+def draw(options, results, kind):
+    """One picture, a matplotlib figure."""
+    if kind == "maps":
+        return pictures.maps(snapshots(options, results), options.whole_grid)
+    if kind == "profiles":
+        return pictures.profiles(snapshots(options, results), options.at, options.whole_grid)
+    if kind == "loop":
+        return pictures.loop(results, options.load)
+    return pictures.history(results, options.names.split(",") if options.names else None)
+
+
+def main():
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
+    options = arguments()
+    labels = options.labels.split(",") if options.labels else [None] * len(options.files)
+    try:
+        results = [Results(name, label) for name, label in zip(options.files, labels)]
+        kinds = chosen(options, results)
+        with plt.rc_context(STYLE):
+            for kind in kinds:
+                figure, name = draw(options, results, kind), path(options, kind, len(kinds) == 1)
+                figure.savefig(name, dpi=options.dpi)
+                plt.close(figure)
+                print("wrote " + name)
+    except (Error, OSError) as error:
+        return fail("petsam-plot", error)
+    return 0

@@ -1,0 +1,89 @@
+"""How all pictures look: matplotlib without a screen, the house's style and colours, and what many pictures share."""
+
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
+import numpy as np  # noqa: E402
+
+STYLE = {
+    "font.size": 10, "axes.grid": True, "grid.color": "0.92", "axes.axisbelow": True,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 11,
+    "legend.frameon": False, "legend.fontsize": 8.5, "legend.title_fontsize": 9,
+    "savefig.dpi": 150, "mathtext.fontset": "dejavusans",
+}  # fmt: skip
+COLORS = ("#3b4cc0", "#c44e52", "#2a9d8f", "#e9a03b", "#7a5195", "#5a5a5a")
+CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed solution
+
+
+def colors(count):
+    """As many colours, of a sequence when there are more than can be told apart."""
+    return COLORS[:count] if count <= len(COLORS) else [plt.cm.viridis(t) for t in np.linspace(0.0, 0.9, count)]
+
+
+def tint(index, count):
+    """Colour of the index-th of count load levels; index may lie between two."""
+    return plt.get_cmap("plasma")(0.88 * index / max(1, count - 1))
+
+
+def points(axes, x, y, color, mark="o", **style):
+    """White points with a coloured edge above all lines, as computed values are drawn; "o-": joined by a line."""
+    style = {"markersize": 3.6, "markerfacecolor": "white", "zorder": 3, **style}
+    axes.plot(x, y, mark, color=color, **style)
+
+
+def joined(axes, x, y, color, mark, **style):
+    """The larger points of a quantity that depends on a few parameters, joined by a thin line."""
+    points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
+
+
+def frame(axes, title, x, y, x_limits=None, y_limits=None):
+    """Title, labels and limits of a panel; without limits these follow the data."""
+    limits = {"xlim": x_limits, "ylim": y_limits}
+    axes.set(title=title, xlabel=x, ylabel=y, **{name: pair for name, pair in limits.items() if pair})
+
+
+def field(axes, values, edges, low=0.0, high=None, color_map="viridis"):
+    """A map of values (ny, nx), the first row below; edges as of extent(); its colours from low to high."""
+    style = {"origin": "lower", "interpolation": "nearest", "extent": edges, "cmap": color_map}
+    axes.grid(False)
+    return axes.imshow(values, vmin=low, vmax=high, **style)
+
+
+def log_ticks(axes, values):
+    """Two logarithmic scales, with these values alone at x."""
+    axes.set(xscale="log", yscale="log")
+    axes.set_xticks(values, [f"{value:g}" for value in values])
+    axes.minorticks_off()
+
+
+def thinned(cells, count):
+    """About count of the cells (numbers in a row), every m-th.
+
+    m is odd, so that the choice can be symmetric about the middle whether the number of cells is odd or even.
+    """
+    step = max(1, cells.size // count) | 1
+    rest = (cells.size - 1) % step
+    return cells[(rest + step * (rest % 2)) // 2 :: step]
+
+
+def extent(x, y, unit=1.0, stride=1):
+    """Edges, over a unit, of what imshow draws of the cells with centres x and y when it gets every stride-th."""
+    half_x, half_y = (0.5 * stride * (axis[1] - axis[0]) for axis in (x, y))
+    x, y = x[::stride], y[::stride]
+    return [edge / unit for edge in (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)]
+
+
+def note(figure, text, size=9):
+    """A grey line above a figure."""
+    figure.suptitle(text, fontsize=size, color="0.35")
+
+
+def save(figure, directory, name):
+    """Write one PNG and close the figure."""
+    path = os.path.join(directory, name)
+    figure.savefig(path)
+    plt.close(figure)
+    print("wrote " + path)

@@ -1,0 +1,221 @@
+"""Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
+
+import os
+from functools import cached_property
+
+import h5py
+import numpy as np
+
+from .errors import Error, Missing
+
+OPEN, STICK, SLIP = 0, 1, 2  # /state
+BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
+# what h5py raises for a file that is damaged, or laid out in another way
+DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
+
+
+class NotSaved(Error):
+    """A step or a time (wanted) that the file has no fields of, and why."""
+
+    def __init__(self, path, wanted, reason):
+        super().__init__(f"{path}: {wanted}: {reason}")
+        self.path, self.wanted, self.reason = path, wanted, reason
+
+
+class Named(dict):
+    """Values by name; a name that is not there is an Error of the file at path."""
+
+    def __init__(self, path, values):
+        super().__init__(values)
+        self.path = path
+
+    def __missing__(self, name):
+        raise Error(f"{self.path}: has no {name}")
+
+
+class Results:
+    """One results file, open for reading; Error where it cannot be read.
+
+    x, y        cell centres, m
+    times       of the saved fields, s
+    steps       numbers of the load steps, from 1, whose fields are saved
+    history     name: array with a value for every load step, all of /history
+    units       name: unit, of the same
+    parameters  name of an option: value, all root attributes
+    """
+
+    def __init__(self, path, label=None):
+        self.path = str(path)
+        self.label = label or os.path.splitext(os.path.basename(self.path))[0]
+        try:
+            self.file = h5py.File(self.path, "r")
+        except OSError as error:
+            raise self._error(error) from error
+        try:
+            self._read()
+        except DAMAGED as error:
+            self.close()
+            raise self._error(error) from error
+        except Error:
+            self.close()
+            raise
+
+    def _read(self):
+        self.x, self.y, self.times = (self.file[name][:] for name in ("x", "y", "time"))
+        self.history = Named(self.path, {name: data[:] for name, data in self.file["history"].items()})
+        self.units = {name: data.attrs["units"] for name, data in self.file["history"].items()}
+        self.parameters = Named(self.path, self.file.attrs)
+        self.friction = float(self.parameters["friction"])
+        time = self.history["time"]
+        if not time.size:
+            raise Error(f"{self.path}: has no load step yet")
+        self.steps = [int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Close the file; what has been read stays."""
+        self.file.close()
+
+    def _error(self, error):
+        if isinstance(error, FileNotFoundError):
+            return Missing(f"{self.path}: no such file")
+        return Error(f"{self.path}: {_reason(error)}")
+
+    # ------------------------------------------------------------ steps
+
+    def of_step(self, number):
+        """Index into the fields of the load step number: from 1, or from the end, -1 being the last."""
+        count = self.history["time"].size
+        step = count + 1 + number if number < 0 else number
+        self._need_fields()
+        if not 1 <= step <= count:
+            raise NotSaved(self.path, f"step {number}", f"there are {count} steps")
+        if step in self.steps:
+            return self.steps.index(step)
+        reason = f"its fields were not saved, those of steps {_some(self.steps)} were"
+        raise NotSaved(self.path, f"step {number}", reason)
+
+    def of_time(self, time):
+        """Index into the fields of the saved step nearest to time (s), between the first and the last."""
+        self._need_fields()
+        low, high = float(self.times[0]), float(self.times[-1])
+        slack = 1e-9 * max(abs(low), abs(high))
+        if not low - slack <= time <= high + slack:
+            raise NotSaved(self.path, f"time {time:g}", f"fields were saved from {low:g} to {high:g}")
+        return int(np.argmin(np.abs(self.times - time)))
+
+    def of_last(self):
+        """Index into the fields of the last saved step."""
+        self._need_fields()
+        return len(self.steps) - 1
+
+    def _need_fields(self):
+        if not self.steps:
+            raise Error(f"{self.path}: no fields were saved")
+
+    def title(self, index):
+        """What names a saved step: the label, and the step and its time where there are several."""
+        if self.history["time"].size == 1:
+            return self.label
+        return f"{self.label}, step {self.steps[index]}, t = {self.times[index]:.4g} s"
+
+    # ------------------------------------------------------------ fields
+
+    def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
+        """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell."""
+        low, high, _ = rows.indices(self.y.size)
+        try:
+            data = self.file[name]
+            if data.shape != (self.times.size, self.y.size, self.x.size):
+                raise ValueError(f"/{name} has the shape {data.shape}")
+            if not -self.times.size <= index < self.times.size:
+                raise IndexError(f"step {index} of {self.times.size}")
+            index %= self.times.size
+            block = stride * max(1, BLOCK // stride)
+            parts = [
+                data[index, k : min(k + block, high), columns][::stride, ::stride] for k in range(low, high, block)
+            ]
+        except DAMAGED as error:
+            raise self._error(error) from error
+        return np.concatenate(parts)
+
+    def contact_window(self, index, margin=0.15):
+        """Rows and columns (slices) of the smallest rectangle about the contact, and a margin; all without contact."""
+        stride = max(1, max(self.x.size, self.y.size) // 1024)
+        contact = self.field("state", index, stride=stride) != OPEN
+        return tuple(
+            _window(np.flatnonzero(contact.any(axis=axis)) * stride, stride, size, margin)
+            for axis, size in ((1, self.y.size), (0, self.x.size))
+        )
+
+
+class Snapshot:
+    """The fields and scalars of one saved step by the names of the results file: snapshot["pressure"], ["load_n"].
+
+    A field has the shape (ny, nx) and is read when it is first asked for. results is the file, x and y are its own.
+    """
+
+    def __init__(self, results, index=-1):
+        self.results, self._fields = results, {}
+        self.index = results.of_last() if index == -1 else index
+        self.x, self.y, self.parameters = results.x, results.y, results.parameters
+        self.dx, self.dy = (float(axis[1] - axis[0]) for axis in (self.x, self.y))
+
+    def __getitem__(self, name):
+        if name in self.results.history:
+            value = self.results.history[name][self.results.steps[self.index] - 1]
+            return value if value.ndim else value.item()
+        if name not in self._fields:
+            self._fields[name] = self.results.field(name, self.index)
+        return self._fields[name]
+
+    @cached_property
+    def r(self):
+        """Distance of the cells' centres from x = y = 0, m."""
+        return np.hypot(self.x[None, :], self.y[:, None])
+
+    @cached_property
+    def shear(self):
+        """|q|, Pa."""
+        return np.hypot(self["shear_x"], self["shear_y"])
+
+    @cached_property
+    def slip(self):
+        """|s|, m."""
+        return np.hypot(self["slip_x"], self["slip_y"])
+
+    @property
+    def row(self):
+        """Number of the row nearest to y = 0."""
+        return int(np.argmin(np.abs(self.y)))
+
+    def radius(self, area):
+        """Radius, m, of the disc with the area of this name, contact_area or stick_area."""
+        return np.sqrt(self[area] / np.pi)
+
+
+def _window(cells, stride, size, margin):
+    if not cells.size:
+        return slice(0, size)
+    more = int(np.ceil(margin * (cells[-1] - cells[0] + stride))) + stride
+    return slice(max(0, int(cells[0]) - more), min(size, int(cells[-1]) + stride + more))
+
+
+def _some(numbers):
+    words = [str(n) for n in numbers]
+    return ", ".join(words if len(words) <= 8 else words[:4] + ["..."] + words[-2:])
+
+
+def _reason(error):
+    """The end of HDF5's chain of messages, in a line."""
+    text = str(error.args[0] if isinstance(error, KeyError) else error).replace("\n", " ")
+    if "file signature not found" in text:
+        return "is not an HDF5 file"
+    if "unable to lock file" in text.lower():
+        return "is being written by a run"
+    return "cannot be read: " + text if isinstance(error, OSError) else "is not a results file of petsam: " + text

@@ -1,0 +1,155 @@
+"""Run petsam for every case of a table, and put the results into one.
+
+    petsam-study cases.csv -- -options_file sphere.opts -grid_n 256
+    petsam-study study.yaml --cores 16 --ranks 4
+    petsam-study study.yaml --slurm --sbatch "--time=2:00:00 --partition=short"
+
+The table is CSV (a column an option, a row a case) or YAML (all combinations of lists of values); options after `--`
+hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that
+have finished with the same inputs are not run again, so the same command goes on after an interruption (Ctrl-C, or the
+end of a job). Results of all go to DIRECTORY/results.csv and results.h5.
+"""
+
+import argparse
+import os
+import sys
+
+from .. import environment
+from ..errors import USAGE, Error, fail
+from . import slurm, tables
+from .cases import TableError, common_options, read
+from .progress import Progress, standing, summary
+from .runs import STOPPED, Study, record
+
+
+def positive(text):
+    """A number from 1, for argparse."""
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text}: expected a number from 1")
+    return value
+
+
+def arguments():
+    """Read the command line: the options, and the words after --."""
+    words = sys.argv[1:]
+    at = words.index("--") if "--" in words else len(words)
+    parser = argparse.ArgumentParser(
+        prog="petsam-study",
+        description=__doc__,
+        usage="%(prog)s TABLE [option ...] [-- petsam's options for all cases]",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
+    parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")
+    parser.add_argument("--cores", type=positive, help="cores to use (all that this process may)")
+    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases whose table says nothing (1)")
+    parser.add_argument(
+        "--launcher", metavar="WORDS", help="MPI launcher, to which -n RANKS is added ($MPIRUN, mpirun)"
+    )
+    parser.add_argument(
+        "--checkpoint",
+        type=positive,
+        metavar="M",
+        help="write a checkpoint every M steps; a case that was stopped goes on from it",
+    )
+    parser.add_argument("--skip-failed", action="store_true", help="do not run again what has failed before")
+    parser.add_argument("--quiet", action="store_true", help="print failures only")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--list", action="store_true", help="print the cases and how they stand, run nothing")
+    what.add_argument("--case", type=positive, metavar="K", help="run the K-th case of --list only, write no tables")
+    what.add_argument("--collect", action="store_true", help="write the tables, run nothing")
+    what.add_argument("--slurm", action="store_true", help="submit a job array of the cases, and a job that collects")
+    parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
+    options = parser.parse_args(words[:at])
+    if options.sbatch and not options.slurm:
+        parser.error("--sbatch: is for --slurm")
+    options.words = words[at + 1 :]
+    options.directory = os.path.abspath(options.directory or os.path.splitext(os.path.basename(options.table))[0])
+    return options
+
+
+def available_cores():
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def due(options, cases):
+    """Cases that are to be run, in order."""
+    wanted = cases if options.case is None else cases[options.case - 1 : options.case]
+    if not wanted:
+        raise TableError(f"--case {options.case}: there are {len(cases)} cases")
+    waiting = []
+    for case in wanted:
+        code = record(options.directory, case).get("exit_code")
+        if code != 0 and not (options.skip_failed and code not in (None, STOPPED)):
+            waiting.append(case)
+    return waiting
+
+
+def run(options, cases, waiting):
+    """Run what waits; the number of the signal that ended it, or 0."""
+    cores = options.cores or available_cores()
+    words = environment.launcher(options.launcher)
+    program = environment.petsam()
+    for case in waiting:
+        if case.ranks > cores and options.case is None:
+            raise TableError(f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; see --cores")
+    cores = max([cores, *[case.ranks for case in waiting]]) if options.case else cores
+    before = len(cases) - len(waiting)
+    if not options.quiet and options.case is None:
+        print(
+            "{} cases{}, {} cores, {}".format(
+                len(waiting), f" ({before} more need not run)" if before else "", cores, options.directory
+            ),
+            flush=True,
+        )
+    progress = Progress(len(waiting), options.quiet)
+    study = Study(
+        options.directory,
+        lambda ranks: [*words, "-n", str(ranks), program],
+        cores,
+        progress.report,
+        progress.tick,
+        options.checkpoint,
+    )
+    ended = study.run(waiting)
+    progress.close()
+    return ended
+
+
+def carry_out(options):
+    """Do what the options ask for; the exit code."""
+    cases = read(options.table, common_options(options.words), options.ranks)
+    if options.list:
+        for case in cases:
+            print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
+        return 0
+    os.makedirs(options.directory, exist_ok=True)
+    waiting = [] if options.collect else due(options, cases)
+    if options.slurm:
+        return slurm.submit(options, cases, waiting)
+    ended = run(options, cases, waiting) if waiting else 0
+    if options.case is not None:
+        cases = cases[options.case - 1 : options.case]
+    else:
+        for name in tables.write(options.directory, cases, os.path.basename(options.table)):
+            if not options.quiet:
+                print("wrote " + name)
+    code = summary(options.directory, cases)
+    if ended:
+        print("petsam-study: interrupted; the same command goes on from here", file=sys.stderr)
+    return 128 + ended if ended else code
+
+
+def main():
+    """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
+    128 + the signal that ended the study."""
+    try:
+        return carry_out(arguments())
+    except (TableError, slurm.SubmitError) as error:
+        return fail("petsam-study", error, USAGE)
+    except (Error, OSError) as error:
+        return fail("petsam-study", error)
+    except KeyboardInterrupt:  # before or after the runs, which end in order by themselves
+        return 130

@@ -1,0 +1,145 @@
+"""The Python package: what importing it costs, reading of results and of what is none, closed solutions, examples."""
+
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+import petsam as package
+from conftest import environment
+from support import FIELDS, ROOT, ball, slide_limit
+
+SCRIPTS = ROOT / "scripts"
+EXAMPLES = sorted(path.parent.name for path in (ROOT / "examples").glob("*/figures.py"))
+CASE = ball(n=32)
+
+
+def python(*words, check=0):
+    """Output of the interpreter with the package on its path."""
+    env = dict(environment(), PYTHONPATH=str(SCRIPTS))
+    done = subprocess.run([sys.executable, *map(str, words)], env=env, capture_output=True, text=True, timeout=240)
+    assert done.returncode == check, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def path(solve):
+    """Four load steps; fields of the second and the fourth."""
+    return solve(dict(CASE, load_tx=0.5 * slide_limit(CASE)[0], steps=4, output_every=2)).path
+
+
+# ---------------------------------------------------------------- imports
+
+
+def modules_after(code):
+    """Names of the libraries that a program has imported."""
+    return python("-c", code + "\nimport sys\nprint(*{name.split('.')[0] for name in sys.modules})").split()
+
+
+def test_importing_the_package_imports_no_library():
+    assert not {"numpy", "h5py", "scipy", "matplotlib", "yaml"} & set(modules_after("import petsam"))
+
+
+def test_reading_results_does_not_import_matplotlib(path):
+    code = f"import petsam\nstep = petsam.Snapshot(petsam.open({str(path)!r}))\nassert step['pressure'].max() > 0.0"
+    names = modules_after(code)
+    assert "h5py" in names and not {"matplotlib", "scipy"} & set(names)
+
+
+def test_closed_solutions_do_not_import_matplotlib():
+    assert not {"matplotlib", "h5py"} & set(modules_after("import petsam.closed.plane, petsam.closed.spence"))
+
+
+# ---------------------------------------------------------------- results
+
+
+def test_a_snapshot_has_the_fields_and_scalars_of_its_step(path):
+    with package.open(path) as results, h5py.File(path, "r") as file:
+        assert results.steps == [2, 4] and list(results.history) == list(file["history"])
+        for index, step in ((0, 2), (1, 4), (-1, 4)):
+            snapshot = package.Snapshot(results, index)
+            for name in FIELDS:
+                assert np.array_equal(snapshot[name], file[name][index])
+            for name, data in file["history"].items():
+                assert snapshot[name] == data[step - 1]
+            assert snapshot.radius("contact_area") == np.sqrt(file["history/contact_area"][step - 1] / np.pi)
+        assert results.parameters["gap_radius1"] == CASE["gap_radius1"]
+
+
+def replace(name, value=None):
+    """A change of a results file: another value instead of what has this name, or none."""
+
+    def change(file):
+        del file[name]
+        if value is not None:
+            file[name] = value
+
+    return change
+
+
+def forget_steps(file):
+    """Leave no load step in the history."""
+    for name, units in [(data.name, data.attrs["units"]) for data in file["history"].values()]:
+        replace(name, np.zeros(0))(file)
+        file[name].attrs["units"] = units
+
+
+CHANGES = {
+    "x is a group": lambda file: (file.pop("x"), file.create_group("x")),
+    "x is a number": replace("x", 1.0),
+    "no friction": lambda file: file.attrs.pop("friction"),
+    "history is a field": replace("history", np.zeros(3)),
+    "no history/time": replace("history/time"),
+    "no units": lambda file: file["history/load_n"].attrs.pop("units"),
+    "no step": forget_steps,
+    "pressure of another shape": replace("pressure", np.zeros((2, 5, 5))),
+    "no pressure": replace("pressure"),
+}
+
+
+@pytest.mark.parametrize("how", ["truncated", *CHANGES])
+def test_an_odd_file_is_the_packages_error_with_its_path(path, tmp_path, how):
+    odd = tmp_path / "odd.h5"
+    odd.write_bytes(path.read_bytes()[: path.stat().st_size // (2 if how == "truncated" else 1)])
+    if how in CHANGES:
+        with h5py.File(odd, "r+") as file:
+            CHANGES[how](file)
+    with pytest.raises(package.Error, match="odd.h5: "):
+        package.Snapshot(package.open(odd))["pressure"]
+
+
+@pytest.mark.parametrize("content, reason", [(None, "no such file"), (b"text", "is not an HDF5 file")])
+def test_what_is_no_file_of_hdf5_is_told(tmp_path, content, reason):
+    if content:
+        (tmp_path / "odd.h5").write_bytes(content)
+    with pytest.raises(package.Error, match=f"odd.h5: {reason}"):
+        package.open(tmp_path / "odd.h5")
+
+
+@pytest.mark.parametrize("ask", [
+    lambda results: results.field("nothing"), lambda results: results.field("pressure", 2),
+    lambda results: results.history["nothing"], lambda results: results.parameters["nothing"],
+    lambda results: results.of_step(3), lambda results: results.of_step(5), lambda results: results.of_time(9.0),
+    lambda results: package.Snapshot(results)["nothing"],
+])  # fmt: skip
+def test_what_the_file_has_not_is_the_packages_error(path, ask):
+    with package.open(path) as results, pytest.raises(package.Error, match="results.h5: "):
+        ask(results)
+
+
+# ---------------------------------------------------------------- closed solutions, examples
+
+
+def test_closed_solutions_agree_with_quadrature():
+    said = python("-m", "petsam.closed").splitlines()
+    assert len(said) > 100 and not [line for line in said if "FAILED" in line]
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_figures_of_an_example_without_results_say_what_to_run(example, tmp_path):
+    figures = ROOT / "examples" / example / "figures.py"
+    assert f"examples/{example}/run.sh" in python(figures, "--help")
+    said = python(figures, tmp_path, check=1).splitlines()
+    assert len(said) == 1 and said[0].endswith(f"; run examples/{example}/run.sh first")
