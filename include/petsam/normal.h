@@ -61,7 +61,8 @@ PETSC_EXTERN PetscErrorCode SamNormalView(SamNormal normal, PetscViewer viewer);
 /*
   SamNormalSolve - finds p (Pa, one component) for the separation h (m). With `guess` p holds a start, and only the
   finest grid is used; otherwise p is overwritten. On return the balance holds all loads and rigid displacements.
-  Collective. Not converging is a reason, not an error, unless asked for.
+  Collective. Not converging is a reason, not an error, unless asked for. Where displacements are counted from the mean
+  surface (SamElasticityTraits), a given approach must lie below the mean separation: DIVERGED_NO_EQUILIBRIUM.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
 

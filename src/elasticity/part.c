@@ -59,18 +59,21 @@ PetscErrorCode SamElasticitySetPart(SamElasticity e, const PetscInt first[2], co
   PetscBool          is;
 
   PetscFunctionBegin;
-  e->in_part = n[0] ? PETSC_TRUE : PETSC_FALSE;
+  e->in_part = PETSC_FALSE;
   if (!n[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(e->traits.parts, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s has no parts", e->type);
   PetscCall(IsAt(&e->parts[e->newest], first, n, &is));
-  if (is) PetscFunctionReturn(PETSC_SUCCESS);
-  e->newest = 1 - e->newest;
-  PetscCall(IsAt(older, first, n, &is));
-  if (is) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(DestroyPart(older));
-  PetscCall(SamWindowCreate(e->grid, first, n, &older->window));
-  PetscCall(SamWindowGetGrid(older->window, &grid));
-  PetscCall(SamElasticityCreateLike(e, grid, &older->elasticity));
+  if (!is) {
+    e->newest = 1 - e->newest;
+    PetscCall(IsAt(older, first, n, &is));
+  }
+  if (!is) {
+    PetscCall(DestroyPart(older));
+    PetscCall(SamWindowCreate(e->grid, first, n, &older->window));
+    PetscCall(SamWindowGetGrid(older->window, &grid));
+    PetscCall(SamElasticityCreateLike(e, grid, &older->elasticity));
+  }
+  e->in_part = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

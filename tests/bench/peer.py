@@ -22,7 +22,7 @@ ACTIVE = dict(backend="h2", active_set=True)
 
 # setting: (what it is, arguments of ASPHER's nested solver)
 SETTINGS = {
-    "tamaas": ("Polonsky, Keer and Rey's conjugate gradients, DCFFT operator", None),
+    "tamaas": ("Polonsky, Keer and Rey's conjugate gradients; DCFFT operator, or the periodic one", None),
     "aspher fft": ("padded FFT, full preconditioner, nested grids", FFT),
     "aspher fft mixed": ("the same, first in single precision", dict(FFT, precision="float_then_double")),
     "aspher h2": ("fast multipoles of order 6, active set", ACTIVE),
@@ -42,7 +42,7 @@ def settings(name, kind):
     """A peer's settings to try on a kind of problem; a cycle has increments of its own."""
     return [
         k
-        for k in (SETTINGS if kind in ("normal", "rough") else TANGENTIAL_SETTINGS)
+        for k in (SETTINGS if kind in ("normal", "rough", "periodic") else TANGENTIAL_SETTINGS)
         if k.split()[0] == name and not (kind == "cycle" and k.endswith("steps"))
     ]
 
@@ -54,7 +54,9 @@ def describe():
 
 def cannot(name, kind):
     """Why a peer has no answer to a kind of problem; None when it can be asked."""
-    if kind in ("normal", "rough"):
+    if kind == "periodic" and name == "aspher":
+        return "its settings here are of operators that are not periodic"
+    if kind in ("normal", "rough", "periodic"):
         return None
     if name == "tamaas":
         return "its operator that is not periodic knows normal loads only, its friction is periodic"
@@ -72,9 +74,11 @@ def run_tamaas(problem, gap):
     start = time.perf_counter()
     model = tm.Model(tm.model_type.basic_2d, [width, width], [n, n])
     model.E, model.nu = problem["e_star"], 0.0
-    tm.ModelFactory.registerNonPeriodic(model, "dcfft")
+    if problem["kind"] != "periodic":
+        tm.ModelFactory.registerNonPeriodic(model, "dcfft")
     solver = tm.PolonskyKeerRey(model, -gap, TOLERANCE, tm.PolonskyKeerRey.pressure, tm.PolonskyKeerRey.pressure)
-    solver.setIntegralOperator("dcfft")
+    if problem["kind"] != "periodic":
+        solver.setIntegralOperator("dcfft")
     solver.max_iter = 20000
     error = solver.solve(problem["load_n"] / width**2)
     seconds = time.perf_counter() - start

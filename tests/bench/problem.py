@@ -5,8 +5,9 @@
     python3 tests/bench/problem.py check FOLDER SOLUTION       print the accuracy of results.h5 or pressure.npy as JSON
 
 All are contacts of the steel spheres of examples/sphere, or of a rough plane of the same size and material, on an
-elastic half-space that is not periodic. The rough plane is self-affine (Hurst exponent 0.8, wavelengths from a quarter
-to a 64th of the width), the same function of place on every grid, and does not tilt.
+elastic half-space that is not periodic, but for the periodic case, in which the plane is one period. The rough plane is
+self-affine (Hurst exponent 0.8, wavelengths from a quarter to a 64th of the width), the same function of place on every
+grid, and does not tilt.
 """
 
 import json
@@ -24,7 +25,7 @@ from support import SPHERE, Results, closed, hertz, kernels, l2, slide_limit, wo
 
 HURST, SHORTEST, LONGEST, SLOPE = 0.8, 64, 4, 0.1
 # N over (E* slope area of the grid) that brings about this share of the plane into contact, at 512 cells
-ROUGH_LOADS = {"rough_1": 0.00425, "rough_8": 0.0359, "rough_40": 0.241}
+ROUGH_LOADS = {"rough_1": 0.00425, "rough_8": 0.0359, "rough_40": 0.241, "periodic_8": 0.0359}
 
 
 def rough_plane(n, width):
@@ -61,15 +62,16 @@ def make(name, n, folder):
     force, torque = slide_limit(case)
     kind = "normal"
     if name in ROUGH_LOADS:
-        kind = "rough"
+        kind = "periodic" if name.startswith("periodic") else "rough"
         gap = rough_plane(n, case["grid_size"])
         gap -= gap.min()
         with h5py.File(folder / "gap.h5", "w") as f:
             f["height"] = gap
         load = ROUGH_LOADS[name] * e_star * SLOPE * case["grid_size"] ** 2
         case = {k: v for k, v in case.items() if not k.startswith("gap_")}
+        case.update(gap_type="file", gap_file=folder / "gap.h5", load_n=load)
         case.update(
-            gap_type="file", gap_file=folder / "gap.h5", load_n=load, rot_x=0.0, rot_y=0.0, allow_edge_contact=True
+            dict(elasticity="periodic") if kind == "periodic" else dict(rot_x=0.0, rot_y=0.0, allow_edge_contact=True)
         )
     elif name == "slip_tx":
         kind = "tangential"
@@ -112,6 +114,14 @@ def modulus(case):
 # ---------------------------------------------------------------- accuracy
 
 
+def periodic_displacement(pressure, width, e_star):
+    """u_z (n, n), m, from the mean surface, of a half-space whose period is the grid: 2/(E* |k|) times each wave."""
+    n = pressure.shape[0]
+    k = 2 * np.pi / width * np.hypot(np.arange(n // 2 + 1.0)[None, :], n * fft.fftfreq(n)[:, None])
+    k[0, 0] = np.inf
+    return fft.irfft2(2 / (e_star * k) * fft.rfft2(pressure, workers=2), s=(n, n), workers=2)
+
+
 def displacement(pressure, width, e_star):
     """u_z (n, n), m, by a padded transform of coefficients that are written down apart from the program's."""
     n = pressure.shape[0]
@@ -130,7 +140,8 @@ def normal_accuracy(pressure, gap, problem):
     load: |sum p dA / N - 1|. g is the gap with the approach that fits it best where the bodies touch.
     """
     area = (problem["width"] / problem["cells"]) ** 2
-    u = displacement(pressure, problem["width"], problem["e_star"])
+    law = periodic_displacement if problem["kind"] == "periodic" else displacement
+    u = law(pressure, problem["width"], problem["e_star"])
     g = u + gap
     g -= np.sum(pressure * g) / np.sum(pressure)
     scale = np.max(u)
@@ -174,7 +185,7 @@ def check(folder, solution):
             r = Results(folder / "results.h5")
             numbers["shear_difference"] = float(l2(fields[1:], np.stack([r.shear_x, r.shear_y])))
     numbers.update(normal_accuracy(pressure, gap, problem))
-    if problem["kind"] != "rough":
+    if problem["kind"] not in ("rough", "periodic"):
         numbers["hertz_l2"] = against_hertz(pressure, problem)
     return numbers
 

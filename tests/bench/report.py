@@ -20,6 +20,7 @@ TITLES = {
     "rough_1": "rough, 1 % contact",
     "rough_8": "rough, 8 % contact",
     "rough_40": "rough, 40 % contact",
+    "periodic_8": "periodic rough, 8 % contact",
     "slip_tx": "partial slip, T_x = 0.6 mu N",
     "slip_tx_mz": "partial slip, T_x and M_z, half of each limit",
     "cycle_80": "fretting cycle, 80 steps",

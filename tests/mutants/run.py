@@ -16,6 +16,7 @@ An entry of a list, entries being separated by empty lines, # beginning a commen
     ! test_verdict                           the tests: a unit test program, `test_x@2` on that many ranks, or
                                              `test_x.py::test_name` of tests/program
 """
+
 import argparse
 import os
 import queue
@@ -103,7 +104,16 @@ def command_of(tree, test):
     """The words that run a test."""
     if ".py" in test:
         python = ROOT / "build" / "venv" / "bin" / "python"
-        return [str(python), "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", str(tree / "tests" / "program" / test)]
+        return [
+            str(python),
+            "-m",
+            "pytest",
+            "-q",
+            "-x",
+            "-p",
+            "no:cacheprovider",
+            str(tree / "tests" / "program" / test),
+        ]
     name, _, ranks = test.partition("@")
     program = [str(tree / "build" / "tests" / name)]
     return mpirun(int(ranks), TIMEOUT) + program if ranks else program

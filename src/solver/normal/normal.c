@@ -578,10 +578,36 @@ static PetscErrorCode SetSeparated(SamNormal n, Vec h, SamBalance *balance, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Whether a given approach can be held at all. Where a uniform pressure displaces nothing, displacements have no mean:
+  an approach beyond the mean separation leaves a gap below 0 somewhere under any pressure, and the mean itself is
+  reached by every pressure that is high enough.
+*/
+static PetscErrorCode CanHold(SamNormal n, Vec h, const SamBalance *balance, PetscBool *can)
+{
+  SamElasticityTraits traits;
+  SamGrid             grid;
+  SamTotal            total = {0, 0};
+  double              sum;
+  const double       *array;
+
+  PetscFunctionBegin;
+  *can = PETSC_TRUE;
+  PetscCall(SamElasticityGetTraits(n->elasticity, &traits));
+  if (traits.mean || balance->force[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticityGetGrid(n->elasticity, &grid));
+  PetscCall(VecGetArrayRead(h, &array));
+  for (PetscInt k = 0; k < grid->cells; k++) SamAdd(&total, array[k]);
+  PetscCall(VecRestoreArrayRead(h, &array));
+  PetscCall(SamSumTotals(grid->comm, 1, &total, &sum));
+  *can = balance->rigid[0] < sum / ((double)grid->nx * (double)grid->ny) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamNormalSolve(SamNormal n, Vec h, SamBalance *balance, PetscBool guess, Vec p)
 {
   SamGrid   grid;
-  PetscBool separated, possible;
+  PetscBool separated, possible, can;
   char      message[256];
 
   PetscFunctionBegin;
@@ -595,7 +621,8 @@ PetscErrorCode SamNormalSolve(SamNormal n, Vec h, SamBalance *balance, PetscBool
   n->reason = SAM_NORMAL_CONVERGED_ITERATING;
   PetscCall(IsSeparated(n, h, balance, &separated));
   PetscCall(SamBalanceLever(grid, balance, message, sizeof(message), &possible));
-  if (!possible) {
+  PetscCall(CanHold(n, h, balance, &can));
+  if (!possible || !can) {
     PetscCall(VecSet(p, 0));
     n->reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
   } else if (separated) {

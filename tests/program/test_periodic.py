@@ -1,0 +1,132 @@
+"""Periodic bodies: -elasticity periodic against closed solutions and against Tamaas, stick and slip, ranks."""
+
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from support import ROOT, assert_close, assert_same
+
+sys.path.insert(0, str(ROOT / "tests" / "bench"))
+import problem  # noqa: E402
+
+WIDTH, HEIGHT = 1e-3, 1e-6
+BODIES = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+
+
+def write_gap(path, heights):
+    with h5py.File(path, "w") as f:
+        f["height"] = heights
+    return dict(gap_type="file", gap_file=path)
+
+
+def centres(n):
+    return (np.arange(n) + 0.5) / n * WIDTH
+
+
+@pytest.fixture
+def wave(tmp_path):
+    """One wave along x of amplitude HEIGHT on a grid of one wavelength, and the mean pressure that closes its gap."""
+
+    def case(n, ny):
+        heights = np.tile(HEIGHT * (1 - np.cos(2 * np.pi * (centres(n) / WIDTH - 0.5))), (ny, 1))
+        full = np.pi * problem.modulus(BODIES) * HEIGHT / WIDTH
+        return dict(
+            BODIES,
+            elasticity="periodic",
+            grid_n=(n, ny),
+            grid_size=(WIDTH, WIDTH / 4),
+            **write_gap(tmp_path / f"wave{n}.h5", heights),
+        ), full
+
+    return case
+
+
+def test_wave_in_full_contact(wave, solve):
+    case, full = wave(45, 10)
+    r = solve(case, dict(load_n=1.5 * full * WIDTH**2 / 4))
+    exact = 1.5 * full + full * np.cos(2 * np.pi * r.xx / WIDTH)
+    assert_close(r.pressure, exact, 1e-7)
+    assert_close(r["disp_z"], HEIGHT, 1e-9)  # from the mean surface
+    assert r["contact_area"] == pytest.approx(WIDTH**2 / 4)
+
+
+def test_wave_in_partial_contact_is_westergaard_s(wave, solve):
+    case, full = wave(1024, 4)
+    sine = np.sin(0.3 * np.pi)  # of half the contact's angle
+    r = solve(case, dict(load_n=full * sine**2 * WIDTH**2 / 4))
+    s = np.sin(np.pi * r.xx / WIDTH)
+    exact = 2 * full * np.cos(np.pi * r.xx / WIDTH) * np.sqrt(np.maximum(sine**2 - s**2, 0))
+    inner = np.abs(r.xx) < 0.15 * WIDTH
+    assert_close(r.pressure[inner], exact[inner], 1e-5)
+    assert_close(r["disp_z"], HEIGHT * sine**2 * (1 - np.log(sine**2)), 1e-5)
+
+
+def test_rough_plane_against_tamaas(petsam, tmp_path):
+    tamaas = pytest.importorskip("tamaas")
+    n = 128
+    problem.make("periodic_8", n, tmp_path)
+    numbers, gap = problem.json.loads((tmp_path / "problem.json").read_text()), np.load(tmp_path / "gap.npy")
+    petsam(*numbers["options"], "-output", "results.h5")
+    with h5py.File(tmp_path / "results.h5") as f:
+        pressure = f["pressure"][-1]
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    model = tamaas.Model(tamaas.model_type.basic_2d, [numbers["width"]] * 2, [n, n])
+    model.E, model.nu = numbers["e_star"], 0.0
+    solver = tamaas.PolonskyKeerRey(
+        model, -gap, 1e-11, tamaas.PolonskyKeerRey.pressure, tamaas.PolonskyKeerRey.pressure
+    )
+    solver.max_iter = 20000
+    assert solver.solve(numbers["load_n"] / numbers["width"] ** 2) <= 1e-11
+    assert 0.06 < np.mean(pressure > 0) < 0.1
+    assert_close(pressure, model.traction.reshape(n, n), 1e-6)
+
+
+@pytest.fixture
+def hills(tmp_path):
+    """Dissimilar bodies with hills in a period, in partial contact."""
+    n = 48
+    x, y = np.meshgrid(centres(n), centres(n))
+    heights = HEIGHT * (2 - np.cos(2 * np.pi * x / WIDTH + 0.3) - 0.8 * np.cos(4 * np.pi * y / WIDTH - 0.2))
+    return dict(
+        BODIES,
+        body2_young=3e9,
+        body2_poisson=0.2,
+        friction=0.3,
+        elasticity="periodic",
+        grid_n=n,
+        grid_size=WIDTH,
+        load_n=10.0,
+        **write_gap(tmp_path / "hills.h5", heights),
+    )
+
+
+def test_partial_slip_with_coupling_passes_the_check(hills, solve):
+    r = solve(hills, dict(load_tx=1.5))
+    loads = r.loads()
+    assert loads["load_n"] == pytest.approx(10) and loads["load_tx"] == pytest.approx(1.5)
+    assert 0.1 < r["stick_area"] / r["contact_area"] < 0.9
+    shear, bound = r.shear, 0.3 * r.pressure
+    assert np.all(shear <= bound * (1 + 1e-9))
+    stuck = (bound > 0) & (shear < (1 - 1e-4) * bound)
+    assert np.max(np.hypot(r.slip_x, r.slip_y)[stuck]) < 1e-5 * abs(r["disp_x"])
+
+
+def test_shifted_hills_have_shifted_tractions(hills, solve, tmp_path):
+    with h5py.File(hills["gap_file"]) as f:
+        moved = write_gap(tmp_path / "moved.h5", np.roll(f["height"][:], (11, -20), (0, 1)))
+    one, two = solve(hills, dict(load_tx=1.5)), solve(dict(hills, **moved), dict(load_tx=1.5))
+    for name in ("pressure", "shear_x", "shear_y"):
+        assert_close(
+            np.roll(getattr(one, name), (11, -20), (0, 1)), getattr(two, name), 1e-4, name, np.max(one.pressure)
+        )
+
+
+def test_ranks_do_not_matter(hills, solve):
+    assert_same(solve(hills, dict(load_tx=1.5), ranks=3), solve(hills, dict(load_tx=1.5)), 0)
+
+
+def test_unknown_elasticity_is_named(petsam, sphere):
+    done = petsam(sphere, "-elasticity", "plate", check=2)
+    assert done.complaint[0] == "petsam: -elasticity plate: expected halfspace or periodic"

@@ -1,0 +1,478 @@
+/*
+ * Periodic bodies: products against sums over waves and against half-spaces, symmetry, translations, precision, inverses.
+ */
+#include "fields.h"
+
+#include <petsam/elasticity.h>
+
+/* Even and odd numbers of cells, prime ones, fewer rows than ranks; cells that are not square. */
+static const PetscInt sizes[][2] = {{12, 10}, {13, 9}, {8, 7}, {7, 6}, {5, 2}, {2, 11}, {3, 3}};
+enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]) };
+
+/* Rounding of the transforms and of the sums they are compared to. */
+static const double tolerance = 1e-13;
+
+/* Two bodies that have nothing in common. */
+static const double young[2] = {210e9, 3e9}, poisson[2] = {0.3, 0.2};
+
+typedef PetscErrorCode (*Product)(SamElasticity, Vec, Vec);
+
+/* The four products, and the components of what goes in and comes out: 0, 1 tangential, 2 normal. */
+static const struct {
+  Product  apply;
+  PetscInt first_in, n_in, first_out, n_out;
+} products[4] = {{SamElasticityApplyNormal, 2, 1, 2, 1},
+                 {SamElasticityApplyTangential, 0, 2, 0, 2},
+                 {SamElasticityApplyNormalToTangential, 2, 1, 0, 2},
+                 {SamElasticityApplyTangentialToNormal, 0, 2, 2, 1}};
+
+static SamElasticity NewOfType(SamGrid grid, SamElasticityType type)
+{
+  const SamPair pair = NewPair(young[0], poisson[0], young[1], poisson[1]);
+  SamElasticity e;
+
+  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticitySetType(e, type));
+  return e;
+}
+
+static SamElasticity NewPeriodic(SamGrid grid)
+{
+  return NewOfType(grid, SAM_ELASTICITY_PERIODIC);
+}
+
+/* ---- sums over waves ---- */
+
+/*
+  What a wave exp(i k.x) of traction along `column` displaces along `row` (0, 1, 2: x, y, z), body by body: the Fourier
+  transforms of the surface displacements of a point force (Johnson 1985, sections 3.2 and 3.6); re + i im.
+*/
+static void Symbol(int row, int column, const long double k[2], long double *re, long double *im)
+{
+  const long double size = sqrtl(k[0] * k[0] + k[1] * k[1]);
+
+  *re = *im = 0;
+  for (int b = 0; b < 2 && size > 0; b++) {
+    const long double G = young[b] / (2 * (1 + (long double)poisson[b])), nu = poisson[b];
+    /* tangential tractions and displacements of body 1 are both reversed, normal ones are the same for both */
+    const long double side = b == 0 ? -1 : 1;
+
+    if (row == 2 && column == 2)
+      *re += (1 - nu) / (G * size);
+    else if (row == 2)
+      *im += -side * (1 - 2 * nu) / (2 * G) * k[column] / (size * size);
+    else if (column == 2)
+      *im += side * (1 - 2 * nu) / (2 * G) * k[row] / (size * size);
+    else
+      *re += ((row == column) - nu * k[row] * k[column] / (size * size)) / (G * size);
+  }
+}
+
+/*
+  Displacement along `row` at a lag of (i, j) cells from unit traction along `column` on one cell: the sum over all waves
+  on the grid. A wave of two cells' length is its own mirror image: what is odd in its wave number has no meaning.
+*/
+static double Influence(SamGrid grid, int row, int column, PetscInt i, PetscInt j)
+{
+  const PetscInt    n[2] = {grid->nx, grid->ny};
+  const long double turn = 2 * acosl(-1.0L);
+  long double       sum  = 0;
+
+  for (PetscInt m = 0; m < n[1]; m++)
+    for (PetscInt l = 0; l < n[0]; l++) {
+      const PetscInt    w[2]  = {2 * l > n[0] ? l - n[0] : l, 2 * m > n[1] ? m - n[1] : m};
+      const long double k[2]  = {turn * (long double)w[0] / grid->width[0], turn * (long double)w[1] / grid->width[1]},
+                        phase = turn * ((long double)(w[0] * i) / (long double)n[0] +
+                                        (long double)(w[1] * j) / (long double)n[1]);
+      long double re, im;
+      PetscBool   odd = PETSC_FALSE;
+
+      for (int c = 0; c < 2; c++)
+        if (2 * w[c] == n[c] && (row == c) != (column == c)) odd = PETSC_TRUE;
+      if (odd) continue;
+      Symbol(row, column, k, &re, &im);
+      sum += re * cosl(phase) - im * sinl(phase);
+    }
+  return (double)(sum / (long double)(n[0] * n[1]));
+}
+
+/* The product by summation over cells and waves. */
+static Vec SumDirectly(SamGrid grid, int product, Vec traction)
+{
+  const PetscInt n_in = products[product].n_in, n_out = products[product].n_out, nx = grid->nx, ny = grid->ny;
+  Vec            u     = NewField(grid, n_out);
+  double        *whole = Whole(grid, n_in, traction), *a, *table = (double *)malloc(sizeof(*table) * (size_t)(nx * ny));
+
+  sam_call(VecGetArray(u, &a));
+  for (PetscInt o = 0; o < n_out; o++)
+    for (PetscInt c = 0; c < n_in; c++) {
+      for (PetscInt k = 0; k < nx * ny; k++)
+        table[k] = Influence(grid, (int)(products[product].first_out + o), (int)(products[product].first_in + c),
+                             k % nx, k / nx);
+      for (PetscInt j = 0; j < grid->rows; j++)
+        for (PetscInt i = 0; i < nx; i++)
+          for (PetscInt l = 0; l < ny; l++)
+            for (PetscInt k = 0; k < nx; k++)
+              a[o * grid->cells + j * nx + i] +=
+                table[(grid->row_start + j - l + ny) % ny * nx + (i - k + nx) % nx] * whole[(c * ny + l) * nx + k];
+    }
+  sam_call(VecRestoreArray(u, &a));
+  free(table);
+  free(whole);
+  return u;
+}
+
+static void test_products_are_sums_over_waves(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 3e-3, 1e-3);
+    SamElasticity e    = NewPeriodic(grid);
+
+    for (int c = 0; c < 4; c++) {
+      Vec    in = NewRandom(grid, products[c].n_in, k), out = NewField(grid, products[c].n_out);
+      Vec    exact = SumDirectly(grid, c, in);
+      double size  = Norm(exact, NORM_INFINITY);
+
+      sam_call(products[c].apply(e, in, out));
+      sam_call(VecAXPY(exact, -1, out));
+      sam_assert_close(Norm(exact, NORM_INFINITY), 0, tolerance * size + 1e-30); /* coupling is 0 on 2 cells */
+      if (products[c].n_in == products[c].n_out) {                               /* input and output may be the same */
+        sam_call(products[c].apply(e, in, in));
+        sam_call(VecAXPY(in, -1, out));
+        sam_assert(Norm(in, NORM_INFINITY) == 0);
+      }
+      sam_call(VecDestroy(&in));
+      sam_call(VecDestroy(&out));
+      sam_call(VecDestroy(&exact));
+    }
+    sam_call(SamElasticityDestroy(&e));
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
+static void test_self_influence_is_that_of_one_cell(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 3e-3, 1e-3);
+    SamElasticity e    = NewPeriodic(grid);
+    PetscReal     normal, tangential;
+
+    sam_call(SamElasticityGetSelfInfluence(e, &normal, &tangential));
+    sam_assert_close(normal, Influence(grid, 2, 2, 0, 0), tolerance * normal);
+    sam_assert_close(tangential, fmax(Influence(grid, 0, 0, 0, 0), Influence(grid, 1, 1, 0, 0)),
+                     tolerance * tangential);
+    sam_call(SamElasticityDestroy(&e));
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
+/* ---- half-spaces ---- */
+
+/* Waves of 16 cells under a bell of 12 cells: no mean, and nothing at the border. */
+static Vec NewPacket(SamGrid grid, PetscInt refine)
+{
+  Vec     v = NewField(grid, 2);
+  double *a;
+
+  sam_call(VecGetArray(v, &a));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const double x    = SamGridX(grid, i) / grid->dx / (double)refine,
+                   y    = SamGridY(grid, grid->row_start + j) / grid->dy / (double)refine;
+      const double bell = exp(-(x * x + y * y) / 288);
+
+      a[j * grid->nx + i]               = bell * cos(2 * PETSC_PI * (0.8 * x + 0.6 * y) / 16 + 0.4);
+      a[grid->cells + j * grid->nx + i] = bell * cos(2 * PETSC_PI * (0.6 * x - 0.8 * y) / 16 - 0.7);
+    }
+  sam_call(VecRestoreArray(v, &a));
+  return v;
+}
+
+/* Largest difference of a product on periodic bodies and on half-spaces, relative. */
+static double AgainstHalfSpaces(int product, PetscInt refine)
+{
+  SamGrid       grid = NewGrid(100 * refine, 110 * refine, 1.0, 1.1);
+  SamElasticity a = NewOfType(grid, SAM_ELASTICITY_PERIODIC), b = NewOfType(grid, SAM_ELASTICITY_HALFSPACE);
+  Vec           packet = NewPacket(grid, refine), in = NewField(grid, products[product].n_in);
+  Vec           u = NewField(grid, products[product].n_out), v = Copy(u);
+  double       *whole = Whole(grid, 2, packet), difference;
+
+  SetWhole(grid, products[product].n_in, whole, in);
+  sam_call(products[product].apply(a, in, u));
+  sam_call(products[product].apply(b, in, v));
+  difference = Difference(u, v, NORM_INFINITY);
+  if (getenv("SAM_SHOW")) print_message("# product %d refined %d: %g\n", product, (int)refine, difference);
+  free(whole);
+  sam_call(VecDestroy(&packet));
+  sam_call(VecDestroy(&in));
+  sam_call(VecDestroy(&u));
+  sam_call(VecDestroy(&v));
+  sam_call(SamElasticityDestroy(&a));
+  sam_call(SamElasticityDestroy(&b));
+  sam_call(SamGridDestroy(&grid));
+  return difference;
+}
+
+/*
+  Far from its next period a packet of waves does not feel it. What is left is that the one's tractions are smooth and
+  the other's constant on each cell: k^2 (dx^2 + dy^2)/24 = 0.6 % of the displacement, about twice that for
+  coupling, and second order.
+*/
+static void test_waves_displace_as_on_half_spaces(void **state)
+{
+  (void)state;
+  for (int product = 0; product < 4; product++) {
+    const double coarse = AgainstHalfSpaces(product, 1), fine = AgainstHalfSpaces(product, 2);
+
+    sam_assert(coarse < 0.015);
+    sam_assert(fine < 0.3 * coarse);
+  }
+}
+
+/* ---- symmetries ---- */
+
+/* y.K x for fields of three components, and the sum of the sizes of its parts. */
+static double Work(SamElasticity e, SamGrid grid, const double *y, const double *x, double *size)
+{
+  const PetscInt all  = grid->nx * grid->ny;
+  double         work = 0;
+
+  *size = 0;
+  for (int c = 0; c < 4; c++) {
+    Vec in = NewField(grid, products[c].n_in), out = NewField(grid, products[c].n_out), with = Copy(out);
+
+    SetWhole(grid, products[c].n_in, x + products[c].first_in * all, in);
+    SetWhole(grid, products[c].n_out, y + products[c].first_out * all, with);
+    sam_call(products[c].apply(e, in, out));
+    work += Dot(with, out);
+    *size += Norm(with, NORM_2) * Norm(out, NORM_2);
+    sam_call(VecDestroy(&in));
+    sam_call(VecDestroy(&out));
+    sam_call(VecDestroy(&with));
+  }
+  return work;
+}
+
+/* Betti's theorem, with coupling. */
+static void test_operator_is_symmetric(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 3e-3, 1e-3);
+    SamElasticity e    = NewPeriodic(grid);
+    Vec           x = NewRandom(grid, 3, 1), y = NewRandom(grid, 3, 2);
+    double       *a = Whole(grid, 3, x), *b = Whole(grid, 3, y), size, other;
+
+    sam_assert_close(Work(e, grid, a, b, &size), Work(e, grid, b, a, &other), tolerance * (size + other));
+    sam_assert(Work(e, grid, a, a, &size) > 0);
+    free(a);
+    free(b);
+    sam_call(VecDestroy(&x));
+    sam_call(VecDestroy(&y));
+    sam_call(SamElasticityDestroy(&e));
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
+static void Shift(PetscInt components, PetscInt nx, PetscInt ny, const PetscInt by[2], const double from[], double to[])
+{
+  for (PetscInt c = 0; c < components; c++)
+    for (PetscInt j = 0; j < ny; j++)
+      for (PetscInt i = 0; i < nx; i++)
+        to[(c * ny + (j + by[1]) % ny) * nx + (i + by[0]) % nx] = from[(c * ny + j) * nx + i];
+}
+
+static void test_shifted_tractions_shift_the_displacements(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    const PetscInt nx = sizes[k][0], ny = sizes[k][1], by[2] = {nx / 3 + 1, ny / 2};
+    SamGrid        grid = NewGrid(nx, ny, 3e-3, 1e-3);
+    SamElasticity  e    = NewPeriodic(grid);
+
+    for (int c = 0; c < 4; c++) {
+      Vec     in = NewRandom(grid, products[c].n_in, k), out = NewField(grid, products[c].n_out), other = Copy(out);
+      double *a = Whole(grid, products[c].n_in, in), *b, *shifted = (double *)calloc((size_t)(2 * nx * ny), sizeof(*b));
+
+      sam_call(products[c].apply(e, in, out));
+      Shift(products[c].n_in, nx, ny, by, a, shifted);
+      SetWhole(grid, products[c].n_in, shifted, in);
+      sam_call(products[c].apply(e, in, other));
+      b = Whole(grid, products[c].n_out, out);
+      Shift(products[c].n_out, nx, ny, by, b, shifted);
+      SetWhole(grid, products[c].n_out, shifted, out);
+      sam_call(VecAXPY(other, -1, out));
+      sam_assert_close(Norm(other, NORM_INFINITY), 0, tolerance * Norm(out, NORM_INFINITY) + 1e-30);
+      free(a);
+      free(b);
+      free(shifted);
+      sam_call(VecDestroy(&in));
+      sam_call(VecDestroy(&out));
+      sam_call(VecDestroy(&other));
+    }
+    sam_call(SamElasticityDestroy(&e));
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
+static void test_uniform_tractions_displace_nothing(void **state)
+{
+  SamGrid             grid = NewGrid(12, 7, 3e-3, 1e-3);
+  SamElasticity       e    = NewPeriodic(grid);
+  SamElasticityTraits traits;
+  PetscReal           self[2];
+
+  (void)state;
+  sam_call(SamElasticityGetTraits(e, &traits));
+  sam_assert(traits.coupled && !traits.rotations && !traits.edge && !traits.mean && !traits.parts);
+  sam_call(SamElasticityGetSelfInfluence(e, &self[0], &self[1]));
+  for (int c = 0; c < 4; c++) {
+    Vec in = NewField(grid, products[c].n_in), out = NewField(grid, products[c].n_out);
+
+    sam_call(VecSet(in, 1));
+    sam_call(products[c].apply(e, in, out));
+    sam_assert(Norm(out, NORM_INFINITY) < tolerance * self[0]);
+    sam_call(VecDestroy(&in));
+    sam_call(VecDestroy(&out));
+  }
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* ---- precision, ranks ---- */
+
+typedef PetscErrorCode (*SingleProduct)(SamElasticity, double, const float[], float[]);
+
+/* `factor` times the single product of a field in place. */
+static void ApplySingle(SamElasticity e, SamGrid grid, PetscInt components, SingleProduct single, double factor, Vec v)
+{
+  const PetscInt n    = components * grid->cells;
+  float         *work = (float *)calloc((size_t)n + 1, sizeof(*work));
+  double        *a;
+
+  sam_call(VecGetArray(v, &a));
+  for (PetscInt i = 0; i < n; i++) work[i] = (float)a[i];
+  sam_call(single(e, factor, work, work));
+  for (PetscInt i = 0; i < n; i++) a[i] = (double)work[i];
+  sam_call(VecRestoreArray(v, &a));
+  free(work);
+}
+
+static void test_single_precision_is_double_but_for_rounding(void **state)
+{
+  const SingleProduct single[2] = {SamElasticityApplyNormalSingle, SamElasticityApplyTangentialSingle};
+
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 3e-3, 1e-3);
+    SamElasticity e    = NewPeriodic(grid);
+    double        self[2];
+
+    sam_call(SamElasticityGetSelfInfluence(e, &self[0], &self[1]));
+    for (PetscInt c = 0; c < 2; c++) {
+      Vec in = NewRandom(grid, c + 1, 3), exact = Copy(in);
+
+      sam_call(products[c].apply(e, in, exact));
+      sam_call(VecScale(exact, 1 / self[c]));
+      ApplySingle(e, grid, c + 1, single[c], 1 / self[c], in);
+      sam_assert(Norm(exact, NORM_INFINITY) > 0.1);
+      sam_assert_close(Difference(in, exact, NORM_2), 0, 3e-7 * Norm(exact, NORM_2)); /* what the solvers count on */
+      sam_call(VecDestroy(&in));
+      sam_call(VecDestroy(&exact));
+    }
+    sam_call(SamElasticityDestroy(&e));
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
+/* Of everything but the mean, which has none. */
+static void test_preconditioners_are_the_inverses(void **state)
+{
+  const Product precondition[2] = {SamElasticityPreconditionNormal, SamElasticityPreconditionTangential};
+
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 3e-3, 1e-3);
+    SamElasticity e    = NewPeriodic(grid);
+
+    for (PetscInt c = 0; c < 2; c++) {
+      Vec x = NewRandom(grid, c + 1, 5), y = Copy(x);
+
+      sam_call(products[c].apply(e, x, y)); /* without mean */
+      sam_call(VecCopy(y, x));
+      sam_call(precondition[c](e, y, y));
+      sam_call(products[c].apply(e, y, y));
+      sam_assert_close(Difference(y, x, NORM_2), 0, 1e-6); /* floats */
+      sam_call(VecSet(x, 1));
+      sam_call(precondition[c](e, x, y));
+      sam_assert(Dot(x, y) > 0.1 * Norm(x, NORM_2) * Norm(y, NORM_2)); /* the mean has a gain all the same */
+      sam_call(VecDestroy(&x));
+      sam_call(VecDestroy(&y));
+    }
+    sam_call(SamElasticityDestroy(&e));
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
+/* All products of a field on these ranks, on the whole grid: (8, ny, nx). */
+static double *AllProducts(MPI_Comm comm, PetscInt nx, PetscInt ny)
+{
+  SamGrid             grid      = NewGridOn(comm, nx, ny, 3e-3, 1e-3, 0, 0);
+  SamElasticity       e         = NewPeriodic(grid);
+  const SingleProduct single[4] = {SamElasticityApplyNormalSingle, SamElasticityApplyTangentialSingle,
+                                   SamElasticityPreconditionNormalSingle, SamElasticityPreconditionTangentialSingle};
+  double             *all = (double *)calloc((size_t)(12 * nx * ny + 2), sizeof(*all)), *to = all;
+
+  for (int c = 0; c < 8; c++) {
+    const PetscInt n_in = c < 4 ? products[c].n_in : c % 2 + 1, n_out = c < 4 ? products[c].n_out : n_in;
+    Vec            in = NewRandom(grid, n_in, 7), out = c < 4 ? NewField(grid, n_out) : Copy(in);
+    double        *whole;
+
+    if (c < 4)
+      sam_call(products[c].apply(e, in, out));
+    else
+      ApplySingle(e, grid, n_in, single[c - 4], c < 6 ? 1e15 : 1e-15, out);
+    whole = Whole(grid, n_out, out);
+    memcpy(to, whole, sizeof(*to) * (size_t)(n_out * nx * ny));
+    to += n_out * nx * ny;
+    free(whole);
+    sam_call(VecDestroy(&in));
+    sam_call(VecDestroy(&out));
+  }
+  sam_call(SamElasticityGetSelfInfluence(e, &to[0], &to[1]));
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
+  return all;
+}
+
+static void test_any_number_of_ranks_gives_the_same_bits(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    const PetscInt nx = sizes[k][0], ny = sizes[k][1];
+    double        *together = AllProducts(PETSC_COMM_WORLD, nx, ny), *alone = AllProducts(PETSC_COMM_SELF, nx, ny);
+
+    sam_assert(!memcmp(together, alone, sizeof(*alone) * (size_t)(12 * nx * ny + 2)));
+    free(together);
+    free(alone);
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_products_are_sums_over_waves),
+    cmocka_unit_test(test_self_influence_is_that_of_one_cell),
+    cmocka_unit_test(test_waves_displace_as_on_half_spaces),
+    cmocka_unit_test(test_operator_is_symmetric),
+    cmocka_unit_test(test_shifted_tractions_shift_the_displacements),
+    cmocka_unit_test(test_uniform_tractions_displace_nothing),
+    cmocka_unit_test(test_single_precision_is_double_but_for_rounding),
+    cmocka_unit_test(test_preconditioners_are_the_inverses),
+    cmocka_unit_test(test_any_number_of_ranks_gives_the_same_bits),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
