@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Compare the dissimilar example's results (elastic sphere on a rigid flat, friction, growing load) with Spence.
 
 Reads the HDF5 files that examples/dissimilar/run.sh writes to a directory, draws stick.png (stick radius against

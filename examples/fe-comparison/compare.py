@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Solve the sphere in CalculiX and in petsam under equal forces, and measure what each costs.
 
 In CalculiX the displacement of the hemispheres' flat tops is prescribed: Hertz's approach for a wanted contact radius.

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Compare CalculiX and petsam with the closed solutions and with each other; draw comparison.png and half-space.png.
 
 Reads the HDF5 files that examples/fe-comparison/run.sh writes to a directory. All comparisons are at equal force: Hertz

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Compare the fretting-loop example's results with Mindlin and Deresiewicz.
 
 Reads the HDF5 files that examples/fretting-loop/run.sh writes to a directory, draws loops.png (tangential force

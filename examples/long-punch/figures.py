@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Compare the middle section of long punches with the plane theory, and draw long-punch.png.
 
 Reads the HDF5 files that examples/long-punch/run.sh writes to a directory: results and separations. The section is

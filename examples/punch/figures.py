@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Compare the punch example's results with the exact pressure and with Jaeger's principle, and draw them.
 
 Reads the HDF5 files that examples/punch/run.sh writes to a directory, takes the last saved step of each,

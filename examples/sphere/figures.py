@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Compare the sphere example's results with Hertz, Cattaneo-Mindlin and Lubkin.
 
 Reads the HDF5 files that examples/sphere/run.sh writes to a directory, takes the last saved step of each,

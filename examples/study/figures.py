@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Draw the study example: stick radius and dissipated energy over T_x/(mu N), for several mu and nu.
 
 Reads results.h5 of petsam-study in a directory, and the results of each case; draws study.png and prints the deviations

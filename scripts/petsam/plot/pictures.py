@@ -17,28 +17,14 @@ PIXELS = 1200  # of a map in each direction: more cells than the eye and the pap
 
 # the loads and what they work on
 PAIRS = {
-    "tx": ("load_tx", "disp_x"),
-    "ty": ("load_ty", "disp_y"),
-    "mz": ("load_mz", "rot_z"),
-    "n": ("load_n", "disp_z"),
-    "mx": ("load_mx", "rot_x"),
-    "my": ("load_my", "rot_y"),
-}
+    "tx": ("load_tx", "disp_x"), "ty": ("load_ty", "disp_y"), "mz": ("load_mz", "rot_z"),
+    "n": ("load_n", "disp_z"), "mx": ("load_mx", "rot_x"), "my": ("load_my", "rot_y"),
+}  # fmt: skip
 SYMBOLS = {
-    "load_n": "$N$",
-    "load_tx": "$T_x$",
-    "load_ty": "$T_y$",
-    "load_mx": "$M_x$",
-    "load_my": "$M_y$",
-    "load_mz": "$M_z$",
-    "disp_z": "$d_z$",
-    "disp_x": "$d_x$",
-    "disp_y": "$d_y$",
-    "rot_x": "$r_x$",
-    "rot_y": "$r_y$",
-    "rot_z": "$r_z$",
+    "load_n": "$N$", "load_tx": "$T_x$", "load_ty": "$T_y$", "load_mx": "$M_x$", "load_my": "$M_y$", "load_mz": "$M_z$",
+    "disp_z": "$d_z$", "disp_x": "$d_x$", "disp_y": "$d_y$", "rot_x": "$r_x$", "rot_y": "$r_y$", "rot_z": "$r_z$",
     "dissipated_energy": "dissipated energy, sum",
-}
+}  # fmt: skip
 
 
 # ---------------------------------------------------------------- maps
