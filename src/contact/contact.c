@@ -87,8 +87,8 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
 
   PetscFunctionBegin;
   if (!c) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamNormalDestroy(&c->normal));
-  PetscCall(SamTangentialDestroy(&c->tangential));
+  PetscCall(SamSolverDestroy(&c->normal));
+  PetscCall(SamSolverDestroy(&c->tangential));
   PetscCall(VecDestroy(&c->separation));
   PetscCall(VecDestroy(&c->slip_before));
   PetscCall(VecDestroy(&c->h));
@@ -120,8 +120,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(
     SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &c->allow_edge, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
-  PetscCall(SamNormalSetFromOptions(c->normal));
-  PetscCall(SamTangentialSetFromOptions(c->tangential));
+  PetscCall(SamSolverSetFromOptions(c->normal));
+  PetscCall(SamSolverSetFromOptions(c->tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,12 +160,12 @@ static PetscErrorCode Count(SamContact c, PetscBool tangential, SamStep *step)
 
   PetscFunctionBegin;
   if (tangential) {
-    PetscCall(SamTangentialGetStatistics(c->tangential, NULL, &its, &applies, &preconditions));
+    PetscCall(SamSolverGetStatistics(c->tangential, NULL, &its, &applies, &preconditions));
     step->tangential_iterations += its;
     step->tangential_applies += applies;
     step->tangential_preconditions += preconditions;
   } else {
-    PetscCall(SamNormalGetStatistics(c->normal, NULL, &its, &applies, &preconditions));
+    PetscCall(SamSolverGetStatistics(c->normal, NULL, &its, &applies, &preconditions));
     step->normal_iterations += its;
     step->normal_applies += applies;
     step->normal_preconditions += preconditions;
@@ -252,7 +252,7 @@ static PetscErrorCode Predict(SamContact c, const SamBalance *normal, const SamB
 static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBool guess, PetscBool same_pressure,
                                   SamStep *step)
 {
-  SamNormalReason reason;
+  SamSolverReason reason;
   Vec             h = c->separation, predicted = NULL;
   char            message[sizeof(step->message)];
   PetscBool       possible;
@@ -280,15 +280,15 @@ static PetscErrorCode SolveNormal(SamContact c, const SamBalance *given, PetscBo
   c->normal_given = *given;
   c->normal_found = step->normal;
   PetscCall(Count(c, PETSC_FALSE, step));
-  PetscCall(SamNormalGetReason(c->normal, &reason));
-  if (reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) {
+  PetscCall(SamSolverGetReason(c->normal, &reason));
+  if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
     PetscCall(SamBalanceLever(c->grid, given, message, sizeof(message), &possible));
     if (possible)
       PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", sizeof(message)));
     PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
     PetscCall(
-      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamNormalReasonName(reason)));
+      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamSolverReasonName(reason)));
     PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -331,9 +331,9 @@ static PetscErrorCode CreateOffset(SamContact c, Vec *offset)
 
 static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, PetscBool guess, SamStep *step)
 {
-  SamTangentialReason reason;
-  Vec                 offset, bound;
-  char                message[sizeof(step->message)];
+  SamSolverReason reason;
+  Vec             offset, bound;
+  char            message[sizeof(step->message)];
 
   PetscFunctionBegin;
   PetscCall(CreateOffset(c, &offset));
@@ -347,13 +347,13 @@ static PetscErrorCode SolveTangential(SamContact c, const SamBalance *given, Pet
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) c->start[k] = step->tangential.rigid[k]; /* of the next pass */
   PetscCall(Count(c, PETSC_TRUE, step));
-  PetscCall(SamTangentialGetReason(c->tangential, &reason));
-  if (reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) {
+  PetscCall(SamSolverGetReason(c->tangential, &reason));
+  if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
     PetscCall(DescribeSliding(c, given, message, sizeof(message)));
     PetscCall(Fail(step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
     PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s",
-                            SamTangentialReasonName(reason)));
+                            SamSolverReasonName(reason)));
     PetscCall(Fail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -449,8 +449,8 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   char            message[sizeof(step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamNormalGetTolerances(c->normal, &normal_rtol, NULL));
-  PetscCall(SamTangentialGetTolerances(c->tangential, &tangential_rtol, NULL));
+  PetscCall(SamSolverGetTolerances(c->normal, &normal_rtol, NULL));
+  PetscCall(SamSolverGetTolerances(c->tangential, &tangential_rtol, NULL));
   if (c->coupled) normal_rtol += c->coupling_rtol; /* the last shear is one pass younger than the pressure */
   if (c->print_check)
     PetscCall(PetscPrintf(c->grid->comm,
