@@ -54,7 +54,6 @@ PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow win
     if (whole->given[k]) PetscCall(SamWindowTake(window, whole->given[k], level.given[k]));
   if (guess) PetscCall(SamWindowTake(window, whole->traction, level.traction));
   PetscCall(solve(s, &level, guess));
-  if (!guess) SamReturnMemory(); /* the method's, before the whole grid's shear is written to for the first time */
   PetscCall(SamWindowPut(window, level.traction, whole->traction));
   whole->frame = level.frame;
   for (PetscInt k = 0; k < 3; k++) whole->rigid[k] = level.rigid[k];
