@@ -10,6 +10,7 @@
 #include <petsam/fourier.h>
 #include <petsam/elasticity.h>
 #include <petsam/balance.h>
+#include <petsam/solver.h>
 #include <petsam/normal.h>
 #include <petsam/tangential.h>
 #include <petsam/control.h>

@@ -88,7 +88,7 @@ static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
   r->progress.shown_at = now;
 }
 
-static PetscErrorCode WatchNormal(void *normal, PetscInt it, PetscReal error, void *context)
+static PetscErrorCode WatchNormal(SamSolver normal, PetscInt it, PetscReal error, void *context)
 {
   PetscFunctionBegin;
   (void)normal;
@@ -96,7 +96,7 @@ static PetscErrorCode WatchNormal(void *normal, PetscInt it, PetscReal error, vo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode WatchTangential(void *tangential, PetscInt it, PetscReal error, void *context)
+static PetscErrorCode WatchTangential(SamSolver tangential, PetscInt it, PetscReal error, void *context)
 {
   PetscFunctionBegin;
   (void)tangential;
@@ -112,9 +112,9 @@ PetscErrorCode SamProgressWatch(SamReport r, SamContact contact)
   PetscFunctionBegin;
   if (!r->progress.active || r->contact == contact) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNormal(contact, &normal));
-  PetscCall(SamNormalMonitorSet(normal, WatchNormal, r));
+  PetscCall(SamSolverMonitorSet(normal, WatchNormal, r));
   PetscCall(SamContactGetTangential(contact, &tangential));
-  PetscCall(SamTangentialMonitorSet(tangential, WatchTangential, r));
+  PetscCall(SamSolverMonitorSet(tangential, WatchTangential, r));
   r->contact = contact;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -42,8 +42,8 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
 
   PetscFunctionBegin;
   if (!c) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamNormalDestroy(&c->normal));
-  PetscCall(SamTangentialDestroy(&c->tangential));
+  PetscCall(SamSolverDestroy(&c->normal));
+  PetscCall(SamSolverDestroy(&c->tangential));
   PetscCall(SamSolutionDestroy(&c->committed.solution));
   PetscCall(SamSolutionDestroy(&c->tried.solution));
   PetscCall(SamSolutionDestroy(&c->before));
@@ -58,8 +58,8 @@ PetscErrorCode SamContactSetOptionsPrefix(SamContact c, const char prefix[])
 {
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(c->prefix, prefix ? prefix : "", sizeof(c->prefix)));
-  PetscCall(SamNormalSetOptionsPrefix(c->normal, prefix));
-  PetscCall(SamTangentialSetOptionsPrefix(c->tangential, prefix));
+  PetscCall(SamSolverSetOptionsPrefix(c->normal, prefix));
+  PetscCall(SamSolverSetOptionsPrefix(c->tangential, prefix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,8 +120,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamContactSetCoupling(c, coupling ? PETSC_TRUE : PETSC_FALSE, rtol, max_it));
   PetscCall(SamContactSetWarmStart(c, warm));
   PetscCall(SamContactAllowEdge(c, edge));
-  PetscCall(SamNormalSetFromOptions(c->normal));
-  PetscCall(SamTangentialSetFromOptions(c->tangential));
+  PetscCall(SamSolverSetFromOptions(c->normal));
+  PetscCall(SamSolverSetFromOptions(c->tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -204,8 +204,8 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   SamCheckLimits  limits = {.equilibrium = CHECK_EQUILIBRIUM, .cone = CHECK_CONE, .edge = c->allow_edge};
 
   PetscFunctionBegin;
-  PetscCall(SamNormalGetTolerances(c->normal, &limits.normal, NULL));
-  PetscCall(SamTangentialGetTolerances(c->tangential, &limits.tangential, NULL));
+  PetscCall(SamSolverGetTolerances(c->normal, &limits.normal, NULL));
+  PetscCall(SamSolverGetTolerances(c->tangential, &limits.tangential, NULL));
   /* the last shear is one pass younger than the pressure */
   if (SamContactIsCoupled(c)) limits.normal += c->coupling_rtol;
   limits.normal *= CHECK_MARGIN;
@@ -292,9 +292,9 @@ static void SetUnknown(SamStep *step)
 
 PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *step)
 {
-  SamControl given = *control;
-  SamStart   start;
-  PetscBool  same_pressure = PETSC_FALSE;
+  SamControl   given = *control;
+  SamStepStart start;
+  PetscBool    same_pressure = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamContactReject(c));

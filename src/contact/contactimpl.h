@@ -102,10 +102,10 @@ static inline PetscBool SamContactIsCoupled(SamContact c)
 typedef struct {
   PetscBool pressure, shear; /* the tried solution holds a start of the pressure; of the shear */
   double    rigid[3];        /* start of the tangential rigid displacements */
-} SamStart;
+} SamStepStart;
 
 /* SamContactPredict - the start of a step, and whether there is one (predict.c). Collective. */
-PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStart *start);
+PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStepStart *start);
 /* SamFollowPressure - scales a shear that belonged to one pressure to another: what slips goes on slipping. */
 PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear);
 
@@ -113,7 +113,7 @@ PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before,
   SamContactSolveStep - solves the tried step's problems, in turn when they are coupled, from its start; what fails is in
   the step's status (step.c). `same_pressure`: the pressure is that of the committed state. Collective.
 */
-PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamStart *start, PetscBool same_pressure,
+PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamStepStart *start, PetscBool same_pressure,
                                                 SamStep *step);
 /* SamStepFail - the first failure stays: what comes after it follows from it. */
 PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);

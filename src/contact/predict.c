@@ -164,7 +164,7 @@ static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_sc
 /* ---- the start ---- */
 
 /* The pressure goes on from the last one where only the gap has changed since. */
-static PetscErrorCode StartFromLastPressure(SamContact c, SamStart *start)
+static PetscErrorCode StartFromLastPressure(SamContact c, SamStepStart *start)
 {
   PetscReal most;
 
@@ -176,14 +176,14 @@ static PetscErrorCode StartFromLastPressure(SamContact c, SamStart *start)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamStart *start)
+PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamStepStart *start)
 {
   const SamSolution *now   = &c->committed.solution;
   double             alpha = 0;
   PetscBool          found = PETSC_FALSE;
 
   PetscFunctionBegin;
-  *start = (SamStart){.pressure = PETSC_FALSE};
+  *start = (SamStepStart){.pressure = PETSC_FALSE};
   if (c->steps > 1 && c->warm) alpha = Continuation(&c->before.control, &now->control, control);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];

@@ -20,7 +20,7 @@ typedef struct {
   Vec          last_pressure, last_shear; /* of the pass before; coupled only */
 } Solve;
 
-static PetscErrorCode Begin(SamContact c, const SamStart *start, PetscBool same_pressure, SamStep *step, Solve *w)
+static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step, Solve *w)
 {
   PetscFunctionBegin;
   *w            = (Solve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
@@ -44,36 +44,59 @@ static PetscErrorCode End(Solve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- the normal problem ---- */
-
-static PetscErrorCode CountNormal(Solve *w)
+/* Adds what a solver's last solve took to the numbers of the step. */
+static PetscErrorCode Count(SamSolver solver, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions)
 {
-  PetscInt its, applies, preconditions;
+  PetscInt its, products, others;
 
   PetscFunctionBegin;
-  PetscCall(SamNormalGetStatistics(w->c->normal, NULL, &its, &applies, &preconditions));
-  w->step->normal_iterations += its;
-  w->step->normal_applies += applies;
-  w->step->normal_preconditions += preconditions;
+  PetscCall(SamSolverGetStatistics(solver, NULL, &its, &products, &others));
+  *iterations += its;
+  *applies += products;
+  *preconditions += others;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the normal problem ---- */
+
+/* Says which loads, or which approach, no pressure balances, and the limit. */
+static PetscErrorCode DescribeImpossible(Solve *w, char message[], size_t size)
+{
+  const SamGrid grid = w->c->grid;
+  PetscBool     possible;
+  PetscReal     sum;
+  Vec           h;
+
+  PetscFunctionBegin;
+  PetscCall(SamBalanceLever(grid, &w->normal, message, size, &possible));
+  if (!possible) PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->normal.force[0] || w->c->traits.mean) {
+    PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", size));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamProblemGetGap(w->c->problem, &h));
+  PetscCall(VecSum(h, &sum));
+  PetscCall(
+    PetscSNPrintf(message, size,
+                  "disp_z = %.8g m brings the mean surfaces together (limit %.8g, their mean separation): in full "
+                  "contact the approach no longer decides the pressure",
+                  (double)w->normal.rigid[0], (double)sum / ((double)grid->nx * (double)grid->ny)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode JudgeNormal(Solve *w)
 {
-  SamNormalReason reason;
-  PetscBool       possible;
+  SamSolverReason reason;
   char            message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamNormalGetReason(w->c->normal, &reason));
-  if (reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM) {
-    PetscCall(SamBalanceLever(w->c->grid, &w->normal, message, sizeof(message), &possible));
-    if (possible)
-      PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", sizeof(message)));
+  PetscCall(SamSolverGetReason(w->c->normal, &reason));
+  if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
+    PetscCall(DescribeImpossible(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
     PetscCall(
-      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamNormalReasonName(reason)));
+      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamSolverReasonName(reason)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -127,24 +150,12 @@ static PetscErrorCode SolveNormal(Solve *w, PetscBool has_pressure, PetscBool ha
   if (has_shear) PetscCall(SamFollowPressure(w->c->grid, predicted, w->s->pressure, w->s->shear));
   PetscCall(VecDestroy(&predicted));
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(CountNormal(w));
+  PetscCall(Count(w->c->normal, &w->step->normal_iterations, &w->step->normal_applies, &w->step->normal_preconditions));
   PetscCall(JudgeNormal(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the tangential problem ---- */
-
-static PetscErrorCode CountTangential(Solve *w)
-{
-  PetscInt its, applies, preconditions;
-
-  PetscFunctionBegin;
-  PetscCall(SamTangentialGetStatistics(w->c->tangential, NULL, &its, &applies, &preconditions));
-  w->step->tangential_iterations += its;
-  w->step->tangential_applies += applies;
-  w->step->tangential_preconditions += preconditions;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* Says which loads slide, and their limit. */
 static PetscErrorCode DescribeSliding(Solve *w, char message[], size_t size)
@@ -174,17 +185,17 @@ static PetscErrorCode DescribeSliding(Solve *w, char message[], size_t size)
 
 static PetscErrorCode JudgeTangential(Solve *w)
 {
-  SamTangentialReason reason;
-  char                message[sizeof(w->step->message)];
+  SamSolverReason reason;
+  char            message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamTangentialGetReason(w->c->tangential, &reason));
-  if (reason == SAM_TANGENTIAL_DIVERGED_GROSS_SLIP) {
+  PetscCall(SamSolverGetReason(w->c->tangential, &reason));
+  if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
     PetscCall(DescribeSliding(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
     PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s",
-                            SamTangentialReasonName(reason)));
+                            SamSolverReasonName(reason)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -256,7 +267,8 @@ static PetscErrorCode SolveTangential(Solve *w, PetscBool has_shear)
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(CountTangential(w));
+  PetscCall(Count(w->c->tangential, &w->step->tangential_iterations, &w->step->tangential_applies,
+                  &w->step->tangential_preconditions));
   PetscCall(JudgeTangential(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -301,7 +313,7 @@ static PetscErrorCode IsLastPass(Solve *w, PetscInt pass, PetscBool *last)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolvePasses(Solve *w, const SamStart *start)
+static PetscErrorCode SolvePasses(Solve *w, const SamStepStart *start)
 {
   PetscBool friction, last = PETSC_FALSE;
 
@@ -326,7 +338,7 @@ static PetscErrorCode SolvePasses(Solve *w, const SamStart *start)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactSolveStep(SamContact c, const SamStart *start, PetscBool same_pressure, SamStep *step)
+PetscErrorCode SamContactSolveStep(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step)
 {
   Solve w;
 

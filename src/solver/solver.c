@@ -1,7 +1,185 @@
-/* Tolerances, options, monitors and counts of a solver. */
+/* The base of all solvers: creation, the registries of types, settings, and the frame of a solve. */
 #include <petsam/private/solverimpl.h>
 
-PetscErrorCode SamSolverMonitorSet(SamSolver *s, SamSolverMonitor monitor, void *context)
+static SamSolverKind *kinds = NULL; /* those whose registries are in use */
+
+const char *SamSolverReasonName(SamSolverReason reason)
+{
+  switch (reason) {
+  case SAM_SOLVER_CONVERGED_RTOL:
+    return "CONVERGED_RTOL";
+  case SAM_SOLVER_CONVERGED_TRIVIAL:
+    return "CONVERGED_TRIVIAL";
+  case SAM_SOLVER_ITERATING:
+    return "ITERATING";
+  case SAM_SOLVER_DIVERGED_ITS:
+    return "DIVERGED_ITS";
+  case SAM_SOLVER_DIVERGED_NAN:
+    return "DIVERGED_NAN";
+  case SAM_SOLVER_DIVERGED_STAGNATED:
+    return "DIVERGED_STAGNATED";
+  case SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM:
+    return "DIVERGED_NO_EQUILIBRIUM";
+  }
+  return "unknown";
+}
+
+/* ---- registries ---- */
+
+static PetscErrorCode FreeRegistries(void)
+{
+  PetscFunctionBegin;
+  for (; kinds; kinds = kinds->next) {
+    kinds->registered = PETSC_FALSE;
+    PetscCall(PetscFunctionListDestroy(&kinds->types));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RegisterAll(SamSolverKind *kind)
+{
+  PetscFunctionBegin;
+  if (kind->registered) PetscFunctionReturn(PETSC_SUCCESS);
+  kind->registered = PETSC_TRUE;
+  if (!kinds) PetscCall(PetscRegisterFinalize(FreeRegistries));
+  kind->next = kinds;
+  kinds      = kind;
+  PetscCall(kind->registerall());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[], PetscErrorCode (*create)(SamSolver))
+{
+  PetscFunctionBegin;
+  PetscCall(RegisterAll(kind)); /* first, so that a type from outside replaces one of the same name */
+  PetscCall(PetscFunctionListAdd(&kind->types, name, create));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- life ---- */
+
+static PetscErrorCode DestroyType(SamSolver s)
+{
+  PetscFunctionBegin;
+  if (s->ops.destroy) PetscCall(s->ops.destroy(s));
+  PetscCall(PetscMemzero(&s->ops, sizeof(s->ops)));
+  s->data           = NULL;
+  s->default_levels = 1;
+  s->default_max_it = 1000;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, SamSolver *solver)
+{
+  SamSolver s;
+  SamGrid   grid;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(RegisterAll(kind));
+  PetscCall(PetscNew(&s));
+  PetscCall(SamElasticityReference(elasticity));
+  PetscCall(SamElasticityGetGrid(elasticity, &grid));
+  s->kind       = kind;
+  s->comm       = grid->comm;
+  s->elasticity = elasticity;
+  s->rtol       = kind->rtol;
+  PetscCall(SamSolverSetType(s, kind->default_type));
+  *solver = s;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverDestroy(SamSolver *solver)
+{
+  PetscFunctionBegin;
+  if (!*solver) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DestroyType(*solver));
+  PetscCall(SamElasticityDestroy(&(*solver)->elasticity));
+  PetscCall(PetscFree(*solver));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- settings ---- */
+
+PetscErrorCode SamSolverSetType(SamSolver s, SamSolverType type)
+{
+  PetscErrorCode (*create)(SamSolver);
+
+  PetscFunctionBegin;
+  PetscCall(PetscFunctionListFind(s->kind->types, type, &create));
+  if (!create) {
+    char types[256];
+
+    PetscCall(SamTypesList(s->kind->types, types, sizeof(types)));
+    SETERRQ(s->comm, SAM_ERR_USER, "%s is no type of %s solver: expected %s", type, s->kind->name, types);
+  }
+  PetscCall(DestroyType(s));
+  if (type != s->type) PetscCall(PetscStrncpy(s->type, type, sizeof(s->type)));
+  PetscCall(create(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverGetType(SamSolver s, SamSolverType *type)
+{
+  PetscFunctionBegin;
+  *type = s->type;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverSetOptionsPrefix(SamSolver s, const char prefix[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(s->prefix, prefix ? prefix : "", sizeof(s->prefix)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverSetTolerances(SamSolver s, PetscReal rtol, PetscInt max_it)
+{
+  PetscFunctionBegin;
+  PetscCheck(rtol == PETSC_DEFAULT || rtol > 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE, "rtol %g: expected a number > 0",
+             (double)rtol);
+  PetscCheck(max_it == PETSC_DEFAULT || max_it >= 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "max_it %" PetscInt_FMT ": expected a number >= 0", max_it);
+  if (rtol != PETSC_DEFAULT) s->rtol = rtol;
+  if (max_it != PETSC_DEFAULT) s->max_it = max_it;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverGetTolerances(SamSolver s, PetscReal *rtol, PetscInt *max_it)
+{
+  PetscFunctionBegin;
+  if (rtol) *rtol = s->rtol;
+  if (max_it) *max_it = SamSolverMaxIterations(s);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverSetLevels(SamSolver s, PetscInt levels)
+{
+  PetscFunctionBegin;
+  PetscCheck(levels >= 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE, "levels %" PetscInt_FMT ": expected a number >= 0",
+             levels);
+  s->levels = levels;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver s, PetscBool error)
+{
+  PetscFunctionBegin;
+  s->error_if_not_converged = error;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt SamSolverMaxIterations(SamSolver s)
+{
+  return s->max_it ? s->max_it : s->default_max_it;
+}
+
+PetscInt SamSolverLevels(SamSolver s)
+{
+  return s->levels ? s->levels : s->default_levels;
+}
+
+PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *context)
 {
   PetscFunctionBegin;
   PetscCheck(s->monitors < SAM_MONITORS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d monitors",
@@ -11,99 +189,49 @@ PetscErrorCode SamSolverMonitorSet(SamSolver *s, SamSolverMonitor monitor, void 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode MonitorError(void *owner, PetscInt it, PetscReal error, void *context)
+/* ---- the solve and its results ---- */
+
+PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamLevel *problem, PetscBool guess)
 {
-  const SamSolver *s = (const SamSolver *)context;
+  SamLevel level = *problem;
 
   PetscFunctionBegin;
-  (void)owner;
-  PetscCall(PetscPrintf(s->comm, "%5" PetscInt_FMT " %s %s error %.6e\n", it, s->kind, s->type, (double)error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSolverSetFromOptions(SamSolver *s, const char types[], char type[], size_t size, PetscBool *set_type)
-{
-  char             prefix[96], title[48];
-  PetscBool        monitor = s->monitor_error, ignored;
-  const SamOptions from    = {s->comm, prefix};
-
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "%s%s_", s->prefix, s->kind));
-  PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind));
-  PetscCall(SamOptionsHeading(&from, title));
-  PetscCall(PetscStrncpy(type, s->type, size));
-  PetscCall(SamOptionsString(&from, "type", types, type, size, set_type));
-  PetscCall(SamOptionsReal(&from, "rtol", s->error_help, SAM_RANGE_POSITIVE, &s->rtol, NULL));
-  PetscCall(
-    SamOptionsInt(&from, "max_it", "iterations on the finest grid, 0: the type's default", 0, &s->max_it, NULL));
-  PetscCall(SamOptionsInt(&from, "levels", "nested grids, 0: the type's default", 0, &s->levels, NULL));
-  PetscCall(SamOptionsBool(&from, "monitor", "print the error after each iteration", &monitor, NULL));
-  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "stop with an error", &s->error_if_not_converged, NULL));
-  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print why the solver stopped", &ignored));
-  PetscCall(SamOptionsHasViewer(&from, "view", "print the solver's settings", &ignored));
-  if (monitor && !s->monitor_error) PetscCall(SamSolverMonitorSet(s, MonitorError, s));
-  s->monitor_error = monitor;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscInt SamSolverMaxIterations(const SamSolver *s)
-{
-  return s->max_it ? s->max_it : s->default_max_it;
-}
-
-PetscInt SamSolverLevels(const SamSolver *s)
-{
-  return s->levels ? s->levels : s->default_levels;
-}
-
-PetscErrorCode SamSolverView(const SamSolver *s, PetscViewer viewer)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Solver of the %s problem: type %s\n", s->kind, s->type));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  rtol %g, max_it %" PetscInt_FMT ", nested grids ", (double)s->rtol,
-                                   SamSolverMaxIterations(s)));
-  if (SamSolverLevels(s) == PETSC_MAX_INT)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "as many as the grid allows\n"));
-  else
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT "\n", SamSolverLevels(s)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSolverViewFromOptions(const SamSolver *s, PetscBool converged, const char reason[])
-{
-  PetscViewer       viewer;
-  PetscViewerFormat format;
-  PetscBool         set;
-  char              prefix[96];
-
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "%s%s_", s->prefix, s->kind));
-  PetscCall(SamGetViewer(s->comm, prefix, "-view", &viewer, &format, &set));
-  if (set) {
-    PetscCall(SamSolverView(s, viewer));
-    PetscCall(PetscViewerDestroy(&viewer));
-  }
-  PetscCall(SamGetViewer(s->comm, prefix, "-converged_reason", &viewer, &format, &set));
-  if (set) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "The %s solve %s due to %s iterations %" PetscInt_FMT "\n", s->kind,
-                                     converged ? "converged" : "did not converge", reason, s->iterations));
-    PetscCall(PetscViewerDestroy(&viewer));
-  }
-  PetscCheck(converged || !s->error_if_not_converged, s->comm, PETSC_ERR_NOT_CONVERGED,
-             "The %s solve did not converge due to %s", s->kind, reason);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-void SamSolverStart(SamSolver *s)
-{
+  PetscCheck(s->kind == kind, s->comm, PETSC_ERR_ARG_WRONG, "A %s solver cannot solve the %s problem", s->kind->name,
+             kind->name);
+  PetscCheck(level.balance->kind == kind->balance, s->comm, PETSC_ERR_ARG_WRONG, "The %s solver wants a %s balance",
+             kind->name, kind->name);
+  PetscCall(PetscLogEventBegin(SamEvents[kind->event], 0, 0, 0, 0));
   s->iterations = s->applies = s->preconditions = 0;
   s->error                                      = 0;
+  s->limit                                      = PETSC_INFINITY;
+  s->reason                                     = SAM_SOLVER_ITERATING;
+  level.elasticity                              = s->elasticity;
+  level.rtol                                    = s->rtol;
+  level.finest                                  = PETSC_TRUE;
+  PetscCall(SamElasticityGetGrid(s->elasticity, &level.grid));
+  PetscCall(kind->solve(s, &level, guess));
+  PetscCall(PetscLogEventEnd(SamEvents[kind->event], 0, 0, 0, 0));
+  PetscCheck(s->reason, s->comm, PETSC_ERR_PLIB, "Method %s set no reason", s->type);
+  PetscCall(SamSolverViewFromOptions(s));
+  PetscCheck(s->reason > 0 || !s->error_if_not_converged, s->comm, PETSC_ERR_NOT_CONVERGED,
+             "The %s solve did not converge due to %s", kind->name, SamSolverReasonName(s->reason));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolverCallMonitors(SamSolver *s, PetscReal error)
+PetscErrorCode SamSolverGetReason(SamSolver s, SamSolverReason *reason)
 {
   PetscFunctionBegin;
-  for (PetscInt m = 0; m < s->monitors; m++)
-    PetscCall(s->monitor[m](s->owner, s->iterations, error, s->monitor_context[m]));
+  *reason = s->reason;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverGetStatistics(SamSolver s, PetscReal *error, PetscInt *iterations, PetscInt *applies,
+                                      PetscInt *preconditions)
+{
+  PetscFunctionBegin;
+  if (error) *error = s->error;
+  if (iterations) *iterations = s->iterations;
+  if (applies) *applies = s->applies;
+  if (preconditions) *preconditions = s->preconditions;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

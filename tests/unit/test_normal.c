@@ -21,33 +21,33 @@ static SamBalance Displaced(const PetscReal rigid[3])
 }
 
 typedef struct {
-  SamNormalReason reason;
+  SamSolverReason reason;
   PetscReal       error;
   PetscInt        iterations, applies, preconditions;
 } Outcome;
 
 /* Solves with a new solver; type NULL: the default, rtol 0: the default. */
-static Outcome Solve(SamElasticity elasticity, Vec h, SamNormalType type, double rtol, SamBalance *balance, Vec p)
+static Outcome Solve(SamElasticity elasticity, Vec h, SamSolverType type, double rtol, SamBalance *balance, Vec p)
 {
   SamNormal normal;
   Outcome   o;
 
   sam_call(SamNormalCreate(elasticity, &normal));
-  if (type) sam_call(SamNormalSetType(normal, type));
-  if (rtol > 0) sam_call(SamNormalSetTolerances(normal, rtol, PETSC_DEFAULT));
+  if (type) sam_call(SamSolverSetType(normal, type));
+  if (rtol > 0) sam_call(SamSolverSetTolerances(normal, rtol, PETSC_DEFAULT));
   sam_call(SamNormalSolve(normal, h, balance, PETSC_FALSE, p));
-  sam_call(SamNormalGetReason(normal, &o.reason));
-  sam_call(SamNormalGetStatistics(normal, &o.error, &o.iterations, &o.applies, &o.preconditions));
-  sam_call(SamNormalDestroy(&normal));
+  sam_call(SamSolverGetReason(normal, &o.reason));
+  sam_call(SamSolverGetStatistics(normal, &o.error, &o.iterations, &o.applies, &o.preconditions));
+  sam_call(SamSolverDestroy(&normal));
   if (getenv("SAM_SHOW"))
-    print_message("# %s %s error %g its %d S %d M %d\n", type ? type : "", SamNormalReasonName(o.reason), o.error,
+    print_message("# %s %s error %g its %d S %d M %d\n", type ? type : "", SamSolverReasonName(o.reason), o.error,
                   (int)o.iterations, (int)o.applies, (int)o.preconditions);
   return o;
 }
 
-static void SolveWell(SamElasticity elasticity, Vec h, SamNormalType type, double rtol, SamBalance *balance, Vec p)
+static void SolveWell(SamElasticity elasticity, Vec h, SamSolverType type, double rtol, SamBalance *balance, Vec p)
 {
-  sam_assert(Solve(elasticity, h, type, rtol, balance, p).reason == SAM_NORMAL_CONVERGED_RTOL);
+  sam_assert(Solve(elasticity, h, type, rtol, balance, p).reason == SAM_SOLVER_CONVERGED_RTOL);
 }
 
 /* ---- Hertz ---- */
@@ -68,7 +68,7 @@ static double RelativeToHertz(const Sphere *s, Vec p)
 }
 
 /* Errors of the pressure in the 2-norm and of the approach a^2/R, for both types. */
-static void HertzErrors(PetscInt n, SamNormalType type, double *pressure, double *approach)
+static void HertzErrors(PetscInt n, SamSolverType type, double *pressure, double *approach)
 {
   Sphere     s       = NewSphere(n, 1.5, 0.3);
   SamBalance balance = Forced(s.N, 0, 0);
@@ -86,7 +86,7 @@ static void HertzErrors(PetscInt n, SamNormalType type, double *pressure, double
   DestroySphere(&s);
 }
 
-static void AssertHertz(SamNormalType type)
+static void AssertHertz(SamSolverType type)
 {
   double coarse[2], fine[2];
 
@@ -122,7 +122,7 @@ static void test_iterations_do_not_grow_with_the_grid(void **state)
     Vec        p       = NewField(s.grid, 1);
     Outcome    o       = Solve(s.elasticity, s.h, NULL, 0, &balance, p);
 
-    sam_assert(o.reason == SAM_NORMAL_CONVERGED_RTOL);
+    sam_assert(o.reason == SAM_SOLVER_CONVERGED_RTOL);
     sam_assert(o.applies <= 20); /* 12 to 16 as a prototype measured up to 1024 */
     sam_call(VecDestroy(&p));
     DestroySphere(&s);
@@ -244,10 +244,10 @@ static void test_start_from_the_solution_ends_at_once(void **state)
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
   sam_call(VecCopy(p, q));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_TRUE, q));
-  sam_call(SamNormalGetStatistics(normal, NULL, NULL, &applies, NULL));
+  sam_call(SamSolverGetStatistics(normal, NULL, NULL, &applies, NULL));
   sam_assert(applies <= 3);
   sam_assert_close(Difference(q, p, NORM_2), 0, 1e-6);
-  sam_call(SamNormalDestroy(&normal));
+  sam_call(SamSolverDestroy(&normal));
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
   DestroySphere(&s);
@@ -297,7 +297,7 @@ static void test_contact_grows_beyond_the_window_of_its_start(void **state)
   sam_assert(before[0] > 0 && (after[0] == 0 || after[0] > 2 * before[0]));
   sam_call(SamNormalSolve(normal, s.h, &again, PETSC_FALSE, q));
   sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6);
-  sam_call(SamNormalDestroy(&normal));
+  sam_call(SamSolverDestroy(&normal));
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
   DestroySphere(&s);
@@ -423,7 +423,7 @@ static void test_bodies_without_load_or_overlap_are_separated(void **state)
   cases[2].force[1] = cases[2].force[2] = PETSC_TRUE; /* no moments on what does not touch */
   for (int k = 0; k < 3; k++) {
     sam_call(VecSet(p, 1));
-    sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_CONVERGED_SEPARATED);
+    sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_SOLVER_CONVERGED_TRIVIAL);
     sam_assert(Norm(p, NORM_INFINITY) == 0);
     sam_assert(cases[k].load[0] == 0 && cases[k].load[1] == 0 && cases[k].load[2] == 0);
   }
@@ -441,7 +441,7 @@ static void test_moment_beyond_the_grid_has_no_equilibrium(void **state)
 
   (void)state;
   for (int k = 0; k < 4; k++)
-    sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM);
+    sam_assert(Solve(s.elasticity, s.h, NULL, 0, &cases[k], p).reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM);
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -456,7 +456,7 @@ static void test_tension_is_refused(void **state)
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_fails(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p), SAM_ERR_USER);
-  sam_call(SamNormalDestroy(&normal));
+  sam_call(SamSolverDestroy(&normal));
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -467,17 +467,17 @@ static void test_too_few_iterations_are_a_reason_not_an_error(void **state)
   SamBalance      balance = Forced(s.N, 0, 0);
   Vec             p       = NewField(s.grid, 1);
   SamNormal       normal;
-  SamNormalReason reason;
+  SamSolverReason reason;
 
   (void)state;
   for (int k = 0; k < 2; k++) {
     sam_call(SamNormalCreate(s.elasticity, &normal));
-    sam_call(SamNormalSetType(normal, k ? SAM_NORMAL_POLONSKYKEER : SAM_NORMAL_ACTIVESET));
-    sam_call(SamNormalSetTolerances(normal, PETSC_DEFAULT, 2));
+    sam_call(SamSolverSetType(normal, k ? SAM_NORMAL_POLONSKYKEER : SAM_NORMAL_ACTIVESET));
+    sam_call(SamSolverSetTolerances(normal, PETSC_DEFAULT, 2));
     sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
-    sam_call(SamNormalGetReason(normal, &reason));
-    sam_assert(reason == SAM_NORMAL_DIVERGED_ITS);
-    sam_call(SamNormalDestroy(&normal));
+    sam_call(SamSolverGetReason(normal, &reason));
+    sam_assert(reason == SAM_SOLVER_DIVERGED_ITS);
+    sam_call(SamSolverDestroy(&normal));
   }
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
@@ -528,7 +528,7 @@ static void test_flat_body_touches_everywhere_on_any_grid(void **state)
   }
 }
 
-static PetscErrorCode Remember(void *normal, PetscInt it, PetscReal error, void *context)
+static PetscErrorCode Remember(SamSolver normal, PetscInt it, PetscReal error, void *context)
 {
   double *seen = (double *)context;
 
@@ -550,12 +550,12 @@ static void test_monitors_add_up_and_see_every_iteration(void **state)
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
-  sam_call(SamNormalMonitorSet(normal, Remember, seen[0]));
-  sam_call(SamNormalMonitorSet(normal, Remember, seen[1]));
+  sam_call(SamSolverMonitorSet(normal, Remember, seen[0]));
+  sam_call(SamSolverMonitorSet(normal, Remember, seen[1]));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
-  sam_call(SamNormalGetStatistics(normal, NULL, &its, NULL, NULL));
+  sam_call(SamSolverGetStatistics(normal, NULL, &its, NULL, NULL));
   for (int k = 0; k < 2; k++) sam_assert(seen[k][0] == its && seen[k][1] == its && seen[k][2] <= 1e-8);
-  sam_call(SamNormalDestroy(&normal));
+  sam_call(SamSolverDestroy(&normal));
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }

@@ -1,11 +1,12 @@
 /*
-  The frame in which the solvers keep equilibrium.
+  The frame in which the solvers keep equilibrium, rows of cells in it, and the projections onto admissible tractions in
+  equilibrium.
 
   Rigid displacements are combinations a[0..2] of three dimensionless fields phi about the grid's centre,
     normal      1, -eta, xi
     tangential  (1, 0), (0, 1), (-eta, xi)          xi = (x - xc)/length, eta = (y - yc)/length,
-  well conditioned wherever the grid lies. Of these, the force-controlled components span a subspace; its orthonormal
-  basis is the `count` rows of `basis`. The given displacements are the combination `fixed`.
+  which are well conditioned wherever the grid lies. The force-controlled components span a subspace of them; its
+  orthonormal basis is the `count` rows of `basis`. The given displacements are the combination `fixed`.
 */
 #ifndef PETSAM_BALANCEIMPL_H
 #define PETSAM_BALANCEIMPL_H
@@ -19,28 +20,51 @@ typedef struct {
   PetscInt       count;        /* force-controlled components */
   PetscInt       component[3]; /* which they are */
   double         basis[3][3];  /* (count, 3) */
-  double         lower[3][3];  /* rows of the components in the phi = lower * basis */
+  double         lower[3][3];  /* the components as combinations of the phi = lower * basis */
   double         target[3];    /* what sum phi traction must be along the basis: loads/(dx dy) in the basis */
-  double         fixed[3];     /* given rigid displacement */
-  double         xi0;          /* of the first column */
-  double         dxi, deta;
+  double         fixed[3];     /* the given rigid displacement as a combination of the phi */
+  double         xi0;          /* xi of the first column */
+  double         dxi, deta;    /* steps of xi and eta from cell to cell */
 } SamFrame;
 
+/* SamFrameSet - the frame of a grid (borrowed) for what a balance controls. Not collective. */
 PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
-/* The same with all rigid displacements given as they stand in the balance. */
+/* SamFrameSetGiven - the same with all rigid displacements given as they stand in the balance. */
 PETSC_EXTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
-/* Rigid displacements of the force-controlled components from a free combination a of the phi. */
+/* SamFrameGetRigid - rigid displacements of the force-controlled components, from a free combination a of the phi. */
 PETSC_EXTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
-/* Loads of all three components from sum phi traction (not times the cell's area). */
+/* SamFrameGetLoads - loads of all three components from the sums of phi traction over the cells. */
 PETSC_EXTERN void SamFrameGetLoads(const SamFrame *frame, const double sums[3], PetscReal loads[3]);
 
-/* eta of this rank's row j, the same to the last digit wherever the row is. */
+/* eta of this rank's row j: to the last bit the same on whatever rank the row is. */
 static inline double SamFrameEta(const SamFrame *f, PetscInt j)
 {
   return ((double)(f->grid->row_start + j) + 0.5 - 0.5 * (double)f->grid->ny) * f->deta;
 }
 
-/* Normal rigid displacement and the two parts of the tangential one at (xi, eta). */
+/*
+  SamRow - neighbouring cells of one row, for loops over them. `first` is the index of the first of them in this rank's
+  arrays; cell i = 0 ... count - 1 has its centre at (xi0 + i dxi, eta). The count has 32 bits, as GCC does not vectorise
+  the conversion of a longer index to a double.
+*/
+typedef struct {
+  ptrdiff_t first;
+  int       column, count; /* column: of the first of them */
+  double    xi0, dxi, eta;
+} SamRow;
+
+/* SamFrameRow - the cells in the columns from ... to - 1 of this rank's row j. */
+static inline SamRow SamFrameRow(const SamFrame *f, PetscInt j, PetscInt from, PetscInt to)
+{
+  return (SamRow){.first  = (ptrdiff_t)j * f->grid->nx + from,
+                  .column = (int)from,
+                  .count  = (int)(to - from),
+                  .xi0    = f->xi0 + (double)from * f->dxi,
+                  .dxi    = f->dxi,
+                  .eta    = SamFrameEta(f, j)};
+}
+
+/* The normal rigid displacement a at (xi, eta), and the two components of the tangential one. */
 static inline double SamFrameNormal(const double a[3], double xi, double eta)
 {
   return a[0] - a[1] * eta + a[2] * xi;
@@ -54,7 +78,7 @@ static inline double SamFrameY(const double a[3], double xi)
   return a[1] + a[2] * xi;
 }
 
-/* The cells first ... last - 1 of a row of n between which there is a bound: loops run over these only. */
+/* The columns first ... last - 1 of a row of n outside of which the bound is zero: loops run over these only. */
 static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *first, PetscInt *last)
 {
   PetscInt i = 0, j = n;
@@ -65,12 +89,12 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
   *last  = j;
 }
 
-/* Cells of a row looked at together: where all of them are within their discs, roots and divisions are spared. */
+/* Cells of a row that are taken together: where all of them lie within their discs, no root or division is needed. */
 #define SAM_CHUNK 256
 
 /*
-  Cells of a row that are passed over together when none of them counts: few of a rough surface are in contact. Which
-  stretches count is kept as one char each, those of a row together.
+  Stretches: cells of a row that loops pass over together when none of them takes part, as on a rough surface few cells
+  are in contact. An array `busy` of one char a stretch, row after row, says which ones take part.
 */
 #define SAM_STRETCH 64
 
@@ -80,8 +104,8 @@ static inline PetscInt SamStretches(SamGrid grid)
 }
 
 /*
-  The next cells first ... last - 1 of a row of nx, from `last` on, whose stretches all count; `busy` NULL: the whole
-  row.
+  SamNextBusy - the next cells first ... last - 1 of a row of nx, from column `last` on, whose stretches are all busy;
+  `busy` is that of the row, NULL: all. PETSC_FALSE when there are no more.
 */
 static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *first, PetscInt *last)
 {
@@ -97,7 +121,7 @@ static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *fi
   return PETSC_TRUE;
 }
 
-/* Gram matrices sum phi phi' are kept as their six upper entries 00, 01, 02, 11, 12, 22. */
+/* Gram matrices sum phi phi' are stored as their six upper entries 00, 01, 02, 11, 12, 22. */
 #define SAM_GRAM 6
 
 /* Adds a cell to the Gram matrix of the normal phi. */
@@ -111,7 +135,7 @@ static inline void SamGramAddNormal(double gram[SAM_GRAM], double xi, double eta
   gram[5] += xi * xi;
 }
 
-/* Adds the cells of a row, from their number and their sums of xi and xi^2. */
+/* The same for the cells of a row, from their number and their sums of xi and xi^2. */
 static inline void SamGramNormalRow(double gram[SAM_GRAM], double count, double xi, double xi2, double eta)
 {
   gram[0] += count;
@@ -135,60 +159,67 @@ static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, doubl
 }
 
 /*
-  Adds a cell to the sums of a vectorised row, which are variables of these names: a projected vector (px, py) with the
-  phi, and the parts of the weighted Gram matrix for SamGramTangentialRow().
+  Adds a cell to the sums in a vectorised loop, which must be local variables of these names: a projected vector
+  (px, py) with the phi, and the parts of the weighted Gram matrix for SamGramTangentialRow().
 */
 #define SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi) \
   x += (px), y += (py), turn += (xi) * (py), hxx += (gxx), hxy += (gxy), hyy += (gyy), xi_hxy += (xi) * (gxy), \
     xi_hyy += (xi) * (gyy), xi2_hyy += (xi) * (xi) * (gyy)
 
-/* The same for the cells of a row, from their sums of hxx, hxy, hyy, xi hxy, xi hyy and xi^2 hyy. */
-static inline void SamGramTangentialRow(double gram[SAM_GRAM], double hxx, double hxy, double hyy, double xi_hxy,
-                                        double xi_hyy, double xi2_hyy, double eta)
+/* The same for the cells of a row, from their sums h of hxx, hxy, hyy, xi hxy, xi hyy and xi^2 hyy. */
+static inline void SamGramTangentialRow(double gram[SAM_GRAM], const double h[6], double eta)
 {
-  gram[0] += hxx;
-  gram[1] += hxy;
-  gram[2] += -eta * hxx + xi_hxy;
-  gram[3] += hyy;
-  gram[4] += -eta * hxy + xi_hyy;
-  gram[5] += eta * eta * hxx - 2 * eta * xi_hxy + xi2_hyy;
+  gram[0] += h[0];
+  gram[1] += h[1];
+  gram[2] += -eta * h[0] + h[3];
+  gram[3] += h[2];
+  gram[4] += -eta * h[1] + h[4];
+  gram[5] += eta * eta * h[0] - 2 * eta * h[3] + h[5];
 }
 
 /*
-  The combination a of the free phi with gram a = sums within the free subspace, in the sense of least squares when
-  the Gram matrix is singular there.
+  SamFrameSolve - the combination a of the free phi with gram a = sums within the free subspace; where the Gram matrix
+  is singular there, the shortest one that leaves the least residual.
 */
 PETSC_EXTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3], double a[3]);
 
 /*
-  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 elsewhere, where it is
+  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 on those where it is
   0, with the a for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when
-  there is none (p is then left as it was). Collective.
+  there is none; p is then as it was. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[],
                                                   PetscBool *found);
 
+/* SamPressureStep - a step of a pressure, for the next function. Arrays of this rank's cells. */
+typedef struct {
+  const float *mask; /* 1 on cells that may have pressure, 0 on others */
+  const char  *busy; /* stretches with cells in the mask, or with pressure */
+  const float *step; /* the pressure goes by `by` times this */
+  double       by;
+  float       *made; /* result: `scale` times the change of the pressure */
+  double       scale;
+} SamPressureStep;
+
 /*
-  SamFrameProjectNormalStep - the same for p + by step, which nearly carries the loads: p becomes an admissible
-  pressure, the nearest where one step of Newton's method finds it, else one as near, and `made` is `scale` times its
-  change, in single precision like the step. `busy`: the stretches that have cells in the mask, or pressure. Not found:
-  p is as it was, to the rounding of `made`.
+  SamFrameProjectNormalStep - the same for p + by step, when that nearly carries the loads. p becomes an admissible
+  pressure: the nearest one where a single step of Newton's method finds it, else one about as near. Not found: p is as
+  it was, to the rounding of `made`. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const float mask[], const char busy[],
-                                                      double p[], double by, const float step[], double scale,
-                                                      float made[], PetscBool *found);
+PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const SamPressureStep *step, double p[],
+                                                      PetscBool *found);
 
 /*
   SamFrameProjectNormalOnContact - the same on the cells that have pressure, if those can carry the loads, else on all.
-  (The nearest pressure on all cells would spread a little over the whole grid.)
+  (The nearest pressure on all cells would be positive, though small, over much of the grid.) Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
-  SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear on the disc of radius bound, with
-  the a for which the force-controlled loads are exact. `found` is false when there is none (q is then of no use). The
-  result is admissible to rounding in any case; with `nearest` it is the nearest such shear too, without it, which is
-  faster, that may hold to 1e-6 of the change only. Collective.
+  SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear onto the disc of radius bound,
+  with the a for which the force-controlled loads are exact. `found` is false when there is none; q is then of no use.
+  The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
+  faster, it may differ from that by 1e-6 of the change. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], PetscBool nearest,
                                                       double q[], PetscBool *found);

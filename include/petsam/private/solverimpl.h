@@ -1,49 +1,189 @@
-/* What both solver classes are made of besides their numerics: tolerances, options, monitors, counts. */
-#ifndef PETSAM_SOLVER_H
-#define PETSAM_SOLVER_H
+/*
+  The inside of SamSolver, for its kinds and for methods, also those from outside of the library.
 
+  A method is a function that solves the problem on one grid, a SamLevel. Its create function, registered by
+  SamNormalRegister() or SamTangentialRegister(), sets solver->ops.solve and the defaults:
+
+      PetscErrorCode SamNormalCreate_Mine(SamSolver solver)
+      {
+        solver->ops.solve      = SamNormalSolve_Mine;
+        solver->default_levels = 1;
+        solver->default_max_it = 1000;
+        return PETSC_SUCCESS;
+      }
+
+  The solve function finds an admissible start in level->traction (see the kind's header), applies the operators by
+  SamLevelApply() and its relatives, which count, calls SamLevelIterated() after each iteration, and sets
+  level->traction, level->rigid, solver->reason and solver->error.
+*/
+#ifndef PETSAM_SOLVERIMPL_H
+#define PETSAM_SOLVERIMPL_H
+
+#include <petsam/private/balanceimpl.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/solver.h>
 
-#define SAM_MONITORS 5
+#define SAM_MONITORS 5 /* most of one solver */
+#define SAM_GIVEN    2 /* most given fields of a kind of problem */
 
-/* A monitor gets the object that holds this part. */
-typedef PetscErrorCode (*SamSolverMonitor)(void *owner, PetscInt it, PetscReal error, void *context);
-
+/* The problem on one grid, as a method meets it: one of the nested grids, the whole finest grid or a window of it. */
 typedef struct {
+  SamElasticity elasticity;
+  SamGrid       grid;
+  SamFrame      frame;            /* the rigid displacements in this grid's coordinates */
+  SamBalance   *balance;          /* what is controlled; the kind writes the results into it */
+  Vec           given[SAM_GIVEN]; /* the given fields, as the kind's header numbers them; NULL: zero */
+  Vec           traction;         /* the unknown: start and result */
+  PetscReal     rtol;
+  PetscBool     finest;   /* only work on the finest grid is counted and shown to monitors */
+  double        rigid[3]; /* start and result: rigid displacement as a combination of the phi, fixed part included */
+} SamLevel;
+
+/* Where the traction of a level comes from when its solve begins. */
+typedef enum {
+  SAM_START_NONE,   /* nowhere: it is zero or not set */
+  SAM_START_COARSE, /* from the next coarser grid */
+  SAM_START_GUESS   /* from the caller */
+} SamStart;
+
+typedef struct _n_SamSolverKind SamSolverKind;
+struct _n_SamSolverKind {
+  const char    *name;       /* "normal": in the names of options and in messages */
+  const char    *error_help; /* what the relative error is */
+  SamBalanceKind balance;
+  SamEvent       event;
+  SamSolverType  default_type;
+  PetscReal      rtol, coarse_rtol;           /* default, and the least on coarse grids */
+  PetscInt       components;                  /* of the traction */
+  PetscInt       given_components[SAM_GIVEN]; /* of the given fields */
+  /* the influence operator of this kind and its approximate inverse */
+  PetscErrorCode (*apply)(SamElasticity elasticity, Vec traction, Vec u);
+  PetscErrorCode (*applysingle)(SamElasticity elasticity, double factor, const float traction[], float u[]);
+  PetscErrorCode (*preconditionsingle)(SamElasticity elasticity, double factor, const float r[], float z[]);
+  /* the whole solve, on the level of the finest grid: sets the reason, the traction and the balance */
+  PetscErrorCode (*solve)(SamSolver solver, SamLevel *level, PetscBool guess);
+  /* one of the nested grids, from that start: sets the reason, the traction and the rigid displacement */
+  PetscErrorCode (*solvelevel)(SamSolver solver, SamLevel *level, SamStart start);
+  /* the start of a level from the solution on the next coarser grid */
+  PetscErrorCode (*prolong)(SamTransfer transfer, const SamLevel *coarse, SamLevel *fine);
+  /* registers the types that come with the library */
+  PetscErrorCode (*registerall)(void);
+  /* the registry */
+  PetscFunctionList types;
+  PetscBool         registered;
+  SamSolverKind    *next;
+};
+
+struct _n_SamSolver {
   /* fixed at creation */
-  MPI_Comm    comm;
-  void       *owner;
-  const char *kind; /* "normal", "tangential": between the user's prefix and the option's name */
-  const char *error_help;
+  SamSolverKind *kind;
+  MPI_Comm       comm;
+  SamElasticity  elasticity;
+  /* what the type sets; all but solve may be NULL */
+  struct {
+    PetscErrorCode (*solve)(SamSolver solver, SamLevel *level);
+    PetscErrorCode (*setfromoptions)(SamSolver solver, const SamOptions *from); /* prefix up to `<kind>_` */
+    PetscErrorCode (*view)(SamSolver solver, PetscViewer viewer);
+    PetscErrorCode (*destroy)(SamSolver solver); /* frees `data` */
+  } ops;
+  void    *data; /* the type's own */
+  PetscInt default_levels, default_max_it;
   /* what the user set; 0 stands for the type's default */
-  char      type[32];
-  char      prefix[64];
-  PetscReal rtol;
-  PetscInt  max_it, levels;
-  PetscBool monitor_error, error_if_not_converged;
-  /* monitors */
+  char             type[64], prefix[64];
+  PetscReal        rtol;
+  PetscInt         max_it, levels;
+  PetscBool        monitor_error, error_if_not_converged;
+  PetscInt         monitors;
   SamSolverMonitor monitor[SAM_MONITORS];
   void            *monitor_context[SAM_MONITORS];
-  PetscInt         monitors;
-  /* the type's defaults */
-  PetscInt default_levels, default_max_it;
-  /* status, of the finest grid */
-  PetscReal error;
-  PetscInt  iterations, applies, preconditions;
-} SamSolver;
+  /* of the last solve, on the finest grid */
+  SamSolverReason reason;
+  PetscReal       error;
+  PetscInt        iterations, applies, preconditions;
+  PetscReal       limit; /* tangential: factor on the loads at which sliding begins; infinite: not looked for */
+};
 
-PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver *solver, SamSolverMonitor monitor, void *context);
-/* Reads all options but the type, which is returned when given. */
-PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver *solver, const char types[], char type[], size_t size,
-                                                    PetscBool *set_type);
-PETSC_EXTERN PetscErrorCode SamSolverView(const SamSolver *solver, PetscViewer viewer);
-/* -view and -converged_reason, after a solve. */
-PETSC_EXTERN PetscErrorCode SamSolverViewFromOptions(const SamSolver *solver, PetscBool converged, const char reason[]);
-/* Clears the counts. */
-PETSC_EXTERN void     SamSolverStart(SamSolver *solver);
-PETSC_EXTERN PetscInt SamSolverMaxIterations(const SamSolver *solver);
-PETSC_EXTERN PetscInt SamSolverLevels(const SamSolver *solver);
-/* Calls the monitors with the number of iterations so far. */
-PETSC_EXTERN PetscErrorCode SamSolverCallMonitors(SamSolver *solver, PetscReal error);
+/* ---- for kinds ---- */
+
+PETSC_EXTERN PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, SamSolver *solver);
+PETSC_EXTERN PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[],
+                                              PetscErrorCode (*create)(SamSolver));
+/* SamSolverSolve - checks the kinds of solver and balance, clears the counts, solves, views. Collective. */
+PETSC_EXTERN PetscErrorCode SamSolverSolve(SamSolver solver, const SamSolverKind *kind, const SamLevel *problem,
+                                           PetscBool guess);
+/* SamSolverViewFromOptions - obeys -<kind>_view and -<kind>_converged_reason after a solve. Collective. */
+PETSC_EXTERN PetscErrorCode SamSolverViewFromOptions(SamSolver solver);
+
+/*
+  SamLevelSolveNested - solves on the level's grid, first on up to depth - 1 coarser ones, each of which gives the next
+  finer one its start. A guess makes coarser grids needless. Coarse grids are solved only as well as they approximate
+  the finest one. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamLevelSolveNested(SamSolver solver, SamLevel *level, PetscInt depth, PetscBool guess);
+
+/*
+  SamLevelSolveInWindow - takes the given fields, and with `guess` the traction, out of a level into a window of it, has
+  `solve` solve there, and puts the traction back, zero outside. The rigid displacement then is that of the window's
+  frame, which becomes the level's. Collective.
+*/
+typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, PetscBool guess);
+PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
+                                                  SamElasticity part, PetscBool guess, SamLevelSolver solve);
+
+/* SamLevelGetRigid - writes a level's rigid displacement into the balance, for the force-controlled components. */
+PETSC_EXTERN void SamLevelGetRigid(const SamLevel *level, SamBalance *balance);
+
+/* ---- for methods ---- */
+
+/* Settings in force: the user's, or the type's defaults. */
+PETSC_EXTERN PetscInt SamSolverMaxIterations(SamSolver solver);
+PETSC_EXTERN PetscInt SamSolverLevels(SamSolver solver);
+
+/*
+  SamLevelApply - u = S p or C q, whichever the kind has. SamLevelApplySingle - `factor` times that, in single
+  precision, for arrays of this rank's cells. SamLevelPreconditionSingle - `factor` times the approximate inverse. Input
+  and output may be the same. All count on the finest grid. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamLevelApply(SamSolver solver, SamLevel *level, Vec traction, Vec u);
+PETSC_EXTERN PetscErrorCode SamLevelApplySingle(SamSolver solver, SamLevel *level, double factor,
+                                                const float traction[], float u[]);
+PETSC_EXTERN PetscErrorCode SamLevelPreconditionSingle(SamSolver solver, SamLevel *level, double factor,
+                                                       const float r[], float z[]);
+
+/* SamLevelIterated - counts an iteration and calls the monitors, on the finest grid. Collective. */
+PETSC_EXTERN PetscErrorCode SamLevelIterated(SamSolver solver, SamLevel *level, PetscReal error);
+
+/* SamLevelAtMaxIterations - whether this is the finest grid, and max_it iterations have been made there. Not collective. */
+PETSC_EXTERN PetscBool SamLevelAtMaxIterations(SamSolver solver, const SamLevel *level);
+
+/* ---- the account of rounding ---- */
+
+/*
+  SamRounding - what rounding may have done to a gradient that is kept up to date. A method computes its gradient (the
+  gap, the slip) in double precision once, and then adds to it the products of its steps, which are in single precision
+  at half the cost. Each of them brings in an error of about SAM_SINGLE_ROUNDING of its size. `bound` is how much that
+  may be by now, in the gradient's units; where it matters, the gradient is computed anew in double precision, which
+  sets it to zero.
+*/
+typedef struct {
+  double bound;
+} SamRounding;
+
+#define SAM_SINGLE_ROUNDING 3e-7 /* error of a product in single precision, relative */
+
+/* The bound grows by the errors of one more product: for norms, where errors add up. */
+static inline void SamRoundingAdd(SamRounding *rounding, double error)
+{
+  rounding->bound += error;
+}
+/* The bound is at least this: for the largest error of a cell, where one product dominates. */
+static inline void SamRoundingRaise(SamRounding *rounding, double error)
+{
+  rounding->bound = SamLarger(rounding->bound, error);
+}
+static inline PetscBool SamRoundingIsWithin(const SamRounding *rounding, double limit)
+{
+  return rounding->bound <= limit ? PETSC_TRUE : PETSC_FALSE;
+}
 
 #endif

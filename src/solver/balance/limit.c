@@ -1,23 +1,23 @@
 /*
-  What loads can be balanced at all.
+  Which loads can be balanced at all: the lever arms of a normal load, and the limit of sliding.
 
-  Sliding: the shears |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of
-  loads is convex, and this is its support function). The least of sum b |v| dA over the v with F.v = 1 is the factor by
-  which F can grow. It is found by Newton's method on |v| smoothed near the centre of rotation, the smoothing being
-  reduced.
+  Sliding: shears with |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of
+  loads is convex, and the sum is its support function). So the least sum b |v| dA over the v with F.v = 1 is the factor
+  by which F can grow. |v| has a kink at the centre of rotation; it is smoothed, and Newton's method minimises the sum
+  for a smoothing that is reduced step by step.
 */
 #include <petsam/private/balanceimpl.h>
 #include <math.h>
 
 /* A row's sums of t and of xi t. */
-SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict t, double xi0, double dxi, double sums[2])
+SAM_VECTORIZED static void SumRow(SamRow row, const double *restrict t, double sums[2])
 {
   double sum = 0, turn = 0;
 
 #pragma omp simd reduction(+ : sum, turn)
-  for (PetscInt i = 0; i < n; i++) {
+  for (int i = 0; i < row.count; i++) {
     sum += t[i];
-    turn += (xi0 + (double)i * dxi) * t[i];
+    turn += (row.xi0 + (double)i * row.dxi) * t[i];
   }
   sums[0] = sum;
   sums[1] = turn;
@@ -35,15 +35,14 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
   PetscCall(SamFrameSet(&f, grid, &none));
   PetscCall(VecGetArrayRead(traction, &t));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const ptrdiff_t k    = (ptrdiff_t)j * grid->nx;
-    const double    eta  = SamFrameEta(&f, j);
-    double          x[2] = {0, 0}, y[2] = {0, 0};
+    const SamRow row  = SamFrameRow(&f, j, 0, grid->nx);
+    double       x[2] = {0, 0}, y[2] = {0, 0};
 
-    SumRow(grid->nx, t + k, f.xi0, f.dxi, x);
-    if (kind == SAM_BALANCE_TANGENTIAL) SumRow(grid->nx, t + k + grid->cells, f.xi0, f.dxi, y);
+    SumRow(row, t + row.first, x);
+    if (kind == SAM_BALANCE_TANGENTIAL) SumRow(row, t + row.first + grid->cells, y);
     sums[0] = x[0];
-    sums[1] = kind == SAM_BALANCE_NORMAL ? -eta * x[0] : y[0];
-    sums[2] = kind == SAM_BALANCE_NORMAL ? x[1] : y[1] - eta * x[0];
+    sums[1] = kind == SAM_BALANCE_NORMAL ? -row.eta * x[0] : y[0];
+    sums[2] = kind == SAM_BALANCE_NORMAL ? x[1] : y[1] - row.eta * x[0];
     SamAddAll(3, totals, sums);
   }
   PetscCall(VecRestoreArrayRead(traction, &t));

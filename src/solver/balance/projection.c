@@ -1,13 +1,15 @@
 /*
   Nearest tractions in equilibrium.
 
-  The projection of v on the admissible tractions (pressures >= 0, or shears in their discs) that carry given loads F is
-  x = P(v + phi a): P acts on each cell alone, and the at most three numbers a maximise a concave function, that is they
-  minimise the dual
-      sum phi_b(|v + phi a|) - a.F,     phi_b(n) = n^2/2 up to the bound b, b n - b^2/2 beyond
+  Problem: given a traction v, find the nearest admissible one (pressures >= 0, or shears in their discs) that carries
+  the loads F.
+
+  Algorithm: the solution is x = P(v + phi a), where P projects each cell by itself, and the at most three numbers a
+  minimise the dual, a convex function:
+      sum psi_b(|v + phi a|) - a.F,     psi_b(n) = n^2/2 up to the bound b, b n - b^2/2 beyond
   (for pressures: half the square of the positive part). Its gradient is sum phi'P(v + phi a) - F, the error of
-  equilibrium; Newton's method with a line search on the dual needs a few passes over the cells and no transform. When
-  no admissible traction carries F the dual has no minimum and a runs away.
+  equilibrium. Newton's method with a line search on the dual takes a few passes over the cells and no transform. When
+  no admissible traction carries F, the dual has no minimum and a grows without bound.
 */
 #include <petsam/private/balanceimpl.h>
 #include <math.h>
@@ -15,16 +17,13 @@
 #define NEWTON_MAX   60
 #define HALVINGS_MAX 40
 #define PROJECT_MAX  4
-/*
-  Relative errors of equilibrium: rounding at best, rounding at worst, nearly none, and what one step of Newton's
-  method takes from there to the first for shears, whose equations are not linear.
-*/
-#define EXACT  1e-14
-#define ENOUGH 1e-11
-#define CLOSE  1e-3
-#define SMOOTH 1e-6
+/* Errors of equilibrium, relative to the loads or the sum of the traction. */
+#define EXACT  1e-14 /* rounding at best: Newton's method stops */
+#define ENOUGH 1e-11 /* rounding at worst: a solution all the same */
+#define CLOSE  1e-3  /* close to a solution: for pressures, one step of Newton's method is likely to reach it */
+#define SMOOTH 1e-6  /* the same for shears, whose equations are not piecewise linear */
 
-/* Value, gradient (without F) and Hessian of the dual, and sum |x| as the scale of the gradient. */
+/* Value, gradient without F, and Hessian of the dual, and sum |x| as the scale of the gradient. */
 typedef struct {
   double value, sums[3], gram[SAM_GRAM], scale;
 } Dual;
@@ -64,70 +63,94 @@ static double Imbalance(const SamFrame *f, const Dual *dual, double error[3])
   return load > 0 ? size / load : 0;
 }
 
-/* Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer improve it; `near`:
-   it nearly holds. With an error of less than `once` at the start one step is made, and what comes of it is for the
-   caller to see. */
-static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void *context, double once, double a[3],
-                                   PetscBool *found, PetscBool *near)
+/* The Newton step for an error of equilibrium; returns the slope of the dual along it, down being positive. */
+static double NewtonStep(const SamFrame *f, const Dual *dual, const double error[3], double step[3])
 {
-  Dual   now, next;
-  double error[3], size;
+  double slope = 0;
+
+  SamFrameSolve(f, dual->gram, error, step);
+  for (PetscInt i = 0; i < 3; i++) slope += error[i] * step[i];
+  if (slope > 0) return slope;
+  /* the Hessian vanishes along the error, or it is not a number: go along the error itself */
+  for (PetscInt i = 0; i < 3; i++) step[i] = error[i];
+  for (PetscInt i = 0; i < 3; i++) slope += error[i] * step[i];
+  return slope;
+}
+
+/* An iterate of Newton's method. */
+typedef struct {
+  double a[3];
+  Dual   dual;
+  double error[3], size; /* error of equilibrium, and its relative size */
+} Iterate;
+
+/* A step with halving from `now` to `next`; returns the part of the Newton step that was made. */
+static PetscErrorCode SearchLine(const SamFrame *f, DualPass pass, const void *context, const Iterate *now,
+                                 Iterate *next, double *length)
+{
+  double       step[3], t = 1;
+  const double slope = NewtonStep(f, &now->dual, now->error, step);
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < 3; i++) a[i] = 0;
-  PetscCall(Evaluate(f, pass, context, a, &now));
-  size   = Imbalance(f, &now, error);
-  *found = PETSC_FALSE;
-  *near  = PETSC_TRUE;
-  if (size > EXACT && size <= once) {
-    SamFrameSolve(f, now.gram, error, a);
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  for (PetscInt it = 0; it < NEWTON_MAX && size > EXACT; it++) {
-    double step[3], trial[3], slope = 0, t = 1, before = size;
-
-    SamFrameSolve(f, now.gram, error, step);
-    for (PetscInt i = 0; i < 3; i++) slope += error[i] * step[i];
-    if (!(slope > 0)) { /* the Hessian vanishes along the error: go along the error itself */
-      for (PetscInt i = 0; i < 3; i++) step[i] = error[i];
-      for (PetscInt i = 0; i < 3; i++) slope += error[i] * step[i];
-    }
-    for (PetscInt h = 0;; h++) {
-      double trial_size;
-
-      for (PetscInt i = 0; i < 3; i++) trial[i] = a[i] + t * step[i];
-      PetscCall(Evaluate(f, pass, context, trial, &next));
-      trial_size = Imbalance(f, &next, error);
-      /* near the minimum rounding hides the fall of the value, but not that of the gradient */
-      if (next.value <= now.value - 1e-4 * t * slope || trial_size < 0.5 * size ||
-          t * slope <= 1e-13 * fabs(now.value) || h == HALVINGS_MAX) {
-        size = trial_size;
-        break;
-      }
-      t *= 0.5;
-    }
-    if (size >= before && before <= ENOUGH) { /* at rounding: keep the better one */
-      size = before;
+  for (PetscInt h = 0;; h++) {
+    for (PetscInt i = 0; i < 3; i++) next->a[i] = now->a[i] + t * step[i];
+    PetscCall(Evaluate(f, pass, context, next->a, &next->dual));
+    next->size = Imbalance(f, &next->dual, next->error);
+    /* near the minimum rounding hides the fall of the value, but not that of the gradient */
+    if (next->dual.value <= now->dual.value - 1e-4 * t * slope || next->size < 0.5 * now->size ||
+        t * slope <= 1e-13 * fabs(now->dual.value) || h == HALVINGS_MAX)
       break;
-    }
-    for (PetscInt i = 0; i < 3; i++) a[i] = trial[i];
-    now = next;
-    if (t < 1e-9) break;
+    t *= 0.5;
   }
-  *found = size <= ENOUGH ? PETSC_TRUE : PETSC_FALSE;
-  *near  = size <= CLOSE ? PETSC_TRUE : PETSC_FALSE;
+  *length = t;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer improve it; `near`:
+  then it nearly holds. With an error of less than `once` at the start only one step is made, and whether that was
+  enough (`found` is false) is for the caller to check.
+*/
+static PetscErrorCode MinimizeDual(const SamFrame *f, DualPass pass, const void *context, double once, double a[3],
+                                   PetscBool *found, PetscBool *near)
+{
+  Iterate now = {.a = {0, 0, 0}}, next;
+
+  PetscFunctionBegin;
+  PetscCall(Evaluate(f, pass, context, now.a, &now.dual));
+  now.size = Imbalance(f, &now.dual, now.error);
+  *found   = PETSC_FALSE;
+  *near    = PETSC_TRUE;
+  if (now.size > EXACT && now.size <= once) {
+    SamFrameSolve(f, now.dual.gram, now.error, a);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt it = 0; it < NEWTON_MAX && now.size > EXACT; it++) {
+    double length = 0;
+
+    PetscCall(SearchLine(f, pass, context, &now, &next, &length));
+    if (next.size >= now.size && now.size <= ENOUGH) break; /* at rounding: keep the better one */
+    now = next;
+    if (length < 1e-9) break;
+  }
+  for (PetscInt i = 0; i < 3; i++) a[i] = now.a[i];
+  *found = now.size <= ENOUGH ? PETSC_TRUE : PETSC_FALSE;
+  *near  = now.size <= CLOSE ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What a pass over the cells needs to know. */
 typedef struct {
-  const float  *mask;    /* normal: 1 for cells that count, else 0; NULL: all, or those with pressure */
-  PetscBool     contact; /* which of the two */
-  float        *row;     /* then: a row of ones, or room for a row */
-  const char   *busy;    /* stretches with cells that count, or pressure; NULL: all */
-  const double *field;
-  const float  *step; /* normal: added to the field with the factor `by` */
-  double        by;
-  const double *bound;
+  const double *field; /* what is projected */
+  const double *bound; /* of shears */
+  /* pressures: */
+  const float *mask;      /* 1 on the cells that take part, 0 on others; NULL: all, or those with pressure */
+  PetscBool    contact;   /* which of the two */
+  float       *row;       /* then: a row of ones, or scratch for the mask of a row */
+  const char  *busy;      /* stretches with cells that take part, or with pressure; NULL: all */
+  const float *step;      /* added to the field with the factor `by`; one row of zeros where that is 0 */
+  double       by, scale; /* see SamPressureStep */
+  float       *made;
 } Cells;
 
 static const float *MaskOfRow(const Cells *c, PetscInt nx, PetscInt j)
@@ -144,17 +167,18 @@ static const char *BusyOfRow(const Cells *c, SamGrid grid, PetscInt j)
   return c->busy ? c->busy + (ptrdiff_t)j * SamStretches(grid) : NULL;
 }
 
-/* Some pressures x = max(0, field + by step + phi a) of the cells that count. */
-SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field, const float *restrict step, double by,
-                                        const float *restrict mask, double xi0, double dxi, double eta,
-                                        const double a[3], Dual *row)
+/* ---- pressures ---- */
+
+/* The pressures x = max(0, field + by step + phi a) of some cells. */
+SAM_VECTORIZED static void AddPressures(SamRow row, const double *restrict field, const float *restrict step, double by,
+                                        const float *restrict mask, const double a[3], Dual *sums)
 {
-  const double ax = a[0] - a[1] * eta, a2 = a[2];
+  const double ax = a[0] - a[1] * row.eta, a2 = a[2];
   double       value = 0, x = 0, turn = 0, count = 0, sum_xi = 0, xi2 = 0;
 
 #pragma omp simd reduction(+ : value, x, turn, count, sum_xi, xi2)
-  for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi),
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi),
                  in = v > 0 ? (double)mask[i] : 0, p = in * v;
 
     value += 0.5 * p * p;
@@ -164,12 +188,12 @@ SAM_VECTORIZED static void AddPressures(PetscInt n, const double *restrict field
     sum_xi += in * xi;
     xi2 += in * xi * xi;
   }
-  row->value += value;
-  row->scale += x;
-  row->sums[0] += x;
-  row->sums[1] -= eta * x;
-  row->sums[2] += turn;
-  SamGramNormalRow(row->gram, count, sum_xi, xi2, eta);
+  sums->value += value;
+  sums->scale += x;
+  sums->sums[0] += x;
+  sums->sums[1] -= row.eta * x;
+  sums->sums[2] += turn;
+  SamGramNormalRow(sums->gram, count, sum_xi, xi2, row.eta);
 }
 
 static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
@@ -178,31 +202,39 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
   const PetscInt nx = f->grid->nx;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double *field = c->field + (ptrdiff_t)j * nx;
-    const float  *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? (ptrdiff_t)j * nx : 0);
-    const char   *busy = BusyOfRow(c, f->grid, j);
-    Dual          row  = {0};
+    const float *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? (ptrdiff_t)j * nx : 0);
+    const char  *busy = BusyOfRow(c, f->grid, j);
+    Dual         sums = {0};
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);)
-      AddPressures(end - i, field + i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi,
-                   SamFrameEta(f, j), a, &row);
-    SamAddAll(DUAL, dual, (const double *)&row);
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) {
+      const SamRow row = SamFrameRow(f, j, i, end);
+
+      AddPressures(row, c->field + row.first, step + i, c->by, mask + i, a, &sums);
+    }
+    SamAddAll(DUAL, dual, (const double *)&sums);
   }
 }
 
-/*
-  p = max(0, p + by step + phi a) on cells of a row that count, 0 on others; the change times `scale` is added to made.
-*/
-SAM_VECTORIZED static void ApplyNormal(PetscInt n, const float *restrict step, double by, const float *restrict mask,
-                                       double xi0, double dxi, double eta, const double a[3], double scale,
-                                       double *restrict p, float *restrict made, Dual *row)
+/* Arrays of some cells, for the next function. */
+typedef struct {
+  double      *p;
+  const float *step, *mask;
+  float       *made;
+} Pressures;
+
+/* p = mask max(0, p + by step + phi a); `scale` times the change is added to made. */
+SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, double by, double scale, const double a[3],
+                                       Dual *sums)
 {
-  const double ax = a[0] - a[1] * eta, a2 = a[2];
+  double *restrict p         = cells.p;
+  const float *restrict step = cells.step, *restrict mask = cells.mask;
+  float *restrict made = cells.made;
+  const double ax = a[0] - a[1] * row.eta, a2 = a[2];
   double       sum = 0, turn = 0;
 
 #pragma omp simd reduction(+ : sum, turn)
-  for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, v = p[i] + by * (double)step[i] + (ax + a2 * xi),
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, v = p[i] + by * (double)step[i] + (ax + a2 * xi),
                  x = v > 0 ? (double)mask[i] * v : 0;
 
     made[i] += (float)(scale * (x - p[i]));
@@ -210,15 +242,15 @@ SAM_VECTORIZED static void ApplyNormal(PetscInt n, const float *restrict step, d
     sum += x;
     turn += xi * x;
   }
-  row->scale += sum;
-  row->sums[0] += sum;
-  row->sums[1] -= eta * sum;
-  row->sums[2] += turn;
+  sums->scale += sum;
+  sums->sums[0] += sum;
+  sums->sums[1] -= row.eta * sum;
+  sums->sums[2] += turn;
 }
 
-/* The projection that belongs to a, in place of the field, and the moments of what it is then. */
-static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], double scale, double p[], float made[],
-                      float ignored[], SamTotal dual[])
+/* The projection that belongs to a, in place of the field p, and its moments. `scratch`: a row, where made is NULL. */
+static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], double p[], float scratch[],
+                      SamTotal dual[])
 {
   const PetscInt nx = f->grid->nx;
 
@@ -226,17 +258,17 @@ static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], doub
     const ptrdiff_t k    = (ptrdiff_t)j * nx;
     const float    *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? k : 0);
     const char     *busy = BusyOfRow(c, f->grid, j);
-    float          *to   = made ? made + k : ignored;
-    Dual            row  = {0};
+    float          *made = c->made ? c->made + k : scratch;
+    Dual            sums = {0};
 
     for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);)
-      ApplyNormal(end - i, step + i, c->by, mask + i, f->xi0 + (double)i * f->dxi, f->dxi, SamFrameEta(f, j), a, scale,
-                  p + k + i, to + i, &row);
-    SamAddAll(DUAL, dual, (const double *)&row);
+      ApplyNormal(SamFrameRow(f, j, i, end), (Pressures){p + k + i, step + i, mask + i, made + i}, c->by, c->scale, a,
+                  &sums);
+    SamAddAll(DUAL, dual, (const double *)&sums);
   }
 }
 
-/* Whether what has been made is in equilibrium up to a relative error. */
+/* Whether a traction with these totals is in equilibrium up to a relative error. */
 static PetscErrorCode IsBalanced(const SamFrame *f, const SamTotal totals[], double limit, PetscBool *balanced)
 {
   Dual   dual;
@@ -248,31 +280,33 @@ static PetscErrorCode IsBalanced(const SamFrame *f, const SamTotal totals[], dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* p as it was before the changes in `made`. */
+static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
+{
+  for (PetscInt k = 0; k < f->grid->cells; k++) p[k] = PetscMax(0, p[k] - (double)cells->made[k] / cells->scale);
+}
+
 /*
-  The projection of the field p + by step, for a step that nearly carries the loads in few passes: one for the step of
-  Newton's method, and one that makes it and sees whether that was all. One row of zeros stands for no step, and takes
-  what nobody wants to know of the change.
+  The projection of the field p + by step. A step that nearly carries the loads takes two passes: one to find the step
+  of Newton's method for a, and one that applies it and checks whether that was enough.
 */
-static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], double scale, float made[],
-                                    PetscBool *found)
+static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], PetscBool *found)
 {
   const PetscInt nx     = f->grid->nx;
   double        *before = NULL;
-  float         *zeros, *ignored;
+  float         *zeros, *scratch; /* a row of no step, and of changes that are not wanted */
   PetscBool      near = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(nx, &cells.row));
-  PetscCall(PetscCalloc2(nx, &zeros, nx, &ignored));
+  PetscCall(PetscCalloc2(nx, &zeros, nx, &scratch));
   for (PetscInt i = 0; i < nx; i++) cells.row[i] = 1;
   cells.field = p;
   if (cells.by == 0) cells.step = zeros;
   *found = PETSC_FALSE;
-  /*
-    pressures far above the load leave it to rounding; once projected they are of its size, and a second time is exact
-  */
+  /* where pressures are far above the load, it is lost in their rounding; projected again, they are of its size */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
-    const PetscBool once         = (made && time == 0) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool once         = (cells.made && time == 0) ? PETSC_TRUE : PETSC_FALSE;
     SamTotal        totals[DUAL] = {{0, 0}};
     double          a[3]         = {0, 0, 0};
 
@@ -280,62 +314,65 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
       PetscCall(MinimizeDual(f, PassNormal, &cells, once ? CLOSE : 0, a, found, &near));
     else
       *found = PETSC_TRUE;
-    if (!*found && near && !before && !made) {
+    if (!*found && near && !before && !cells.made) {
       PetscCall(PetscMalloc1(f->grid->cells, &before));
       PetscCall(PetscArraycpy(before, p, f->grid->cells));
     }
-    if (near) ApplyRows(f, &cells, a, scale, p, made, ignored, totals);
+    if (near) ApplyRows(f, &cells, a, p, scratch, totals);
     if (once && near && !*found) PetscCall(IsBalanced(f, totals, ENOUGH, found));
     cells.by   = 0;
     cells.step = zeros;
   }
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
-  for (PetscInt k = 0; !*found && made && k < f->grid->cells; k++) p[k] = PetscMax(0, p[k] - (double)made[k] / scale);
+  if (!*found && cells.made) TakeBack(f, &cells, p);
   PetscCall(PetscFree(before));
   PetscCall(PetscFree(cells.row));
-  PetscCall(PetscFree2(zeros, ignored));
+  PetscCall(PetscFree2(zeros, scratch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const float mask[], double p[], PetscBool *found)
 {
   PetscFunctionBegin;
-  PetscCall(ProjectNormal(f, (Cells){.mask = mask}, p, 0, NULL, found));
+  PetscCall(ProjectNormal(f, (Cells){.mask = mask}, p, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const float mask[], const char busy[], double p[],
-                                         double by, const float step[], double scale, float made[], PetscBool *found)
+PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const SamPressureStep *s, double p[], PetscBool *found)
 {
+  const Cells cells = {
+    .mask = s->mask, .busy = s->busy, .step = s->step, .by = s->by, .made = s->made, .scale = s->scale};
+
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(made, f->grid->cells));
-  PetscCall(ProjectNormal(f, (Cells){.mask = mask, .busy = busy, .step = step, .by = by}, p, scale, made, found));
+  PetscCall(PetscArrayzero(s->made, f->grid->cells));
+  PetscCall(ProjectNormal(f, cells, p, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], PetscBool *found)
 {
   PetscFunctionBegin;
-  PetscCall(ProjectNormal(f, (Cells){.contact = PETSC_TRUE}, p, 0, NULL, found));
+  PetscCall(ProjectNormal(f, (Cells){.contact = PETSC_TRUE}, p, found));
   if (!*found) PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- shears ---- */
+
 /*
-  Part of a row of shears, n <= SAM_CHUNK: v = field + phi a, projected on its disc, x = D(v), and the derivative h of
-  D.
+  Some cells of a row, at most SAM_CHUNK: v = field + phi a, its projection x = D(v) onto the disc, and the derivative h
+  of D. The second loop, with roots and divisions, runs only if a cell lies beyond its disc.
 */
-SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, const double *restrict qy,
-                                     const double *restrict bound, double xi0, double dxi, double eta,
-                                     const double a[3], Dual *row)
+SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, const double *restrict qy,
+                                     const double *restrict bound, const double a[3], Dual *sums)
 {
-  const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
+  const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
   double value = 0, scale = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0,
          beyond = 0;
 
 #pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
-  for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
     const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy;
 
     beyond += n2 > b * b ? 1 : 0;
@@ -351,8 +388,8 @@ SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, cons
   if (beyond > 0) {
     value = scale = x = y = turn = hxx = xi_hyy = xi2_hyy = 0;
 #pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
-    for (PetscInt i = 0; i < n; i++) {
-      const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+    for (int i = 0; i < row.count; i++) {
+      const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
       const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy, size = sqrt(n2);
       const double inverse = 1 / n2, s = n2 > b * b ? b * size * inverse : in,
                    g  = n2 > b * b ? s * inverse : 0; /* one division */
@@ -364,43 +401,43 @@ SAM_VECTORIZED static void AddShears(PetscInt n, const double *restrict qx, cons
     }
   } else
     hyy = hxx;
-  row->value += value;
-  row->scale += scale;
-  row->sums[0] += x;
-  row->sums[1] += y;
-  row->sums[2] += turn - eta * x;
-  SamGramTangentialRow(row->gram, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, eta);
+  sums->value += value;
+  sums->scale += scale;
+  sums->sums[0] += x;
+  sums->sums[1] += y;
+  sums->sums[2] += turn - row.eta * x;
+  SamGramTangentialRow(sums->gram, (const double[6]){hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy}, row.eta);
 }
 
 static void PassTangential(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
 {
-  const Cells   *c  = (const Cells *)context;
-  const PetscInt nx = f->grid->nx;
+  const Cells *c = (const Cells *)context;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double *qx = c->field + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells, *b = c->bound + (ptrdiff_t)j * nx;
-    PetscInt      first, last;
-    Dual          row = {0};
+    PetscInt first, last;
+    Dual     sums = {0};
 
-    SamBoundRange(nx, b, &first, &last);
-    for (PetscInt i = first; i < last; i += SAM_CHUNK)
-      AddShears(PetscMin(SAM_CHUNK, last - i), qx + i, qy + i, b + i, f->xi0 + (double)i * f->dxi, f->dxi,
-                SamFrameEta(f, j), a, &row);
-    SamAddAll(DUAL, dual, (const double *)&row);
+    SamBoundRange(f->grid->nx, c->bound + (ptrdiff_t)j * f->grid->nx, &first, &last);
+    for (PetscInt i = first; i < last; i += SAM_CHUNK) {
+      const SamRow  row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
+      const double *qx  = c->field + row.first;
+
+      AddShears(row, qx, qx + f->grid->cells, c->bound + row.first, a, &sums);
+    }
+    SamAddAll(DUAL, dual, (const double *)&sums);
   }
 }
 
-/* A row's projection in place of the field, and its moments. */
-SAM_VECTORIZED static void ApplyShears(PetscInt n, double *restrict qx, double *restrict qy,
-                                       const double *restrict bound, double xi0, double dxi, double eta,
-                                       const double a[3], Dual *row)
+/* The projection of some cells of a row in place of the shear, and its moments. */
+SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *restrict qy,
+                                       const double *restrict bound, const double a[3], Dual *sums)
 {
-  const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
+  const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
   double       scale = 0, x = 0, y = 0, turn = 0;
 
 #pragma omp simd reduction(+ : scale, x, y, turn)
-  for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
     const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy,
                  s  = n2 > b * b ? b / sqrt(n2) : in;
     const double px = s * vx, py = s * vy;
@@ -412,13 +449,13 @@ SAM_VECTORIZED static void ApplyShears(PetscInt n, double *restrict qx, double *
     y += py;
     turn += xi * py;
   }
-  row->scale += scale;
-  row->sums[0] += x;
-  row->sums[1] += y;
-  row->sums[2] += turn - eta * x;
+  sums->scale += scale;
+  sums->sums[0] += x;
+  sums->sums[1] += y;
+  sums->sums[2] += turn - row.eta * x;
 }
 
-/* The projection that belongs to a, in place of q, and the moments of what it is then. */
+/* The projection that belongs to a, in place of q, and its moments. */
 static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const double a[3], double q[],
                                       SamTotal dual[])
 {
@@ -429,23 +466,22 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
     const double *b  = bound + (ptrdiff_t)j * nx;
     double       *qx = q + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells;
     PetscInt      first, last;
-    Dual          row = {0};
+    Dual          sums = {0};
 
     SamBoundRange(nx, b, &first, &last);
     PetscCall(PetscArrayzero(qx, first));
     PetscCall(PetscArrayzero(qy, first));
-    ApplyShears(last - first, qx + first, qy + first, b + first, f->xi0 + (double)first * f->dxi, f->dxi,
-                SamFrameEta(f, j), a, &row);
+    ApplyShears(SamFrameRow(f, j, first, last), qx + first, qy + first, b + first, a, &sums);
     PetscCall(PetscArrayzero(qx + last, nx - last));
     PetscCall(PetscArrayzero(qy + last, nx - last));
-    SamAddAll(DUAL, dual, (const double *)&row);
+    SamAddAll(DUAL, dual, (const double *)&sums);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
-  At first, where that is likely to do, one step of Newton's method is made without looking; what comes of it is a start
-  if it does not, and then the result is the nearest shear to this start.
+  First, where that is likely to be enough, one step of Newton's method is applied without a further pass over the
+  cells. If it was not enough, it is a start, and the result is the nearest shear to this start.
 */
 PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[],
                                          PetscBool *found)

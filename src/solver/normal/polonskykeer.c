@@ -1,22 +1,28 @@
 /*
   The classical projected conjugate gradients of Polonsky and Keer, for comparison.
 
-  In each iteration: 1. g = S p + h less the rigid displacement that fits it on the contact cells {p > 0}; 2. a
-  conjugate direction on these cells from g; 3. the exact step along it; 4. p < 0 set to 0; cells without pressure that
-  penetrate get some, and the direction starts anew; 5. p is put in equilibrium again. Two products with the compliance
-  an iteration, one grid, no preconditioner: the number of iterations grows with the grid. The original scales p to keep
-  N; here the nearest admissible pressure keeps N and the moments alike. Reference: Polonsky and Keer 1999, Wear 231,
-  206-219.
+  Problem: p >= 0, g >= 0, p g = 0 in every cell, in equilibrium or with given rigid displacements.
+
+  Algorithm:
+    1. g = S p + h less the rigid displacement that fits it best on the contact cells {p > 0}.
+    2. A direction on these cells from g, conjugate to the last one.
+    3. The exact step along it.
+    4. p < 0 is set to 0; cells without pressure that penetrate get some, and then the directions start anew.
+    5. p is brought back into equilibrium.
+  An iteration takes two products; there is one grid and no preconditioner, so the number of iterations grows with the
+  grid. The original scales p to keep N; here p goes to the nearest admissible pressure, which keeps moments as well.
+
+  Reference: Polonsky and Keer 1999, Wear 231, 206-219.
 */
 #include <petsam/private/normalimpl.h>
 #include <math.h>
 
 typedef struct {
-  SamNormal       normal;
-  SamNormalLevel *level;
-  Vec             g, d, s;
-  double          motion[3], displacement, error;
-  double          norm; /* |g|^2 on the contact */
+  SamSolver solver;
+  SamLevel *level;
+  Vec       g, d, s;
+  double    motion[3], displacement, error;
+  double    norm; /* |g|^2 on the contact */
 } Work;
 
 /* The rigid displacement that fits x best on the contact, of the free ones. */
@@ -49,7 +55,7 @@ static PetscErrorCode FitOnContact(const Work *w, const double p[], const double
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g and the motion that fits it on {p > 0}, or the given one; the errors; all from scratch. */
+/* Step 1: g, the motion that fits it on {p > 0} as far as it is free, and the error. */
 static PetscErrorCode ComputeGap(Work *w)
 {
   const SamFrame *f     = &w->level->frame;
@@ -60,9 +66,9 @@ static PetscErrorCode ComputeGap(Work *w)
   double         *g;
 
   PetscFunctionBegin;
-  PetscCall(SamNormalApply(w->normal, w->level, w->level->p, w->g));
-  PetscCall(VecGetArrayRead(w->level->p, &p));
-  PetscCall(VecGetArrayRead(w->level->h, &h));
+  PetscCall(SamLevelApply(w->solver, w->level, w->level->traction, w->g));
+  PetscCall(VecGetArrayRead(w->level->traction, &p));
+  PetscCall(VecGetArrayRead(w->level->given[SAM_NORMAL_SEPARATION], &h));
   PetscCall(VecGetArray(w->g, &g));
   for (PetscInt j = 0; j < w->level->grid->rows; j++) {
     const double eta = SamFrameEta(f, j);
@@ -89,8 +95,8 @@ static PetscErrorCode ComputeGap(Work *w)
     SamAdd(&total, row);
   }
   PetscCall(VecRestoreArray(w->g, &g));
-  PetscCall(VecRestoreArrayRead(w->level->h, &h));
-  PetscCall(VecRestoreArrayRead(w->level->p, &p));
+  PetscCall(VecRestoreArrayRead(w->level->given[SAM_NORMAL_SEPARATION], &h));
+  PetscCall(VecRestoreArrayRead(w->level->traction, &p));
   PetscCall(SamMax(w->level->grid->comm, 2, max));
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->norm));
   for (PetscInt c = 0; c < 3; c++) w->motion[c] = f->fixed[c] + a[c];
@@ -137,12 +143,12 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   double        *p, *g, *d, *s;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArray(w->level->p, &p));
+  PetscCall(VecGetArray(w->level->traction, &p));
   PetscCall(VecGetArray(w->g, &g));
   PetscCall(VecGetArray(w->d, &d));
   for (PetscInt k = 0; k < cells; k++) d[k] = p[k] > 0 ? g[k] + beta * d[k] : 0;
   PetscCall(VecRestoreArray(w->d, &d));
-  PetscCall(SamNormalApply(w->normal, w->level, w->d, w->s));
+  PetscCall(SamLevelApply(w->solver, w->level, w->d, w->s));
   PetscCall(VecGetArray(w->d, &d));
   PetscCall(VecGetArray(w->s, &s));
   PetscCall(StepLength(w, p, g, d, s, &tau));
@@ -160,37 +166,37 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   PetscCall(VecRestoreArray(w->s, &s));
   PetscCall(VecRestoreArray(w->d, &d));
   PetscCall(VecRestoreArray(w->g, &g));
-  PetscCall(VecRestoreArray(w->level->p, &p));
+  PetscCall(VecRestoreArray(w->level->traction, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SamNormalSolve_PolonskyKeer(SamNormal normal, SamNormalLevel *level)
+static PetscErrorCode SamNormalSolve_PolonskyKeer(SamSolver solver, SamLevel *level)
 {
-  Work            w         = {.normal = normal, .level = level};
-  SamNormalReason reason    = SAM_NORMAL_CONVERGED_ITERATING;
+  Work            w         = {.solver = solver, .level = level};
+  SamSolverReason reason    = SAM_SOLVER_ITERATING;
   PetscBool       conjugate = PETSC_FALSE, found = PETSC_TRUE;
   double          norm_old = 0;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(level->p, &w.g));
-  PetscCall(VecDuplicate(level->p, &w.d));
-  PetscCall(VecDuplicate(level->p, &w.s));
+  PetscCall(VecDuplicate(level->traction, &w.g));
+  PetscCall(VecDuplicate(level->traction, &w.d));
+  PetscCall(VecDuplicate(level->traction, &w.s));
   for (PetscInt it = 0; !reason; it++) {
     PetscCall(ComputeGap(&w));
-    if (it) PetscCall(SamNormalIterated(normal, level, w.error / w.displacement));
+    if (it) PetscCall(SamLevelIterated(solver, level, w.error / w.displacement));
     if (!isfinite(w.error))
-      reason = SAM_NORMAL_DIVERGED_NAN;
+      reason = SAM_SOLVER_DIVERGED_NAN;
     else if (w.error <= level->rtol * w.displacement)
-      reason = SAM_NORMAL_CONVERGED_RTOL;
-    else if (it >= SamSolverMaxIterations(&normal->solver))
-      reason = SAM_NORMAL_DIVERGED_ITS;
+      reason = SAM_SOLVER_CONVERGED_RTOL;
+    else if (it >= SamSolverMaxIterations(solver))
+      reason = SAM_SOLVER_DIVERGED_ITS;
     if (reason) break;
     PetscCall(Step(&w, norm_old, &conjugate, &found));
     norm_old = w.norm;
-    if (!found) reason = SAM_NORMAL_DIVERGED_NO_EQUILIBRIUM;
+    if (!found) reason = SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
   }
-  normal->reason       = reason;
-  normal->solver.error = w.error / w.displacement;
+  solver->reason = reason;
+  solver->error  = w.error / w.displacement;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = w.motion[c];
   PetscCall(VecDestroy(&w.g));
   PetscCall(VecDestroy(&w.d));
@@ -198,11 +204,11 @@ static PetscErrorCode SamNormalSolve_PolonskyKeer(SamNormal normal, SamNormalLev
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamNormalCreate_PolonskyKeer(SamNormal normal)
+PetscErrorCode SamNormalCreate_PolonskyKeer(SamSolver solver)
 {
   PetscFunctionBegin;
-  normal->solve                 = SamNormalSolve_PolonskyKeer;
-  normal->solver.default_levels = 1;
-  normal->solver.default_max_it = 10000;
+  solver->ops.solve      = SamNormalSolve_PolonskyKeer;
+  solver->default_levels = 1;
+  solver->default_max_it = 10000;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

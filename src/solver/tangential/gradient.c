@@ -1,10 +1,16 @@
 /*
-  Accelerated projected gradients, for comparison and as a second opinion.
+  Accelerated projected gradients: a second opinion, for comparison.
 
-  q_new = P(y - s(y)/L), y the extrapolation from the last two iterates, P the projection on discs and equilibrium at
-  once, L an upper bound of the compliance's eigenvalues found as it goes; the extrapolation starts anew when the energy
-  rises. Sure to converge, at a rate that worsens with the grid. References: Nesterov 1983; Beck and Teboulle 2009, SIAM
-  J. Imaging Sci. 2, 183; O'Donoghue and Candes 2015 (restart).
+  Problem: minimise q.C q/2 + offset.q over the discs |q| <= bound in equilibrium; its gradient is the slip s.
+
+  Algorithm:
+    1. y: extrapolation from the last two iterates.
+    2. q = P(y - s(y)/L), P the projection onto discs and equilibrium at once; L is doubled until the energy's quadratic
+       upper bound at y holds, which makes it an upper bound of the eigenvalues that matter.
+    3. When the energy has risen, the extrapolation starts anew.
+  It converges always, at a rate that worsens as the grid is refined.
+
+  References: Nesterov 1983; Beck and Teboulle 2009, SIAM J. Imaging Sci. 2, 183; O'Donoghue and Candes 2015 (restart).
 */
 #include <petsam/private/tangentialimpl.h>
 #include <math.h>
@@ -78,12 +84,12 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SamTangentialSolve_Gradient(SamTangential solver, SamTangentialLevel *level)
+static PetscErrorCode SamTangentialSolve_Gradient(SamSolver solver, SamLevel *level)
 {
-  SamStickSlip        w;
-  SamTangentialReason reason = SAM_TANGENTIAL_CONVERGED_ITERATING;
-  double             *y, *sy, *last, *slast, t = 1, L[1], energy, before;
-  PetscBool           found;
+  SamStickSlip    w;
+  SamSolverReason reason = SAM_SOLVER_ITERATING;
+  double         *y, *sy, *last, *slast, t = 1, L[1], energy, before;
+  PetscBool       found;
 
   PetscFunctionBegin;
   PetscCall(SamStickSlipCreate(solver, level, &w));
@@ -98,20 +104,19 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamTangential solver, SamTange
 
     PetscCall(GradientStep(&w, L, y, sy, &found));
     if (!found) {
-      reason = SAM_TANGENTIAL_DIVERGED_STAGNATED; /* the loads can be carried, that was found out before */
+      reason = SAM_SOLVER_DIVERGED_STAGNATED; /* that the loads can be carried has been checked before */
       break;
     }
     PetscCall(ComputeEnergy(&w, &energy));
     /* s changes by a rigid motion only, which the projection takes out of the gradient */
     for (PetscInt c = 0; c < 2; c++) PetscCall(SamStickSlipMeasure(&w));
-    SamTangentialIterated(solver, level);
-    PetscCall(SamTangentialMeasured(solver, level, w.error));
+    PetscCall(SamLevelIterated(solver, level, w.error));
     if (!isfinite(w.error))
-      reason = SAM_TANGENTIAL_DIVERGED_NAN;
+      reason = SAM_SOLVER_DIVERGED_NAN;
     else if (w.error <= level->rtol)
-      reason = SAM_TANGENTIAL_CONVERGED_RTOL;
-    else if (it >= SamSolverMaxIterations(&solver->solver))
-      reason = SAM_TANGENTIAL_DIVERGED_ITS;
+      reason = SAM_SOLVER_CONVERGED_RTOL;
+    else if (it >= SamSolverMaxIterations(solver))
+      reason = SAM_SOLVER_DIVERGED_ITS;
     if (reason) break;
     if (energy > before) t = 1;
     before = energy;
@@ -125,19 +130,19 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamTangential solver, SamTange
     PetscCall(SamStickSlipComputeSlip(&w));
     t = next;
   }
-  solver->reason       = reason;
-  solver->solver.error = w.error;
+  solver->reason = reason;
+  solver->error  = w.error;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = w.motion[c];
   PetscCall(PetscFree4(y, sy, last, slast));
   PetscCall(SamStickSlipDestroy(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialCreate_Gradient(SamTangential solver)
+PetscErrorCode SamTangentialCreate_Gradient(SamSolver solver)
 {
   PetscFunctionBegin;
-  solver->solve                 = SamTangentialSolve_Gradient;
-  solver->solver.default_levels = 1;
-  solver->solver.default_max_it = 20000;
+  solver->ops.solve      = SamTangentialSolve_Gradient;
+  solver->default_levels = 1;
+  solver->default_max_it = 20000;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,10 +1,10 @@
-/* What the tangential methods share: slip increment, residual, fit of the rigid motion. */
+/* What the tangential methods share: the slip increment, the residual, and the fit of the rigid motion. */
 #include <petsam/private/tangentialimpl.h>
 #include <math.h>
 
-/* A cell is on its circle from this part of the bound's square on. */
+/* A cell lies on its circle from this part of the bound's square on. */
 #define ON_CIRCLE (1 - 1e-9)
-/* The error of a start from which on another motion is tried. */
+/* The error of a start above which another fit of the motion is tried. */
 #define POOR_START 0.1
 
 /* The columns between which each row has contact. */
@@ -20,8 +20,10 @@ static PetscErrorCode FindRows(SamStickSlip *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *level, SamStickSlip *w)
+PetscErrorCode SamStickSlipCreate(SamSolver solver, SamLevel *level, SamStickSlip *w)
 {
+  const Vec offset = level->given[SAM_TANGENTIAL_OFFSET];
+
   PetscFunctionBegin;
   PetscCall(PetscMemzero(w, sizeof(*w)));
   w->solver = solver;
@@ -33,9 +35,9 @@ PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *leve
   for (PetscInt c = 0; c < 3; c++) w->motion[c] = level->rigid[c];
   PetscCall(SamElasticityGetSelfInfluence(level->elasticity, NULL, &w->self));
   PetscCall(SamGridCreateVec(level->grid, 2, &w->vs));
-  PetscCall(VecGetArrayRead(level->bound, &w->bound));
-  if (level->offset) PetscCall(VecGetArrayRead(level->offset, &w->offset));
-  PetscCall(VecGetArray(level->q, &w->q));
+  PetscCall(VecGetArrayRead(level->given[SAM_TANGENTIAL_BOUND], &w->bound));
+  if (offset) PetscCall(VecGetArrayRead(offset, &w->offset));
+  PetscCall(VecGetArray(level->traction, &w->q));
   PetscCall(VecGetArray(w->vs, &w->s));
   PetscCall(FindRows(w));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -43,10 +45,12 @@ PetscErrorCode SamStickSlipCreate(SamTangential solver, SamTangentialLevel *leve
 
 PetscErrorCode SamStickSlipDestroy(SamStickSlip *w)
 {
+  const Vec offset = w->level->given[SAM_TANGENTIAL_OFFSET];
+
   PetscFunctionBegin;
-  PetscCall(VecRestoreArrayRead(w->level->bound, &w->bound));
-  if (w->level->offset) PetscCall(VecRestoreArrayRead(w->level->offset, &w->offset));
-  PetscCall(VecRestoreArray(w->level->q, &w->q));
+  PetscCall(VecRestoreArrayRead(w->level->given[SAM_TANGENTIAL_BOUND], &w->bound));
+  if (offset) PetscCall(VecRestoreArrayRead(offset, &w->offset));
+  PetscCall(VecRestoreArray(w->level->traction, &w->q));
   PetscCall(VecRestoreArray(w->vs, &w->s));
   PetscCall(VecDestroy(&w->vs));
   PetscCall(PetscFree2(w->first, w->last));
@@ -58,10 +62,10 @@ PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
   const SamFrame *f = w->frame;
 
   PetscFunctionBegin;
-  PetscCall(VecRestoreArray(w->level->q, &w->q));
+  PetscCall(VecRestoreArray(w->level->traction, &w->q));
   PetscCall(VecRestoreArray(w->vs, &w->s));
-  PetscCall(SamTangentialApply(w->solver, w->level, w->level->q, w->vs));
-  PetscCall(VecGetArray(w->level->q, &w->q));
+  PetscCall(SamLevelApply(w->solver, w->level, w->level->traction, w->vs));
+  PetscCall(VecGetArray(w->level->traction, &w->q));
   PetscCall(VecGetArray(w->vs, &w->s));
   for (PetscInt j = 0; j < w->rows; j++) {
     const double eta = SamFrameEta(f, j);
@@ -77,19 +81,20 @@ PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
 }
 
 /*
-  Part of a row, n <= SAM_CHUNK: sums of the slip in the tangent space with the phi, and the Gram matrix there. H is the
-  derivative of the projection of y = q - s/c on the disc; with `inverse` 0, of q: cells on their circles slip along
-  them.
+  Some cells of a row, at most SAM_CHUNK: the sums of the slip in the tangent space with the phi, and the Gram matrix
+  there. The tangent space is that of H, the derivative of the projection of y = q - inverse s onto the disc. With
+  `inverse` 0 it is that of q: cells on their circles may slip along them. The second loop, with roots and divisions,
+  runs only if a cell lies beyond its disc.
 */
-SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const double *restrict qy,
-                                    const double *restrict tx, const double *restrict ty, const double *restrict bound,
-                                    double inverse, double xi0, double dxi, double eta, double sums[3 + SAM_GRAM])
+SAM_VECTORIZED static void FitCells(const SamStickSlip *w, SamRow row, double inverse, double sums[3 + SAM_GRAM])
 {
+  const double *restrict qx = w->q + row.first, *restrict qy = qx + w->cells, *restrict tx = w->s + row.first,
+                         *restrict ty = tx + w->cells, *restrict bound = w->bound + row.first;
   double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
 
 #pragma omp simd reduction(+ : x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
-  for (PetscInt i = 0; i < n; i++) {
-    const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
     const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i];
 
     beyond += yx * yx + yy * yy > ON_CIRCLE * b * b ? in : 0;
@@ -104,8 +109,8 @@ SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const
   if (beyond > 0) {
     x = y = turn = hxx = hyy = xi_hyy = xi2_hyy = 0;
 #pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
-    for (PetscInt i = 0; i < n; i++) {
-      const double xi = xi0 + (double)i * dxi, b = bound[i], in = b > 0 ? 1 : 0;
+    for (int i = 0; i < row.count; i++) {
+      const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
       const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy;
       const double over = b > 0 && n2 > ON_CIRCLE * b * b ? 1 / n2 : 0, s = over > 0 ? b * sqrt(n2) * over : in,
                    g   = s * over;
@@ -117,63 +122,54 @@ SAM_VECTORIZED static void FitCells(PetscInt n, const double *restrict qx, const
   }
   sums[0] += x;
   sums[1] += y;
-  sums[2] += turn - eta * x;
-  SamGramTangentialRow(sums + 3, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, eta);
+  sums[2] += turn - row.eta * x;
+  SamGramTangentialRow(sums + 3, (const double[6]){hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy}, row.eta);
 }
 
 /* Subtracts the rigid motion a from a row of slips. */
-SAM_VECTORIZED static void SubtractRow(PetscInt n, double *restrict sx, double *restrict sy, double xi0, double dxi,
-                                       double eta, const double a[3])
+SAM_VECTORIZED static void SubtractRow(SamRow row, double *restrict sx, double *restrict sy, const double a[3])
 {
-  const double ax = SamFrameX(a, eta), a1 = a[1], a2 = a[2];
+  const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
 
 #pragma omp simd
-  for (PetscInt i = 0; i < n; i++) {
+  for (int i = 0; i < row.count; i++) {
     sx[i] -= ax;
-    sy[i] -= a1 + a2 * (xi0 + (double)i * dxi);
+    sy[i] -= a1 + a2 * (row.xi0 + (double)i * row.dxi);
   }
 }
 
 /* Adds a to the motion. */
 static void AddMotion(SamStickSlip *w, const double a[3])
 {
-  const SamFrame *f = w->frame;
-
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
+    const SamRow row = SamStickSlipRow(w, j);
 
-    SubtractRow(w->last[j] - w->first[j], w->s + k, w->s + l, f->xi0 + w->first[j] * f->dxi, f->dxi, SamFrameEta(f, j),
-                a);
+    SubtractRow(row, w->s + row.first, w->s + row.first + w->cells, a);
   }
 }
 
-/* Fits the motion: least squares of s over the tangent space, the sets taken from q - inverse s. */
+/* Fits the motion: least squares of s over the tangent space of q - inverse s. */
 static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
 {
-  const SamFrame *f                    = w->frame;
-  SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
-  double          sums[3 + SAM_GRAM], a[3];
+  SamTotal totals[3 + SAM_GRAM] = {{0, 0}};
+  double   sums[3 + SAM_GRAM], a[3];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
     double row[3 + SAM_GRAM] = {0};
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i += SAM_CHUNK) {
-      const ptrdiff_t k = (ptrdiff_t)j * w->nx + i, l = k + w->cells;
-
-      FitCells(PetscMin(SAM_CHUNK, w->last[j] - i), w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, inverse,
-               f->xi0 + i * f->dxi, f->dxi, SamFrameEta(f, j), row);
-    }
+    for (PetscInt i = w->first[j]; i < w->last[j]; i += SAM_CHUNK)
+      FitCells(w, SamFrameRow(w->frame, j, i, PetscMin(i + SAM_CHUNK, w->last[j])), inverse, row);
     SamAddAll(3 + SAM_GRAM, totals, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
-  SamFrameSolve(f, sums + 3, sums, a);
+  SamFrameSolve(w->frame, sums + 3, sums, a);
   AddMotion(w, a);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The error; the fit of the motion and the sets depend on each other. */
+/* The error of the start. The fit of the motion and the tangent space depend on each other, hence the sweeps. */
 static PetscErrorCode MeasureStart(SamStickSlip *w)
 {
   PetscFunctionBegin;
@@ -195,7 +191,7 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   PetscCall(SamStickSlipComputeSlip(w));
   PetscCall(MeasureStart(w));
   if (w->error <= POOR_START || !w->frame->count) PetscFunctionReturn(PETSC_SUCCESS);
-  /* cells on their circles may slip along them, the others stick: does that tell the motion better? */
+  /* is the motion better fitted where cells on their circles may slip along them, and the others stick? */
   error = w->error;
   for (PetscInt c = 0; c < 3; c++) motion[c] = w->motion[c];
   PetscCall(FitMotion(w, 0));
@@ -207,14 +203,15 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SAM_VECTORIZED static void MeasureRow(PetscInt n, const double *restrict qx, const double *restrict qy,
-                                      const double *restrict tx, const double *restrict ty,
-                                      const double *restrict bound, double inverse, double squares[SAM_SQUARES])
+SAM_VECTORIZED static void MeasureRow(const SamStickSlip *w, SamRow row, double squares[SAM_SQUARES])
 {
-  double residual = 0, shear = 0, projected = 0, least = 0;
+  const double *restrict qx = w->q + row.first, *restrict qy = qx + w->cells, *restrict tx = w->s + row.first,
+                         *restrict ty = tx + w->cells, *restrict bound = w->bound + row.first;
+  const double inverse  = 1 / w->self;
+  double       residual = 0, shear = 0, projected = 0, least = 0;
 
 #pragma omp simd reduction(+ : residual, shear, projected, least)
-  for (PetscInt i = 0; i < n; i++) {
+  for (int i = 0; i < row.count; i++) {
     const double b = bound[i], yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i], n2 = yx * yx + yy * yy,
                  scale = SamDiscScale(n2, b);
 
@@ -241,10 +238,9 @@ PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, 1 / w->self));
   for (PetscInt j = 0; j < w->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * w->nx + w->first[j], l = k + w->cells;
-    double          row[SAM_SQUARES] = {0};
+    double row[SAM_SQUARES] = {0};
 
-    MeasureRow(w->last[j] - w->first[j], w->q + k, w->q + l, w->s + k, w->s + l, w->bound + k, 1 / w->self, row);
+    MeasureRow(w, SamStickSlipRow(w, j), row);
     SamAddAll(SAM_SQUARES, squares, row);
   }
   PetscCall(SamStickSlipSetError(w, squares));

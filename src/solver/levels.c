@@ -1,0 +1,108 @@
+/* Nested grids and windows, the same for all kinds of solvers, and the counted work of a method on a level. */
+#include <petsam/private/solverimpl.h>
+
+/* Fields on the level's grid, one for each that `like` has. */
+static PetscErrorCode CreateFields(SamSolver s, const SamLevel *like, SamLevel *level)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_GIVEN; k++)
+    if (like->given[k]) PetscCall(SamGridCreateVec(level->grid, s->kind->given_components[k], &level->given[k]));
+  PetscCall(SamGridCreateVec(level->grid, s->kind->components, &level->traction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyFields(SamLevel *level)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_GIVEN; k++) PetscCall(VecDestroy(&level->given[k]));
+  PetscCall(VecDestroy(&level->traction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLevelSolveNested(SamSolver s, SamLevel *level, PetscInt depth, PetscBool guess)
+{
+  SamLevel    coarse = {.balance = level->balance, .rtol = PetscMax(s->rtol, s->kind->coarse_rtol)};
+  SamStart    start  = guess ? SAM_START_GUESS : SAM_START_NONE;
+  SamTransfer transfer;
+
+  PetscFunctionBegin;
+  if (depth > 1 && !guess) PetscCall(SamElasticityGetCoarse(level->elasticity, &coarse.elasticity, &transfer));
+  if (coarse.elasticity) {
+    PetscCall(SamElasticityGetGrid(coarse.elasticity, &coarse.grid));
+    PetscCall(CreateFields(s, level, &coarse));
+    for (PetscInt k = 0; k < SAM_GIVEN; k++)
+      if (level->given[k]) PetscCall(SamTransferRestrict(transfer, level->given[k], coarse.given[k]));
+    PetscCall(SamLevelSolveNested(s, &coarse, depth - 1, PETSC_FALSE));
+    PetscCall(s->kind->prolong(transfer, &coarse, level));
+    for (PetscInt k = 0; k < 3; k++) level->rigid[k] = coarse.rigid[k];
+    PetscCall(DestroyFields(&coarse));
+    start = SAM_START_COARSE;
+  }
+  PetscCall(s->kind->solvelevel(s, level, start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow window, SamElasticity part,
+                                     PetscBool guess, SamLevelSolver solve)
+{
+  SamLevel level = {.elasticity = part, .balance = whole->balance, .rtol = whole->rtol, .finest = whole->finest};
+
+  PetscFunctionBegin;
+  PetscCall(SamWindowGetGrid(window, &level.grid));
+  PetscCall(CreateFields(s, whole, &level));
+  for (PetscInt k = 0; k < SAM_GIVEN; k++)
+    if (whole->given[k]) PetscCall(SamWindowTake(window, whole->given[k], level.given[k]));
+  if (guess) PetscCall(SamWindowTake(window, whole->traction, level.traction));
+  PetscCall(solve(s, &level, guess));
+  PetscCall(SamWindowPut(window, level.traction, whole->traction));
+  whole->frame = level.frame;
+  for (PetscInt k = 0; k < 3; k++) whole->rigid[k] = level.rigid[k];
+  PetscCall(DestroyFields(&level));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamLevelGetRigid(const SamLevel *level, SamBalance *balance)
+{
+  double a[3];
+
+  for (PetscInt k = 0; k < 3; k++) a[k] = level->rigid[k] - level->frame.fixed[k];
+  SamFrameGetRigid(&level->frame, a, balance);
+}
+
+PetscErrorCode SamLevelApply(SamSolver s, SamLevel *level, Vec traction, Vec u)
+{
+  PetscFunctionBegin;
+  s->applies += level->finest ? 1 : 0;
+  PetscCall(s->kind->apply(level->elasticity, traction, u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, const float traction[], float u[])
+{
+  PetscFunctionBegin;
+  s->applies += level->finest ? 1 : 0;
+  PetscCall(s->kind->applysingle(level->elasticity, factor, traction, u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double factor, const float r[], float z[])
+{
+  PetscFunctionBegin;
+  s->preconditions += level->finest ? 1 : 0;
+  PetscCall(s->kind->preconditionsingle(level->elasticity, factor, r, z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLevelIterated(SamSolver s, SamLevel *level, PetscReal error)
+{
+  PetscFunctionBegin;
+  if (!level->finest) PetscFunctionReturn(PETSC_SUCCESS);
+  s->iterations++;
+  for (PetscInt m = 0; m < s->monitors; m++) PetscCall(s->monitor[m](s, s->iterations, error, s->monitor_context[m]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamLevelAtMaxIterations(SamSolver s, const SamLevel *level)
+{
+  return level->finest && s->iterations >= SamSolverMaxIterations(s) ? PETSC_TRUE : PETSC_FALSE;
+}

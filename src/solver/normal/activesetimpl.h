@@ -1,0 +1,75 @@
+/* The state of the active-set method, and its loops over the cells of a row. */
+#ifndef PETSAM_ACTIVESETIMPL_H
+#define PETSAM_ACTIVESETIMPL_H
+
+#include <petsam/private/normalimpl.h>
+
+typedef struct {
+  SamSolver       solver;
+  SamLevel       *level;
+  const SamFrame *frame;
+  PetscInt        nx, rows, cells, stretches; /* stretches: of a row */
+  Vec             vg;                         /* the field of g */
+  const double   *h;
+  double         *p, *g;          /* pressure, Pa; gap, m */
+  float          *z, *s, *u;      /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
+  float          *loss;           /* what is taken off the preconditioner; 0 on cells that were not in A at the time */
+  float          *active;         /* 1 on cells of A, else 0 */
+  float          *xi;             /* of the columns */
+  char           *busy;           /* stretches with cells of A, or with pressure */
+  double         *open;           /* of other stretches: the least gap after the last step; not known: -infinity */
+  double          unit;           /* m, of the iteration */
+  double          self;           /* influence of a cell on itself, m/Pa */
+  double          gram[SAM_GRAM]; /* of A */
+  double          motion[3];      /* rigid displacement in g, fixed part included */
+  double          displacement;   /* largest |S p|, m */
+  double          error;          /* largest complementarity error, m */
+  SamRounding     rounding;       /* of g, m */
+  double          slope;          /* of the energy along the step: s.g */
+  double          shrink;         /* largest part of its pressure that a cell loses in the step */
+  double          curvature;      /* s.u; 0: no step yet */
+  double          alpha;          /* length of the trial */
+} SamActiveSet;
+
+/* Sums over the cells of a row that take part: their number, xi, xi^2, g and xi g. */
+typedef struct {
+  double count, xi, xi2, g, xi_g;
+} SamGapSums;
+
+/* Sums of a direction over A: z and u with 1 and xi; z.r, z.u, s.r. */
+typedef struct {
+  double z, z_turn, u, u_turn, zr, zu, sr;
+} SamDirectionSums;
+
+/* g becomes g + h - motion; returns the largest |g| before. */
+PETSC_INTERN double SamActiveSetGapRow(SamActiveSet *w, SamRow row);
+/*
+  Chooses A among some cells: those with p > ease times the gap, which `motion` moves back first; adds to their sums.
+  Whether any is in A, or has pressure.
+*/
+PETSC_INTERN PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, double ease, const double motion[3],
+                                             SamGapSums *sums);
+/* Moves the gap by -motion; returns the largest complementarity error: |g| under pressure, -g elsewhere. */
+PETSC_INTERN double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const double motion[3]);
+/* How many cells have a loss and are not in A, or the other way round. */
+PETSC_INTERN double SamActiveSetCountChanged(const SamActiveSet *w, SamRow row);
+/* loss becomes the part `off` of it on A, but never 0 there, and 0 elsewhere. */
+PETSC_INTERN void SamActiveSetLossRow(SamActiveSet *w, SamRow row, float off);
+/* z = r, the residual: -g on A, in units. */
+PETSC_INTERN void SamActiveSetResidualRow(SamActiveSet *w, SamRow row);
+/* z, which holds |k| r, becomes |k| r - loss r on A and 0 elsewhere; adds its products to the sums. */
+PETSC_INTERN void SamActiveSetPreconditionedRow(SamActiveSet *w, SamRow row, SamDirectionSums *sums);
+/* z becomes z - motion + beta s. Outside of A, where z has no meaning, it gets none. */
+PETSC_INTERN void SamActiveSetDirectionRow(SamActiveSet *w, SamRow row, const double motion[3], float beta);
+/* The slope of the step to the trial p; raises `shrink`. */
+PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
+/* s.u of at most SAM_STRETCH cells. */
+PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
+/* From the trial, where p has gone by s, to t times that; adds to the sums over the cells with pressure. */
+PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);
+/* The same where there is neither pressure nor a step: returns the least gap. */
+PETSC_INTERN double SamActiveSetOpenRow(SamActiveSet *w, SamRow row, double t);
+/* The largest |S p|. */
+PETSC_INTERN double SamActiveSetDisplacementRow(const SamActiveSet *w, SamRow row);
+
+#endif

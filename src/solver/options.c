@@ -1,0 +1,104 @@
+/* What a solver reads from the options database, and what it prints. */
+#include <petsam/private/solverimpl.h>
+
+#define PREFIX 128
+
+/* The user's prefix and `<kind>_`. */
+static PetscErrorCode GetPrefix(SamSolver s, char prefix[PREFIX])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(prefix, PREFIX, "%s%s_", s->prefix, s->kind->name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetTypeFromOptions(SamSolver s, const SamOptions *from)
+{
+  char      type[sizeof(s->type)], types[256];
+  PetscBool set;
+  PetscErrorCode (*create)(SamSolver);
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(type, s->type, sizeof(type)));
+  PetscCall(SamTypesList(s->kind->types, types, sizeof(types)));
+  PetscCall(SamOptionsString(from, "type", types, type, sizeof(type), &set));
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFunctionListFind(s->kind->types, type, &create));
+  PetscCheck(create, s->comm, SAM_ERR_USER, "-%stype %s: expected %s", SamOptionsPrefix(from), type, types);
+  PetscCall(SamSolverSetType(s, type));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode MonitorError(SamSolver s, PetscInt it, PetscReal error, void *context)
+{
+  PetscFunctionBegin;
+  (void)context;
+  PetscCall(PetscPrintf(s->comm, "%5" PetscInt_FMT " %s %s error %.6e\n", it, s->kind->name, s->type, (double)error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverSetFromOptions(SamSolver s)
+{
+  PetscReal        rtol   = s->rtol;
+  PetscInt         max_it = s->max_it, levels = s->levels;
+  PetscBool        monitor = s->monitor_error, error = s->error_if_not_converged, ignored;
+  char             prefix[PREFIX], title[64];
+  const SamOptions from = {s->comm, prefix};
+
+  PetscFunctionBegin;
+  PetscCall(GetPrefix(s, prefix));
+  PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind->name));
+  PetscCall(SamOptionsHeading(&from, title));
+  PetscCall(SetTypeFromOptions(s, &from));
+  PetscCall(SamOptionsReal(&from, "rtol", s->kind->error_help, SAM_RANGE_POSITIVE, &rtol, NULL));
+  PetscCall(SamOptionsInt(&from, "max_it", "iterations on the finest grid, 0: the type's default", 0, &max_it, NULL));
+  PetscCall(SamOptionsInt(&from, "levels", "nested grids, 0: the type's default", 0, &levels, NULL));
+  PetscCall(SamOptionsBool(&from, "monitor", "print the error after each iteration", &monitor, NULL));
+  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "stop with an error", &error, NULL));
+  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print why the solver stopped", &ignored));
+  PetscCall(SamOptionsHasViewer(&from, "view", "print the solver's settings", &ignored));
+  PetscCall(SamSolverSetTolerances(s, rtol, max_it));
+  PetscCall(SamSolverSetLevels(s, levels));
+  PetscCall(SamSolverSetErrorIfNotConverged(s, error));
+  if (monitor && !s->monitor_error) PetscCall(SamSolverMonitorSet(s, MonitorError, NULL));
+  s->monitor_error = monitor;
+  if (s->ops.setfromoptions) PetscCall(s->ops.setfromoptions(s, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverView(SamSolver s, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Solver of the %s problem: type %s\n", s->kind->name, s->type));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  rtol %g, max_it %" PetscInt_FMT ", nested grids ", (double)s->rtol,
+                                   SamSolverMaxIterations(s)));
+  if (SamSolverLevels(s) == PETSC_MAX_INT)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "as many as the grid allows\n"));
+  else
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT "\n", SamSolverLevels(s)));
+  if (s->ops.view) PetscCall(s->ops.view(s, viewer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverViewFromOptions(SamSolver s)
+{
+  PetscViewer       viewer;
+  PetscViewerFormat format;
+  PetscBool         set;
+  char              prefix[PREFIX];
+
+  PetscFunctionBegin;
+  PetscCall(GetPrefix(s, prefix));
+  PetscCall(SamGetViewer(s->comm, prefix, "-view", &viewer, &format, &set));
+  if (set) {
+    PetscCall(SamSolverView(s, viewer));
+    PetscCall(PetscViewerDestroy(&viewer));
+  }
+  PetscCall(SamGetViewer(s->comm, prefix, "-converged_reason", &viewer, &format, &set));
+  if (set) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "The %s solve %s due to %s iterations %" PetscInt_FMT "\n", s->kind->name,
+                                     s->reason > 0 ? "converged" : "did not converge", SamSolverReasonName(s->reason),
+                                     s->iterations));
+    PetscCall(PetscViewerDestroy(&viewer));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,56 @@
+/* The state of Newton's method, and its loops over the contact cells of a row. */
+#ifndef PETSAM_NEWTONIMPL_H
+#define PETSAM_NEWTONIMPL_H
+
+#include <petsam/private/tangentialimpl.h>
+
+/* Floats are in units: slip in `unit`, shear in unit/c, with the unit of the iteration that made them. */
+typedef struct {
+  SamStickSlip base;
+  double      *trial;          /* admissible shear, Pa */
+  float       *normal;         /* q/|q| where a cell slips, 0 where it sticks */
+  float       *weight;         /* the preconditioner's w; 0 outside of the contact */
+  float       *r, *z;          /* residual -P s; direction */
+  float       *step, *u;       /* last step, and C times it */
+  float       *xi;             /* of the columns */
+  double       unit;           /* m */
+  double       gram[SAM_GRAM]; /* of the tangent space */
+  double       slope;          /* of the energy along the step: s.step */
+  double       along, bend;    /* r.P step; P step.L P step */
+  double       size;           /* |step|^2 */
+  double       alpha;          /* length of the trial */
+  double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
+  double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
+  SamRounding  rounding;       /* of s/c, in the 2-norm, Pa */
+} SamNewton;
+
+/* Sums over cells: the slip in the tangent space with the phi, the Gram matrix there, the work of friction. */
+typedef struct {
+  double slip[3], gram[SAM_GRAM], work;
+} SamNewtonSpace;
+
+/* A direction's sums, with e = P step and v = P(u + L step): z and v with the phi; z.r, z.v, e.v, e.r. */
+typedef struct {
+  double z[3], v[3], zr, zv, ev, er;
+} SamNewtonProducts;
+
+/*
+  Makes the step of length t: q += t (trial - q), s += by u. Chooses stick and slip, adds to the sums, and returns the
+  largest slip in the tangent space.
+*/
+PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, SamNewtonSpace *space);
+/* Subtracts the motion a from s; r = -P s, in units, and z = w r; adds to the squares of the error. */
+PETSC_INTERN void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],
+                                       double squares[SAM_SQUARES]);
+/* z, which holds M w r, becomes P(w M w r + rest r), see newton.c; its products. */
+PETSC_INTERN void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, SamNewtonProducts *sums);
+/* z becomes z - P a + beta P step. */
+PETSC_INTERN void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const double a[3], float beta);
+/* trial = q + alpha z, with cells that slip beyond their circles. */
+PETSC_INTERN void SamNewtonTrialRow(const SamNewton *w, SamRow row, double alpha);
+/* step = trial - q, in units; adds its products with s, with r, with L, and its square. */
+PETSC_INTERN void SamNewtonChangeRow(const SamNewton *w, SamRow row, double sums[4]);
+/* Adds step.u and u.u. */
+PETSC_INTERN void SamNewtonCurvatureRow(const SamNewton *w, SamRow row, double sums[2]);
+
+#endif
