@@ -65,7 +65,8 @@ class Results:
         self.history = Named(self.path, {name: data[:] for name, data in self.file["history"].items()})
         self.units = {name: data.attrs["units"] for name, data in self.file["history"].items()}
         self.parameters = Named(self.path, self.file.attrs)
-        self.friction = float(self.parameters["friction"])
+        if "friction_file" not in self.parameters:
+            _ = self.parameters["friction"]  # which every other file has
         time = self.history["time"]
         if not time.size:
             raise Error(f"{self.path}: has no load step yet")
@@ -123,6 +124,12 @@ class Results:
         if self.history["time"].size == 1:
             return self.label
         return f"{self.label}, step {self.steps[index]}, t = {self.times[index]:.4g} s"
+
+    def friction(self, index):
+        """Coefficient of friction of a saved step; NaN where it is a field (-friction_file)."""
+        number = float(self.parameters["friction"]) if "friction" in self.parameters else np.nan
+        scale = self.history["friction_scale"][self.steps[index] - 1] if "friction_scale" in self.history else 1.0
+        return number * float(scale)
 
     # ------------------------------------------------------------ fields
 
