@@ -118,7 +118,7 @@ def _profile(results, index, axis, at, whole):
 
 
 def _profile_panel(axes, lines, names, length, factor, friction):
-    """Lines of the components names of every snapshot; with friction, where it is a number, the bounds +-mu p behind."""
+    """Lines of the components names of every snapshot; with friction, if a number, the bounds +-mu p behind."""
     for data, color, mu, text in lines:
         if friction and mu > 0.0:
             for sign in (1.0, -1.0):
