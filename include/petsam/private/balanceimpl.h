@@ -44,12 +44,12 @@ static inline double SamFrameEta(const SamFrame *f, PetscInt j)
 
 /*
   SamRow - neighbouring cells of one row, for loops over them. `first` is the index of the first of them in this rank's
-  arrays; cell i = 0 ... count - 1 has its centre at (xi0 + i dxi, eta). The count has 32 bits, as GCC does not vectorise
-  the conversion of a longer index to a double.
+  arrays, `column` its column; cell i = 0 ... count - 1 has its centre at (xi0 + i dxi, eta). The numbers have 32 bits,
+  as GCC does not vectorise the conversion of a longer index to a double.
 */
 typedef struct {
   ptrdiff_t first;
-  int       column, count; /* column: of the first of them */
+  int       column, count;
   double    xi0, dxi, eta;
 } SamRow;
 

@@ -108,7 +108,10 @@ struct _n_SamSolver {
 PETSC_EXTERN PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, SamSolver *solver);
 PETSC_EXTERN PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[],
                                               PetscErrorCode (*create)(SamSolver));
-/* SamSolverSolve - checks the kinds of solver and balance, clears the counts, solves, views. Collective. */
+/*
+  SamSolverSolve - checks the kinds of solver and balance, clears the counts, solves, views. Of `problem` the balance,
+  the given fields and the traction are used. Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamSolverSolve(SamSolver solver, const SamSolverKind *kind, const SamLevel *problem,
                                            PetscBool guess);
 /* SamSolverViewFromOptions - obeys -<kind>_view and -<kind>_converged_reason after a solve. Collective. */
@@ -130,7 +133,7 @@ typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, Pets
 PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
                                                   SamElasticity part, PetscBool guess, SamLevelSolver solve);
 
-/* SamLevelGetRigid - writes a level's rigid displacement into the balance, for the force-controlled components. */
+/* SamLevelGetRigid - writes a level's rigid displacement into the force-controlled components of a balance. */
 PETSC_EXTERN void SamLevelGetRigid(const SamLevel *level, SamBalance *balance);
 
 /* ---- for methods ---- */
@@ -153,7 +156,7 @@ PETSC_EXTERN PetscErrorCode SamLevelPreconditionSingle(SamSolver solver, SamLeve
 /* SamLevelIterated - counts an iteration and calls the monitors, on the finest grid. Collective. */
 PETSC_EXTERN PetscErrorCode SamLevelIterated(SamSolver solver, SamLevel *level, PetscReal error);
 
-/* SamLevelAtMaxIterations - whether this is the finest grid, and max_it iterations have been made there. Not collective. */
+/* SamLevelAtMaxIterations - whether this is the finest grid, and max_it iterations have been made. Not collective. */
 PETSC_EXTERN PetscBool SamLevelAtMaxIterations(SamSolver solver, const SamLevel *level);
 
 /* ---- the account of rounding ---- */

@@ -37,11 +37,6 @@
 #include <math.h>
 #include <string.h>
 
-/*
-  A cell with pressure leaves A when its gap is more than PATCH times what its own pressure displaces it. PATCH stands
-  for the cell's neighbours, which have about the same pressure.
-*/
-#define PATCH 6.0
 /* The part of the loss that is taken off, and the part of A that may change before the loss is computed anew. */
 #define LOSS_OFF 0.5
 #define LOSS_OLD 0.01
@@ -49,10 +44,6 @@
 #define DESCENT 0.1
 /* The trial's length follows the best one, by at most the root of this factor in an iteration. */
 #define FOLLOW 2.0
-/* The part of the tolerance that rounding of g may be at the end. */
-#define DOUBT 0.03
-/* g is computed anew at the latest when the error has fallen by this factor, for then rounding may dominate it. */
-#define FALL 1e-3
 /* Iterations without progress before a gradient step, and before giving up because of rounding. */
 #define PATIENCE   10
 #define STAGNATION 100
@@ -107,180 +98,6 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- the account of rounding ---- */
-
-static double Tolerance(const Work *w)
-{
-  return w->level->rtol * w->displacement;
-}
-
-/* Single precision for S p is all that the tolerance asks for. */
-static PetscBool IsSingleEnough(const Work *w)
-{
-  return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol ? PETSC_TRUE : PETSC_FALSE;
-}
-
-/* The rounding of g is no more than the tolerance has room for. */
-static PetscBool IsTrusted(const Work *w)
-{
-  return SamRoundingIsWithin(&w->rounding, DOUBT * Tolerance(w));
-}
-
-/*
-  g is to be computed anew when it is not trusted, and either a product now will make it trusted to the end, or the
-  error has fallen so far that rounding may dominate.
-*/
-static PetscBool IsStale(const Work *w)
-{
-  const double later = SAM_SINGLE_ROUNDING * w->error; /* what rounding will be after a product */
-
-  return (!IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding.bound)) ? PETSC_TRUE
-                                                                                                 : PETSC_FALSE;
-}
-
-/* ---- gap and active set ---- */
-
-/* g = S p in single precision. */
-static PetscErrorCode ApplySingle(Work *w)
-{
-  double most = 0, scale;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < w->cells; k++) most = w->p[k] > most ? w->p[k] : most;
-  PetscCall(SamMax(w->level->grid->comm, 1, &most));
-  if (most == 0) most = 1;
-  for (PetscInt k = 0; k < w->cells; k++) w->z[k] = (float)(w->p[k] / most);
-  PetscCall(SamLevelApplySingle(w->solver, w->level, 1 / w->self, w->z, w->z));
-  scale = w->self * most;
-  for (PetscInt k = 0; k < w->cells; k++) w->g[k] = scale * (double)w->z[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* g = S p */
-static PetscErrorCode Apply(Work *w)
-{
-  PetscFunctionBegin;
-  PetscCall(VecRestoreArray(w->level->traction, &w->p));
-  PetscCall(VecRestoreArray(w->vg, &w->g));
-  PetscCall(SamLevelApply(w->solver, w->level, w->level->traction, w->vg));
-  PetscCall(VecGetArray(w->level->traction, &w->p));
-  PetscCall(VecGetArray(w->vg, &w->g));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static SamRow WholeRow(const Work *w, PetscInt j)
-{
-  return SamFrameRow(w->frame, j, 0, w->nx);
-}
-
-/* g = S p + h - motion, and the largest displacement. */
-static PetscErrorCode ComputeGap(Work *w)
-{
-  double max = 0;
-
-  PetscFunctionBegin;
-  if (IsSingleEnough(w))
-    PetscCall(ApplySingle(w));
-  else
-    PetscCall(Apply(w));
-  for (PetscInt j = 0; j < w->rows; j++) max = SamLarger(max, SamActiveSetGapRow(w, WholeRow(w, j)));
-  for (PetscInt k = 0; k < w->rows * w->stretches; k++) w->open[k] = -INFINITY;
-  PetscCall(SamMax(w->level->grid->comm, 1, &max));
-  w->displacement = max;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Adds a row's sums, with the factor of eta, to the Gram matrix and to the sums of g with the phi. */
-static void AddRow(SamGapSums row, double eta, SamTotal totals[])
-{
-  double sums[SAM_GRAM + 3] = {[SAM_GRAM] = row.g, -eta * row.g, row.xi_g};
-
-  SamGramNormalRow(sums, row.count, row.xi, row.xi2, eta);
-  SamAddAll(SAM_GRAM + 3, totals, sums);
-}
-
-/* Adds to `motion` what fits the gap to the cells of these totals, whose Gram matrix becomes w's. */
-static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
-{
-  double sums[SAM_GRAM + 3], a[3];
-
-  PetscFunctionBegin;
-  PetscCall(SamSumTotals(w->level->grid->comm, SAM_GRAM + 3, totals, sums));
-  PetscCall(PetscArraycpy(w->gram, sums, SAM_GRAM));
-  SamFrameSolve(w->frame, w->gram, sums + SAM_GRAM, a);
-  for (PetscInt c = 0; c < 3; c++) motion[c] += a[c];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Whether a stretch without pressure has no gap that `motion` could close. Evaluated as the gaps are, so that rounding
-  makes no difference.
-*/
-static PetscBool IsClear(const Work *w, PetscInt stretch, SamRow row, const double motion[3])
-{
-  const double a = motion[0] - motion[1] * row.eta, b = motion[2];
-  const double last = w->frame->xi0 + (double)(row.column + row.count - 1) * row.dxi;
-
-  return !w->busy[stretch] && w->open[stretch] > PetscMax(a + b * row.xi0, a + b * last) ? PETSC_TRUE : PETSC_FALSE;
-}
-
-/* A in a row, and which of its stretches are busy: by the gap that `motion` has moved back. */
-static SamGapSums ChooseRow(Work *w, PetscInt j, double ease, const double motion[3])
-{
-  SamGapSums sums = {0};
-
-  for (PetscInt i = 0, stretch = j * w->stretches; i < w->nx; i += SAM_STRETCH, stretch++) {
-    const SamRow row = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_STRETCH, w->nx));
-
-    if (IsClear(w, stretch, row, motion)) continue; /* it has no cell of A, and gets none */
-    w->busy[stretch] = SamActiveSetChooseRow(w, row, ease, motion, &sums) ? 1 : 0;
-  }
-  return sums;
-}
-
-/* Chooses A by the gap that `motion` has moved back, and adds to it what fits it to A. */
-static PetscErrorCode Choose(Work *w, double ease, double motion[3])
-{
-  SamTotal totals[SAM_GRAM + 3] = {{0, 0}};
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < w->rows; j++) AddRow(ChooseRow(w, j, ease, motion), SamFrameEta(w->frame, j), totals);
-  PetscCall(Fit(w, totals, motion));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Step 1: chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures the error.
-  `contact`: the totals over the cells with pressure, when they are known.
-*/
-static PetscErrorCode ChooseSet(Work *w, SamTotal contact[])
-{
-  double motion[3] = {0, 0, 0}, error = 0;
-
-  PetscFunctionBegin;
-  if (contact)
-    PetscCall(Fit(w, contact, motion));
-  else
-    PetscCall(Choose(w, 0, motion));
-  PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
-  for (PetscInt j = 0; j < w->rows; j++) error = SamLarger(error, SamActiveSetMoveRow(w, WholeRow(w, j), motion));
-  PetscCall(SamMax(w->level->grid->comm, 1, &error));
-  w->error = error;
-  SamRoundingRaise(&w->rounding, SAM_SINGLE_ROUNDING * error);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* g by a product, and the set by it. */
-static PetscErrorCode Refresh(Work *w)
-{
-  PetscFunctionBegin;
-  PetscCall(ComputeGap(w));
-  w->rounding.bound = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
-  PetscCall(ChooseSet(w, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- direction ---- */
 
 /* Computes the loss, |k| 1_A, when A is no longer the one for which it was computed. */
@@ -289,11 +106,11 @@ static PetscErrorCode UpdateLoss(Work *w)
   double changed = 0;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < w->rows; j++) changed += SamActiveSetCountChanged(w, WholeRow(w, j));
+  for (PetscInt j = 0; j < w->rows; j++) changed += SamActiveSetCountChanged(w, SamActiveSetRow(w, j));
   PetscCall(SamSum(w->level->grid->comm, 1, &changed));
   if (changed <= LOSS_OLD * w->gram[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLevelPreconditionSingle(w->solver, w->level, w->self, w->active, w->loss));
-  for (PetscInt j = 0; j < w->rows; j++) SamActiveSetLossRow(w, WholeRow(w, j), (float)LOSS_OFF);
+  for (PetscInt j = 0; j < w->rows; j++) SamActiveSetLossRow(w, SamActiveSetRow(w, j), (float)LOSS_OFF);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -431,7 +248,7 @@ static void SetLength(Work *w, double t, SamTotal contact[])
       if (w->busy[stretch]) continue;
       w->open[stretch] = SamActiveSetOpenRow(w, SamFrameRow(w->frame, j, i, PetscMin(i + SAM_STRETCH, w->nx)), t);
     }
-    AddRow(sums, SamFrameEta(w->frame, j), contact);
+    SamActiveSetAddRow(sums, SamFrameEta(w->frame, j), contact);
   }
 }
 
@@ -471,7 +288,7 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 /* One iteration. `downhill`: there was a way down. `found`: an admissible pressure was. */
 static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, PetscBool *found)
 {
-  SamTotal contact[SAM_GRAM + 3] = {{0, 0}}, ignored[SAM_GRAM + 3] = {{0, 0}};
+  SamTotal contact[SAM_GAP_TOTALS] = {{0, 0}}, ignored[SAM_GAP_TOTALS] = {{0, 0}};
   double   best = 0;
 
   PetscFunctionBegin;
@@ -490,23 +307,8 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   *downhill = best > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
   w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
-  PetscCall(ChooseSet(w, contact));
+  PetscCall(SamActiveSetChoose(w, contact));
   PetscCall(SamLevelIterated(w->solver, w->level, w->error / w->displacement));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Whether the error is below the tolerance, which the present displacement decides. */
-static PetscErrorCode IsSolved(Work *w, PetscBool *solved)
-{
-  double max = 0;
-
-  PetscFunctionBegin;
-  *solved = PETSC_FALSE;
-  if (!(w->error <= Tolerance(w)) || !IsTrusted(w)) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt j = 0; j < w->rows; j++) max = PetscMax(max, SamActiveSetDisplacementRow(w, WholeRow(w, j)));
-  PetscCall(SamMax(w->level->grid->comm, 1, &max));
-  w->displacement = max;
-  *solved         = w->error <= Tolerance(w) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -523,7 +325,7 @@ static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool downhill, 
   else if (!isfinite(w->error))
     *reason = SAM_SOLVER_DIVERGED_NAN;
   if (*reason) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(IsSolved(w, &solved));
+  PetscCall(SamActiveSetIsSolved(w, &solved));
   if (solved)
     *reason = SAM_SOLVER_CONVERGED_RTOL;
   else if (SamLevelAtMaxIterations(w->solver, w->level))
@@ -544,14 +346,14 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
   PetscFunctionBegin;
   PetscCall(CreateWork(solver, level, &w));
   for (PetscInt c = 0; c < 3; c++) w.motion[c] = w.frame->fixed[c];
-  PetscCall(Refresh(&w));
+  PetscCall(SamActiveSetRefresh(&w));
   best = w.error;
   PetscCall(GetReason(&w, stagnant, downhill, found, &reason));
   while (!reason) {
     const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE;
 
     PetscCall(Iterate(&w, gradient, &downhill, &found));
-    if (downhill && (gradient || IsStale(&w))) PetscCall(Refresh(&w));
+    if (downhill && (gradient || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
     stagnant = w.error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, w.error);
     PetscCall(GetReason(&w, stagnant, downhill, found, &reason));

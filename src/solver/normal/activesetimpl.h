@@ -1,4 +1,4 @@
-/* The state of the active-set method, and its loops over the cells of a row. */
+/* The state of the active-set method, its step 1, and its loops over the cells of a row. */
 #ifndef PETSAM_ACTIVESETIMPL_H
 #define PETSAM_ACTIVESETIMPL_H
 
@@ -40,6 +40,35 @@ typedef struct {
 typedef struct {
   double z, z_turn, u, u_turn, zr, zu, sr;
 } SamDirectionSums;
+
+/* Totals over cells: the Gram matrix of the phi there, and g with the phi. */
+#define SAM_GAP_TOTALS (SAM_GRAM + 3)
+
+static inline SamRow SamActiveSetRow(const SamActiveSet *w, PetscInt j)
+{
+  return SamFrameRow(w->frame, j, 0, w->nx);
+}
+
+/* ---- step 1: the gap and the active set ---- */
+
+/* Adds the sums of a row to the totals. */
+PETSC_INTERN void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals[]);
+/*
+  Step 1: chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures the error.
+  `contact`: the totals over the cells with pressure; NULL: not known yet. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamActiveSetChoose(SamActiveSet *w, SamTotal contact[]);
+/* Computes g by a product, and does step 1 by it. Collective. */
+PETSC_INTERN PetscErrorCode SamActiveSetRefresh(SamActiveSet *w);
+/*
+  Whether g is to be computed anew: when its rounding is too much for the tolerance, and either a product now will keep
+  it below that to the end, or the error has fallen so far that rounding may dominate.
+*/
+PETSC_INTERN PetscBool SamActiveSetIsStale(const SamActiveSet *w);
+/* Whether the error is below the tolerance, which the present displacement decides. Collective. */
+PETSC_INTERN PetscErrorCode SamActiveSetIsSolved(SamActiveSet *w, PetscBool *solved);
+
+/* ---- loops over some cells of a row ---- */
 
 /* g becomes g + h - motion; returns the largest |g| before. */
 PETSC_INTERN double SamActiveSetGapRow(SamActiveSet *w, SamRow row);

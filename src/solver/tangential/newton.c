@@ -184,7 +184,8 @@ static PetscErrorCode NewDirection(Work *w)
 }
 
 /*
-  The trial becomes an admissible shear near it, with `nearest` the nearest one; computes the step there and its products.
+  The trial becomes an admissible shear near it, with `nearest` the nearest one. Computes the step there, and its
+  products.
 */
 static PetscErrorCode Project(Work *w, PetscBool nearest, PetscBool *found)
 {
@@ -342,7 +343,8 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), 0);
   PetscCall(Project(w, PETSC_FALSE, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  SamRoundingAdd(&w->rounding, (1 + w->reach) * sqrt(w->size) * w->unit / u->self); /* s still is that of the old q */
+  /* the slip is still that of the shear before: the step changes s/c by no more than this */
+  SamRoundingAdd(&w->rounding, (1 + w->reach) * sqrt(w->size) * w->unit / u->self);
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
   PetscCall(Refresh(w));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,0 +1,210 @@
+/* The nearest admissible pressure in equilibrium: see projection.c. */
+#include "projectionimpl.h"
+#include <math.h>
+
+/* Most projections in a row. */
+#define PROJECT_MAX 4
+/* An error of equilibrium from which one step of Newton's method is likely to reach the solution. */
+#define CLOSE 1e-3
+
+/* What a pass over the cells needs to know. */
+typedef struct {
+  const double *field;     /* what is projected */
+  const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: all, or those with pressure */
+  PetscBool     contact;   /* which of the two */
+  float        *row;       /* then: a row of ones, or scratch for the mask of a row */
+  const char   *busy;      /* stretches with cells that take part, or with pressure; NULL: all */
+  const float  *step;      /* added to the field with the factor `by`; one row of zeros where that is 0 */
+  double        by, scale; /* see SamPressureStep */
+  float        *made;
+} Cells;
+
+static const float *MaskOfRow(const Cells *c, PetscInt nx, PetscInt j)
+{
+  const double *field = c->field + (ptrdiff_t)j * nx;
+
+  if (c->mask) return c->mask + (ptrdiff_t)j * nx;
+  for (PetscInt i = 0; c->contact && i < nx; i++) c->row[i] = field[i] > 0 ? 1.0f : 0.0f;
+  return c->row;
+}
+
+static const char *BusyOfRow(const Cells *c, SamGrid grid, PetscInt j)
+{
+  return c->busy ? c->busy + (ptrdiff_t)j * SamStretches(grid) : NULL;
+}
+
+/* The pressures x = max(0, field + by step + phi a) of some cells. */
+SAM_VECTORIZED static void AddPressures(SamRow row, const double *restrict field, const float *restrict step, double by,
+                                        const float *restrict mask, const double a[3], SamDual *sums)
+{
+  const double ax = a[0] - a[1] * row.eta, a2 = a[2];
+  double       value = 0, x = 0, turn = 0, count = 0, sum_xi = 0, xi2 = 0;
+
+#pragma omp simd reduction(+ : value, x, turn, count, sum_xi, xi2)
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi),
+                 in = v > 0 ? (double)mask[i] : 0, p = in * v;
+
+    value += 0.5 * p * p;
+    x += p;
+    turn += xi * p;
+    count += in;
+    sum_xi += in * xi;
+    xi2 += in * xi * xi;
+  }
+  sums->value += value;
+  sums->scale += x;
+  sums->sums[0] += x;
+  sums->sums[1] -= row.eta * x;
+  sums->sums[2] += turn;
+  SamGramNormalRow(sums->gram, count, sum_xi, xi2, row.eta);
+}
+
+static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
+{
+  const Cells   *c  = (const Cells *)context;
+  const PetscInt nx = f->grid->nx;
+
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    const float *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? (ptrdiff_t)j * nx : 0);
+    const char  *busy = BusyOfRow(c, f->grid, j);
+    SamDual      sums = {0};
+
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) {
+      const SamRow row = SamFrameRow(f, j, i, end);
+
+      AddPressures(row, c->field + row.first, step + i, c->by, mask + i, a, &sums);
+    }
+    SamAddAll(SAM_DUAL, dual, (const double *)&sums);
+  }
+}
+
+/* Arrays of some cells, for the next function. */
+typedef struct {
+  double      *p;
+  const float *step, *mask;
+  float       *made;
+} Pressures;
+
+/* p = mask max(0, p + by step + phi a); `scale` times the change is added to made. */
+SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, double by, double scale, const double a[3],
+                                       SamDual *sums)
+{
+  double *restrict p         = cells.p;
+  const float *restrict step = cells.step, *restrict mask = cells.mask;
+  float *restrict made = cells.made;
+  const double ax = a[0] - a[1] * row.eta, a2 = a[2];
+  double       sum = 0, turn = 0;
+
+#pragma omp simd reduction(+ : sum, turn)
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, v = p[i] + by * (double)step[i] + (ax + a2 * xi),
+                 x = v > 0 ? (double)mask[i] * v : 0;
+
+    made[i] += (float)(scale * (x - p[i]));
+    p[i] = x;
+    sum += x;
+    turn += xi * x;
+  }
+  sums->scale += sum;
+  sums->sums[0] += sum;
+  sums->sums[1] -= row.eta * sum;
+  sums->sums[2] += turn;
+}
+
+/* The projection that belongs to a, in place of the field p, and its moments. `scratch`: a row, where made is NULL. */
+static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], double p[], float scratch[],
+                      SamTotal dual[])
+{
+  const PetscInt nx = f->grid->nx;
+
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    const ptrdiff_t k    = (ptrdiff_t)j * nx;
+    const float    *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? k : 0);
+    const char     *busy = BusyOfRow(c, f->grid, j);
+    float          *made = c->made ? c->made + k : scratch;
+    SamDual         sums = {0};
+
+    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);)
+      ApplyNormal(SamFrameRow(f, j, i, end), (Pressures){p + k + i, step + i, mask + i, made + i}, c->by, c->scale, a,
+                  &sums);
+    SamAddAll(SAM_DUAL, dual, (const double *)&sums);
+  }
+}
+
+/* p as it was before the changes in `made`. */
+static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
+{
+  for (PetscInt k = 0; k < f->grid->cells; k++) p[k] = PetscMax(0, p[k] - (double)cells->made[k] / cells->scale);
+}
+
+/*
+  The projection of the field p + by step. A step that nearly carries the loads takes two passes: one to find the step
+  of Newton's method for a, and one that applies it and checks whether that was enough.
+*/
+static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], PetscBool *found)
+{
+  const PetscInt nx     = f->grid->nx;
+  double        *before = NULL;
+  float         *zeros, *scratch; /* a row of no step, and of changes that are not wanted */
+  PetscBool      near = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(nx, &cells.row));
+  PetscCall(PetscCalloc2(nx, &zeros, nx, &scratch));
+  for (PetscInt i = 0; i < nx; i++) cells.row[i] = 1;
+  cells.field = p;
+  if (cells.by == 0) cells.step = zeros;
+  *found = PETSC_FALSE;
+  /* where pressures are far above the load, it is lost in their rounding; projected again, they are of its size */
+  for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
+    const PetscBool once             = (cells.made && time == 0) ? PETSC_TRUE : PETSC_FALSE;
+    SamTotal        totals[SAM_DUAL] = {{0, 0}};
+    double          a[3]             = {0, 0, 0};
+
+    if (f->count)
+      PetscCall(SamDualMinimize(f, PassNormal, &cells, once ? CLOSE : 0, a, found, &near));
+    else
+      *found = PETSC_TRUE;
+    if (!*found && near && !before && !cells.made) {
+      PetscCall(PetscMalloc1(f->grid->cells, &before));
+      PetscCall(PetscArraycpy(before, p, f->grid->cells));
+    }
+    if (near) ApplyRows(f, &cells, a, p, scratch, totals);
+    if (once && near && !*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_ENOUGH, found));
+    cells.by   = 0;
+    cells.step = zeros;
+  }
+  if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
+  if (!*found && cells.made) TakeBack(f, &cells, p);
+  PetscCall(PetscFree(before));
+  PetscCall(PetscFree(cells.row));
+  PetscCall(PetscFree2(zeros, scratch));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const float mask[], double p[], PetscBool *found)
+{
+  PetscFunctionBegin;
+  PetscCall(ProjectNormal(f, (Cells){.mask = mask}, p, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const SamPressureStep *s, double p[], PetscBool *found)
+{
+  const Cells cells = {
+    .mask = s->mask, .busy = s->busy, .step = s->step, .by = s->by, .made = s->made, .scale = s->scale};
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(s->made, f->grid->cells));
+  PetscCall(ProjectNormal(f, cells, p, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], PetscBool *found)
+{
+  PetscFunctionBegin;
+  PetscCall(ProjectNormal(f, (Cells){.contact = PETSC_TRUE}, p, found));
+  if (!*found) PetscCall(SamFrameProjectNormal(f, NULL, p, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,162 @@
+/* The nearest admissible shear in equilibrium: see projection.c. */
+#include "projectionimpl.h"
+#include <math.h>
+
+/*
+  An error of equilibrium from which one step of Newton's method is likely to reach the solution. Smaller than for
+  pressures, as the equations of shears are not piecewise linear.
+*/
+#define SMOOTH 1e-6
+
+/* What a pass over the cells needs to know. */
+typedef struct {
+  const double *field; /* what is projected */
+  const double *bound;
+} Cells;
+
+/*
+  Some cells of a row, at most SAM_CHUNK: v = field + phi a, its projection x = D(v) onto the disc, and the derivative h
+  of D. The second loop, with roots and divisions, runs only if a cell lies beyond its disc.
+*/
+SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, const double *restrict qy,
+                                     const double *restrict bound, const double a[3], SamDual *sums)
+{
+  const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
+  double value = 0, scale = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0,
+         beyond = 0;
+
+#pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
+    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy;
+
+    beyond += n2 > b * b ? 1 : 0;
+    value += 0.5 * n2;
+    scale += fabs(vx) + fabs(vy);
+    x += vx;
+    y += vy;
+    turn += xi * vy;
+    hxx += in;
+    xi_hyy += in * xi;
+    xi2_hyy += in * xi * xi;
+  }
+  if (beyond > 0) {
+    value = scale = x = y = turn = hxx = xi_hyy = xi2_hyy = 0;
+#pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
+    for (int i = 0; i < row.count; i++) {
+      const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
+      const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy, size = sqrt(n2);
+      const double inverse = 1 / n2, s = n2 > b * b ? b * size * inverse : in,
+                   g  = n2 > b * b ? s * inverse : 0; /* one division */
+      const double px = s * vx, py = s * vy, gxx = s - g * vx * vx, gxy = -g * vx * vy, gyy = s - g * vy * vy;
+
+      value += n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2;
+      scale += fabs(px) + fabs(py);
+      SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
+    }
+  } else
+    hyy = hxx;
+  sums->value += value;
+  sums->scale += scale;
+  sums->sums[0] += x;
+  sums->sums[1] += y;
+  sums->sums[2] += turn - row.eta * x;
+  SamGramTangentialRow(sums->gram, (const double[6]){hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy}, row.eta);
+}
+
+static void PassTangential(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
+{
+  const Cells *c = (const Cells *)context;
+
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    PetscInt first, last;
+    SamDual  sums = {0};
+
+    SamBoundRange(f->grid->nx, c->bound + (ptrdiff_t)j * f->grid->nx, &first, &last);
+    for (PetscInt i = first; i < last; i += SAM_CHUNK) {
+      const SamRow  row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
+      const double *qx  = c->field + row.first;
+
+      AddShears(row, qx, qx + f->grid->cells, c->bound + row.first, a, &sums);
+    }
+    SamAddAll(SAM_DUAL, dual, (const double *)&sums);
+  }
+}
+
+/* The projection of some cells of a row in place of the shear, and its moments. */
+SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *restrict qy,
+                                       const double *restrict bound, const double a[3], SamDual *sums)
+{
+  const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
+  double       scale = 0, x = 0, y = 0, turn = 0;
+
+#pragma omp simd reduction(+ : scale, x, y, turn)
+  for (int i = 0; i < row.count; i++) {
+    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
+    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy,
+                 s  = n2 > b * b ? b / sqrt(n2) : in;
+    const double px = s * vx, py = s * vy;
+
+    qx[i] = px;
+    qy[i] = py;
+    scale += fabs(px) + fabs(py);
+    x += px;
+    y += py;
+    turn += xi * py;
+  }
+  sums->scale += scale;
+  sums->sums[0] += x;
+  sums->sums[1] += y;
+  sums->sums[2] += turn - row.eta * x;
+}
+
+/* The projection that belongs to a, in place of q, and its moments. */
+static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const double a[3], double q[],
+                                      SamTotal dual[])
+{
+  const PetscInt nx = f->grid->nx;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    const double *b  = bound + (ptrdiff_t)j * nx;
+    double       *qx = q + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells;
+    PetscInt      first, last;
+    SamDual       sums = {0};
+
+    SamBoundRange(nx, b, &first, &last);
+    PetscCall(PetscArrayzero(qx, first));
+    PetscCall(PetscArrayzero(qy, first));
+    ApplyShears(SamFrameRow(f, j, first, last), qx + first, qy + first, b + first, a, &sums);
+    PetscCall(PetscArrayzero(qx + last, nx - last));
+    PetscCall(PetscArrayzero(qy + last, nx - last));
+    SamAddAll(SAM_DUAL, dual, (const double *)&sums);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  First, where that is likely to be enough, one step of Newton's method is applied without a further pass over the
+  cells. If it was not enough, it is a start, and the result is the nearest shear to this start.
+*/
+PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[],
+                                         PetscBool *found)
+{
+  const Cells cells = {.field = q, .bound = bound};
+  PetscBool   near  = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  *found = PETSC_FALSE;
+  for (PetscInt time = nearest ? 1 : 0; time < 2 && !*found; time++) {
+    SamTotal totals[SAM_DUAL] = {{0, 0}};
+    double   a[3]             = {0, 0, 0};
+
+    if (f->count)
+      PetscCall(SamDualMinimize(f, PassTangential, &cells, time == 0 ? SMOOTH : 0, a, found, &near));
+    else
+      *found = PETSC_TRUE;
+    if (!*found && (!near || time > 0)) break;
+    PetscCall(ApplyTangential(f, bound, a, q, totals));
+    if (!*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_EXACT, found));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

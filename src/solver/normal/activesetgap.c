@@ -1,0 +1,193 @@
+/*
+  Step 1 of the active-set method: the gap, the set A and the motion by it, the error, and the account of the gap's
+  rounding.
+*/
+#include "activesetimpl.h"
+#include <math.h>
+
+/*
+  A cell with pressure leaves A when its gap is more than PATCH times what its own pressure displaces it. PATCH stands
+  for the cell's neighbours, which have about the same pressure.
+*/
+#define PATCH 6.0
+/* The part of the tolerance that rounding of g may be at the end. */
+#define DOUBT 0.03
+/* g is computed anew at the latest when the error has fallen by this factor, for then rounding may dominate it. */
+#define FALL 1e-3
+
+typedef SamActiveSet Work;
+
+/* ---- the account of rounding ---- */
+
+static double Tolerance(const Work *w)
+{
+  return w->level->rtol * w->displacement;
+}
+
+/* Single precision for S p is all that the tolerance asks for. */
+static PetscBool IsSingleEnough(const Work *w)
+{
+  return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* The rounding of g is no more than the tolerance has room for. */
+static PetscBool IsTrusted(const Work *w)
+{
+  return SamRoundingIsWithin(&w->rounding, DOUBT * Tolerance(w));
+}
+
+PetscBool SamActiveSetIsStale(const Work *w)
+{
+  const double later = SAM_SINGLE_ROUNDING * w->error; /* what rounding will be after a product */
+
+  return (!IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding.bound)) ? PETSC_TRUE
+                                                                                                 : PETSC_FALSE;
+}
+
+/* ---- the gap and the active set ---- */
+
+/* g = S p in single precision. */
+static PetscErrorCode ApplySingle(Work *w)
+{
+  double most = 0, scale;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < w->cells; k++) most = w->p[k] > most ? w->p[k] : most;
+  PetscCall(SamMax(w->level->grid->comm, 1, &most));
+  if (most == 0) most = 1;
+  for (PetscInt k = 0; k < w->cells; k++) w->z[k] = (float)(w->p[k] / most);
+  PetscCall(SamLevelApplySingle(w->solver, w->level, 1 / w->self, w->z, w->z));
+  scale = w->self * most;
+  for (PetscInt k = 0; k < w->cells; k++) w->g[k] = scale * (double)w->z[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* g = S p */
+static PetscErrorCode Apply(Work *w)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArray(w->level->traction, &w->p));
+  PetscCall(VecRestoreArray(w->vg, &w->g));
+  PetscCall(SamLevelApply(w->solver, w->level, w->level->traction, w->vg));
+  PetscCall(VecGetArray(w->level->traction, &w->p));
+  PetscCall(VecGetArray(w->vg, &w->g));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* g = S p + h - motion, and the largest displacement. */
+static PetscErrorCode ComputeGap(Work *w)
+{
+  double max = 0;
+
+  PetscFunctionBegin;
+  if (IsSingleEnough(w))
+    PetscCall(ApplySingle(w));
+  else
+    PetscCall(Apply(w));
+  for (PetscInt j = 0; j < w->rows; j++) max = SamLarger(max, SamActiveSetGapRow(w, SamActiveSetRow(w, j)));
+  for (PetscInt k = 0; k < w->rows * w->stretches; k++) w->open[k] = -INFINITY;
+  PetscCall(SamMax(w->level->grid->comm, 1, &max));
+  w->displacement = max;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals[])
+{
+  double sums[SAM_GAP_TOTALS] = {[SAM_GRAM] = row.g, -eta * row.g, row.xi_g};
+
+  SamGramNormalRow(sums, row.count, row.xi, row.xi2, eta);
+  SamAddAll(SAM_GAP_TOTALS, totals, sums);
+}
+
+/* Adds to `motion` what fits the gap to the cells of these totals, whose Gram matrix becomes w's. */
+static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
+{
+  double sums[SAM_GAP_TOTALS], a[3];
+
+  PetscFunctionBegin;
+  PetscCall(SamSumTotals(w->level->grid->comm, SAM_GAP_TOTALS, totals, sums));
+  PetscCall(PetscArraycpy(w->gram, sums, SAM_GRAM));
+  SamFrameSolve(w->frame, w->gram, sums + SAM_GRAM, a);
+  for (PetscInt c = 0; c < 3; c++) motion[c] += a[c];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Whether a stretch without pressure has no gap that `motion` could close. Evaluated as the gaps are, so that rounding
+  makes no difference.
+*/
+static PetscBool IsClear(const Work *w, PetscInt stretch, SamRow row, const double motion[3])
+{
+  const double a = motion[0] - motion[1] * row.eta, b = motion[2];
+  const double last = w->frame->xi0 + (double)(row.column + row.count - 1) * row.dxi;
+
+  return !w->busy[stretch] && w->open[stretch] > PetscMax(a + b * row.xi0, a + b * last) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* A in a row, and which of its stretches are busy: by the gap that `motion` has moved back. */
+static SamGapSums ChooseRow(Work *w, PetscInt j, double ease, const double motion[3])
+{
+  SamGapSums sums = {0};
+
+  for (PetscInt i = 0, stretch = j * w->stretches; i < w->nx; i += SAM_STRETCH, stretch++) {
+    const SamRow row = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_STRETCH, w->nx));
+
+    if (IsClear(w, stretch, row, motion)) continue; /* it has no cell of A, and gets none */
+    w->busy[stretch] = SamActiveSetChooseRow(w, row, ease, motion, &sums) ? 1 : 0;
+  }
+  return sums;
+}
+
+/* Chooses A by the gap that `motion` has moved back, and adds to it what fits it to A. */
+static PetscErrorCode Choose(Work *w, double ease, double motion[3])
+{
+  SamTotal totals[SAM_GAP_TOTALS] = {{0, 0}};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < w->rows; j++)
+    SamActiveSetAddRow(ChooseRow(w, j, ease, motion), SamFrameEta(w->frame, j), totals);
+  PetscCall(Fit(w, totals, motion));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
+{
+  double motion[3] = {0, 0, 0}, error = 0;
+
+  PetscFunctionBegin;
+  if (contact)
+    PetscCall(Fit(w, contact, motion));
+  else
+    PetscCall(Choose(w, 0, motion));
+  PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
+  for (PetscInt j = 0; j < w->rows; j++)
+    error = SamLarger(error, SamActiveSetMoveRow(w, SamActiveSetRow(w, j), motion));
+  PetscCall(SamMax(w->level->grid->comm, 1, &error));
+  w->error = error;
+  SamRoundingRaise(&w->rounding, SAM_SINGLE_ROUNDING * error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamActiveSetRefresh(Work *w)
+{
+  PetscFunctionBegin;
+  PetscCall(ComputeGap(w));
+  w->rounding.bound = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
+  PetscCall(SamActiveSetChoose(w, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamActiveSetIsSolved(Work *w, PetscBool *solved)
+{
+  double max = 0;
+
+  PetscFunctionBegin;
+  *solved = PETSC_FALSE;
+  if (!(w->error <= Tolerance(w)) || !IsTrusted(w)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt j = 0; j < w->rows; j++) max = PetscMax(max, SamActiveSetDisplacementRow(w, SamActiveSetRow(w, j)));
+  PetscCall(SamMax(w->level->grid->comm, 1, &max));
+  w->displacement = max;
+  *solved         = w->error <= Tolerance(w) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
