@@ -52,8 +52,16 @@ typedef struct {
   float (*single[SAM_FOURIER_FIELDS])[2];
 } SamFourierBlock;
 
-/* A filter changes the spectra in place, from the input fields' to the output fields'. It is called once a block. */
-typedef void (*SamFourierFilter)(const SamFourierBlock *block, const void *context);
+/*
+  SamFourierFilter - what is done with spectra: `apply` changes those of a block in place, from the input fields' to the
+  output fields'. It is called once a block, with the context.
+*/
+typedef struct {
+  SamFourierMode mode;
+  PetscInt       n_in, n_out; /* fields, at most SAM_FOURIER_FIELDS each */
+  void (*apply)(const SamFourierBlock *block, const void *context);
+  const void *context;
+} SamFourierFilter;
 
 /* SamFourierCreate - NULL stands for the default settings. Plans are made when they are first needed. Collective. */
 PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
@@ -72,15 +80,13 @@ PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *h
   be the same arrays as `in`. Transforms are not normalised: the filter brings in 1/(period in x * period in y).
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, SamFourierMode mode, PetscInt n_in,
-                                            const double *const in[], PetscInt n_out, double *const out[],
-                                            SamFourierFilter filter, const void *context);
+PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, const SamFourierFilter *filter,
+                                            const double *const in[], double *const out[]);
 /*
   SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, SamFourierMode mode, PetscInt n_in,
-                                                  const float *const in[], PetscInt n_out, float *const out[],
-                                                  SamFourierFilter filter, const void *context);
+PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamFourierFilter *filter,
+                                                  const float *const in[], float *const out[]);
 
 /*
   SamKernel - the transform of a kernel in padded mode, for convolution without wrapping round. A kernel is even or odd
