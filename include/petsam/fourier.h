@@ -23,10 +23,13 @@ typedef enum {
   SAM_FOURIER_EXACT /* nx, ny, whatever they are: the grid is one period */
 } SamFourierPeriod;
 
+/* How long FFTW tries transforms out before it chooses one. */
+typedef enum { SAM_FOURIER_ESTIMATE, SAM_FOURIER_MEASURE, SAM_FOURIER_PATIENT } SamFourierEffort;
+
 /* How transforms are made; all zero is the default. */
 typedef struct {
-  enum { SAM_FOURIER_ESTIMATE, SAM_FOURIER_MEASURE, SAM_FOURIER_PATIENT } effort; /* of FFTW's planning */
-  PetscBool send; /* rows become columns by messages, also where the ranks could share memory */
+  SamFourierEffort effort;
+  PetscBool        send; /* rows become columns by messages, also where the ranks could share memory */
 } SamFourierSettings;
 
 /* SamFourierSettingsFromOptions - from -fft_effort and -fft_exchange. Collective. Errors: SAM_ERR_USER. */
@@ -37,8 +40,8 @@ PETSC_EXTERN PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *se
 /*
   SamFourierBlock - a few columns of spectra, handed to a filter. Phase 0 holds the even frequencies along y, phase 1
   (only in padded mode) the odd ones: entry m of phase f of column b is frequency ky = phases * m + f of phases * hy,
-  kx = first + b of phases * hx, at data[field][((f * width + b) * stride + m][re, im] in double, or single[field][...]
-  in single precision; the other is NULL.
+  kx = first + b of phases * hx, at data[field][(f * width + b) * stride + m][re, im] in double precision, or at
+  single[field][...] in single precision; the other array is NULL.
 */
 typedef struct {
   SamFourierMode mode;

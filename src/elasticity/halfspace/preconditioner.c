@@ -4,8 +4,8 @@
   On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair.normal,
   so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
   pair.shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
-  grid made periodic, which costs a quarter of a padded transform and conditions as well. The symbol is computed as it
-  is used, all in single precision: it is an approximation by itself.
+  grid made periodic, which costs a quarter of a padded transform and needs as few iterations. The symbol is computed
+  anew each time. Single precision will do for an approximation.
 */
 #include "halfspaceimpl.h"
 #include <math.h>
@@ -25,7 +25,7 @@ static PetscErrorCode GetSymbol(SamElasticity e, PetscBool tangential, double fa
 
   PetscFunctionBegin;
   PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
-  /* wave numbers in units of the shortest, so that their squares are numbers that floats hold */
+  /* wave numbers in units of 1/length of the grid, so that their squares are numbers that floats hold */
   symbol->step[0] = 2 * PETSC_PI / (double)hx * e->grid->length / e->grid->dx;
   symbol->step[1] = 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
   symbol->gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
@@ -39,7 +39,7 @@ typedef struct {
   PetscInt first, last, origin;
 } Stretch;
 
-/* |k|, with `mean` for that of the mean. */
+/* Times gain |k|, with `mean` for |k| of the mean. */
 SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, Stretch at, float (*restrict column)[2])
 {
   const float gain = (float)s->gain, mean = (float)s->mean, step = (float)s->step[1];
@@ -53,7 +53,10 @@ SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, Stretch a
   }
 }
 
-/* `sign`: 1, or 0 at a Nyquist frequency, where the sign of the cross term is not defined, and none is right. */
+/*
+  Times gain |k| (I + extra kk'/|k|^2). `sign`: 1; 0 for a wave of two cells' length, which is its own mirror image, so
+  that the cross term has no sign.
+*/
 SAM_VECTORIZED static void FilterPartTangential(const Symbol *s, float kx, float sign, Stretch at,
                                                 float (*restrict x)[2], float (*restrict y)[2])
 {
