@@ -23,10 +23,13 @@ typedef enum {
   SAM_FOURIER_EXACT /* nx, ny, whatever they are: the grid is one period */
 } SamFourierPeriod;
 
+/* How long FFTW tries transforms out before it chooses one. */
+typedef enum { SAM_FOURIER_ESTIMATE, SAM_FOURIER_MEASURE, SAM_FOURIER_PATIENT } SamFourierEffort;
+
 /* How transforms are made; all zero is the default. */
 typedef struct {
-  enum { SAM_FOURIER_ESTIMATE, SAM_FOURIER_MEASURE, SAM_FOURIER_PATIENT } effort; /* of FFTW's planning */
-  PetscBool send; /* rows become columns by messages, also where the ranks could share memory */
+  SamFourierEffort effort;
+  PetscBool        send; /* rows become columns by messages, also where the ranks could share memory */
 } SamFourierSettings;
 
 /* SamFourierSettingsFromOptions - from -fft_effort and -fft_exchange. Collective. Errors: SAM_ERR_USER. */
@@ -37,8 +40,8 @@ PETSC_EXTERN PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *se
 /*
   SamFourierBlock - a few columns of spectra, handed to a filter. Phase 0 holds the even frequencies along y, phase 1
   (only in padded mode) the odd ones: entry m of phase f of column b is frequency ky = phases * m + f of phases * hy,
-  kx = first + b of phases * hx, at data[field][((f * width + b) * stride + m][re, im] in double, or single[field][...]
-  in single precision; the other is NULL.
+  kx = first + b of phases * hx, at data[field][(f * width + b) * stride + m][re, im] in double precision, or at
+  single[field][...] in single precision; the other array is NULL.
 */
 typedef struct {
   SamFourierMode mode;
@@ -52,8 +55,16 @@ typedef struct {
   float (*single[SAM_FOURIER_FIELDS])[2];
 } SamFourierBlock;
 
-/* A filter changes the spectra in place, from the input fields' to the output fields'. It is called once a block. */
-typedef void (*SamFourierFilter)(const SamFourierBlock *block, const void *context);
+/*
+  SamFourierFilter - what is done with spectra: `apply` changes those of a block in place, from the input fields' to the
+  output fields'. It is called once a block, with the context.
+*/
+typedef struct {
+  SamFourierMode mode;
+  PetscInt       n_in, n_out; /* fields, at most SAM_FOURIER_FIELDS each */
+  void (*apply)(const SamFourierBlock *block, const void *context);
+  const void *context;
+} SamFourierFilter;
 
 /* SamFourierCreate - NULL stands for the default settings. Plans are made when they are first needed. Collective. */
 PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
@@ -72,15 +83,13 @@ PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *h
   be the same arrays as `in`. Transforms are not normalised: the filter brings in 1/(period in x * period in y).
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, SamFourierMode mode, PetscInt n_in,
-                                            const double *const in[], PetscInt n_out, double *const out[],
-                                            SamFourierFilter filter, const void *context);
+PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, const SamFourierFilter *filter,
+                                            const double *const in[], double *const out[]);
 /*
   SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, SamFourierMode mode, PetscInt n_in,
-                                                  const float *const in[], PetscInt n_out, float *const out[],
-                                                  SamFourierFilter filter, const void *context);
+PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamFourierFilter *filter,
+                                                  const float *const in[], float *const out[]);
 
 /*
   SamKernel - the transform of a kernel in padded mode, for convolution without wrapping round. A kernel is even or odd

@@ -1,15 +1,14 @@
+/* Integrals of the kernels of a point force on an elastic half-space over one rectangular cell. */
 #ifndef PETSAM_INFLUENCE_H
 #define PETSAM_INFLUENCE_H
 
 #include <stddef.h>
 
 /*
- * Integrals of the kernels of a point force on an elastic half-space over one rectangular cell.
- *
- * The cell measures dx by dy and its centre is at (i dx, j dy); x and y are measured from the
- * origin and r^2 = x^2 + y^2. But for the elastic constants, the integral is the displacement at a
- * point that lies (i dx, j dy) from the centre of a cell under unit traction.
- */
+  SamIntegral - a kernel. The cell measures dx by dy and its centre is at (i dx, j dy); x and y are measured from the
+  origin and r^2 = x^2 + y^2. But for the elastic constants, the integral is the displacement at a
+  point that lies (i dx, j dy) from the centre of a cell under unit traction.
+*/
 typedef enum {
   SAM_INTEGRAL_R = 0, /* 1/r,     even in i, even in j */
   SAM_INTEGRAL_XX,    /* x^2/r^3, even in i, even in j */
@@ -20,39 +19,39 @@ typedef enum {
 } SamIntegral;
 
 /*
- * SamIntegralCell - the integral of one kernel over one cell. Not collective, no state.
- *
- * Input:
- *   kind   - the kernel
- *   dx, dy - the cell's sides, m, positive and finite
- *   i, j   - the lag of the cell's centre, in cells
- *
- * Returns the integral, in m for every kind. For lags up to 16384 and sides whose ratio
- * is between 1/50 and 50 the relative error is below 1e-14. Nothing overflows or underflows for
- * sides from 1e-9 m to 1e3 m. Signs under i -> -i and j -> -j and the zeros of the odd kernels are
- * exact, and so is scaling of both sides by a power of two.
- *
- * Source: kernels from Johnson (1985), Contact Mechanics, sections 3.2 and 3.6; integrals over a
- * rectangle from Love (1929). The method is told in src/influence/influence.c.
- */
+  SamIntegralCell - the integral of one kernel over one cell. Not collective, no state.
+
+  Input:
+    kind   - the kernel
+    dx, dy - the cell's sides, m, positive and finite
+    i, j   - the lag of the cell's centre, in cells
+
+  Returns the integral, in m for every kind. For lags up to 16384 and sides whose ratio
+  is between 1/50 and 50 the relative error is below 1e-14. Nothing overflows or underflows for
+  sides from 1e-9 m to 1e3 m. Signs under i -> -i and j -> -j and the zeros of the odd kernels are
+  exact, and so is scaling of both sides by a power of two.
+
+  Source: kernels from Johnson (1985), Contact Mechanics, sections 3.2 and 3.6; integrals over a
+  rectangle from Love (1929). The method stands in src/elasticity/halfspace/influence.c.
+*/
 double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrdiff_t j);
 
 /*
- * SamIntegralRow - the integrals of one kernel over consecutive cells of a row. Not collective.
- *
- * Input:
- *   kind   - the kernel
- *   dx, dy - the cells' sides, m, positive and finite
- *   j      - the lag of the row, in cells
- *   i0     - the lag of the first cell in the row
- *   n      - the number of cells; nothing is done if it is not positive
- *
- * Output:
- *   values - n integrals, m; values[k] is that of the cell (i0 + k, j)
- *
- * The numbers are those of SamIntegralCell(), to the last bit, at a fraction of the time: the
- * accuracy, signs and zeros are the same.
- */
+  SamIntegralRow - the integrals of one kernel over consecutive cells of a row. Not collective.
+
+  Input:
+    kind   - the kernel
+    dx, dy - the cells' sides, m, positive and finite
+    j      - the lag of the row, in cells
+    i0     - the lag of the first cell in the row
+    n      - the number of cells; nothing is done if it is not positive
+
+  Output:
+    values - n integrals, m; values[k] is that of the cell (i0 + k, j)
+
+  The numbers are those of SamIntegralCell(), to the last bit, at a fraction of the time: the
+  accuracy, signs and zeros are the same.
+*/
 void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
 
 #endif

@@ -8,9 +8,12 @@
 static PetscFunctionList SamElasticityList = NULL;
 static PetscBool         registered        = PETSC_FALSE;
 
+static PetscErrorCode RegisterAll(void);
+
 PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
 {
   PetscFunctionBegin;
+  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces ours */
   PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,17 +3,17 @@
 
   A filter in the frequency domain needs the two-dimensional transform of a field that is zero beyond its ny rows and nx
   columns, and of the result only those rows and columns. So:
-    1. each of the ny rows is padded with zeros in a buffer and transformed (real to half complex), by a complex
-  transform of half the length, which FFTW plans in a fraction of the time that it takes to plan a real one, and does
-  faster;
-    2. ranks of one node see all rows, in shared memory (workspace.c); elsewhere rows are exchanged for columns by
-  FFTW's distributed transpose;
-    3. a few columns at a time are gathered into a buffer that stays in cache. There the padding along y is done by
+    1. Each of the ny rows is padded with zeros in a buffer and transformed, real to half complex. That is done by a
+       complex transform of half the length, which FFTW plans in a fraction of the time of a real one, and does faster.
+    2. Ranks of one node see all rows, in shared memory (workspace.c). Elsewhere rows are exchanged for columns by
+       FFTW's distributed transpose.
+    3. A few columns at a time are gathered into a buffer that stays in cache. There the padding along y is done by
        splitting the 2 hy frequencies: the even ones are the transform of length hy of the column, the odd ones that of
-       the column times exp(-i pi j/hy). No zero is ever transformed. The filter acts, the way back is the same;
-    4. as 2, columns becoming rows, 5. rows are transformed back and cut.
+       the column times exp(-i pi j/hy). No zero is ever transformed. The filter acts, the way back is the same.
+    4. As step 2, columns becoming rows.
+    5. Rows are transformed back and cut.
   In periodic mode rows are padded to hx instead of 2 hx only, and columns have the even frequencies only. An odd hx,
-  which only exact periods have, takes a complex transform of the whole row.
+  which only exact periods have, has no half: the whole row takes a complex transform.
 
   Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT),
   which is what one rank has from the start, and shared memory in pieces, so that one code serves any number of ranks.

@@ -25,12 +25,13 @@ SAM_LINE(SamLineSingle, float, fftwf_plan);
 /* Plans and buffers of one precision; made when it is first used. */
 #define SAM_TRANSFORM(Name, Real, Plan, Line) \
   typedef struct { \
-    PetscInt fields, version; /* for which buffers and transposes were made, and slabs of the latter */ \
-    Plan     forward[2][SAM_FOURIER_FIELDS], \
-      backward[2][SAM_FOURIER_FIELDS]; /* rows to columns and back by mode, several ranks only */ \
-    Line rows[2], \
-      column;           /* one row, by mode: as half as many complex numbers, or, if odd, as many; one column of hy */ \
-    Real (*turn[2])[2]; /* i exp(i pi k/n), k <= n, half a row's length, by mode; none if it is odd */ \
+    PetscInt fields;                          /* for which there are buffers and transposes */ \
+    PetscInt version;                         /* of the slabs that the transposes were made for */ \
+    Plan     forward[2][SAM_FOURIER_FIELDS];  /* rows to columns, by mode; without shared memory only */ \
+    Plan     backward[2][SAM_FOURIER_FIELDS]; /* the way back */ \
+    Line     rows[2];   /* one row, by mode: half as many complex numbers; if its length is odd, as many */ \
+    Line     column;    /* one column of hy */ \
+    Real (*turn[2])[2]; /* i exp(i pi k/n), k <= n, half a row's length, by mode; NULL if it is odd */ \
     Real (*row)[2];     /* one row, padded: two reals a number */ \
     Real (*line)[2];    /* its transform, and an entry more */ \
     Real (*mirror)[2];  /* the same from its end to its beginning */ \
@@ -53,16 +54,20 @@ typedef struct {
 
 /* SamWorkspace - the slabs of all transforms on a communicator; see workspace.c. */
 typedef struct {
-  MPI_Comm    user, comm; /* of the grids; of its own */
+  MPI_Comm    user; /* that of the grids, whose attribute this is */
+  MPI_Comm    comm; /* a duplicate for its own messages */
   PetscMPIInt ranks, rank;
   PetscInt    references;
-  PetscBool   send;    /* is not to share memory */
-  PetscBool   shared;  /* does */
+  PetscBool   send;    /* must not share memory */
+  PetscBool   shared;  /* shares memory */
   PetscInt    version; /* of the slabs' addresses */
   SamSlab     slab[SAM_FOURIER_FIELDS + 1];
 } * SamWorkspace;
 
-/* SamWorkspaceGet - a reference to that of a communicator, which shares memory or sends. Release gives it back. Collective. */
+/*
+  SamWorkspaceGet - a reference to the workspace of a communicator, made at the first call; there is another one for
+  transforms that must `send`. SamWorkspaceRelease gives it back. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, PetscBool send, SamWorkspace *workspace);
 PETSC_INTERN PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace);
 /* SamWorkspaceTrim - frees the slabs until they are reserved again. Collective. */

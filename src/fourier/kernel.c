@@ -319,16 +319,16 @@ typedef struct {
   double                 factor;
   PetscBool              scalar, pair;
   double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
-} Filter;
+} Factors;
 
 /* Any matrix: the output columns are gathered aside and then take the inputs' place. */
-static void MultiplyGeneral(const Filter *filter, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+static void MultiplyGeneral(const Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b)
 {
-  const SamKernelMatrix *M      = filter->matrix;
+  const SamKernelMatrix *M      = factors->matrix;
   const ptrdiff_t        offset = (phase * block->width + b) * (ptrdiff_t)block->stride;
 
   for (PetscInt o = 0; o < M->n_out; o++) {
-    double(*to)[2] = filter->column[o];
+    double(*to)[2] = factors->column[o];
 
     for (ptrdiff_t m = 0; m < block->hy; m++) to[m][0] = to[m][1] = 0;
     for (PetscInt i = 0; i < M->n_in; i++)
@@ -337,60 +337,71 @@ static void MultiplyGeneral(const Filter *filter, const SamFourierBlock *block, 
   }
   for (PetscInt o = 0; o < M->n_out; o++)
     for (ptrdiff_t m = 0; m < block->hy; m++)
-      for (PetscInt r = 0; r < 2; r++) block->data[o][offset + m][r] = filter->column[o][m][r];
+      for (PetscInt r = 0; r < 2; r++) block->data[o][offset + m][r] = factors->column[o][m][r];
 }
 
 static void Multiply(const SamFourierBlock *block, const void *context)
 {
-  const Filter          *filter = (const Filter *)context;
-  const SamKernelMatrix *M      = filter->matrix;
+  const Factors         *factors = (const Factors *)context;
+  const SamKernelMatrix *M       = factors->matrix;
 
   for (PetscInt f = 0; f < block->phases; f++)
     for (PetscInt b = 0; b < block->columns; b++) {
       const ptrdiff_t offset = (f * block->width + b) * (ptrdiff_t)block->stride, n = block->hy;
 
-      if (filter->scalar) {
+      if (factors->scalar) {
         const Column c = GetColumn(M->kernel[0][0], block, f, b);
 
         if (block->data[0])
-          MultiplyColumn(c, n, filter->factor, block->data[0] + offset);
+          MultiplyColumn(c, n, factors->factor, block->data[0] + offset);
         else
-          MultiplyColumnSingle(c, n, filter->factor, block->single[0] + offset);
-      } else if (filter->pair) {
+          MultiplyColumnSingle(c, n, factors->factor, block->single[0] + offset);
+      } else if (factors->pair) {
         const Column xx = GetColumn(M->kernel[0][0], block, f, b), xy = GetColumn(M->kernel[0][1], block, f, b),
                      yy = GetColumn(M->kernel[1][1], block, f, b);
 
         if (block->data[0])
-          MultiplyPair(xx, xy, yy, n, filter->factor, block->data[0] + offset, block->data[1] + offset);
+          MultiplyPair(xx, xy, yy, n, factors->factor, block->data[0] + offset, block->data[1] + offset);
         else
-          MultiplyPairSingle(xx, xy, yy, n, filter->factor, block->single[0] + offset, block->single[1] + offset);
+          MultiplyPairSingle(xx, xy, yy, n, factors->factor, block->single[0] + offset, block->single[1] + offset);
       } else
-        MultiplyGeneral(filter, block, f, b);
+        MultiplyGeneral(factors, block, f, b);
     }
+}
+
+static SamFourierFilter NewFilter(const Factors *factors)
+{
+  return (SamFourierFilter){.mode    = SAM_FOURIER_PADDED,
+                            .n_in    = factors->matrix->n_in,
+                            .n_out   = factors->matrix->n_out,
+                            .apply   = Multiply,
+                            .context = factors};
 }
 
 PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const double *const in[], double *const out[])
 {
-  Filter filter = {.matrix = matrix, .factor = 1, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+  Factors factors = {.matrix = matrix, .factor = 1, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+  const SamFourierFilter filter = NewFilter(&factors);
 
   PetscFunctionBegin;
-  if (!filter.scalar && !filter.pair)
+  if (!factors.scalar && !factors.pair)
     for (PetscInt o = 0; o < matrix->n_out; o++)
-      PetscCall(SamAllocate(sizeof(*filter.column[o]) * (size_t)F->hy, &filter.column[o]));
-  PetscCall(SamFourierApply(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
-  for (PetscInt o = 0; o < matrix->n_out; o++) SamFree(filter.column[o]);
+      PetscCall(SamAllocate(sizeof(*factors.column[o]) * (size_t)F->hy, &factors.column[o]));
+  PetscCall(SamFourierApply(F, &filter, in, out));
+  for (PetscInt o = 0; o < matrix->n_out; o++) SamFree(factors.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamConvolveSingle(SamFourier F, const SamKernelMatrix *matrix, double factor, const float *const in[],
                                  float *const out[])
 {
-  const Filter filter = {
+  const Factors factors = {
     .matrix = matrix, .factor = factor, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+  const SamFourierFilter filter = NewFilter(&factors);
 
   PetscFunctionBegin;
-  PetscCheck(filter.scalar || filter.pair, PETSC_COMM_SELF, PETSC_ERR_SUP,
+  PetscCheck(factors.scalar || factors.pair, PETSC_COMM_SELF, PETSC_ERR_SUP,
              "Convolution in single precision: one even kernel, or a symmetric pair");
-  PetscCall(SamFourierApplySingle(F, SAM_FOURIER_PADDED, matrix->n_in, in, matrix->n_out, out, Multiply, &filter));
+  PetscCall(SamFourierApplySingle(F, &filter, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

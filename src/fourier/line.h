@@ -103,7 +103,10 @@ static inline void LineTake(const LINE *l, ptrdiff_t n, const Complex *restrict 
     for (ptrdiff_t k = 0; k < LineCount(l, n, q); k++) (void)memcpy(to[4 * k + q], x[q * l->part + k], sizeof(Complex));
 }
 
-/* From the transforms of the parts to that of the line. */
+/*
+  From the transforms of the parts to that of the line. All arrays are arguments of their own, by which the compiler
+  knows that they do not overlap.
+*/
 SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
                                            const Complex *restrict w, Complex *restrict a, Complex *restrict b,
                                            Complex *restrict c, Complex *restrict d)

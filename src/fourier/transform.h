@@ -342,39 +342,40 @@ static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *piec
   Scatter(line, pieces, k, count, F->stride, (const Complex *)t->staging);
 }
 
-static void Columns(SamFourier F, SamFourierMode mode, PetscInt n_in, PetscInt n_out, SamFourierFilter filter,
-                    const void *context)
+static void Columns(SamFourier F, const SamFourierFilter *filter)
 {
-  TRANSFORM        *t     = &F->PART;
-  const SamColumns *c     = &F->columns[mode];
-  SamFourierBlock   block = {.mode   = mode,
-                             .phases = mode == SAM_FOURIER_PADDED ? 2 : 1,
-                             .hx     = (PetscInt)F->hx,
-                             .hy     = (PetscInt)F->hy,
-                             .width  = BLOCK,
-                             .stride = F->stride};
-  SamPieces         pieces[SAM_FOURIER_FIELDS];
+  const SamFourierMode mode  = filter->mode;
+  TRANSFORM           *t     = &F->PART;
+  const SamColumns    *c     = &F->columns[mode];
+  SamFourierBlock      block = {.mode   = mode,
+                                .phases = mode == SAM_FOURIER_PADDED ? 2 : 1,
+                                .hx     = (PetscInt)F->hx,
+                                .hy     = (PetscInt)F->hy,
+                                .width  = BLOCK,
+                                .stride = F->stride};
+  SamPieces            pieces[SAM_FOURIER_FIELDS];
 
-  for (PetscInt i = 0; i < PetscMax(n_in, n_out); i++)
+  for (PetscInt i = 0; i < PetscMax(filter->n_in, filter->n_out); i++)
     pieces[i] = SamFourierGetPieces(F, i, F->grid->ny, c->n, c->start, c->count);
   for (PetscInt k = 0; k < t->fields; k++) block.DATA[k] = t->buffer + k * 2 * BLOCK * (ptrdiff_t)F->stride;
   for (ptrdiff_t k = 0; k < c->count; k += BLOCK) {
     const ptrdiff_t count = PetscMin(BLOCK, c->count - k);
 
-    for (PetscInt i = 0; i < n_in; i++) ColumnsForward(F, block.phases, &pieces[i], k, count, block.DATA[i]);
+    for (PetscInt i = 0; i < filter->n_in; i++) ColumnsForward(F, block.phases, &pieces[i], k, count, block.DATA[i]);
     block.first   = (PetscInt)(c->start + k);
     block.local   = (PetscInt)k;
     block.columns = (PetscInt)count;
-    filter(&block, context);
-    for (PetscInt o = 0; o < n_out; o++) ColumnsBackward(F, block.phases, &pieces[o], k, count, block.DATA[o]);
+    filter->apply(&block, filter->context);
+    for (PetscInt o = 0; o < filter->n_out; o++) ColumnsBackward(F, block.phases, &pieces[o], k, count, block.DATA[o]);
   }
 }
 
-PetscErrorCode APPLY(SamFourier F, SamFourierMode mode, PetscInt n_in, const Real *const in[], PetscInt n_out,
-                     Real *const out[], SamFourierFilter filter, const void *context)
+PetscErrorCode APPLY(SamFourier F, const SamFourierFilter *filter, const Real *const in[], Real *const out[])
 {
-  TRANSFORM *t = &F->PART;
-  PetscBool  transposes;
+  const SamFourierMode mode = filter->mode;
+  const PetscInt       n_in = filter->n_in, n_out = filter->n_out;
+  TRANSFORM           *t = &F->PART;
+  PetscBool            transposes;
 
   PetscFunctionBegin;
   PetscCall(Reserve(F, mode, PetscMax(n_in, n_out)));
@@ -389,7 +390,7 @@ PetscErrorCode APPLY(SamFourier F, SamFourierMode mode, PetscInt n_in, const Rea
     PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
   }
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
-  Columns(F, mode, n_in, n_out, filter, context);
+  Columns(F, filter);
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
   if (F->work->ranks > 1) {
     PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));

@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* Of the communicator's attributes: its workspaces that share memory, and that send. */
+/* Attributes of a communicator: its workspace that may share memory, and the one that must send. */
 static PetscMPIInt keyvals[2] = {MPI_KEYVAL_INVALID, MPI_KEYVAL_INVALID};
 
 static PetscErrorCode FreeKeyvals(void)
@@ -32,7 +32,7 @@ static PetscErrorCode CreateKeyvals(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether all ranks are on one node, and are not to send all the same. */
+/* Whether the workspace may share memory and all ranks are on one node. */
 static PetscErrorCode CanShare(SamWorkspace w)
 {
   MPI_Comm    node;

@@ -18,11 +18,11 @@ PETSC_INTERN void SamGridRowsOf(SamGrid grid, PetscMPIInt ranks, PetscMPIInt ran
   they are all its own it copies nothing.
 */
 typedef struct {
-  SamGrid      grid;
-  PetscMPIInt  ranks;
-  PetscInt     first, count;
-  PetscMPIInt *counts[2],
-    *offsets[2]; /* rows exchanged with each rank: 0 those it wants of this rank, 1 those wanted of it */
+  SamGrid     grid;
+  PetscMPIInt ranks;
+  PetscInt    first, count;
+  /* rows exchanged with each rank: [0] those that it wants of this rank, [1] those that this rank wants of it */
+  PetscMPIInt *counts[2], *offsets[2];
 } SamRows;
 PETSC_INTERN PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRows *rows);
 PETSC_INTERN PetscErrorCode SamRowsDestroy(SamRows *rows);

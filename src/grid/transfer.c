@@ -10,12 +10,12 @@
 
 struct _n_SamTransfer {
   SamGrid   fine, coarse;
-  SamRows   fine_rows;     /* those that this rank's coarse rows need */
-  SamRows   coarse_rows;   /* those that its fine rows need */
+  SamRows   fine_rows;     /* those that this rank's coarse rows are made of */
+  SamRows   coarse_rows;   /* those that its fine rows are interpolated from */
   PetscInt *first, *count; /* coarse column J covers the fine columns first[J] ... first[J] + count[J] - 1 */
-  double   *share;         /* with these shares, COVER_MAX a column */
+  double   *share;         /* of these fine columns in it, COVER_MAX a coarse column */
   PetscInt *left;          /* fine column i lies between the coarse columns left[i] and left[i] + 1 */
-  double   *position;      /* there */
+  double   *position;      /* between their centres, 0 to 1 */
 };
 
 /* A coarse cell is at most two fine cells wide, so it touches at most three. */

@@ -89,8 +89,8 @@ PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
-  PetscCall(SamAllocate(sizeof(*columns) * (size_t)w->grid->rows * nx,
-                        &columns)); /* of all rows; those that nobody wants stay untouched */
+  /* for all rows of this rank, though only those of the window are filled and sent */
+  PetscCall(SamAllocate(sizeof(*columns) * (size_t)w->grid->rows * nx, &columns));
   PetscCall(VecGetArrayRead(whole, &from));
   PetscCall(VecGetArrayWrite(part, &to));
   for (PetscInt c = 0; c < components; c++) {

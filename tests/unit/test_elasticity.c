@@ -1,6 +1,6 @@
 /*
- * The influence operator and its preconditioner: against sums over the closed forms, closed solutions, symmetry.
- */
+  The influence operator and its preconditioner: against sums over the closed forms, closed solutions, symmetry.
+*/
 #include "fields.h"
 
 #include <petscksp.h>

@@ -1,6 +1,6 @@
 /*
- * Types of elasticity: choice by name and by options, types from outside the library, traits, parts that are kept.
- */
+  Types of elasticity: choice by name and by options, types from outside the library, traits, parts that are kept.
+*/
 #include "fields.h"
 
 #include <petsam/private/elasticityimpl.h>

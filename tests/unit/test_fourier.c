@@ -1,6 +1,6 @@
 /*
- * The pruned transform and convolution: against sums written out, for all parities and shapes.
- */
+  The pruned transform and convolution: against sums written out, for all parities and shapes.
+*/
 #include "fields.h"
 
 #include <petsam/fourier.h>
@@ -307,6 +307,8 @@ static void Identity(const SamFourierBlock *block, const void *context)
 /* Transforms are not normalised: back and forth multiplies by the period. */
 static void AssertIdentity(SamFourierMode mode, SamFourierPeriod period)
 {
+  const SamFourierFilter filter = {mode, 3, 3, Identity, NULL};
+
   for (int k = 0; k < NUM_SIZES; k++) {
     SamGrid       grid = NewGrid(sizes[k][0], sizes[k][1], 1, 1);
     Vec           in = NewRandom(grid, 3, k), out = NewField(grid, 3);
@@ -328,7 +330,7 @@ static void AssertIdentity(SamFourierMode mode, SamFourierPeriod period)
       from[c] = a + c * grid->cells;
       to[c]   = b + c * grid->cells;
     }
-    sam_call(SamFourierApply(fourier, mode, 3, from, 3, to, Identity, NULL));
+    sam_call(SamFourierApply(fourier, &filter, from, to));
     sam_call(VecRestoreArray(in, &a));
     sam_call(VecRestoreArray(out, &b));
     sam_call(VecScale(out, 1 / ((mode == SAM_FOURIER_PADDED ? 4.0 : 1.0) * (double)hx * (double)hy)));
@@ -371,13 +373,14 @@ static void OneWave(const SamFourierBlock *block, const void *context)
 /* The filter meets the frequencies where the header says they are, on a grid that is one period. */
 static void AssertFrequencies(PetscInt nx, PetscInt ny, SamFourierPeriod period)
 {
-  SamGrid       grid    = NewGrid(nx, ny, 1, 1);
-  SamFourier    fourier = NewFourier(grid, period);
-  PetscInt      hx, hy;
-  Vec           in = NewField(grid, 1), out = NewField(grid, 1), other = NewField(grid, 1);
-  double       *a, *b;
-  const double *from[1];
-  double       *to[1];
+  const SamFourierFilter filter  = {SAM_FOURIER_PERIODIC, 1, 1, OneWave, NULL};
+  SamGrid                grid    = NewGrid(nx, ny, 1, 1);
+  SamFourier             fourier = NewFourier(grid, period);
+  PetscInt               hx, hy;
+  Vec                    in = NewField(grid, 1), out = NewField(grid, 1), other = NewField(grid, 1);
+  double                *a, *b;
+  const double          *from[1];
+  double                *to[1];
 
   sam_call(SamFourierGetPeriods(fourier, &hx, &hy));
   sam_assert(hx == nx && hy == ny);
@@ -395,7 +398,7 @@ static void AssertFrequencies(PetscInt nx, PetscInt ny, SamFourierPeriod period)
   from[0] = a;
   sam_call(VecGetArray(out, &b));
   to[0] = b;
-  sam_call(SamFourierApply(fourier, SAM_FOURIER_PERIODIC, 1, from, 1, to, OneWave, NULL));
+  sam_call(SamFourierApply(fourier, &filter, from, to));
   sam_call(VecRestoreArray(out, &b));
   sam_call(VecRestoreArray(in, &a));
   sam_call(VecScale(out, 1 / ((double)nx * (double)ny)));

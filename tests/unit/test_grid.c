@@ -1,6 +1,6 @@
 /*
- * The grid, its rows, and moving fields between grids.
- */
+  The grid, its rows, and moving fields between grids.
+*/
 #include "fields.h"
 
 /* Even, odd, prime, and fewer rows than ranks. */

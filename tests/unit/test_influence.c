@@ -1,6 +1,6 @@
 /*
- * The influence integrals over a cell: stored values, symmetries, additivity, identities, scaling.
- */
+  The influence integrals over a cell: stored values, symmetries, additivity, identities, scaling.
+*/
 #include "samtest.h"
 
 #include <float.h>
@@ -33,12 +33,12 @@ static int OddY(int kind)
 }
 
 /* Fails unless |value - expected| <= tolerance, and says where; a NaN fails. */
-static void AssertNear(const char *what, int kind, const double side[2], ptrdiff_t i, ptrdiff_t j, double value,
+static void AssertNear(const char *what, int kind, const double side[2], const ptrdiff_t lag[2], double value,
                        double expected, double tolerance)
 {
   if (fabs(value - expected) <= tolerance) return;
   fail_msg("%s: %s of %g x %g at (%td, %td) is %.17g, not %.17g (tolerance %.1e)", what, names[kind], side[0], side[1],
-           i, j, value, expected, tolerance);
+           lag[0], lag[1], value, expected, tolerance);
 }
 
 static void test_values_match_50_digit_arithmetic(void **state)
@@ -52,7 +52,7 @@ static void test_values_match_50_digit_arithmetic(void **state)
       const double value = SamIntegralCell((SamIntegral)kind, ref->dx, ref->dy, ref->i, ref->j);
 
       /* A value that is 0 must be exactly 0. */
-      AssertNear("stored value", kind, side, ref->i, ref->j, value, ref->values[kind],
+      AssertNear("stored value", kind, side, (const ptrdiff_t[2]){ref->i, ref->j}, value, ref->values[kind],
                  promised * fabs(ref->values[kind]));
     }
   }
@@ -63,14 +63,14 @@ static void CheckMirrored(int kind, const double side[2], ptrdiff_t i, ptrdiff_t
   const double value  = SamIntegralCell((SamIntegral)kind, side[0], side[1], i, j);
   const double sign_x = OddX(kind) ? -1 : 1, sign_y = OddY(kind) ? -1 : 1;
 
-  AssertNear("mirror in x", kind, side, -i, j, SamIntegralCell((SamIntegral)kind, side[0], side[1], -i, j),
-             sign_x * value, 0);
-  AssertNear("mirror in y", kind, side, i, -j, SamIntegralCell((SamIntegral)kind, side[0], side[1], i, -j),
-             sign_y * value, 0);
-  AssertNear("half turn", kind, side, -i, -j, SamIntegralCell((SamIntegral)kind, side[0], side[1], -i, -j),
-             sign_x * sign_y * value, 0);
+  AssertNear("mirror in x", kind, side, (const ptrdiff_t[2]){-i, j},
+             SamIntegralCell((SamIntegral)kind, side[0], side[1], -i, j), sign_x * value, 0);
+  AssertNear("mirror in y", kind, side, (const ptrdiff_t[2]){i, -j},
+             SamIntegralCell((SamIntegral)kind, side[0], side[1], i, -j), sign_y * value, 0);
+  AssertNear("half turn", kind, side, (const ptrdiff_t[2]){-i, -j},
+             SamIntegralCell((SamIntegral)kind, side[0], side[1], -i, -j), sign_x * sign_y * value, 0);
   if ((OddX(kind) && i == 0) || (OddY(kind) && j == 0)) {
-    AssertNear("odd", kind, side, i, j, value, 0, 0);
+    AssertNear("odd", kind, side, (const ptrdiff_t[2]){i, j}, value, 0, 0);
   } else {
     assert_true(value > 0 && isfinite(value));
   }
@@ -102,7 +102,8 @@ static void test_exchange_of_axes(void **state)
           const double value = SamIntegralCell((SamIntegral)kind, sides[s][0], sides[s][1], lags[a], lags[b]);
           const double other = SamIntegralCell(exchanged[kind], sides[s][1], sides[s][0], lags[b], lags[a]);
 
-          AssertNear("exchange", kind, sides[s], lags[a], lags[b], value, other, 2 * promised * fabs(value));
+          AssertNear("exchange", kind, sides[s], (const ptrdiff_t[2]){lags[a], lags[b]}, value, other,
+                     2 * promised * fabs(value));
         }
       }
     }
@@ -120,7 +121,8 @@ static void test_xx_and_yy_add_up_to_r(void **state)
         const double yy = SamIntegralCell(SAM_INTEGRAL_YY, sides[s][0], sides[s][1], lags[a], lags[b]);
         const double r  = SamIntegralCell(SAM_INTEGRAL_R, sides[s][0], sides[s][1], lags[a], lags[b]);
 
-        AssertNear("XX + YY", SAM_INTEGRAL_R, sides[s], lags[a], lags[b], xx + yy, r, 2 * promised * r);
+        AssertNear("XX + YY", SAM_INTEGRAL_R, sides[s], (const ptrdiff_t[2]){lags[a], lags[b]}, xx + yy, r,
+                   2 * promised * r);
       }
     }
   }
@@ -145,7 +147,7 @@ static void CheckNine(int kind, const double side[2], ptrdiff_t i, ptrdiff_t j)
    * changes sign among the nine. Both sides keep the promise; 3 dx may round, and the most
    * sensitive value (XX at i = 0) goes with its third power: three more roundings.
    */
-  AssertNear("nine cells", kind, side, i, j, sum, whole, (2 * promised + 3 * DBL_EPSILON) * size);
+  AssertNear("nine cells", kind, side, (const ptrdiff_t[2]){i, j}, sum, whole, (2 * promised + 3 * DBL_EPSILON) * size);
 }
 
 static void test_nine_cells_make_one_three_times_as_large(void **state)
@@ -173,7 +175,7 @@ static void CheckRow(int kind, const double side[2], ptrdiff_t j, ptrdiff_t i0, 
     const double cell = SamIntegralCell((SamIntegral)kind, side[0], side[1], i0 + k, j);
 
     if (memcmp(&row[k], &cell, sizeof(cell)) != 0) {
-      AssertNear("row", kind, side, i0 + k, j, row[k], cell, 0);
+      AssertNear("row", kind, side, (const ptrdiff_t[2]){i0 + k, j}, row[k], cell, 0);
       fail_msg("row and cell differ in the sign of zero");
     }
   }
@@ -203,7 +205,7 @@ static void CheckScaled(int kind, const double side[2], ptrdiff_t i, ptrdiff_t j
   const double value  = SamIntegralCell((SamIntegral)kind, side[0], side[1], i, j);
   const double scaled = SamIntegralCell((SamIntegral)kind, scale * side[0], scale * side[1], i, j);
 
-  AssertNear("scaling", kind, side, i, j, scaled, scale * value, tolerance * fabs(scale * value));
+  AssertNear("scaling", kind, side, (const ptrdiff_t[2]){i, j}, scaled, scale * value, tolerance * fabs(scale * value));
 }
 
 /* Every integral is a length: exact for powers of two, for other factors up to the promise. */

@@ -1,6 +1,6 @@
 /*
- * Periodic bodies: products against sums over waves and against half-spaces, symmetry, translations, precision, inverses.
- */
+  Periodic bodies: products against sums over waves and against half-spaces, symmetry, translations, precision, inverses.
+*/
 #include "fields.h"
 
 #include <petsam/elasticity.h>

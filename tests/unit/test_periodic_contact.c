@@ -1,6 +1,6 @@
 /*
- * Contact of periodic bodies: Westergaard's wavy surface, a surface with waves in both directions, stick and slip.
- */
+  Contact of periodic bodies: Westergaard's wavy surface, a surface with waves in both directions, stick and slip.
+*/
 #include "fields.h"
 
 #include <petsam/normal.h>

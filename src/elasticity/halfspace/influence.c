@@ -1,60 +1,60 @@
 /*
- * Integrals of 1/r, x^2/r^3, x y/r^3 and x/r^2 over a rectangular cell.
- *
- * Problem. Love's closed forms are sums of an antiderivative over the four corners. At a distance
- * of d cells they cancel to 1/d^2 of their terms or less (x^2/r^3 beside the y axis: 1/d^3), so in
- * double precision 4 to 8 digits are left at the far end of a grid of 16384 cells a side. Wanted is
- * nearly full precision, relative to each value, at every lag, and quickly.
- *
- * Algorithm.
- *   1. A cell with half sides a and b, its centre at (x, y), is integrated by Taylor's series about
- *      the centre, of which the even derivatives remain:
- *        4 a b sum_mn a^2m b^2n / ((2m+1)! (2n+1)!) d_x^2m d_y^2n f.
- *      The terms of one order k = m + n are f's odd powers of x and y, a power of r, and q^k times
- *      a polynomial in w, where q = 1/r^2 and w = x^2 q. The polynomials depend on the cell's sides
- *      alone; their coefficients follow from the derivatives of x^i y^j r^-p by a recurrence. Of
- *      each cell in a row there remain one division, one root and two nested Horner schemes.
- *   2. x^2/r^3 is small beside the y axis because its term of order 0 is w and that of order 1 is
- *      q a^2/3 there: nothing cancels. So y^2/r^3 and y/r^2 go with w = y^2 q, x and y exchanged.
- *   3. A row is worked off in blocks of lags that take the order of their nearest cell; where that
- *      is too near, each of its cells takes its own order.
- *   4. A cell for which no order suffices is halved across its longer side as long as it is slender,
- *      and then quartered. All kernels are homogeneous of degree -1: a quarter is half of what the
- *      whole gives at twice the quarter's distance, so that the same coefficients serve the
- *      quarters, their quarters, and so on.
- *   5. The cell at the origin is Love's closed form, whose terms are positive there.
- *
- * Bound. Let R be the distance of the centre, d the half diagonal, s = R/d. At a distance t from the
- * centre the terms of degree l of r^-p are a Gegenbauer polynomial times (t/R)^l R^-p, at most
- * C_l^(p/2)(1) (t/R)^l R^-p (Szego 1975). The mean of t^l over a cell is at most d^l/(l+1): for a
- * given d it is convex in a^2, thus largest for a cell without width. A numerator (x+u)^i adds
- * products of x^(i-h) u^h, |u| <= a, and terms of degree l-h. The value itself is at least x^i (for
- * i = 2: x^2 + a^2/3) times (R+d)^-p. So for x^i y^j r^-p the orders from k on, relative to the value,
- * come to at most
- *   6 (2k+1)^(p-2) (1 + a s/max(x, a))^i (1 + b s/max(y, b))^j s^-2k,  k >= 2, s >= 5,
- * where 6 is 3 (for i = 2 at x = 0), (1 + 1/s)^3 and the geometric series. The bound falls with the
- * lag, which step 3 needs. From 2800 square cells on 1/r takes order 1, that is three coefficients.
- *
- * Lengths are measured in a power of two near the longer side: all six integrals scale as a length,
- * no power of r leaves the range of a double, and the scaling itself does not round.
- *
- * References:
- *   Love, A.E.H. (1929). The stress produced in a semi-infinite solid by pressure on part of the
- *     boundary. Phil. Trans. R. Soc. A 228, 377-420.
- *   Johnson, K.L. (1985). Contact Mechanics, chapter 3. Cambridge University Press.
- *   Liu, S., Wang, Q., Liu, G. (2000). A versatile method of discrete convolution and FFT (DC-FFT)
- *     for contact analyses. Wear 243, 101-111.
- *   Szego, G. (1975). Orthogonal Polynomials, section 4.7. American Mathematical Society.
- */
+  Integrals of 1/r, x^2/r^3, x y/r^3 and x/r^2 over a rectangular cell.
+
+  Problem. Love's closed forms are sums of an antiderivative over the four corners. At a distance
+  of d cells they cancel to 1/d^2 of their terms or less (x^2/r^3 beside the y axis: 1/d^3), so in
+  double precision 4 to 8 digits are left at the far end of a grid of 16384 cells a side. Wanted is
+  nearly full precision, relative to each value, at every lag, and quickly.
+
+  Algorithm.
+    1. A cell with half sides a and b, its centre at (x, y), is integrated by Taylor's series about
+       the centre, of which the even derivatives remain:
+         4 a b sum_mn a^2m b^2n / ((2m+1)! (2n+1)!) d_x^2m d_y^2n f.
+       The terms of one order k = m + n are f's odd powers of x and y, a power of r, and q^k times
+       a polynomial in w, where q = 1/r^2 and w = x^2 q. The polynomials depend on the cell's sides
+       alone; their coefficients follow from the derivatives of x^i y^j r^-p by a recurrence. Of
+       each cell in a row there remain one division, one root and two nested Horner schemes.
+    2. x^2/r^3 is small beside the y axis because its term of order 0 is w and that of order 1 is
+       q a^2/3 there: nothing cancels. So y^2/r^3 and y/r^2 go with w = y^2 q, x and y exchanged.
+    3. A row is worked off in blocks of lags that take the order of their nearest cell; where that
+       is too near, each of its cells takes its own order.
+    4. A cell for which no order suffices is halved across its longer side as long as it is slender,
+       and then quartered. All kernels are homogeneous of degree -1: a quarter is half of what the
+       whole gives at twice the quarter's distance, so that the same coefficients serve the
+       quarters, their quarters, and so on.
+    5. The cell at the origin is Love's closed form, whose terms are positive there.
+
+  Bound. Let R be the distance of the centre, d the half diagonal, s = R/d. At a distance t from the
+  centre the terms of degree l of r^-p are a Gegenbauer polynomial times (t/R)^l R^-p, at most
+  C_l^(p/2)(1) (t/R)^l R^-p (Szego 1975). The mean of t^l over a cell is at most d^l/(l+1): for a
+  given d it is convex in a^2, thus largest for a cell without width. A numerator (x+u)^i adds
+  products of x^(i-h) u^h, |u| <= a, and terms of degree l-h. The value itself is at least x^i (for
+  i = 2: x^2 + a^2/3) times (R+d)^-p. So for x^i y^j r^-p the orders from k on, relative to the value,
+  come to at most
+    6 (2k+1)^(p-2) (1 + a s/max(x, a))^i (1 + b s/max(y, b))^j s^-2k,  k >= 2, s >= 5,
+  where 6 is 3 (for i = 2 at x = 0), (1 + 1/s)^3 and the geometric series. The bound falls with the
+  lag, which step 3 needs. From 2800 square cells on 1/r takes order 1, that is three coefficients.
+
+  Lengths are measured in a power of two near the longer side: all six integrals scale as a length,
+  no power of r leaves the range of a double, and the scaling itself does not round.
+
+  References:
+    Love, A.E.H. (1929). The stress produced in a semi-infinite solid by pressure on part of the
+      boundary. Phil. Trans. R. Soc. A 228, 377-420.
+    Johnson, K.L. (1985). Contact Mechanics, chapter 3. Cambridge University Press.
+    Liu, S., Wang, Q., Liu, G. (2000). A versatile method of discrete convolution and FFT (DC-FFT)
+      for contact analyses. Wear 243, 101-111.
+    Szego, G. (1975). Orthogonal Polynomials, section 4.7. American Mathematical Society.
+*/
 #include <petsam/private/baseimpl.h>
 #include <petsam/influence.h>
 
 #include <math.h>
 
 /*
- * Highest order of an expansion, lags that share an order (short enough to stay in the first cache), and
- * shapes between a slender cell and a nearly square part of it.
- */
+  Highest order of an expansion, lags that share an order (short enough to stay in the first cache), and
+  shapes between a slender cell and a nearly square part of it.
+*/
 enum { MAX_ORDER = 10, BLOCK = 64, MAX_SHAPES = 16 };
 
 /* What the bound may come to, relative to a value: of the order of what the summation rounds off. */
@@ -71,9 +71,9 @@ static const Kernel kernels[] = {
 };
 
 /*
- * The expansion for one shape of cells: the term of order k is u^odd_u v^odd_v r^-root q^k times the polynomial
- * in w = u^2 q whose coefficients are polynomial[k], of degree k + square.
- */
+  The expansion for one shape of cells: the term of order k is u^odd_u v^odd_v r^-root q^k times the polynomial
+  in w = u^2 q whose coefficients are polynomial[k], of degree k + square.
+*/
 typedef struct {
   Kernel kernel;
   double a, b;    /* half sides along x and y */
@@ -138,9 +138,9 @@ static void Expand(Expansion *e, int order)
 }
 
 /*
- * The least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both
- * >= 0; more than MAX_ORDER if there is none.
- */
+  The least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both
+  >= 0; more than MAX_ORDER if there is none.
+*/
 static int SelectOrder(const Expansion *e, double x, double y)
 {
   const Kernel *kernel = &e->kernel;
@@ -161,9 +161,9 @@ static int SelectOrder(const Expansion *e, double x, double y)
 }
 
 /*
- * The integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order.
- * The index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
- */
+  The integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order.
+  The index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
+*/
 SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, int n,
                                     double *restrict values)
 {
@@ -258,9 +258,9 @@ static ptrdiff_t BlockLength(ptrdiff_t i, ptrdiff_t n)
 }
 
 /*
- * The integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not
- * on where the n cells begin or end in it, so that a cell has one value however it is asked for.
- */
+  The integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not
+  on where the n cells begin or end in it, so that a cell has one value however it is asked for.
+*/
 static void BlockIntegrals(Expansion *e, ptrdiff_t j, ptrdiff_t i, ptrdiff_t n, double *values)
 {
   const ptrdiff_t lag = i < 0 ? -i : i, nearest = lag - lag % BLOCK;

@@ -4,8 +4,8 @@
   On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair.normal,
   so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
   pair.shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
-  grid made periodic, which costs a quarter of a padded transform and conditions as well. The symbol is computed as it
-  is used, all in single precision: it is an approximation by itself.
+  grid made periodic, which costs a quarter of a padded transform and needs as few iterations. The symbol is computed
+  anew each time. Single precision will do for an approximation.
 */
 #include "halfspaceimpl.h"
 #include <math.h>
@@ -25,7 +25,7 @@ static PetscErrorCode GetSymbol(SamElasticity e, PetscBool tangential, double fa
 
   PetscFunctionBegin;
   PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
-  /* wave numbers in units of the shortest, so that their squares are numbers that floats hold */
+  /* wave numbers in units of 1/length of the grid, so that their squares are numbers that floats hold */
   symbol->step[0] = 2 * PETSC_PI / (double)hx * e->grid->length / e->grid->dx;
   symbol->step[1] = 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
   symbol->gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
@@ -35,30 +35,37 @@ static PetscErrorCode GetSymbol(SamElasticity e, PetscBool tangential, double fa
 }
 
 /* Entries first ... last - 1 of a column: ky = step (m - origin). */
-SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, PetscInt first, PetscInt last, PetscInt origin,
-                                            float (*restrict column)[2])
+typedef struct {
+  PetscInt first, last, origin;
+} Stretch;
+
+/* Times gain |k|, with `mean` for |k| of the mean. */
+SAM_VECTORIZED static void FilterPartNormal(const Symbol *s, float kx, Stretch at, float (*restrict column)[2])
 {
   const float gain = (float)s->gain, mean = (float)s->mean, step = (float)s->step[1];
 
 #pragma omp simd
-  for (PetscInt m = first; m < last; m++) {
-    const float ky = step * (float)(m - origin), k = sqrtf(kx * kx + ky * ky), g = gain * (k > mean ? k : mean);
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k = sqrtf(kx * kx + ky * ky), g = gain * (k > mean ? k : mean);
 
     column[m][0] *= g;
     column[m][1] *= g;
   }
 }
 
-/* `sign`: 1, or 0 at a Nyquist frequency, where the sign of the cross term is not defined, and none is right. */
-SAM_VECTORIZED static void FilterPartTangential(const Symbol *s, float kx, float sign, PetscInt first, PetscInt last,
-                                                PetscInt origin, float (*restrict x)[2], float (*restrict y)[2])
+/*
+  Times gain |k| (I + extra kk'/|k|^2). `sign`: 1; 0 for a wave of two cells' length, which is its own mirror image, so
+  that the cross term has no sign.
+*/
+SAM_VECTORIZED static void FilterPartTangential(const Symbol *s, float kx, float sign, Stretch at,
+                                                float (*restrict x)[2], float (*restrict y)[2])
 {
   const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->extra, least = mean * mean,
               step = (float)s->step[1];
 
 #pragma omp simd
-  for (PetscInt m = first; m < last; m++) {
-    const float ky = step * (float)(m - origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least,
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least,
                 g    = gain * sqrtf(some);
     const float part = g * extra / some, cross = sign * part * kx * ky, gx = g + part * kx * kx,
                 gy = g + part * ky * ky;
@@ -80,8 +87,8 @@ static void FilterNormal(const SamFourierBlock *block, const void *context)
     float(*column)[2] = block->single[0] + (ptrdiff_t)b * block->stride;
     const float kx    = (float)(s->step[0] * (double)(block->first + b));
 
-    FilterPartNormal(s, kx, 0, half, 0, column);
-    FilterPartNormal(s, kx, half, hy, hy, column);
+    FilterPartNormal(s, kx, (Stretch){0, half, 0}, column);
+    FilterPartNormal(s, kx, (Stretch){half, hy, hy}, column);
   }
 }
 
@@ -96,30 +103,32 @@ static void FilterTangential(const SamFourierBlock *block, const void *context)
     const float kx   = (float)(s->step[0] * (double)(block->first + b)),
                 sign = 2 * (block->first + b) == block->hx ? 0 : 1;
 
-    FilterPartTangential(s, kx, sign, 0, half, 0, x, y);
-    if (hy % 2 == 0) FilterPartTangential(s, kx, 0, half, half + 1, 0, x, y);
-    FilterPartTangential(s, kx, sign, hy / 2 + 1, hy, hy, x, y);
+    FilterPartTangential(s, kx, sign, (Stretch){0, half, 0}, x, y);
+    if (hy % 2 == 0) FilterPartTangential(s, kx, 0, (Stretch){half, half + 1, 0}, x, y);
+    FilterPartTangential(s, kx, sign, (Stretch){hy / 2 + 1, hy, hy}, x, y);
   }
 }
 
 PetscErrorCode SamHalfSpacePreconditionNormal(SamElasticity e, double factor, const float *const residual[],
                                               float *const p[])
 {
-  Symbol symbol;
+  Symbol                 symbol;
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterNormal, &symbol};
 
   PetscFunctionBegin;
   PetscCall(GetSymbol(e, PETSC_FALSE, factor, &symbol));
-  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 1, residual, 1, p, FilterNormal, &symbol));
+  PetscCall(SamFourierApplySingle(e->fourier, &filter, residual, p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamHalfSpacePreconditionTangential(SamElasticity e, double factor, const float *const residual[],
                                                   float *const q[])
 {
-  Symbol symbol;
+  Symbol                 symbol;
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 2, FilterTangential, &symbol};
 
   PetscFunctionBegin;
   PetscCall(GetSymbol(e, PETSC_TRUE, factor, &symbol));
-  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 2, residual, 2, q, FilterTangential, &symbol));
+  PetscCall(SamFourierApplySingle(e->fourier, &filter, residual, q));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -255,73 +255,81 @@ static double TangentialAmplitude(SamElasticity e)
 
 static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
 {
-  const Symbol s = SymbolOf(e, 1, NormalAmplitude(e));
+  const Symbol           s      = SymbolOf(e, 1, NormalAmplitude(e));
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterNormal, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 1, p, 1, u_z, FilterNormal, &s));
+  PetscCall(SamFourierApply(e->fourier, &filter, p, u_z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
 {
-  const Symbol s = SymbolOf(e, 1, TangentialAmplitude(e));
+  const Symbol           s      = SymbolOf(e, 1, TangentialAmplitude(e));
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 2, FilterTangential, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 2, q, 2, u_t, FilterTangential, &s));
+  PetscCall(SamFourierApply(e->fourier, &filter, q, u_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
 {
-  const Symbol s = SymbolOf(e, factor, NormalAmplitude(e));
+  const Symbol           s      = SymbolOf(e, factor, NormalAmplitude(e));
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterNormal, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 1, p, 1, u_z, FilterNormal, &s));
+  PetscCall(SamFourierApplySingle(e->fourier, &filter, p, u_z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
 {
-  const Symbol s = SymbolOf(e, factor, TangentialAmplitude(e));
+  const Symbol           s      = SymbolOf(e, factor, TangentialAmplitude(e));
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 2, FilterTangential, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 2, q, 2, u_t, FilterTangential, &s));
+  PetscCall(SamFourierApplySingle(e->fourier, &filter, q, u_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
 {
-  const Symbol s = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
+  const Symbol           s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 2, FilterNormalToTangential, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 1, p, 2, u_t, FilterNormalToTangential, &s));
+  PetscCall(SamFourierApply(e->fourier, &filter, p, u_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
 {
-  const Symbol s = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
+  const Symbol           s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 1, FilterTangentialToNormal, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, SAM_FOURIER_PERIODIC, 2, q, 1, u_z, FilterTangentialToNormal, &s));
+  PetscCall(SamFourierApply(e->fourier, &filter, q, u_z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
 {
-  const Symbol s = InverseOf(e, factor, NormalAmplitude(e));
+  const Symbol           s      = InverseOf(e, factor, NormalAmplitude(e));
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterNormalInverse, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 1, r, 1, p, FilterNormalInverse, &s));
+  PetscCall(SamFourierApplySingle(e->fourier, &filter, r, p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
-  const Symbol s = InverseOf(e, factor, TangentialAmplitude(e));
+  const Symbol           s      = InverseOf(e, factor, TangentialAmplitude(e));
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 2, FilterTangentialInverse, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, SAM_FOURIER_PERIODIC, 2, r, 2, q, FilterTangentialInverse, &s));
+  PetscCall(SamFourierApplySingle(e->fourier, &filter, r, q));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
