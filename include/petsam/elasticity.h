@@ -71,10 +71,9 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, Sam
 PETSC_EXTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
                                                    SamTransfer *transfer);
 /*
-  SamElasticityRelease - frees what is made again when it is needed: the transforms' memory, what the coarser operators
-  and the parts have tabulated, and, with `own`, what the operator itself has. Collective.
+  SamElasticityTrim - gives back the transforms' memory if it is large, until the next product. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityRelease(SamElasticity elasticity, PetscBool own);
+PETSC_EXTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
 
 /*
   The operator on a part of the grid; all collective, the window and the operator borrowed until another part is chosen,

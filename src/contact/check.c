@@ -8,6 +8,23 @@
 #include "contactimpl.h"
 #include <math.h>
 
+/* What pressure displaces tangentially, and shear normally. */
+static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const SamSolution *s)
+{
+  Vec more;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &more));
+  PetscCall(SamElasticityApplyTangentialToNormal(elasticity, s->shear, more));
+  PetscCall(VecAXPY(s->displacement_z, 1, more));
+  PetscCall(VecDestroy(&more));
+  PetscCall(SamGridCreateVec(grid, 2, &more));
+  PetscCall(SamElasticityApplyNormalToTangential(elasticity, s->pressure, more));
+  PetscCall(VecAXPY(s->displacement_t, 1, more));
+  PetscCall(VecDestroy(&more));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* u_z unless it is known, u_t, and what each traction adds to the other's where they are coupled. */
 static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s)
@@ -16,7 +33,6 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
   SamElasticityTraits traits;
   SamGrid             grid;
   PetscReal           shear;
-  Vec                 more;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
@@ -28,15 +44,8 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
   else
     PetscCall(SamVecZero(s->displacement_t));
-  if (!traits.coupled || !coupling) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(grid, 1, &more));
-  PetscCall(SamElasticityApplyTangentialToNormal(elasticity, s->shear, more));
-  PetscCall(VecAXPY(s->displacement_z, 1, more));
-  PetscCall(VecDestroy(&more));
-  PetscCall(SamGridCreateVec(grid, 2, &more));
-  PetscCall(SamElasticityApplyNormalToTangential(elasticity, s->pressure, more));
-  PetscCall(VecAXPY(s->displacement_t, 1, more));
-  PetscCall(VecDestroy(&more));
+  if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
+  PetscCall(SamElasticityTrim(elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -154,15 +154,10 @@ PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityRelease(SamElasticity e, PetscBool own)
+PetscErrorCode SamElasticityTrim(SamElasticity e)
 {
   PetscFunctionBegin;
-  if (e->coarse) PetscCall(SamElasticityRelease(e->coarse, PETSC_TRUE));
-  for (PetscInt k = 0; k < 2; k++)
-    if (e->parts[k].elasticity) PetscCall(SamElasticityRelease(e->parts[k].elasticity, PETSC_TRUE));
-  if (!e->is_set_up) PetscFunctionReturn(PETSC_SUCCESS);
   if (e->fourier) PetscCall(SamFourierTrim(e->fourier));
-  if (own && e->ops.release) PetscCall((*e->ops.release)(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -15,7 +15,6 @@ typedef struct {
   PetscErrorCode (*setfromoptions)(SamElasticity, const SamOptions *from); /* the type's own options */
   PetscErrorCode (*inherit)(SamElasticity parent, SamElasticity child);    /* settings, to a coarse grid or a part */
   PetscErrorCode (*setup)(SamElasticity);
-  PetscErrorCode (*release)(SamElasticity); /* frees tables, which are made again when they are needed */
   PetscErrorCode (*destroy)(SamElasticity); /* frees `data` */
   /* required: products, with `factor` in single precision, preconditioners, and a cell's influence on itself */
   PetscErrorCode (*applynormal)(SamElasticity, const double *const p[], double *const u_z[]);

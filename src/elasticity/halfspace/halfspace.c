@@ -190,19 +190,12 @@ static PetscErrorCode SetUp(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Release(SamElasticity e)
+static PetscErrorCode Destroy(SamElasticity e)
 {
   HalfSpace *data = (HalfSpace *)e->data;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Destroy(SamElasticity e)
-{
-  PetscFunctionBegin;
-  PetscCall(Release(e));
   PetscCall(PetscFree(e->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -220,7 +213,6 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                     .mean      = PETSC_TRUE,
                                     .parts     = PETSC_TRUE};
   e->ops    = (SamElasticityOps){.setup                   = SetUp,
-                                 .release                 = Release,
                                  .destroy                 = Destroy,
                                  .applynormal             = ApplyNormal,
                                  .applytangential         = ApplyTangential,
