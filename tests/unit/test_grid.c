@@ -88,6 +88,39 @@ static void test_impossible_grids_are_refused(void **state)
     sam_fails(SamGridCreate(PETSC_COMM_WORLD, n[4], size, center[k], &grid), PETSC_ERR_ARG_OUTOFRANGE);
 }
 
+/* What the caller waits for on its communicator is not met by what the library sends. */
+static void test_messages_do_not_meet_the_caller_s(void **state)
+{
+  const PetscInt first[2] = {1, 2}, n[2] = {7, 9};
+  SamGrid        grid = NewGrid(13, 17, 1, 1), other = NewGrid(5, 5, 1, 1);
+  SamWindow      window;
+  Vec            whole = NewRandom(grid, 1, 1), part;
+  MPI_Request    request;
+  int            buffer[1000], same, arrived;
+
+  (void)state;
+  (void)MPI_Comm_compare(grid->comm, PETSC_COMM_WORLD, &same);
+  sam_assert(same == MPI_CONGRUENT);
+  (void)MPI_Comm_compare(grid->comm, other->comm, &same);
+  sam_assert(same == MPI_IDENT); /* so that transforms on both share their memory */
+  (void)MPI_Irecv(buffer, 1000, MPI_INT, MPI_ANY_SOURCE, MPI_ANY_TAG, PETSC_COMM_WORLD, &request);
+  sam_call(SamWindowCreate(grid, first, n, &window));
+  sam_call(SamGridDestroy(&other));
+  sam_call(SamWindowGetGrid(window, &other));
+  part = NewField(other, 1);
+  sam_call(SamWindowTake(window, whole, part));
+  (void)MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+  if (!arrived) {
+    (void)MPI_Cancel(&request);
+    (void)MPI_Wait(&request, MPI_STATUS_IGNORE);
+  }
+  sam_assert(!arrived);
+  sam_call(VecDestroy(&part));
+  sam_call(VecDestroy(&whole));
+  sam_call(SamWindowDestroy(&window));
+  sam_call(SamGridDestroy(&grid));
+}
+
 static void test_more_cells_than_can_be_counted_are_refused(void **state)
 {
   const PetscInt  n[2]    = {65536, 65536};
@@ -398,6 +431,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_coordinates_are_cell_centres),
     cmocka_unit_test(test_coarse_grid_has_half_the_cells_of_the_same_rectangle),
     cmocka_unit_test(test_impossible_grids_are_refused),
+    cmocka_unit_test(test_messages_do_not_meet_the_caller_s),
     cmocka_unit_test(test_more_cells_than_can_be_counted_are_refused),
     cmocka_unit_test(test_grid_from_options),
     cmocka_unit_test(test_restriction_keeps_the_integral),
