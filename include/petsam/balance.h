@@ -1,4 +1,4 @@
-/* The rigid-body components, their loads, and the projections that keep equilibrium. */
+/* The rigid-body components, their loads, and which loads can be balanced at all. */
 #ifndef PETSAM_BALANCE_H
 #define PETSAM_BALANCE_H
 

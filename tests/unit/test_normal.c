@@ -93,8 +93,8 @@ static void AssertHertz(SamSolverType type)
   HertzErrors(64, type, &coarse[0], &coarse[1]);
   HertzErrors(256, type, &fine[0], &fine[1]);
   /*
-    linear; the circle cuts the cells at the edge in ever other ways, which makes the fall from one grid to the next
-    irregular
+    The error is linear in the cell size, but it falls irregularly from one grid to the next, as the edge of the contact
+    cuts its cells differently on each.
   */
   sam_assert(coarse[0] < 6e-3);
   sam_assert(fine[0] < 0.35 * coarse[0]);

@@ -40,7 +40,7 @@ static PetscErrorCode ComputeEnergy(const SamStickSlip *w, double *energy)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Products of the change of q since y with that of s since sy, and with itself. */
+/* Products of the change of q from y with that of s from sy, and with itself: curvature and size of a step. */
 static PetscErrorCode ComputeBend(const SamStickSlip *w, const double y[], const double sy[], double sums[2])
 {
   SamTotal totals[2] = {{0, 0}};
@@ -65,7 +65,7 @@ static PetscErrorCode ComputeBend(const SamStickSlip *w, const double y[], const
 /*
   One step from y = w->q with slip w->s: doubles L until the quadratic bound holds. On return q and s are the new ones.
 */
-static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], double sy[], PetscBool *found)
+static PetscErrorCode GradientStep(SamStickSlip *w, double *L, double y[], double sy[], PetscBool *found)
 {
   double sums[2];
 
@@ -73,13 +73,13 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double L[1], double y[], dou
   PetscCall(PetscArraycpy(y, w->q, 2 * w->cells));
   PetscCall(PetscArraycpy(sy, w->s, 2 * w->cells));
   for (;;) {
-    for (PetscInt k = 0; k < 2 * w->cells; k++) w->q[k] = y[k] - sy[k] / L[0];
+    for (PetscInt k = 0; k < 2 * w->cells; k++) w->q[k] = y[k] - sy[k] / *L;
     PetscCall(SamFrameProjectTangential(w->frame, w->bound, PETSC_TRUE, w->q, found));
     if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(SamStickSlipComputeSlip(w));
     PetscCall(ComputeBend(w, y, sy, sums));
-    if (sums[0] <= L[0] * sums[1] * (1 + 1e-12) || !isfinite(sums[0] + sums[1])) break;
-    L[0] = PetscMax(2 * L[0], sums[0] / sums[1]);
+    if (sums[0] <= *L * sums[1] * (1 + 1e-12) || !isfinite(sums[0] + sums[1])) break;
+    *L = PetscMax(2 * *L, sums[0] / sums[1]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -88,13 +88,13 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamSolver solver, SamLevel *le
 {
   SamStickSlip    w;
   SamSolverReason reason = SAM_SOLVER_ITERATING;
-  double         *y, *sy, *last, *slast, t = 1, L[1], energy, before;
+  double         *y, *sy, *last, *slast, t = 1, L, energy, before;
   PetscBool       found;
 
   PetscFunctionBegin;
   PetscCall(SamStickSlipCreate(solver, level, &w));
   PetscCall(PetscMalloc4(2 * w.cells, &y, 2 * w.cells, &sy, 2 * w.cells, &last, 2 * w.cells, &slast));
-  L[0] = w.self;
+  L = w.self;
   PetscCall(SamStickSlipStart(&w));
   PetscCall(ComputeEnergy(&w, &before));
   PetscCall(PetscArraycpy(last, w.q, 2 * w.cells));
@@ -102,7 +102,7 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamSolver solver, SamLevel *le
   for (PetscInt it = 0; !reason; it++) {
     double next;
 
-    PetscCall(GradientStep(&w, L, y, sy, &found));
+    PetscCall(GradientStep(&w, &L, y, sy, &found));
     if (!found) {
       reason = SAM_SOLVER_DIVERGED_STAGNATED; /* that the loads can be carried has been checked before */
       break;
