@@ -28,9 +28,9 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
-  PetscCall(SamSolutionCreate(c->grid, PETSC_TRUE, &c->committed.solution));
-  PetscCall(SamSolutionCreate(c->grid, PETSC_TRUE, &c->tried.solution));
-  PetscCall(SamSolutionCreate(c->grid, PETSC_FALSE, &c->before));
+  PetscCall(SamSolutionCreate(c->grid, &c->committed.solution));
+  PetscCall(SamSolutionCreate(c->grid, &c->tried.solution));
+  PetscCall(SamSolutionCreate(c->grid, &c->before));
   c->committed.gap_revision = -1;
   *contact                  = c;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -270,6 +270,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   const SamSolution *before = c->steps ? &c->committed.solution : NULL;
 
   PetscFunctionBegin;
+  PetscCall(SamSolutionCreateDisplacements(c->grid, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(before->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->coupling, same_pressure, before, s, &step->check));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));

@@ -36,8 +36,13 @@ struct _n_SamContact {
 
 /* ---- states (state.c) ---- */
 
-/* SamSolutionCreate, SamSolutionDestroy - the fields of a solution, zero; displacements only if wanted. Collective. */
-PETSC_INTERN PetscErrorCode SamSolutionCreate(SamGrid grid, PetscBool displacements, SamSolution *solution);
+/* SamSolutionCreate, SamSolutionDestroy - the fields of a solution, zero, without displacements. Collective. */
+PETSC_INTERN PetscErrorCode SamSolutionCreate(SamGrid grid, SamSolution *solution);
+/*
+  SamSolutionCreateDisplacements - its displacements, zero, unless it has them. They are made when they are first needed:
+  in the first step that is after the solvers, whose memory they take. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionCreateDisplacements(SamGrid grid, SamSolution *solution);
 PETSC_INTERN PetscErrorCode SamSolutionDestroy(SamSolution *solution);
 /* SamVecCopyNonzero - copies a field; what is zero in both stays unwritten, and takes no memory. Collective. */
 PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);

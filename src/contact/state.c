@@ -43,7 +43,7 @@ PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceK
 
 /* ---- fields ---- */
 
-PetscErrorCode SamSolutionCreate(SamGrid grid, PetscBool displacements, SamSolution *s)
+PetscErrorCode SamSolutionCreate(SamGrid grid, SamSolution *s)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
@@ -51,9 +51,14 @@ PetscErrorCode SamSolutionCreate(SamGrid grid, PetscBool displacements, SamSolut
   PetscCall(SamGridCreateVec(grid, 1, &s->pressure));
   PetscCall(SamGridCreateVec(grid, 1, &s->bound));
   PetscCall(SamGridCreateVec(grid, 2, &s->shear));
-  if (!displacements) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(grid, 1, &s->displacement_z));
-  PetscCall(SamGridCreateVec(grid, 2, &s->displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionCreateDisplacements(SamGrid grid, SamSolution *s)
+{
+  PetscFunctionBegin;
+  if (!s->displacement_z) PetscCall(SamGridCreateVec(grid, 1, &s->displacement_z));
+  if (!s->displacement_t) PetscCall(SamGridCreateVec(grid, 2, &s->displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -97,8 +102,11 @@ PetscErrorCode SamVecCopyNonzero(Vec from, Vec to)
 
 PetscErrorCode SamContactGetSolution(SamContact c, const SamSolution **solution)
 {
+  SamSolution *s = c->has_tried ? &c->tried.solution : &c->committed.solution;
+
   PetscFunctionBegin;
-  *solution = c->has_tried ? &c->tried.solution : &c->committed.solution;
+  PetscCall(SamSolutionCreateDisplacements(c->grid, s));
+  *solution = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -108,6 +116,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
+  PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
   s->steps = c->steps;
   s->now   = c->committed.solution;
   if (c->steps > 1) s->before = c->before;
@@ -147,6 +156,7 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
                s->now.displacement_t && (s->steps < 2 || (s->before.pressure && s->before.bound && s->before.shear)),
              c->grid->comm, PETSC_ERR_ARG_INCOMP, "The state lacks fields");
   PetscCall(SamContactReject(c));
+  PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
   PetscCall(CopySolution(&s->now, &c->committed.solution));
   if (s->steps > 1) PetscCall(CopySolution(&s->before, &c->before));
   c->steps = s->steps;
