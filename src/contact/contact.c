@@ -270,6 +270,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   const SamSolution *before = c->steps ? &c->committed.solution : NULL;
 
   PetscFunctionBegin;
+  if (!c->steps) SamReturnMemory(); /* of the nested grids: takes the peak from 99 to 90 MB at 512 x 512 cells */
   PetscCall(SamSolutionCreateDisplacements(c->grid, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(before->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->coupling, same_pressure, before, s, &step->check));
