@@ -76,6 +76,7 @@ typedef struct {
   PetscInt   coupling_iterations;
   SamStatus  status;
   char       message[512]; /* why the status is not 0, or a warning */
+  char       setting[32];  /* the setting that decides it, as its option is named: grid_size ...; empty: none */
 } SamStep;
 
 /* What the check may find at most for a step that counts as converged. */

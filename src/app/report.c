@@ -167,15 +167,13 @@ static void KeepWorst(SamReport r, const SamStep *step)
 /* A step's message goes to stderr, from the first rank. */
 static void PrintMessage(SamReport r, const SamStep *step)
 {
-  const char *advice    = "";
-  char        where[32] = "";
+  char where[32] = "", option[48] = "";
 
   if (r->rank || !step->message[0]) return;
   if (r->steps > 1) snprintf(where, sizeof(where), "step %ld: ", (long)r->number + 1);
   fflush(stdout);
-  /* what the contact says of the grid, the user can mend by an option */
-  if (step->check.edge > 0 && strstr(step->message, "edge of the grid")) advice = " (-grid_size)";
-  fprintf(stderr, "petsam: %s%s%s%s\n", step->status ? "" : "warning: ", where, step->message, advice);
+  if (step->setting[0]) snprintf(option, sizeof(option), " (-%s)", step->setting);
+  fprintf(stderr, "petsam: %s%s%s%s\n", step->status ? "" : "warning: ", where, step->message, option);
 }
 
 PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)

@@ -305,11 +305,11 @@ static PetscErrorCode IsLastPass(Solve *w, PetscInt pass, PetscBool *last)
   *last = pass > 1 && PetscMax(change[0], change[1]) <= c->coupling_rtol ? PETSC_TRUE : PETSC_FALSE;
   if (*last || pass < c->coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
   *last = PETSC_TRUE;
-  PetscCall(PetscSNPrintf(message, sizeof(message),
-                          "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT
-                          " passes (coupling_max_it)",
-                          pass));
+  PetscCall(PetscSNPrintf(
+    message, sizeof(message),
+    "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT " passes", pass));
   PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
+  PetscCall(PetscStrncpy(w->step->setting, "coupling_max_it", sizeof(w->step->setting)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

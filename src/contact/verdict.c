@@ -31,14 +31,12 @@ PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)
       (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone));
     PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
-  if (check->edge == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscSNPrintf(message, sizeof(message),
+  if (check->edge == 0 || step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!limits->edge) step->status = SAM_STATUS_EDGE_CONTACT;
+  PetscCall(PetscSNPrintf(step->message, sizeof(step->message),
                           "the contact reached the edge of the grid (pressure there up to %.2g of the largest): the "
                           "answer depends on the size of the grid",
                           (double)check->edge));
-  if (!limits->edge)
-    PetscCall(SamStepFail(step, SAM_STATUS_EDGE_CONTACT, message));
-  else if (!step->message[0])
-    PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
+  PetscCall(PetscStrncpy(step->setting, "grid_size", sizeof(step->setting)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

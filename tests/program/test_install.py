@@ -51,12 +51,14 @@ def test_all_that_users_need_is_installed(prefix):
     )
 
 
-def test_nothing_private_is_installed(prefix):
-    assert not [
-        name
-        for name in files(prefix)
-        if "impl.h" in name or "maintain/" in name or "__pycache__" in name or name.endswith(".o")
-    ]
+def test_what_only_developers_need_is_not_installed(prefix):
+    assert not [name for name in files(prefix) if "maintain/" in name or "__pycache__" in name or name.endswith(".o")]
+
+
+def test_headers_for_those_who_add_types_lie_apart(prefix):
+    private = [name for name in files(prefix) if name.endswith("impl.h")]
+    assert "include/petsam/private/gapimpl.h" in private and "include/petsam/private/solverimpl.h" in private
+    assert all(name.startswith("include/petsam/private/") for name in private)
 
 
 def test_DESTDIR_is_before_the_prefix_and_not_in_the_files(tmp_path, prefix):
