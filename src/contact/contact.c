@@ -237,6 +237,9 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
              PETSC_ERR_ARG_OUTOFRANGE, "load_n = %g: expected a number >= 0", (double)control->value[SAM_COMPONENT_N]);
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %g: expected a number >= 0", (double)control->friction_scale);
+  for (PetscInt k = 0; k < 3; k++)
+    PetscCheck(isfinite(control->stretch[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "A stretch of %g",
+               (double)control->stretch[k]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
