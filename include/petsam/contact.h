@@ -159,7 +159,7 @@ typedef struct {
   PetscBool   gap_is_current;               /* `now` was found with the gap that the problem has at present */
 } SamContactState;
 
-/* SamContactGetState - the committed state; the vectors are borrowed until the next commit. Not collective. */
+/* SamContactGetState - the committed state; the vectors are borrowed until the next commit. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamContactState *state);
 /* SamContactSetState - copies the vectors into the committed state; a tried one is forgotten. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactSetState(SamContact contact, const SamContactState *state);
