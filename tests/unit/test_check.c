@@ -119,6 +119,21 @@ static void test_check_finds_penetration_outside_of_contact(void **state)
   sam_assert(CheckSpoilt(RemovePressure).normal > 1e-3);
 }
 
+/* Bodies that interpenetrate, and do not press on each other at all. */
+static void PushWithoutPressure(const Case *c, SamSolution *s)
+{
+  (void)c;
+  sam_call(VecSet(s->pressure, 0));
+  sam_call(VecSet(s->shear, 0));
+  s->control.force[SAM_COMPONENT_N] = PETSC_FALSE;
+}
+
+static void test_check_finds_penetration_without_any_contact(void **state)
+{
+  (void)state;
+  sam_assert(CheckSpoilt(PushWithoutPressure).normal > 0.1);
+}
+
 /* ---- shear ---- */
 
 /* Multiplies the shear of a cell at the contact's rim, where it slips. */
@@ -208,6 +223,12 @@ static void ShiftBody(const Case *c, SamSolution *s)
   s->rigid[SAM_COMPONENT_TX] *= 1 + 1e-3;
 }
 
+static void ShiftBodyAlongY(const Case *c, SamSolution *s)
+{
+  (void)c;
+  s->rigid[SAM_COMPONENT_TY] *= 1 + 1e-3;
+}
+
 static void TwistBody(const Case *c, SamSolution *s)
 {
   (void)c;
@@ -218,6 +239,7 @@ static void test_check_finds_wrong_tangential_displacement(void **state)
 {
   (void)state;
   sam_assert(CheckSpoilt(ShiftBody).tangential > 1e-4);
+  sam_assert(CheckSpoilt(ShiftBodyAlongY).tangential > 1e-4);
   sam_assert(CheckSpoilt(TwistBody).tangential > 1e-4);
 }
 
@@ -318,6 +340,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_check_finds_pressure_across_a_gap_and_at_the_edge),
     cmocka_unit_test(test_check_looks_at_all_four_borders),
     cmocka_unit_test(test_check_finds_penetration_outside_of_contact),
+    cmocka_unit_test(test_check_finds_penetration_without_any_contact),
     cmocka_unit_test(test_check_finds_shear_against_its_direction),
     cmocka_unit_test(test_check_finds_slip_within_the_cone),
     cmocka_unit_test(test_check_finds_shear_beyond_the_cone),

@@ -124,11 +124,17 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   const SamParameters parameters = NewParameters(friction);
   Case                one = NewBody(), other = NewBody();
   const SamControl    control = Loads(&one, 1, -0.2, 0, 0);
+  SamControl          second  = Loads(&one, 0.5, 0.2, 0, 0);
   SamContactState     a, b;
   SamStep             step;
 
   (void)state;
-  for (int k = 0; k < 2; k++) SolveStep(&one, k, &step);
+  SolveStep(&one, 0, &step);
+  Displace(&second, SAM_COMPONENT_MZ, 1e-6);
+  second.time           = 2.5;
+  second.friction_scale = 0.9;
+  second.stretch[2]     = 1e-6;
+  (void)Solve(&one, &second);
   (void)Try(&one, &control);
   sam_call(SamCheckpointWrite(filename, one.contact, &parameters, 0, NULL));
   sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
@@ -144,7 +150,9 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
     sam_assert(a.now.control.value[k] == b.now.control.value[k] && a.now.load[k] == b.now.load[k] &&
                a.now.rigid[k] == b.now.rigid[k] && a.before.control.value[k] == b.before.control.value[k] &&
-               a.before.rigid[k] == b.before.rigid[k]);
+               a.before.rigid[k] == b.before.rigid[k] && a.now.control.force[k] == b.now.control.force[k]);
+  sam_assert(b.now.control.time == 2.5 && b.now.control.friction_scale == 0.9 && b.now.control.stretch[2] == 1e-6);
+  sam_assert(b.before.control.time == 0 && b.before.control.friction_scale == 1 && b.before.control.stretch[2] == 0);
   DestroyCase(&one);
   DestroyCase(&other);
   Remove();

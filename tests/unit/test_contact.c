@@ -85,6 +85,23 @@ static void test_loads_and_displacements_are_two_ways_to_give_the_same_step(void
   DestroyCase(&d);
 }
 
+/* Loads along y do along y what loads along x do along x. */
+static void test_directions_x_and_y_are_alike(void **state)
+{
+  Case             c = NewCase(Steel(), 48, 1.5, MU, ""), d = NewCase(Steel(), 48, 1.5, MU, "");
+  const SamControl along_x = Loads(&c, 1, 0.6, 0, 0), along_y = Loads(&d, 1, 0, 0.6, 0);
+  const SamStep    x = Solve(&c, &along_x), y = Solve(&d, &along_y);
+
+  (void)state;
+  AssertGood(&x);
+  AssertGood(&y);
+  sam_assert_close(y.rigid[SAM_COMPONENT_TY], x.rigid[SAM_COMPONENT_TX], 1e-5 * x.rigid[SAM_COMPONENT_TX]);
+  sam_assert_close(y.dissipated_energy, x.dissipated_energy, 1e-5 * x.dissipated_energy);
+  sam_assert_close(y.stick_area, x.stick_area, 0.02 * x.stick_area); /* a few cells at the rim of stick */
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
 /* ---- no step ---- */
 
 static void test_gross_slip_is_told_with_its_limit(void **state)
@@ -92,10 +109,12 @@ static void test_gross_slip_is_told_with_its_limit(void **state)
   Case             c       = NewCase(Steel(), 40, 1.5, MU, "");
   const SamControl control = Loads(&c, 1, 1.1, 0, 0);
   const SamStep    step    = Try(&c, &control);
+  const char      *limit   = strstr(step.message, "(limit ");
 
   (void)state;
   sam_assert(step.status == SAM_STATUS_NO_EQUILIBRIUM);
-  sam_assert(strstr(step.message, "load_tx") && strstr(step.message, "limit") && !strstr(step.message, "load_ty"));
+  sam_assert(strstr(step.message, "load_tx") && limit && !strstr(step.message, "load_ty"));
+  sam_assert_close(limit ? strtod(limit + 7, NULL) : 0, MU * c.s.N, 1e-6 * MU * c.s.N);
   DestroyCase(&c);
 }
 
@@ -247,6 +266,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_second_step_with_the_same_load_dissipates_nothing),
     cmocka_unit_test(test_dissipation_is_work_at_the_final_shear_less_that_of_the_elastic_part),
     cmocka_unit_test(test_loads_and_displacements_are_two_ways_to_give_the_same_step),
+    cmocka_unit_test(test_directions_x_and_y_are_alike),
     cmocka_unit_test(test_gross_slip_is_told_with_its_limit),
     cmocka_unit_test(test_moment_beyond_the_grid_is_told),
     cmocka_unit_test(test_what_a_step_without_equilibrium_lacks_is_nan),

@@ -3,6 +3,8 @@
  */
 #include "results.h"
 
+#include <sys/stat.h>
+
 static const char copy[] = "test_output_copy.h5";
 
 /* Values that conversions would change: a NaN with something in it, -0, the smallest number, infinity. */
@@ -101,6 +103,30 @@ static PetscErrorCode Continue(SamGrid grid, const SamOutputSettings *set, Petsc
   return SamOutputContinue(grid, filename, set, &parameters, steps, times, output);
 }
 
+/* Which file a name is of; the same on all ranks. */
+static ino_t InodeOf(const char *name)
+{
+  struct stat status;
+
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  sam_assert(!stat(name, &status));
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  return status.st_ino;
+}
+
+static int HasFrictionScale(int steps)
+{
+  static const double expected[STEPS] = {10, 11, 12};
+  hid_t               file;
+  int                 good;
+
+  if (Rank()) return 1;
+  file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT);
+  good = HasColumn(file, "friction_scale", "1", expected, steps, 0);
+  H5Fclose(file);
+  return good;
+}
+
 /* The run was killed after the third step, or ended in order; the checkpoint is of the second, or of the third. */
 static void test_fields_before_the_checkpoint_stay_byte_by_byte(void **state)
 {
@@ -112,17 +138,46 @@ static void test_fields_before_the_checkpoint_stay_byte_by_byte(void **state)
         SamGrid           grid = CreateGrid(k);
         SamOutput         output;
         PetscInt          found[2];
+        ino_t             inode;
 
         set.friction_scale = PETSC_TRUE;
         WriteAndCopy(grid, &set);
         if (killed) sam_assert(CopyFile(copy, filename));
+        inode = InodeOf(filename);
         sam_call(Continue(grid, &set, friction, steps, 0, &output));
         sam_call(SamOutputGetSaved(output, &found[0], &found[1], NULL));
         sam_assert(found[0] == steps && found[1] == steps);
         sam_call(SamOutputDestroy(&output));
         sam_assert(HasLayersOfCopy(grid, (hsize_t)steps));
+        sam_assert(HasFrictionScale((int)steps));
+        sam_assert((InodeOf(filename) == inode) == (!killed && steps == STEPS)); /* goes on as it is, or is a new one */
         sam_call(SamGridDestroy(&grid));
       }
+  Remove(filename);
+  Remove(copy);
+}
+
+/* Of a step that failed a run may have written fields of an earlier one, but not those of the step. */
+static void test_fields_after_the_checkpoint_go(void **state)
+{
+  const SamOutputSettings set  = SettingsOf("");
+  SamGrid                 grid = CreateGrid(0);
+  Shown                   s    = CreateShown(grid);
+  SamOutput               output;
+  PetscInt                found[2];
+
+  (void)state;
+  WriteAndCopy(grid, &set);
+  sam_call(Continue(grid, &set, friction, STEPS, 0, &output));
+  sam_call(SamOutputWriteFields(output, 100, s.contact));
+  sam_call(SamOutputDestroy(&output));
+  sam_call(Continue(grid, &set, friction, STEPS, 0, &output));
+  sam_call(SamOutputGetSaved(output, &found[0], &found[1], NULL));
+  sam_assert(found[0] == STEPS && found[1] == STEPS);
+  sam_call(SamOutputDestroy(&output));
+  sam_assert(HasLayersOfCopy(grid, STEPS));
+  DestroyShown(&s);
+  sam_call(SamGridDestroy(&grid));
   Remove(filename);
   Remove(copy);
 }
@@ -203,6 +258,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_fields_before_the_checkpoint_stay_byte_by_byte),
+    cmocka_unit_test(test_fields_after_the_checkpoint_go),
     cmocka_unit_test(test_continued_results_are_those_of_an_uninterrupted_run),
     cmocka_unit_test(test_results_of_another_run_are_refused),
   };

@@ -175,7 +175,7 @@ static PetscErrorCode CreateTangentialLiar(SamTangential tangential)
 }
 
 /* A step that both liars have solved; where `displaced` no load is given that could be out of equilibrium. */
-static SamStep TryLie(PetscBool displaced)
+static SamStep TryLieOf(SamPair pair, PetscBool displaced)
 {
   SamNormal     normal;
   SamTangential tangential;
@@ -185,7 +185,7 @@ static SamStep TryLie(PetscBool displaced)
 
   sam_call(SamNormalRegister("liar", CreateNormalLiar));
   sam_call(SamTangentialRegister("liar", CreateTangentialLiar));
-  c = NewCase(Steel(), 40, 1.5, MU, "-normal_type liar -tangential_type liar");
+  c = NewCase(pair, 40, 1.5, MU, "-normal_type liar -tangential_type liar");
   sam_call(SamContactGetNormal(c.contact, &normal));
   sam_call(SamContactGetTangential(c.contact, &tangential));
   control = Loads(&c, 1, 0.5, 0, 0);
@@ -197,6 +197,11 @@ static SamStep TryLie(PetscBool displaced)
   step = Try(&c, &control);
   DestroyCase(&c);
   return step;
+}
+
+static SamStep TryLie(PetscBool displaced)
+{
+  return TryLieOf(Steel(), displaced);
 }
 
 static void AssertRefused(const SamStep *step)
@@ -234,6 +239,21 @@ static void test_wrong_pressure_that_a_solver_calls_converged_is_refused(void **
     AssertRefused(&step);
     sam_assert(step.check.normal > 1e-6 && step.check.tangential < 2e-6 && step.check.cone < 1e-13);
   }
+}
+
+/* The coupling's tolerance widens the limit of the normal residual, by no more than itself. */
+static void test_wrong_pressure_of_dissimilar_bodies_is_refused(void **state)
+{
+  SamStep step;
+
+  (void)state;
+  lie  = truth;
+  step = TryLieOf(Dissimilar(), PETSC_TRUE);
+  sam_assert(step.status == SAM_STATUS_CONVERGED);
+  lie.pressure = 3e-6;
+  step         = TryLieOf(Dissimilar(), PETSC_TRUE);
+  AssertRefused(&step);
+  sam_assert(step.check.normal > 1.1e-6 && step.check.normal < 1e-5 && step.check.tangential < 2e-6);
 }
 
 static void test_wrong_shear_that_a_solver_calls_converged_is_refused(void **state)
@@ -274,6 +294,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_disagreement_comes_before_the_edge),
     cmocka_unit_test(test_solvers_that_tell_the_truth_are_believed),
     cmocka_unit_test(test_wrong_pressure_that_a_solver_calls_converged_is_refused),
+    cmocka_unit_test(test_wrong_pressure_of_dissimilar_bodies_is_refused),
     cmocka_unit_test(test_wrong_shear_that_a_solver_calls_converged_is_refused),
     cmocka_unit_test(test_shear_that_is_a_little_beyond_the_cone_is_refused),
   };
