@@ -210,11 +210,17 @@ static void TurnBody(const Case *c, SamSolution *s)
   s->rigid[SAM_COMPONENT_MX] += 1e-4 * c->s.a / c->s.R;
 }
 
+static void TurnBodyAboutY(const Case *c, SamSolution *s)
+{
+  s->rigid[SAM_COMPONENT_MY] += 1e-4 * c->s.a / c->s.R;
+}
+
 static void test_check_finds_wrong_normal_displacement(void **state)
 {
   (void)state;
   sam_assert(CheckSpoilt(LiftBody).normal > 0.9e-4);
   sam_assert(CheckSpoilt(TurnBody).normal > 0.9e-4);
+  sam_assert(CheckSpoilt(TurnBodyAboutY).normal > 0.9e-4);
 }
 
 static void ShiftBody(const Case *c, SamSolution *s)
@@ -241,6 +247,29 @@ static void test_check_finds_wrong_tangential_displacement(void **state)
   sam_assert(CheckSpoilt(ShiftBody).tangential > 1e-4);
   sam_assert(CheckSpoilt(ShiftBodyAlongY).tangential > 1e-4);
   sam_assert(CheckSpoilt(TwistBody).tangential > 1e-4);
+}
+
+/* What is wrong along y counts as much as what is wrong along x. */
+static void test_check_weighs_both_directions_alike(void **state)
+{
+  double found[2];
+
+  (void)state;
+  for (int y = 0; y < 2; y++) {
+    Case             c       = NewCase(Steel(), 48, 1.5, MU, "");
+    const SamControl control = Loads(&c, 1, y ? 0 : 0.5, y ? 0.5 : 0, 0);
+    const SamStep    step    = Solve(&c, &control);
+    SamSolution      s       = *SolutionOf(&c);
+    SamCheck         check;
+
+    AssertGood(&step);
+    s.rigid[y ? SAM_COMPONENT_TY : SAM_COMPONENT_TX] *= 1 + 1e-2;
+    sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &s, &check));
+    found[y] = check.tangential;
+    DestroyCase(&c);
+  }
+  sam_assert(found[0] > 1e-4);
+  sam_assert_close(found[1], found[0], 1e-4 * found[0]); /* rtol over the error */
 }
 
 /* The stretch is part of the slip, so one that was not there when it was solved is found. */
@@ -346,6 +375,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_check_finds_shear_beyond_the_cone),
     cmocka_unit_test(test_check_finds_wrong_normal_displacement),
     cmocka_unit_test(test_check_finds_wrong_tangential_displacement),
+    cmocka_unit_test(test_check_weighs_both_directions_alike),
     cmocka_unit_test(test_check_finds_wrong_stretch),
     cmocka_unit_test(test_check_finds_each_load_out_of_equilibrium),
     cmocka_unit_test(test_check_asks_no_equilibrium_of_given_displacements),

@@ -192,6 +192,36 @@ static void test_controls_that_are_none_are_refused(void **state)
   DestroyCase(&c);
 }
 
+/* ---- periodic bodies ---- */
+
+/* There is no edge that the contact could reach, and nothing turns. */
+static void test_periodic_bodies_have_no_edge_and_no_moments(void **state)
+{
+  Sphere     s = NewSphereOf(Steel(), 40, 0.8);
+  SamControl control;
+  SamStep    step;
+  Case       c;
+
+  (void)state;
+  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
+  c       = NewCaseOn(s, MU, NULL, "");
+  control = Loads(&c, 1, 0.3, 0, 0);
+  for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) {
+    for (int force = 0; force < 2; force++) {
+      SamControl turned = control;
+
+      turned.force[k] = force ? PETSC_TRUE : PETSC_FALSE;
+      turned.value[k] = 1e-9;
+      sam_fails(SamContactTry(c.contact, &turned, &step), PETSC_ERR_ARG_OUTOFRANGE);
+    }
+  }
+  step = Solve(&c, &control);
+  AssertGood(&step);
+  sam_assert(step.contact_area > 0.5 * 1.6 * 1.6 * c.s.a * c.s.a); /* over the border of the grid as well */
+  for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) sam_assert(!step.control.force[k] && step.rigid[k] == 0);
+  DestroyCase(&c);
+}
+
 /* ---- dissimilar bodies ---- */
 
 static void test_dissimilar_bodies_without_friction_need_one_pass(void **state)
@@ -255,7 +285,8 @@ static void test_too_few_passes_are_a_status(void **state)
   sam_assert(strstr(step.message, "coupling"));
   sam_call(SamContactSetCoupling(c.contact, PETSC_TRUE, 1e-1, PETSC_DEFAULT));
   step = Try(&c, &control);
-  sam_assert(step.coupling_iterations == 2 && !strstr(step.message, "coupling_max_it"));
+  /* the check lets the pressure be older than the shear by what this allows */
+  sam_assert(step.status == SAM_STATUS_CONVERGED && step.coupling_iterations == 2 && step.check.normal > 1e-6);
   DestroyCase(&c);
 }
 
@@ -272,6 +303,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_what_a_step_without_equilibrium_lacks_is_nan),
     cmocka_unit_test(test_contact_at_the_edge_of_the_grid_is_a_status),
     cmocka_unit_test(test_controls_that_are_none_are_refused),
+    cmocka_unit_test(test_periodic_bodies_have_no_edge_and_no_moments),
     cmocka_unit_test(test_dissimilar_bodies_without_friction_need_one_pass),
     cmocka_unit_test(test_exchanged_bodies_have_the_same_pressure_and_opposite_shear),
     cmocka_unit_test(test_coupling_can_be_left_out),

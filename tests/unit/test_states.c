@@ -268,6 +268,30 @@ static void test_step_that_does_not_converge_is_not_committed_by_itself(void **s
   DestroyCase(&d);
 }
 
+/* What is left of earlier steps does not pass for the shear of a pressure that was not found. */
+static void test_there_is_no_shear_to_a_pressure_that_is_not_found(void **state)
+{
+  Case      c = NewCase(Steel(), 40, 1.5, MU, "");
+  SamNormal normal;
+
+  (void)state;
+  sam_call(SamContactGetNormal(c.contact, &normal));
+  for (int k = 0; k < 5; k++) {
+    const SamControl control = Loads(&c, 1 - 0.02 * k * k, 0.3, 0, 0);
+    SamStep          step;
+
+    if (k < 4) {
+      (void)Solve(&c, &control);
+      continue;
+    }
+    sam_call(SamNormalSetTolerances(normal, PETSC_DEFAULT, 1));
+    step = Try(&c, &control);
+    sam_assert(step.status == SAM_STATUS_NOT_CONVERGED);
+    sam_assert(Norm(SolutionOf(&c)->shear, NORM_INFINITY) == 0);
+  }
+  DestroyCase(&c);
+}
+
 /* Gross slip at the same and at another N, and a moment that tips. */
 static void test_step_without_equilibrium_leaves_the_contact_as_it_was(void **state)
 {
@@ -389,6 +413,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_commit_without_a_tried_state_is_an_error),
     cmocka_unit_test(test_reject_gives_back_the_committed_solution),
     cmocka_unit_test(test_step_that_does_not_converge_is_not_committed_by_itself),
+    cmocka_unit_test(test_there_is_no_shear_to_a_pressure_that_is_not_found),
     cmocka_unit_test(test_step_without_equilibrium_leaves_the_contact_as_it_was),
     cmocka_unit_test(test_contact_with_the_state_of_another_goes_on_as_it_would),
     cmocka_unit_test(test_state_is_what_was_set),
