@@ -85,21 +85,6 @@ static const char *NameOf(PetscInt component, PetscBool rigid)
   return rigid ? SamComponentNames[component].rigid : SamComponentNames[component].load;
 }
 
-/* Keeps the first message of an error instead of printing it. */
-static char message[4096];
-
-static inline PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *source,
-                                         PetscErrorCode code, PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)source;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
-  return code;
-}
-
 /* Refused with that code on all ranks, in one line that has both texts. */
 static inline void AssertRefused(const char *options, PetscErrorCode code, const char *one, const char *other)
 {
@@ -108,16 +93,16 @@ static inline void AssertRefused(const char *options, PetscErrorCode code, const
   int            good;
 
   SetOptions(options);
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &h);
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   SetOptions("");
   if (h) sam_call(SamHistoryDestroy(&h));
-  good = ierr == code && strstr(message, one) && strstr(message, other) && !strchr(message, '\n');
+  good =
+    ierr == code && strstr(CaughtMessage(), one) && strstr(CaughtMessage(), other) && !strchr(CaughtMessage(), '\n');
   if (!good)
     print_error("%s: error %d, expected %d with '%s' and '%s': '%s'\n", options, (int)ierr, (int)code, one, other,
-                message);
+                CaughtMessage());
   sam_assert(good);
 }
 

@@ -429,21 +429,4 @@ static inline int CopyFile(const char *from, const char *to)
   return in && out && !fclose(in) && !fclose(out);
 }
 
-/* ---- errors ---- */
-
-/* Keeps the first message of an error instead of printing it. */
-static char message[4096];
-
-static inline PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
-                                         PetscErrorCode code, PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
-  return code;
-}
-
 #endif

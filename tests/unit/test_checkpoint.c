@@ -186,21 +186,6 @@ static void test_gap_that_has_changed_is_told(void **state)
 
 /* ---- files that cannot be used ---- */
 
-/* Keeps the first message of an error instead of printing it. */
-static char message[4096];
-
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                                  PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
-  return code;
-}
-
 /* Refused on all ranks in words with each of these (NULL: none); the contact is as it was. */
 static void AssertUnreadable(const Case *c, const SamParameters *parameters, PetscErrorCode code,
                              const char *const words[2])
@@ -210,13 +195,12 @@ static void AssertUnreadable(const Case *c, const SamParameters *parameters, Pet
   PetscErrorCode ierr;
   int            good;
 
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = SamCheckpointRead(filename, c->contact, parameters, 1, &(SamNote){"note", 1, &note});
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   good = ierr == code;
-  for (int k = 0; k < 2; k++) good = good && (!words[k] || strstr(message, words[k]));
-  if (!good) print_error("error %d: %s\n", (int)ierr, message);
+  for (int k = 0; k < 2; k++) good = good && (!words[k] || strstr(CaughtMessage(), words[k]));
+  if (!good) print_error("error %d: %s\n", (int)ierr, CaughtMessage());
   sam_assert(good);
   sam_assert(SameBits(SolutionOf(c)->pressure, pressure));
   sam_call(VecDestroy(&pressure));
@@ -332,7 +316,7 @@ static void test_damaged_file_is_told_with_the_one_before_it(void **state)
     AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){says[k], "-restart test_checkpoint.h5.1"});
     DamageFile("test_checkpoint.h5.1", damages[k]);
     AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){says[k], NULL});
-    sam_assert(!strstr(message, ".h5.1"));
+    sam_assert(!strstr(CaughtMessage(), ".h5.1"));
     DestroyCase(&c);
     Remove();
   }

@@ -42,21 +42,6 @@ static void Remove(void)
   (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
-/* Keeps the first message of an error instead of printing it. */
-static char message[4096];
-
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *source,
-                                  PetscErrorCode code, PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)source;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
-  return code;
-}
-
 /* A problem with friction 0.125, and what reading the options returned. */
 typedef struct {
   SamGrid        grid;
@@ -74,10 +59,9 @@ static Read ReadFriction(const char *options, const char *prefix)
   sam_call(SamProblemCreate(r.elasticity, &r.problem));
   sam_call(SamProblemSetFriction(r.problem, 0.125));
   SetOptions(options);
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   r.code = SamProblemSetFrictionFromOptions(r.problem, &(SamOptions){PETSC_COMM_WORLD, prefix});
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   SetOptions("");
   return r;
 }
@@ -146,8 +130,8 @@ static void AssertRefused(const char *options, PetscErrorCode code, const char *
   PetscReal number;
   Vec       field;
 
-  if (r.code != code) print_error("%s: error %d: %s\n", options, (int)r.code, message);
-  sam_assert(r.code == code && strstr(message, one) && strstr(message, other));
+  if (r.code != code) print_error("%s: error %d: %s\n", options, (int)r.code, CaughtMessage());
+  sam_assert(r.code == code && strstr(CaughtMessage(), one) && strstr(CaughtMessage(), other));
   sam_call(SamProblemGetFriction(r.problem, &number, &field));
   sam_assert(number == 0.125 && !field);
   DestroyRead(&r);

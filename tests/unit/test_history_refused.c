@@ -10,7 +10,8 @@ static void test_unknown_columns_are_refused(void **state)
   (void)state;
   AssertMalformed("time,load_x\n1,2\n", 1, "load_x");
   AssertMalformed("# loads\n\ntime,load_tx,friction\n1,2,0.1\n", 3, "unknown column friction;");
-  sam_assert(strstr(message, "friction_scale") && strstr(message, "load_n ... rot_z")); /* what may stand there */
+  sam_assert(strstr(CaughtMessage(), "friction_scale") &&
+             strstr(CaughtMessage(), "load_n ... rot_z")); /* what may stand there */
   AssertMalformed("time,Load_tx\n1,2\n", 1, "Load_tx");
   AssertMalformed("time,-load_tx\n1,2\n", 1, "-load_tx");
   AssertMalformed("time,\"load_tx\"\n1,2\n", 1, "load_tx");
@@ -85,10 +86,10 @@ static void test_text_for_a_number_is_refused(void **state)
 
     (void)snprintf(text, sizeof(text), "time,load_tx\n1,2\n2,%s\n", texts[k]);
     AssertMalformed(text, 3, texts[k]);
-    sam_assert(strstr(message, "load_tx"));
+    sam_assert(strstr(CaughtMessage(), "load_tx"));
     (void)snprintf(text, sizeof(text), "time,load_tx\n%s,2\n", texts[k]);
     AssertMalformed(text, 2, texts[k]);
-    sam_assert(strstr(message, "time"));
+    sam_assert(strstr(CaughtMessage(), "time"));
   }
 }
 
@@ -160,7 +161,7 @@ static void test_both_columns_of_a_pair_are_refused(void **state)
     Write(text);
     AssertRefused(k ? "-history test_history.csv -load_n 1" : "-history test_history.csv", SAM_ERR_USER,
                   "test_history.csv, line 2:", NameOf(k, PETSC_FALSE));
-    sam_assert(strstr(message, NameOf(k, PETSC_TRUE)));
+    sam_assert(strstr(CaughtMessage(), NameOf(k, PETSC_TRUE)));
   }
 }
 
@@ -179,7 +180,7 @@ static void test_names_in_options_and_file_are_refused(void **state)
         (void)snprintf(dashed, sizeof(dashed), "-%s", option);
         Write(text);
         AssertRefused(options, SAM_ERR_USER, dashed, "test_history.csv");
-        sam_assert(strstr(message, column));
+        sam_assert(strstr(CaughtMessage(), column));
       }
 }
 

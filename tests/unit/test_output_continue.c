@@ -228,12 +228,11 @@ static void AssertNotContinued(SamGrid grid, PetscReal value, PetscInt steps, Pe
   PetscErrorCode          ierr;
   int                     good;
 
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = Continue(grid, &set, value, steps, shift, &output);
-  sam_call(PetscPopErrorHandler());
-  good = ierr == code && strstr(message, word) && strstr(message, filename) && !output;
-  if (!good) print_error("error %d, expected %d: %s\n", (int)ierr, (int)code, message);
+  EndCatching();
+  good = ierr == code && strstr(CaughtMessage(), word) && strstr(CaughtMessage(), filename) && !output;
+  if (!good) print_error("error %d, expected %d: %s\n", (int)ierr, (int)code, CaughtMessage());
   sam_assert(good);
   sam_assert(HasLayersOfCopy(grid, STEPS));
 }

@@ -15,12 +15,11 @@ static void AssertNotCreated(const char *name, PetscErrorCode expected, const ch
   PetscErrorCode          ierr;
   int                     good;
 
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = SamOutputCreate(grid, name, &set, &output);
-  sam_call(PetscPopErrorHandler());
-  good = ierr == expected && strstr(message, word) && !output;
-  if (!good) print_error("%s: error %d, %s\n", name, (int)ierr, message);
+  EndCatching();
+  good = ierr == expected && strstr(CaughtMessage(), word) && !output;
+  if (!good) print_error("%s: error %d, %s\n", name, (int)ierr, CaughtMessage());
   sam_assert(good);
   sam_call(SamGridDestroy(&grid));
 }
@@ -40,12 +39,11 @@ static void AssertRefused(const char *options, const char *word)
   PetscErrorCode    ierr;
 
   SetOptions(options);
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = SamOutputSettingsSetFromOptions(&set, &(SamOptions){PETSC_COMM_WORLD, NULL});
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   SetOptions("");
-  sam_assert(ierr == SAM_ERR_USER && strstr(message, word));
+  sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), word));
 }
 
 static void test_wrong_settings_are_refused(void **state)
@@ -87,11 +85,10 @@ static void AssertNoRoom(SamOutput output, const SamStep *step, SamContact conta
   small          = usual;
   small.rlim_cur = (rlim_t)status.st_size + 10000;
   sam_assert(signal(SIGXFSZ, SIG_IGN) != SIG_ERR && !setrlimit(RLIMIT_FSIZE, &small));
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = SamOutputWriteStep(output, step, contact);
-  sam_call(PetscPopErrorHandler());
-  good = ierr == SAM_ERR_FILE && strstr(message, filename) && !setrlimit(RLIMIT_FSIZE, &usual);
+  EndCatching();
+  good = ierr == SAM_ERR_FILE && strstr(CaughtMessage(), filename) && !setrlimit(RLIMIT_FSIZE, &usual);
   sam_assert(good);
 }
 

@@ -169,21 +169,6 @@ static void WriteCheckpoint(void)
   DestroyCase(&c);
 }
 
-/* Keeps the first message of an error instead of printing it. */
-static char message[4096];
-
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *source,
-                                  PetscErrorCode code, PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)source;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
-  return code;
-}
-
 /* Goes on with a program, which it takes; `says` NULL: it may, else why not. */
 static void AssertRestart(SamHistory history, const char *says)
 {
@@ -192,13 +177,12 @@ static void AssertRestart(SamHistory history, const char *says)
   SamRunPoint    point = {.history = history};
   PetscErrorCode ierr;
 
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = SamCheckpointsRestart(k, c.contact, &none, &point);
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   if (says) {
-    if (!strstr(message, says)) print_error("%s\n", message);
-    sam_assert(ierr == SAM_ERR_USER && strstr(message, says) && strstr(message, file));
+    if (!strstr(CaughtMessage(), says)) print_error("%s\n", CaughtMessage());
+    sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), says) && strstr(CaughtMessage(), file));
   } else
     sam_assert(ierr == 0 && point.steps == 2 && point.worst == SAM_STATUS_EDGE_CONTACT);
   sam_call(SamHistoryDestroy(&history));
