@@ -83,6 +83,18 @@ static inline void Displace(SamControl *control, SamComponent component, double 
   control->value[component] = value;
 }
 
+/* The most iterations of the solvers; 0: their defaults again. */
+static inline void SetMostIterations(const Case *c, PetscInt normal, PetscInt tangential)
+{
+  SamNormal     n;
+  SamTangential t;
+
+  sam_call(SamContactGetNormal(c->contact, &n));
+  sam_call(SamContactGetTangential(c->contact, &t));
+  sam_call(SamNormalSetTolerances(n, PETSC_DEFAULT, normal));
+  sam_call(SamTangentialSetTolerances(t, PETSC_DEFAULT, tangential));
+}
+
 static inline SamStep Try(const Case *c, const SamControl *control)
 {
   SamStep step;

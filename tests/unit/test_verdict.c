@@ -177,17 +177,13 @@ static PetscErrorCode CreateTangentialLiar(SamTangential tangential)
 /* A step that both liars have solved; where `displaced` no load is given that could be out of equilibrium. */
 static SamStep TryLieOf(SamPair pair, PetscBool displaced)
 {
-  SamNormal     normal;
-  SamTangential tangential;
-  SamControl    control;
-  SamStep       step;
-  Case          c;
+  SamControl control;
+  SamStep    step;
+  Case       c;
 
   sam_call(SamNormalRegister("liar", CreateNormalLiar));
   sam_call(SamTangentialRegister("liar", CreateTangentialLiar));
-  c = NewCase(pair, 40, 1.5, MU, "-normal_type liar -tangential_type liar");
-  sam_call(SamContactGetNormal(c.contact, &normal));
-  sam_call(SamContactGetTangential(c.contact, &tangential));
+  c       = NewCase(pair, 40, 1.5, MU, "-normal_type liar -tangential_type liar");
   control = Loads(&c, 1, 0.5, 0, 0);
   for (PetscInt k = 0; k < SAM_COMPONENTS && displaced; k++) Displace(&control, (SamComponent)k, 0);
   if (displaced) {
