@@ -23,7 +23,8 @@ PETSC_EXTERN PetscErrorCode SamProblemGetGrid(SamProblem problem, SamGrid *grid)
 /*
   SamProblemSetGap - copies the separation h (m, one component). Collective.
   SamProblemGetGap - the problem's own field, borrowed. It may be written to through PETSc's functions (VecGetArray(),
-  VecAXPY() ...), which raise its revision. Not collective.
+  VecAXPY() ...), which raise its revision, a number of each rank's own: any rank may write without the others. Not
+  collective.
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
 PETSC_EXTERN PetscErrorCode SamProblemGetGap(SamProblem problem, Vec *h);

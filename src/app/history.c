@@ -89,6 +89,17 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The database calls the option -load_history; users are told of -history. */
+static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t size, PetscBool *set)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-load_history", file, size, set));
+  PetscCheck(!*set || file[0], from->comm, SAM_ERR_USER, "-history has no value: expected the name of a file");
+  PetscCall(SamOptionsString(from, "load_history", "text file with a load step a row (README, Histories); or -history",
+                             file, size, set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history)
 {
   SamHistory h;
@@ -102,8 +113,7 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *h
   h->increments = 1;
   PetscCall(SamControlInitialize(&h->constant));
   PetscCall(SamOptionsHeading(from, "Loads and displacements"));
-  PetscCall(SamOptionsString(from, "load_history", "text file with a load step a row (README, Histories); or -history",
-                             file, sizeof(file), &has_file));
+  PetscCall(ReadFileName(from, file, sizeof(file), &has_file));
   PetscCall(
     SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
   if (has_file) {

@@ -21,9 +21,10 @@ static PetscBool SameFile(const char a[], const char b[])
 */
 static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
 {
-  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-load_history",
-                                       "-options_file", "-restart",        NULL};
-  static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-history", "-options_file", "-restart"};
+  static const char *const inputs[] = {
+    "-gap_file", "-gap_rough_file", "-friction_file", "-load_history", "-options_file", "-restart", NULL};
+  static const char *const names[] = {"-gap_file", "-gap_rough_file", "-friction_file",
+                                      "-history",  "-options_file",   "-restart"};
 
   PetscFunctionBegin;
   for (PetscInt k = 0; inputs[k]; k++) {

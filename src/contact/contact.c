@@ -237,6 +237,9 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
              PETSC_ERR_ARG_OUTOFRANGE, "load_n = %g: expected a number >= 0", (double)control->value[SAM_COMPONENT_N]);
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %g: expected a number >= 0", (double)control->friction_scale);
+  for (PetscInt k = 0; k < 3; k++)
+    PetscCheck(isfinite(control->stretch[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "A stretch of %g",
+               (double)control->stretch[k]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -252,14 +255,17 @@ static PetscErrorCode RestoreWindow(SamContact c)
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
   PetscObjectState revision;
+  double           changed;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGapRevision(c->problem, &revision));
   c->tried.gap_revision = revision;
-  *same                 = (!SamContactIsCoupled(c) && c->steps && c->committed.gap_revision == revision &&
+  changed               = c->committed.gap_revision == revision ? 0 : 1;
+  PetscCall(SamMax(c->grid->comm, 1, &changed)); /* each rank counts the changes of its own part */
+  *same = (!SamContactIsCoupled(c) && c->steps && changed == 0 &&
            SamControlIsSame(&c->committed.solution.control, control, SAM_BALANCE_NORMAL))
-                            ? PETSC_TRUE
-                            : PETSC_FALSE;
+            ? PETSC_TRUE
+            : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -113,6 +113,7 @@ PetscErrorCode SamContactGetSolution(SamContact c, const SamSolution **solution)
 PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
 {
   PetscObjectState revision;
+  double           changed;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
@@ -123,7 +124,9 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   PetscCall(PetscArraycpy(s->window_first, c->committed.window_first, 2));
   PetscCall(PetscArraycpy(s->window_n, c->committed.window_n, 2));
   PetscCall(SamProblemGetGapRevision(c->problem, &revision));
-  s->gap_is_current = c->committed.gap_revision == revision ? PETSC_TRUE : PETSC_FALSE;
+  changed = c->committed.gap_revision == revision ? 0 : 1;
+  PetscCall(SamMax(c->grid->comm, 1, &changed));
+  s->gap_is_current = changed == 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

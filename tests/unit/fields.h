@@ -215,6 +215,38 @@ static inline double Hertz(const Sphere *s, double r)
   return r < s->a ? s->p0 * sqrt(1 - r * r / (s->a * s->a)) : 0;
 }
 
+/* What the first error said that was caught last. */
+static inline char *CaughtMessage(void)
+{
+  static char message[4096];
+
+  return message;
+}
+
+static inline PetscErrorCode KeepCaught(MPI_Comm comm, int line, const char *function, const char *file,
+                                        PetscErrorCode code, PetscErrorType type, const char *text, void *context)
+{
+  (void)comm;
+  (void)line;
+  (void)function;
+  (void)file;
+  (void)context;
+  if (type == PETSC_ERROR_INITIAL && text && !CaughtMessage()[0]) (void)snprintf(CaughtMessage(), 4096, "%s", text);
+  return code;
+}
+
+/* Errors of the calls between these are returned and keep their message instead of printing it. */
+static inline void BeginCatching(void)
+{
+  CaughtMessage()[0] = '\0';
+  sam_call(PetscPushErrorHandler(KeepCaught, NULL));
+}
+
+static inline void EndCatching(void)
+{
+  sam_call(PetscPopErrorHandler());
+}
+
 /* Calls that are to fail do so without PETSc's trace. */
 #define sam_fails(petsc_call_expr, expected) \
   do { \

@@ -2,22 +2,29 @@
  * The state of a contact in a file: what is read is what was written, on all ranks; a checksum sees what changes and
  * not where it lies.
  */
-#include "fields.h"
+#include "contacts.h"
 
+#include <hdf5.h>
 #include <unistd.h>
 
 #include <petsam/checkpoint.h>
 
 static const char filename[] = "test_checkpoint.h5";
 
+static int Rank(void)
+{
+  int rank;
+
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
 static void Remove(void)
 {
   static const char *const names[] = {"test_checkpoint.h5", "test_checkpoint.h5.1"};
-  int                      rank;
 
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   (void)MPI_Barrier(PETSC_COMM_WORLD);
-  for (int k = 0; k < 2 && !rank; k++) (void)unlink(names[k]);
+  for (int k = 0; k < 2 && !Rank(); k++) (void)unlink(names[k]);
   (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
@@ -56,100 +63,313 @@ static void test_checksum_is_that_of_the_field_not_of_its_ranks(void **state)
 
 /* ---- files ---- */
 
-typedef struct {
-  SamGrid       grid;
-  SamElasticity elasticity;
-  SamContact    contact;
-} Body;
+static const PetscReal friction = 0.3;
 
-/* A sphere; one row of the grid may be on fewer ranks than there are. */
-static Body NewBody(PetscInt ny)
+/* Dissimilar bodies, on a grid that does not divide. */
+static Case NewBody(void)
 {
-  const double young[2] = {210e9, 70e9}, poisson[2] = {0.3, 0.2};
-  Body         b = {.grid = NewGrid(37, ny, 6e-3, 6e-3)};
-  Vec          h = NewField(b.grid, 1);
-  SamPair      pair;
-  double      *values;
-
-  sam_call(SamPairSet(&pair, young, poisson));
-  sam_call(SamElasticityCreate(b.grid, &pair, &b.elasticity));
-  sam_call(VecGetArray(h, &values));
-  for (PetscInt k = 0; k < b.grid->cells; k++) {
-    const double x = SamGridX(b.grid, k % b.grid->nx), y = SamGridY(b.grid, b.grid->row_start + k / b.grid->nx);
-
-    values[k] = (x * x + y * y) / 0.2;
-  }
-  sam_call(VecRestoreArray(h, &values));
-  sam_call(SamContactCreate(b.elasticity, h, 0.3, &b.contact));
-  sam_call(VecDestroy(&h));
-  return b;
+  return NewCase(Dissimilar(), 37, 2, friction, "");
 }
 
-static void DestroyBody(Body *b)
+static void SolveStep(const Case *c, int k, SamStep *step)
 {
-  sam_call(SamContactDestroy(&b->contact));
-  sam_call(SamElasticityDestroy(&b->elasticity));
-  sam_call(SamGridDestroy(&b->grid));
+  const SamControl control = Loads(c, 0.25 * (k + 1), 0.1 * (k + 1), 0.02 * (k + 1), 0);
+
+  *step = Solve(c, &control);
+  sam_assert(step->check.normal < 2e-6 && step->check.tangential < 1e-5); /* -coupling_rtol 1e-6 */
 }
 
-static SamHistory NewHistory(void)
+static SamParameters NewParameters(PetscReal value)
 {
-  SamHistory history;
+  SamParameters p = {.count = 0};
 
-  sam_call(PetscOptionsInsertString(NULL, "-load_n 200 -load_tx 20 -load_ty 5 -steps 4"));
-  sam_call(SamHistoryCreateFromOptions(PETSC_COMM_WORLD, &history));
-  sam_call(PetscOptionsClear(NULL));
-  return history;
-}
-
-static SamStep SolveStep(const Body *b, SamHistory history, PetscInt k)
-{
-  SamStep step;
-
-  sam_call(SamHistoryGetStep(history, k, &step));
-  sam_call(SamContactSolve(b->contact, &step));
-  sam_assert(step.check.normal < 1e-7 && step.check.tangential < 1e-5);
-  return step;
-}
-
-static PetscBool Same(Vec a, Vec b)
-{
-  PetscBool same;
-
-  sam_call(VecEqual(a, b, &same));
-  return same;
+  sam_call(SamParametersAddReals(&p, "friction", PETSC_TRUE, 1, &value));
+  sam_call(SamParametersAddText(&p, "gap_type", PETSC_TRUE, "sphere"));
+  sam_call(SamParametersAddReals(&p, "load_n", PETSC_FALSE, 1, &value));
+  return p;
 }
 
 static void test_contact_that_is_read_goes_on_as_the_one_that_was_written(void **state)
 {
+  const SamParameters parameters = NewParameters(friction);
+
   (void)state;
-  for (PetscInt solved = 1; solved < 4; solved++) {
-    Body          one = NewBody(30), other = NewBody(30);
-    SamHistory    history    = NewHistory();
-    SamParameters parameters = {.count = 0};
-    PetscInt      steps;
-    SamStatus     worst;
+  for (int solved = 0; solved < 4; solved++) {
+    Case          one = NewBody(), other = NewBody();
+    uint64_t      written[3] = {1, UINT64_MAX, 42}, read[3] = {0};
+    const SamNote to[2]   = {{"first", 2, written}, {"second", 1, &written[2]}},
+                  from[2] = {{"second", 1, &read[2]}, {"first", 2, read}};
+    SamStep a, b;
 
-    sam_call(SamParametersAddReals(&parameters, "friction", PETSC_TRUE, 1, &(PetscReal){0.3}));
-    for (PetscInt k = 0; k < solved; k++) (void)SolveStep(&one, history, k);
-    sam_call(SamCheckpointWrite(filename, one.contact, history, &parameters, solved, SAM_STATUS_EDGE_CONTACT));
-    sam_call(SamCheckpointRead(filename, other.contact, history, &parameters, &steps, &worst));
-    sam_assert(steps == solved && worst == SAM_STATUS_EDGE_CONTACT);
-    for (PetscInt k = solved; k < 4; k++) {
-      const SamStep a = SolveStep(&one, history, k), b = SolveStep(&other, history, k);
-      SamFields     f[2];
-
-      sam_call(SamContactGetFields(one.contact, &f[0]));
-      sam_call(SamContactGetFields(other.contact, &f[1]));
-      sam_assert(Same(f[0].pressure, f[1].pressure) && Same(f[0].shear, f[1].shear) && Same(f[0].slip, f[1].slip) &&
-                 Same(f[0].gap, f[1].gap));
-      sam_assert(a.normal_iterations == b.normal_iterations && a.tangential_iterations == b.tangential_iterations);
+    for (int k = 0; k < solved; k++) SolveStep(&one, k, &a);
+    SolveStep(&other, 3, &b); /* is forgotten */
+    sam_call(SamCheckpointWrite(filename, one.contact, &parameters, 2, to));
+    sam_call(SamCheckpointRead(filename, other.contact, &parameters, 2, from));
+    sam_assert(!memcmp(read, written, sizeof(read)));
+    if (solved) AssertSameFields(&one, &other);
+    for (int k = solved; k < 5; k++) {
+      SolveStep(&one, k, &a);
+      SolveStep(&other, k, &b);
+      AssertSameSteps(&a, &b);
+      AssertSameFields(&one, &other);
     }
-    sam_call(SamHistoryDestroy(&history));
-    DestroyBody(&one);
-    DestroyBody(&other);
+    DestroyCase(&one);
+    DestroyCase(&other);
     Remove();
   }
+}
+
+static void test_state_in_the_file_is_the_committed_one(void **state)
+{
+  const SamParameters parameters = NewParameters(friction);
+  Case                one = NewBody(), other = NewBody();
+  const SamControl    control = Loads(&one, 1, -0.2, 0, 0);
+  SamControl          second  = Loads(&one, 0.5, 0.2, 0, 0);
+  SamContactState     a, b;
+  SamStep             step;
+
+  (void)state;
+  SolveStep(&one, 0, &step);
+  Displace(&second, SAM_COMPONENT_MZ, 1e-6);
+  second.time           = 2.5;
+  second.friction_scale = 0.9;
+  second.stretch[2]     = 1e-6;
+  (void)Solve(&one, &second);
+  (void)Try(&one, &control);
+  sam_call(SamCheckpointWrite(filename, one.contact, &parameters, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
+  sam_call(SamContactReject(one.contact));
+  AssertSameFields(&one, &other);
+  sam_call(SamContactGetState(one.contact, &a));
+  sam_call(SamContactGetState(other.contact, &b));
+  sam_assert(a.steps == 2 && b.steps == 2 && a.gap_is_current && b.gap_is_current);
+  sam_assert(SameBits(a.before.pressure, b.before.pressure) && SameBits(a.before.bound, b.before.bound) &&
+             SameBits(a.before.shear, b.before.shear));
+  sam_assert(!memcmp(a.window_first, b.window_first, sizeof(a.window_first)) &&
+             !memcmp(a.window_n, b.window_n, sizeof(a.window_n)));
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+    sam_assert(a.now.control.value[k] == b.now.control.value[k] && a.now.load[k] == b.now.load[k] &&
+               a.now.rigid[k] == b.now.rigid[k] && a.before.control.value[k] == b.before.control.value[k] &&
+               a.before.rigid[k] == b.before.rigid[k] && a.now.control.force[k] == b.now.control.force[k]);
+  sam_assert(b.now.control.time == 2.5 && b.now.control.friction_scale == 0.9 && b.now.control.stretch[2] == 1e-6);
+  sam_assert(b.before.control.time == 0 && b.before.control.friction_scale == 1 && b.before.control.stretch[2] == 0);
+  DestroyCase(&one);
+  DestroyCase(&other);
+  Remove();
+}
+
+/* In the problem that is given the state, or in the one that wrote it, after its last step. */
+static void test_gap_that_has_changed_is_told(void **state)
+{
+  const SamParameters parameters = NewParameters(friction);
+
+  (void)state;
+  for (int which = 0; which < 3; which++) {
+    Case            one = NewBody(), other = NewBody();
+    Case *const     changed = which == 1 ? &one : &other;
+    SamContactState held;
+    SamStep         step;
+    Vec             gap;
+
+    SolveStep(&one, 3, &step);
+    sam_call(SamProblemGetGap(changed->problem, &gap));
+    if (which) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
+    sam_call(SamCheckpointWrite(filename, one.contact, &parameters, 0, NULL));
+    sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
+    sam_call(SamContactGetState(other.contact, &held));
+    sam_assert(held.gap_is_current == (which ? PETSC_FALSE : PETSC_TRUE));
+    DestroyCase(&one);
+    DestroyCase(&other);
+    Remove();
+  }
+}
+
+/* ---- files that cannot be used ---- */
+
+/* Refused on all ranks in words with each of these (NULL: none); the contact is as it was. */
+static void AssertUnreadable(const Case *c, const SamParameters *parameters, PetscErrorCode code,
+                             const char *const words[2])
+{
+  Vec            pressure = Copy(SolutionOf(c)->pressure);
+  uint64_t       note     = 0;
+  PetscErrorCode ierr;
+  int            good;
+
+  BeginCatching();
+  ierr = SamCheckpointRead(filename, c->contact, parameters, 1, &(SamNote){"note", 1, &note});
+  EndCatching();
+  good = ierr == code;
+  for (int k = 0; k < 2; k++) good = good && (!words[k] || strstr(CaughtMessage(), words[k]));
+  if (!good) print_error("error %d: %s\n", (int)ierr, CaughtMessage());
+  sam_assert(good);
+  sam_assert(SameBits(SolutionOf(c)->pressure, pressure));
+  sam_call(VecDestroy(&pressure));
+}
+
+/* Rank 0 changes the file. */
+typedef void (*Damage)(hid_t file);
+
+static void DamageFile(const char *name, Damage damage)
+{
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  if (Rank() == 0) {
+    const hid_t file = H5Fopen(name, H5F_ACC_RDWR, H5P_DEFAULT);
+
+    damage(file);
+    (void)H5Fclose(file);
+  }
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+/* The last bit of one number. */
+static void ChangeField(hid_t file, const char *name, hsize_t index)
+{
+  const hid_t   dataset = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
+  const hsize_t count  = (hsize_t)H5Sget_simple_extent_npoints(space);
+  double       *values = (double *)malloc(count * sizeof(*values));
+
+  (void)H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  values[index] = nextafter(values[index], INFINITY);
+  (void)H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  free(values);
+  (void)H5Sclose(space);
+  (void)H5Dclose(dataset);
+}
+
+static void DamagePressure(hid_t file)
+{
+  ChangeField(file, "pressure", 37 * 18 + 18);
+}
+
+static void DamageBefore(hid_t file)
+{
+  ChangeField(file, "before_shear", 0);
+}
+
+static void DamageDisplacement(hid_t file)
+{
+  ChangeField(file, "displacement_t", 2 * 37 * 37 - 1);
+}
+
+static void RemoveNote(hid_t file)
+{
+  (void)H5Adelete(file, "note");
+}
+
+static void ChangeVersion(hid_t file)
+{
+  const char *const version = "0.0.0-other";
+  const hid_t       type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+  hid_t             attribute;
+
+  (void)H5Tset_size(type, H5T_VARIABLE);
+  (void)H5Tset_cset(type, H5T_CSET_UTF8);
+  (void)H5Adelete(file, "petsam_version");
+  attribute = H5Acreate2(file, "petsam_version", type, space, H5P_DEFAULT, H5P_DEFAULT);
+  (void)H5Awrite(attribute, type, &version);
+  (void)H5Aclose(attribute);
+  (void)H5Sclose(space);
+  (void)H5Tclose(type);
+}
+
+static void ChangeFormat(hid_t file)
+{
+  const long long other     = 1;
+  const hid_t     attribute = H5Aopen(file, "checkpoint_format", H5P_DEFAULT);
+
+  (void)H5Awrite(attribute, H5T_NATIVE_LLONG, &other);
+  (void)H5Aclose(attribute);
+}
+
+static void RemoveFormat(hid_t file)
+{
+  (void)H5Adelete(file, "checkpoint_format");
+}
+
+/* Two checkpoints, of the second and of the third step. */
+static Case WriteTwo(const SamParameters *parameters)
+{
+  Case     c    = NewBody();
+  uint64_t note = 7;
+  SamStep  step;
+
+  for (int k = 0; k < 3; k++) {
+    SolveStep(&c, k, &step);
+    if (k) sam_call(SamCheckpointWrite(filename, c.contact, parameters, 1, &(SamNote){"note", 1, &note}));
+  }
+  return c;
+}
+
+/* A flipped bit of any field is found, and the file before is named if it can be read. */
+static void test_damaged_file_is_told_with_the_one_before_it(void **state)
+{
+  static const Damage      damages[] = {DamagePressure, DamageBefore, DamageDisplacement, RemoveNote, RemoveFormat};
+  static const char *const says[] = {"checksum of pressure", "checksum of before_shear", "checksum of displacement_t",
+                                     "cannot be read", "not a checkpoint"};
+  const SamParameters      parameters = NewParameters(friction);
+
+  (void)state;
+  for (int k = 0; k < 5; k++) {
+    Case c = WriteTwo(&parameters);
+
+    DamageFile(filename, damages[k]);
+    AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){says[k], "-restart test_checkpoint.h5.1"});
+    DamageFile("test_checkpoint.h5.1", damages[k]);
+    AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){says[k], NULL});
+    sam_assert(!strstr(CaughtMessage(), ".h5.1"));
+    DestroyCase(&c);
+    Remove();
+  }
+}
+
+static void test_missing_file_is_told(void **state)
+{
+  const SamParameters parameters = NewParameters(friction);
+  Case                c          = NewBody();
+
+  (void)state;
+  Remove();
+  AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){filename, "cannot be read"});
+  DestroyCase(&c);
+}
+
+static void test_other_version_is_named(void **state)
+{
+  const SamParameters parameters = NewParameters(friction);
+  Case                c          = WriteTwo(&parameters);
+
+  (void)state;
+  DamageFile(filename, ChangeVersion);
+  AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"0.0.0-other", PETSAM_VERSION});
+  DamageFile("test_checkpoint.h5.1", ChangeFormat);
+  DamageFile(filename, ChangeFormat);
+  AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"another version", NULL});
+  DestroyCase(&c);
+  Remove();
+}
+
+/* Those that are not fixed may be others. */
+static void test_other_fixed_parameter_is_named(void **state)
+{
+  SamParameters parameters = NewParameters(friction);
+  Case          c          = WriteTwo(&parameters);
+  uint64_t      note       = 0;
+
+  (void)state;
+  parameters.list[0].value[0] = 0.30000000000000004;
+  AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"-friction is 0.3 there", NULL});
+  parameters = NewParameters(friction);
+  (void)snprintf(parameters.list[1].text, sizeof(parameters.list[1].text), "punch");
+  AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"-gap_type is sphere there, not punch", NULL});
+  parameters = NewParameters(friction);
+  sam_call(SamParametersAddReals(&parameters, "grid_size", PETSC_TRUE, 2, (const PetscReal[2]){1, 2}));
+  AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"-grid_size is not given there", NULL});
+  parameters                  = NewParameters(friction);
+  parameters.list[2].value[0] = 5;
+  sam_call(SamCheckpointRead(filename, c.contact, &parameters, 1, &(SamNote){"note", 1, &note}));
+  sam_assert(note == 7);
+  DestroyCase(&c);
+  Remove();
 }
 
 int main(int argc, char **argv)
@@ -157,6 +377,12 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_checksum_is_that_of_the_field_not_of_its_ranks),
     cmocka_unit_test(test_contact_that_is_read_goes_on_as_the_one_that_was_written),
+    cmocka_unit_test(test_state_in_the_file_is_the_committed_one),
+    cmocka_unit_test(test_gap_that_has_changed_is_told),
+    cmocka_unit_test(test_damaged_file_is_told_with_the_one_before_it),
+    cmocka_unit_test(test_missing_file_is_told),
+    cmocka_unit_test(test_other_version_is_named),
+    cmocka_unit_test(test_other_fixed_parameter_is_named),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -1,0 +1,223 @@
+/* Contacts, controls and steps for the tests of the rooms above the solvers. All functions are collective. */
+#ifndef PETSAM_CONTACTS_H
+#define PETSAM_CONTACTS_H
+
+#include "fields.h"
+
+#include <petsam/contact.h>
+
+/* The coefficient of friction where a test does not say otherwise. */
+#define MU 0.3
+
+/* A sphere of radius 0.1 m on a grid about it, and its contact; loads in units of N, mu N and mu N a. */
+typedef struct {
+  Sphere     s;
+  SamProblem problem;
+  SamContact contact;
+  double     friction;
+} Case;
+
+static inline SamPair Steel(void)
+{
+  return NewPair(210e9, 0.3, 210e9, 0.3);
+}
+
+static inline SamPair Dissimilar(void)
+{
+  return NewPair(210e9, 0.3, 70e9, 0.2);
+}
+
+static inline void SetOptions(const char *options)
+{
+  sam_call(PetscOptionsClear(NULL));
+  sam_call(PetscOptionsInsertString(NULL, options));
+}
+
+/* The contact of a sphere, which it takes. */
+static inline Case NewCaseOn(Sphere s, double friction, const char *prefix, const char *options)
+{
+  Case c = {.s = s, .friction = friction};
+
+  SetOptions(options);
+  sam_call(SamProblemCreate(c.s.elasticity, &c.problem));
+  sam_call(SamProblemSetGap(c.problem, c.s.h));
+  sam_call(SamProblemSetFriction(c.problem, friction));
+  sam_call(SamContactCreate(c.problem, &c.contact));
+  sam_call(SamContactSetOptionsPrefix(c.contact, prefix));
+  sam_call(SamContactSetFromOptions(c.contact));
+  SetOptions("");
+  return c;
+}
+
+/* n * n cells, half_width in units of a. */
+static inline Case NewCase(SamPair pair, PetscInt n, double half_width, double friction, const char *options)
+{
+  return NewCaseOn(NewSphereOf(pair, n, half_width), friction, NULL, options);
+}
+
+static inline void DestroyCase(Case *c)
+{
+  sam_call(SamContactDestroy(&c->contact));
+  sam_call(SamProblemDestroy(&c->problem));
+  DestroySphere(&c->s);
+}
+
+/* All six under force control: N, Tx, Ty, Mz in their units. */
+static inline SamControl Loads(const Case *c, double N, double x, double y, double z)
+{
+  const double T = c->friction > 0 ? c->friction * c->s.N : c->s.N;
+  SamControl   control;
+
+  sam_call(SamControlInitialize(&control));
+  control.value[SAM_COMPONENT_N]  = N * c->s.N;
+  control.value[SAM_COMPONENT_TX] = x * T;
+  control.value[SAM_COMPONENT_TY] = y * T;
+  control.value[SAM_COMPONENT_MZ] = z * T * c->s.a;
+  return control;
+}
+
+/* Gives a component by its displacement. */
+static inline void Displace(SamControl *control, SamComponent component, double value)
+{
+  control->force[component] = PETSC_FALSE;
+  control->value[component] = value;
+}
+
+/* The most iterations of the solvers; 0: their defaults again. */
+static inline void SetMostIterations(const Case *c, PetscInt normal, PetscInt tangential)
+{
+  SamNormal     n;
+  SamTangential t;
+
+  sam_call(SamContactGetNormal(c->contact, &n));
+  sam_call(SamContactGetTangential(c->contact, &t));
+  sam_call(SamNormalSetTolerances(n, PETSC_DEFAULT, normal));
+  sam_call(SamTangentialSetTolerances(t, PETSC_DEFAULT, tangential));
+}
+
+static inline SamStep Try(const Case *c, const SamControl *control)
+{
+  SamStep step;
+
+  sam_call(SamContactTry(c->contact, control, &step));
+  if (getenv("SAM_SHOW"))
+    print_message("# status %d passes %d its %d %d check %g %g %g %g %g %s\n", (int)step.status,
+                  (int)step.coupling_iterations, (int)step.normal_iterations, (int)step.tangential_iterations,
+                  (double)step.check.normal, (double)step.check.tangential, (double)step.check.equilibrium,
+                  (double)step.check.cone, (double)step.check.edge, step.message);
+  return step;
+}
+
+/* Tries a step and commits it, if there is a solution. */
+static inline SamStep Solve(const Case *c, const SamControl *control)
+{
+  const SamStep step = Try(c, control);
+
+  if (step.status != SAM_STATUS_NO_EQUILIBRIUM) sam_call(SamContactCommit(c->contact));
+  return step;
+}
+
+static inline const SamSolution *SolutionOf(const Case *c)
+{
+  const SamSolution *solution;
+
+  sam_call(SamContactGetSolution(c->contact, &solution));
+  return solution;
+}
+
+static inline Vec NewSlip(const Case *c)
+{
+  Vec slip = NewField(c->s.grid, 2);
+
+  sam_call(SamContactComputeSlip(c->contact, slip));
+  return slip;
+}
+
+static inline Vec NewGap(const Case *c)
+{
+  Vec gap = NewField(c->s.grid, 1);
+
+  sam_call(SamContactComputeGap(c->contact, gap));
+  return gap;
+}
+
+static inline Vec NewState(const Case *c)
+{
+  Vec state = NewField(c->s.grid, 1);
+
+  sam_call(SamContactComputeState(c->contact, state));
+  return state;
+}
+
+/* A step of similar bodies at the solvers' default tolerances. */
+static inline void AssertGood(const SamStep *step)
+{
+  sam_assert(step->status == SAM_STATUS_CONVERGED);
+  sam_assert(step->message[0] == '\0');
+  sam_assert(step->check.normal < 2e-8); /* the tolerances of the solvers, and rounding */
+  sam_assert(step->check.tangential < 2e-6);
+  sam_assert(step->check.equilibrium < 1e-11);
+  sam_assert(step->check.cone < 1e-13);
+  sam_assert(step->check.edge == 0);
+}
+
+static inline int SameBits(Vec a, Vec b)
+{
+  PetscBool same;
+
+  sam_call(VecEqual(a, b, &same));
+  return same;
+}
+
+static inline int SameBitsOf(const Case *one, const Case *other, Vec (*field)(const Case *c))
+{
+  Vec       a = field(one), b = field(other);
+  const int same = SameBits(a, b);
+
+  sam_call(VecDestroy(&a));
+  sam_call(VecDestroy(&b));
+  return same;
+}
+
+/* All fields of two contacts, to the last bit. */
+static inline void AssertSameFields(const Case *one, const Case *other)
+{
+  const SamSolution *a = SolutionOf(one), *b = SolutionOf(other);
+
+  sam_assert(SameBits(a->pressure, b->pressure));
+  sam_assert(SameBits(a->bound, b->bound));
+  sam_assert(SameBits(a->shear, b->shear));
+  sam_assert(SameBits(a->displacement_z, b->displacement_z));
+  sam_assert(SameBits(a->displacement_t, b->displacement_t));
+  sam_assert(SameBitsOf(one, other, NewSlip));
+  sam_assert(SameBitsOf(one, other, NewGap));
+  sam_assert(SameBitsOf(one, other, NewState));
+}
+
+static inline int SameNumbers(PetscInt n, const PetscReal a[], const PetscReal b[])
+{
+  return !memcmp(a, b, sizeof(*a) * (size_t)n); /* NaN included */
+}
+
+/* All numbers of two steps, to the last bit. */
+static inline void AssertSameSteps(const SamStep *a, const SamStep *b)
+{
+  sam_assert(a->status == b->status && !strcmp(a->message, b->message));
+  sam_assert(SameNumbers(SAM_COMPONENTS, a->load, b->load) && SameNumbers(SAM_COMPONENTS, a->rigid, b->rigid));
+  sam_assert(SameNumbers(1, &a->contact_area, &b->contact_area) && SameNumbers(1, &a->stick_area, &b->stick_area));
+  sam_assert(SameNumbers(1, &a->dissipated_energy, &b->dissipated_energy));
+  sam_assert(SameNumbers(sizeof(SamCheck) / sizeof(PetscReal), &a->check.normal, &b->check.normal));
+  sam_assert(a->normal_iterations == b->normal_iterations && a->tangential_iterations == b->tangential_iterations);
+  sam_assert(a->normal_applies == b->normal_applies && a->tangential_applies == b->tangential_applies);
+  sam_assert(a->normal_preconditions == b->normal_preconditions &&
+             a->tangential_preconditions == b->tangential_preconditions);
+  sam_assert(a->coupling_iterations == b->coupling_iterations);
+}
+
+/* The index in a field of the cell at column i and row j; -1 on the other ranks. */
+static inline PetscInt CellAt(SamGrid grid, PetscInt i, PetscInt j)
+{
+  return j >= grid->row_start && j < grid->row_start + grid->rows ? (j - grid->row_start) * grid->nx + i : -1;
+}
+
+#endif

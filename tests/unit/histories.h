@@ -1,0 +1,140 @@
+/* Load histories: writing files, reading them, and what is refused. */
+#ifndef PETSAM_HISTORIES_H
+#define PETSAM_HISTORIES_H
+
+#include "fields.h"
+
+#include "../../src/app/history.h"
+#include <unistd.h>
+
+static const char file[] = "test_history.csv";
+
+static inline int Rank(void)
+{
+  int rank;
+
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
+static inline void Remove(void)
+{
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  if (Rank() == 0) (void)unlink(file);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+/* Rank 0 writes the file; only it needs to see it. */
+static inline void WriteBytes(const char *text, size_t size)
+{
+  int good = 1;
+
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  if (Rank() == 0) {
+    FILE *stream = fopen(file, "wb");
+
+    good = stream && fwrite(text, 1, size, stream) == size;
+    good = stream && !fclose(stream) && good;
+  }
+  sam_assert(good);
+}
+
+static inline void Write(const char *text)
+{
+  WriteBytes(text, strlen(text));
+}
+
+static inline void SetOptions(const char *options)
+{
+  sam_call(PetscOptionsClear(NULL)); /* forgets the alias, too */
+  sam_call(SamHistoryClaimOption());
+  sam_call(PetscOptionsInsertString(NULL, options));
+}
+
+/* The history of the options, or of the file when there are none about it. */
+static inline SamHistory Read(const char *options)
+{
+  SamHistory h;
+
+  SetOptions(options);
+  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &h));
+  SetOptions("");
+  return h;
+}
+
+static inline PetscInt CountOf(SamHistory h)
+{
+  PetscInt steps;
+
+  sam_call(SamHistoryGetCount(h, &steps));
+  return steps;
+}
+
+static inline SamControl StepOf(SamHistory h, PetscInt k)
+{
+  SamControl step;
+
+  memset(&step, 0x55, sizeof(step)); /* all of it is to be set */
+  sam_call(SamHistoryGetStep(h, k, &step));
+  return step;
+}
+
+/* The twelve names, without their dash. */
+static const char *NameOf(PetscInt component, PetscBool rigid)
+{
+  return rigid ? SamComponentNames[component].rigid : SamComponentNames[component].load;
+}
+
+/* Refused with that code on all ranks, in one line that has both texts. */
+static inline void AssertRefused(const char *options, PetscErrorCode code, const char *one, const char *other)
+{
+  SamHistory     h = NULL;
+  PetscErrorCode ierr;
+  int            good;
+
+  SetOptions(options);
+  BeginCatching();
+  ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &h);
+  EndCatching();
+  SetOptions("");
+  if (h) sam_call(SamHistoryDestroy(&h));
+  good =
+    ierr == code && strstr(CaughtMessage(), one) && strstr(CaughtMessage(), other) && !strchr(CaughtMessage(), '\n');
+  if (!good)
+    print_error("%s: error %d, expected %d with '%s' and '%s': '%s'\n", options, (int)ierr, (int)code, one, other,
+                CaughtMessage());
+  sam_assert(good);
+}
+
+/* A file that is refused for what stands in that line, in words that have `says`. */
+static inline void AssertMalformed(const char *text, int line, const char *says)
+{
+  char where[64];
+
+  (void)snprintf(where, sizeof(where), "%s, line %d:", file, line);
+  Write(text);
+  AssertRefused("-history test_history.csv -load_n 1", SAM_ERR_USER, where, says);
+}
+
+/* The same three steps, however they are written. */
+static inline void AssertPlain(const char *text)
+{
+  static const double expected[3][3] = {{1, 100, 0}, {2.5, 100, 25}, {4, 120, -30.5}}; /* time, N, Tx */
+  SamHistory          h;
+  int                 good = 1;
+
+  Write(text);
+  h = Read("-history test_history.csv");
+  sam_assert(CountOf(h) == 3);
+  for (PetscInt k = 0; k < 3; k++) {
+    const SamControl step = StepOf(h, k);
+
+    good = good && step.time == expected[k][0] && step.value[SAM_COMPONENT_N] == expected[k][1] &&
+           step.value[SAM_COMPONENT_TX] == expected[k][2];
+  }
+  if (!good) print_error("read wrongly: %s\n", text);
+  sam_assert(good);
+  sam_call(SamHistoryDestroy(&h));
+}
+
+#endif

@@ -1,0 +1,136 @@
+/*
+ * Results that cannot be written: said on all ranks, and nothing is lost.
+ */
+#include "results.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+static void AssertNotCreated(const char *name, PetscErrorCode expected, const char *word)
+{
+  const SamOutputSettings set  = SettingsOf("");
+  SamGrid                 grid = CreateGrid(0);
+  SamOutput               output;
+  PetscErrorCode          ierr;
+  int                     good;
+
+  BeginCatching();
+  ierr = SamOutputCreate(grid, name, &set, &output);
+  EndCatching();
+  good = ierr == expected && strstr(CaughtMessage(), word) && !output;
+  if (!good) print_error("%s: error %d, %s\n", name, (int)ierr, CaughtMessage());
+  sam_assert(good);
+  sam_call(SamGridDestroy(&grid));
+}
+
+static void test_names_that_cannot_be_written_are_errors_on_all_ranks(void **state)
+{
+  (void)state;
+  AssertNotCreated("test_output_none/f.h5", SAM_ERR_FILE, "test_output_none/f.h5");
+  AssertNotCreated(".", SAM_ERR_FILE, "directory");
+  AssertNotCreated("/dev/null", SAM_ERR_FILE, "/dev/null");
+  sam_assert(access("test_output_none", F_OK));
+}
+
+static void AssertRefused(const char *options, const char *word)
+{
+  SamOutputSettings set;
+  PetscErrorCode    ierr;
+
+  SetOptions(options);
+  BeginCatching();
+  ierr = SamOutputSettingsSetFromOptions(&set, &(SamOptions){PETSC_COMM_WORLD, NULL});
+  EndCatching();
+  SetOptions("");
+  sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), word));
+}
+
+static void test_wrong_settings_are_refused(void **state)
+{
+  (void)state;
+  AssertRefused("-output_compress 10", "-output_compress");
+  AssertRefused("-output_compress fast", "-output_compress");
+  AssertRefused("-output_compress -1", "-output_compress");
+  AssertRefused("-output_chunk 0", "-output_chunk");
+  AssertRefused("-output_xdmf maybe", "-output_xdmf");
+}
+
+static void test_failed_creation_leaves_the_old_file(void **state)
+{
+  const SamOutputSettings set  = SettingsOf("");
+  SamGrid                 grid = CreateGrid(0);
+
+  (void)state;
+  WriteFile(grid, filename, &set);
+  if (geteuid()) { /* to root everything is writable */
+    sam_assert(Rank() || !chmod(filename, 0400));
+    AssertNotCreated(filename, SAM_ERR_FILE, filename);
+  }
+  sam_assert(IsGood(filename, grid, STEPS, SAVED));
+  sam_call(SamGridDestroy(&grid));
+  Remove(filename);
+}
+
+/* Tries to write a step where there is no room for it. */
+static void AssertNoRoom(SamOutput output, const SamStep *step, SamContact contact)
+{
+  struct rlimit  usual, small;
+  struct stat    status;
+  PetscErrorCode ierr;
+  int            good;
+
+  sam_assert(!getrlimit(RLIMIT_FSIZE, &usual) && !stat(filename, &status));
+  (void)MPI_Barrier(PETSC_COMM_WORLD); /* until all have seen the size */
+  small          = usual;
+  small.rlim_cur = (rlim_t)status.st_size + 10000;
+  sam_assert(signal(SIGXFSZ, SIG_IGN) != SIG_ERR && !setrlimit(RLIMIT_FSIZE, &small));
+  BeginCatching();
+  ierr = SamOutputWriteStep(output, step, contact);
+  EndCatching();
+  good = ierr == SAM_ERR_FILE && strstr(CaughtMessage(), filename) && !setrlimit(RLIMIT_FSIZE, &usual);
+  sam_assert(good);
+}
+
+/*
+  A limit on the size of files stands for a full disk. What there was remains, and more can follow when there is room.
+*/
+static void test_full_disk_is_an_error_on_all_ranks_and_costs_nothing(void **state)
+{
+  const SamOutputSettings set = SettingsOf("");
+
+  (void)state;
+  for (int k = 0; k < NUM_SIZES; k++) {
+    SamGrid   grid = CreateGrid(k);
+    SamOutput output;
+    Shown     s = CreateShown(grid);
+
+    sam_call(SamOutputCreate(grid, filename, &set, &output));
+    for (int step = 0; step < STEPS; step++) {
+      const SamStep numbers = MakeStep(step);
+
+      Show(&s, step);
+      AssertNoRoom(output, &numbers, s.contact);
+      AssertNoRoom(output, &numbers, NULL);
+      sam_call(SamOutputWriteStep(output, &numbers, step == 1 ? NULL : s.contact));
+    }
+    AssertNoRoom(output, &(SamStep){.control = {.time = 9}}, s.contact);
+    sam_call(SamOutputDestroy(&output));
+    sam_assert(IsGood(filename, grid, STEPS, SAVED));
+    DestroyShown(&s);
+    sam_call(SamGridDestroy(&grid));
+  }
+  Remove(filename);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_names_that_cannot_be_written_are_errors_on_all_ranks),
+    cmocka_unit_test(test_wrong_settings_are_refused),
+    cmocka_unit_test(test_failed_creation_leaves_the_old_file),
+    cmocka_unit_test(test_full_disk_is_an_error_on_all_ranks_and_costs_nothing),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}

@@ -1,0 +1,229 @@
+/*
+ * A run's checkpoints: when they are written, how far the run is in its load program, and which programs it may go on
+ * with.
+ */
+#include "contacts.h"
+
+#include "../../src/app/checkpoints.h"
+#include <signal.h>
+#include <unistd.h>
+
+static const char file[] = "test_restart.h5";
+
+static const SamParameters none = {.count = 0};
+
+static int Rank(void)
+{
+  int rank;
+
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
+static void Remove(void)
+{
+  static const char *const names[] = {"test_restart.h5", "test_restart.h5.1", "test_restart.csv"};
+
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  for (int k = 0; k < 3 && !Rank(); k++) (void)unlink(names[k]);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+static SamCheckpoints NewCheckpoints(const char *options)
+{
+  SamCheckpoints k;
+
+  SetOptions(options);
+  sam_call(SamCheckpointsCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &k));
+  SetOptions("");
+  return k;
+}
+
+static SamHistory NewHistory(const char *options)
+{
+  SamHistory h;
+
+  SetOptions(options);
+  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &h));
+  SetOptions("");
+  return h;
+}
+
+/* A load program of four steps, of which the last may be another. */
+static SamHistory NewProgram(const char *header, const char *second, const char *last)
+{
+  if (Rank() == 0) {
+    FILE *stream = fopen("test_restart.csv", "w");
+
+    if (!stream) MPI_Abort(PETSC_COMM_WORLD, 1);
+    (void)fprintf(stream, "%s\n1,400,0,1\n%s\n3,400,20,1\n%s\n", header, second, last);
+    (void)fclose(stream);
+  }
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  return NewHistory("-load_history test_restart.csv");
+}
+
+static SamHistory NewUsualProgram(void)
+{
+  return NewProgram("time,load_n,load_tx,friction_scale", "2,400,10,0.9", "4,400,30,1");
+}
+
+static Case NewBody(void)
+{
+  return NewCase(Steel(), 37, 2.5, MU, "");
+}
+
+/* Solves step `point->steps` and lets the checkpoints do what they do; whether the run is to stop. */
+static PetscBool TakeStep(SamCheckpoints k, const Case *c, SamRunPoint *point)
+{
+  SamControl control;
+  SamStep    step;
+  PetscBool  stop;
+
+  sam_call(SamHistoryGetStep(point->history, point->steps, &control));
+  step = Solve(c, &control);
+  sam_assert(step.status == SAM_STATUS_CONVERGED);
+  point->steps++;
+  sam_call(SamCheckpointsAfterStep(k, c->contact, &none, point, &stop));
+  return stop;
+}
+
+static PetscInt LastOf(SamCheckpoints k)
+{
+  PetscInt last;
+
+  sam_call(SamCheckpointsGetLast(k, &last));
+  return last;
+}
+
+static void test_checkpoints_come_after_every_so_many_steps(void **state)
+{
+  static const PetscInt expected[4] = {0, 2, 2, 4};
+  Case                  c           = NewBody();
+  SamCheckpoints        k           = NewCheckpoints("-checkpoint test_restart.h5 -checkpoint_every 2");
+  SamRunPoint           point       = {.history = NewUsualProgram()};
+
+  (void)state;
+  sam_call(SamCheckpointsBegin(k, c.s.grid));
+  for (int step = 0; step < 4; step++) {
+    sam_assert(!TakeStep(k, &c, &point));
+    sam_assert(LastOf(k) == expected[step]);
+  }
+  sam_call(SamHistoryDestroy(&point.history));
+  sam_call(SamCheckpointsDestroy(&k));
+  DestroyCase(&c);
+  Remove();
+}
+
+/* USR2 asks for a checkpoint, USR1 also to stop, on any rank; nobody stops after the last step. */
+static void test_signals_ask_for_checkpoints(void **state)
+{
+  Case           c     = NewBody();
+  SamCheckpoints k     = NewCheckpoints("-checkpoint test_restart.h5");
+  SamRunPoint    point = {.history = NewUsualProgram()};
+  int            ranks;
+
+  (void)state;
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 0);
+  if (Rank() == ranks - 1) (void)raise(SIGUSR2);
+  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 2);
+  if (Rank() == ranks - 1) (void)raise(SIGUSR1);
+  sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 3);
+  if (Rank() == 0) (void)raise(SIGUSR1);
+  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 4);
+  sam_call(SamHistoryDestroy(&point.history));
+  sam_call(SamCheckpointsDestroy(&k));
+  DestroyCase(&c);
+  Remove();
+}
+
+/* No step is begun that would not end in time. */
+static void test_limit_of_time_stops_with_a_checkpoint(void **state)
+{
+  Case           c     = NewBody();
+  SamCheckpoints k     = NewCheckpoints("-checkpoint test_restart.h5 -max_walltime 1e-6");
+  SamRunPoint    point = {.history = NewUsualProgram()};
+
+  (void)state;
+  sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 1);
+  sam_call(SamCheckpointsDestroy(&k));
+  k = NewCheckpoints("-checkpoint test_restart.h5 -max_walltime 10:00");
+  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 0);
+  sam_call(SamCheckpointsDestroy(&k));
+  sam_call(SamHistoryDestroy(&point.history));
+  DestroyCase(&c);
+  Remove();
+}
+
+/* A checkpoint of the second step of the usual program. */
+static void WriteCheckpoint(void)
+{
+  Case           c     = NewBody();
+  SamCheckpoints k     = NewCheckpoints("-checkpoint test_restart.h5 -checkpoint_every 2");
+  SamRunPoint    point = {.history = NewUsualProgram(), .worst = SAM_STATUS_EDGE_CONTACT};
+
+  for (int step = 0; step < 2; step++) (void)TakeStep(k, &c, &point);
+  sam_call(SamHistoryDestroy(&point.history));
+  sam_call(SamCheckpointsDestroy(&k));
+  DestroyCase(&c);
+}
+
+/* Goes on with a program, which it takes; `says` NULL: it may, else why not. */
+static void AssertRestart(SamHistory history, const char *says)
+{
+  Case           c     = NewBody();
+  SamCheckpoints k     = NewCheckpoints("-restart test_restart.h5");
+  SamRunPoint    point = {.history = history};
+  PetscErrorCode ierr;
+
+  BeginCatching();
+  ierr = SamCheckpointsRestart(k, c.contact, &none, &point);
+  EndCatching();
+  if (says) {
+    if (!strstr(CaughtMessage(), says)) print_error("%s\n", CaughtMessage());
+    sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), says) && strstr(CaughtMessage(), file));
+  } else
+    sam_assert(ierr == 0 && point.steps == 2 && point.worst == SAM_STATUS_EDGE_CONTACT);
+  sam_call(SamHistoryDestroy(&history));
+  sam_call(SamCheckpointsDestroy(&k));
+  DestroyCase(&c);
+}
+
+/* What comes after the checkpoint may be another; so may the number of steps. */
+static void test_run_goes_on_with_the_program_that_it_had(void **state)
+{
+  (void)state;
+  WriteCheckpoint();
+  AssertRestart(NewUsualProgram(), NULL);
+  AssertRestart(NewProgram("time,load_n,load_tx,friction_scale", "2,400,10,0.9", "7,100,-30,2\n8,1,2,3"), NULL);
+  Remove();
+}
+
+static void test_other_programs_up_to_the_checkpoint_are_named(void **state)
+{
+  static const char usual[] = "time,load_n,load_tx,friction_scale", last[] = "4,400,30,1";
+
+  (void)state;
+  WriteCheckpoint();
+  AssertRestart(NewProgram(usual, "2.5,400,10,0.9", last), "times up to step 2");
+  AssertRestart(NewProgram(usual, "2,400.5,10,0.9", last), "-load_n");
+  AssertRestart(NewProgram(usual, "2,400,11,0.9", last), "-load_tx");
+  AssertRestart(NewProgram(usual, "2,400,10,0.8", last), "friction_scale");
+  AssertRestart(NewProgram("time,load_n,disp_x,friction_scale", "2,400,10,0.9", last), "-disp_x");
+  AssertRestart(NewHistory("-load_n 400"), "there are 1 load steps, and 2 were solved");
+  Remove();
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_checkpoints_come_after_every_so_many_steps),
+    cmocka_unit_test(test_signals_ask_for_checkpoints),
+    cmocka_unit_test(test_limit_of_time_stops_with_a_checkpoint),
+    cmocka_unit_test(test_run_goes_on_with_the_program_that_it_had),
+    cmocka_unit_test(test_other_programs_up_to_the_checkpoint_are_named),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}

@@ -1,0 +1,213 @@
+/*
+ * Bulk strain that stretches the surfaces: s = u_t + stretch - rigid.
+ */
+#include "contacts.h"
+
+#include <petsam/checkpoint.h>
+#include <unistd.h>
+
+/* Strain of Cattaneo's displacement over the contact radius, at which slip zones are of the order of the contact. */
+static double StrainOf(const Case *c)
+{
+  return 0.3 * MU * c->s.a / c->s.R;
+}
+
+static SamControl Stretched(const Case *c, double xx, double yy, double xy)
+{
+  SamControl control = Loads(c, 1, 0, 0, 0);
+
+  control.stretch[0] = xx * StrainOf(c);
+  control.stretch[1] = yy * StrainOf(c);
+  control.stretch[2] = xy * StrainOf(c);
+  return control;
+}
+
+/* q(n - 1 - i, j) against q(i, j), each component with its sign: the largest difference over the largest shear. */
+static double Asymmetry(const Case *c, int across_y, double sign_x, double sign_y)
+{
+  const PetscInt n = c->s.grid->nx, all = n * n;
+  double        *q    = Whole(c->s.grid, 2, SolutionOf(c)->shear);
+  double         most = 0, difference = 0;
+
+  for (PetscInt j = 0; j < n; j++)
+    for (PetscInt i = 0; i < n; i++) {
+      const PetscInt k = j * n + i, l = across_y ? (n - 1 - j) * n + i : j * n + n - 1 - i;
+
+      difference = fmax(difference, fmax(fabs(q[l] - sign_x * q[k]), fabs(q[all + l] - sign_y * q[all + k])));
+      most       = fmax(most, fmax(fabs(q[k]), fabs(q[all + k])));
+    }
+  free(q);
+  return difference / most;
+}
+
+/* A stretch along x is odd in x; shear opposes it. */
+static void test_stretch_has_the_symmetry_of_its_strain(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 3; kind++) {
+    Case             c       = NewCase(kind == 2 ? Dissimilar() : Steel(), 49, 1.5, MU, "");
+    const SamControl control = Stretched(&c, kind != 1 ? 1 : 0, kind == 1 ? 1 : 0, 0);
+    const SamStep    step    = Solve(&c, &control);
+    double          *q       = Whole(c.s.grid, 2, SolutionOf(&c)->shear);
+    const PetscInt   n = 49, right = 24 * n + 24 + 8, up = n * n + (24 + 8) * n + 24;
+
+    sam_assert(step.status == SAM_STATUS_CONVERGED && step.stick_area > 0 && step.stick_area < step.contact_area);
+    sam_assert(Asymmetry(&c, 0, -1, 1) < 1e-4 && Asymmetry(&c, 1, 1, -1) < 1e-4); /* rtol times the condition */
+    if (kind == 0) sam_assert(q[right] < 0 && fabs(q[right]) > fabs(q[up])); /* body 2 stretches more: it is held */
+    if (kind == 1) sam_assert(q[up] < 0 && fabs(q[up]) > fabs(q[right]));
+    sam_assert_close(step.load[SAM_COMPONENT_TX], 0, 1e-10 * c.s.N);
+    free(q);
+    DestroyCase(&c);
+  }
+}
+
+/* Pure shear strain is that of stretches along the diagonals: x and y may be exchanged. */
+static void test_shear_strain_exchanges_x_and_y(void **state)
+{
+  Case             c       = NewCase(Steel(), 49, 1.5, MU, "");
+  const SamControl control = Stretched(&c, 0, 0, 1);
+  const SamStep    step    = Solve(&c, &control);
+  double          *q = Whole(c.s.grid, 2, SolutionOf(&c)->shear), most = 0, difference = 0;
+  const PetscInt   n = 49, all = n * n;
+
+  (void)state;
+  AssertGood(&step);
+  for (PetscInt j = 0; j < n; j++)
+    for (PetscInt i = 0; i < n; i++) {
+      difference = fmax(difference, fabs(q[j * n + i] - q[all + i * n + j]));
+      most       = fmax(most, fabs(q[j * n + i]));
+    }
+  sam_assert(most > 0 && difference < 1e-4 * most);
+  sam_assert(q[(24 + 8) * n + 24] < 0); /* above the centre the surface of body 2 moves along x */
+  free(q);
+  DestroyCase(&c);
+}
+
+/* s - u_t is the stretch less the rigid displacement, everywhere. */
+static void test_slip_is_displacement_and_stretch_less_rigid(void **state)
+{
+  Case             c       = NewCase(Steel(), 31, 1.5, MU, "");
+  const SamControl control = Stretched(&c, 0.5, -0.3, 0.2);
+  const SamStep    step    = Solve(&c, &control);
+  Vec              slip    = NewSlip(&c);
+  const double    *e = control.stretch, *d = step.rigid;
+  double           error = 0, *s;
+
+  (void)state;
+  sam_call(VecAXPY(slip, -1, SolutionOf(&c)->displacement_t));
+  sam_call(VecGetArray(slip, &s));
+  for (PetscInt k = 0; k < c.s.grid->cells; k++) {
+    const double x = SamGridX(c.s.grid, k % 31), y = SamGridY(c.s.grid, c.s.grid->row_start + k / 31);
+    const double sx = e[0] * x + e[2] * y - (d[SAM_COMPONENT_TX] - y * d[SAM_COMPONENT_MZ]),
+                 sy = e[2] * x + e[1] * y - (d[SAM_COMPONENT_TY] + x * d[SAM_COMPONENT_MZ]);
+
+    error = fmax(error, fmax(fabs(s[k] - sx), fabs(s[k + c.s.grid->cells] - sy)));
+  }
+  sam_call(VecRestoreArray(slip, &s));
+  sam_assert(error < 1e-13 * c.s.a * c.s.a / c.s.R);
+  sam_call(VecDestroy(&slip));
+  DestroyCase(&c);
+}
+
+/* The sphere with its grid, elsewhere. */
+static Case NewCaseAt(double x, double y)
+{
+  const SamPair pair = Steel();
+  Sphere        s = NewSphereOf(pair, 45, 1.5), at = s;
+
+  at.grid = NewGridOn(PETSC_COMM_WORLD, 45, 45, s.grid->width[0], s.grid->width[1], x, y);
+  sam_call(SamElasticityCreate(at.grid, &pair, &at.elasticity));
+  at.h = Copy(s.h);
+  DestroySphere(&s);
+  return NewCaseOn(at, MU, NULL, "");
+}
+
+/*
+  The stretch is about the origin: a contact elsewhere sees it as the same stretch about itself and the displacement of
+  its centre, which the same rigid displacement takes back.
+*/
+static void test_rigid_displacement_takes_back_the_stretch_of_the_centre(void **state)
+{
+  const double X = 3e-3, Y = -2e-3;
+  Case         here = NewCaseAt(0, 0), there = NewCaseAt(X, Y);
+
+  (void)state;
+  for (int k = 1; k < 3; k++) {
+    SamControl    one = Stretched(&here, 0.4 * k, -0.2 * k, 0.3 * k), other;
+    const double *e   = one.stretch;
+    SamStep       a, b;
+
+    Displace(&one, SAM_COMPONENT_N, here.s.a * here.s.a / here.s.R);
+    Displace(&one, SAM_COMPONENT_MX, 0);
+    Displace(&one, SAM_COMPONENT_MY, 0);
+    Displace(&one, SAM_COMPONENT_TX, 0);
+    Displace(&one, SAM_COMPONENT_TY, 0);
+    Displace(&one, SAM_COMPONENT_MZ, 0);
+    other                         = one;
+    other.value[SAM_COMPONENT_TX] = e[0] * X + e[2] * Y;
+    other.value[SAM_COMPONENT_TY] = e[2] * X + e[1] * Y;
+    a                             = Solve(&here, &one);
+    b                             = Solve(&there, &other);
+    AssertGood(&a);
+    AssertGood(&b);
+    sam_assert(Difference(SolutionOf(&there)->shear, SolutionOf(&here)->shear, NORM_2) < 1e-5);
+    sam_assert_close(b.dissipated_energy, a.dissipated_energy, 1e-4 * a.dissipated_energy);
+  }
+  DestroyCase(&here);
+  DestroyCase(&there);
+}
+
+/* Where the strain stays, nothing slips. */
+static void test_stretch_that_stays_dissipates_nothing(void **state)
+{
+  Case             c       = NewCase(Steel(), 45, 1.5, MU, "");
+  const SamControl control = Stretched(&c, 1, 0.2, 0.1), back = Loads(&c, 1, 0, 0, 0);
+  const SamStep    first = Solve(&c, &control), second = Solve(&c, &control), third = Solve(&c, &back);
+
+  (void)state;
+  AssertGood(&first);
+  AssertGood(&second);
+  AssertGood(&third);
+  sam_assert(first.dissipated_energy > 0 && third.dissipated_energy > 0);
+  sam_assert_close(second.dissipated_energy, 0, 1e-5 * first.dissipated_energy);
+  DestroyCase(&c);
+}
+
+static void test_restart_keeps_the_stretch(void **state)
+{
+  static const char   filename[] = "test_stretch.h5";
+  Case                one = NewCase(Steel(), 45, 1.5, MU, ""), other = NewCase(Steel(), 45, 1.5, MU, "");
+  const SamControl    first = Stretched(&one, 1, 0.2, 0.1), next = Stretched(&one, 1.2, 0.1, 0.1);
+  const SamParameters none = {.count = 0};
+  SamStep             a, b;
+  int                 rank;
+
+  (void)state;
+  (void)Solve(&one, &first);
+  sam_call(SamCheckpointWrite(filename, one.contact, &none, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, &none, 0, NULL));
+  AssertSameFields(&one, &other);
+  a = Solve(&one, &next);
+  b = Solve(&other, &next);
+  AssertGood(&a);
+  AssertSameSteps(&a, &b);
+  AssertSameFields(&one, &other);
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (!rank) (void)unlink(filename);
+  DestroyCase(&one);
+  DestroyCase(&other);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_stretch_has_the_symmetry_of_its_strain),
+    cmocka_unit_test(test_shear_strain_exchanges_x_and_y),
+    cmocka_unit_test(test_slip_is_displacement_and_stretch_less_rigid),
+    cmocka_unit_test(test_rigid_displacement_takes_back_the_stretch_of_the_centre),
+    cmocka_unit_test(test_stretch_that_stays_dissipates_nothing),
+    cmocka_unit_test(test_restart_keeps_the_stretch),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
