@@ -91,8 +91,8 @@ static inline void SetMostIterations(const Case *c, PetscInt normal, PetscInt ta
 
   sam_call(SamContactGetNormal(c->contact, &n));
   sam_call(SamContactGetTangential(c->contact, &t));
-  sam_call(SamNormalSetTolerances(n, PETSC_DEFAULT, normal));
-  sam_call(SamTangentialSetTolerances(t, PETSC_DEFAULT, tangential));
+  sam_call(SamSolverSetTolerances(n, PETSC_DEFAULT, normal));
+  sam_call(SamSolverSetTolerances(t, PETSC_DEFAULT, tangential));
 }
 
 static inline SamStep Try(const Case *c, const SamControl *control)
@@ -127,9 +127,20 @@ static inline const SamSolution *SolutionOf(const Case *c)
 
 static inline Vec NewSlip(const Case *c)
 {
-  Vec slip = NewField(c->s.grid, 2);
+  const PetscInt cells = c->s.grid->cells;
+  Vec            slip = NewField(c->s.grid, 2), component = NewField(c->s.grid, 1);
+  const double  *from;
+  double        *to;
 
-  sam_call(SamContactComputeSlip(c->contact, slip));
+  sam_call(VecGetArray(slip, &to));
+  for (PetscInt k = 0; k < 2; k++) {
+    sam_call(SamContactComputeSlip(c->contact, k, component));
+    sam_call(VecGetArrayRead(component, &from));
+    memcpy(to + k * cells, from, sizeof(*to) * (size_t)cells);
+    sam_call(VecRestoreArrayRead(component, &from));
+  }
+  sam_call(VecRestoreArray(slip, &to));
+  sam_call(VecDestroy(&component));
   return slip;
 }
 

@@ -107,7 +107,7 @@ static void PredictStages(const Stage stages[3], double errors[2])
   const SamControl next = ControlOf(2);
   SamGrid          grid = NewGrid(61, 47, 2.4, 2.4);
   Vec              p[3], q[3];
-  SamStart         start;
+  SamStepStart     start;
   Made             m;
 
   for (int k = 0; k < 3; k++) {
@@ -156,7 +156,7 @@ static void test_prediction_keeps_what_would_vanish(void **state)
   SamGrid            grid = NewGrid(8, 5, 1, 1);
   Vec                p[2] = {NewField(grid, 1), NewField(grid, 1)}, q[2] = {NewField(grid, 2), NewField(grid, 2)};
   const SamSolution *s;
-  SamStart           start;
+  SamStepStart       start;
   Made               m;
 
   (void)state;
@@ -180,12 +180,12 @@ static void test_prediction_keeps_what_would_vanish(void **state)
 /* Nothing is predicted of loads that turn, or of a component that is now given otherwise. */
 static void test_what_turns_is_not_predicted(void **state)
 {
-  const Stage stages[2] = {{1, 0}, {sqrt(0.9), 0}};
-  SamGrid     grid      = NewGrid(21, 17, 2.4, 2.4);
-  Vec         p[2], q[2];
-  SamControl  next = ControlOf(0);
-  SamStart    start;
-  Made        m;
+  const Stage  stages[2] = {{1, 0}, {sqrt(0.9), 0}};
+  SamGrid      grid      = NewGrid(21, 17, 2.4, 2.4);
+  Vec          p[2], q[2];
+  SamControl   next = ControlOf(0);
+  SamStepStart start;
+  Made         m;
 
   (void)state;
   for (int k = 0; k < 2; k++) {

@@ -130,47 +130,47 @@ typedef struct {
 static const Lie truth = {.cell = {-1, -1}};
 static Lie       lie;
 
-static PetscErrorCode (*solve_normal)(SamNormal, SamNormalLevel *);
-static PetscErrorCode (*solve_tangential)(SamTangential, SamTangentialLevel *);
+static PetscErrorCode (*solve_normal)(SamSolver, SamLevel *);
+static PetscErrorCode (*solve_tangential)(SamSolver, SamLevel *);
 
-static PetscErrorCode LieOfPressure(SamNormal normal, SamNormalLevel *level)
+static PetscErrorCode LieOfPressure(SamSolver normal, SamLevel *level)
 {
   PetscReal most;
 
   PetscFunctionBegin;
   PetscCall(solve_normal(normal, level));
   if (!level->finest) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecScale(level->p, 1 + lie.pressure));
-  PetscCall(VecNorm(level->p, NORM_INFINITY, &most));
-  if (lie.cell[0] >= 0) AddAt(level->grid, 0, lie.cell[0], lie.cell[1], lie.part * most, level->p);
-  normal->reason = SAM_NORMAL_CONVERGED_RTOL;
+  PetscCall(VecScale(level->traction, 1 + lie.pressure));
+  PetscCall(VecNorm(level->traction, NORM_INFINITY, &most));
+  if (lie.cell[0] >= 0) AddAt(level->grid, 0, lie.cell[0], lie.cell[1], lie.part * most, level->traction);
+  normal->reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode LieOfShear(SamTangential tangential, SamTangentialLevel *level)
+static PetscErrorCode LieOfShear(SamSolver tangential, SamLevel *level)
 {
   PetscFunctionBegin;
   PetscCall(solve_tangential(tangential, level));
-  if (level->finest) PetscCall(VecScale(level->q, 1 + lie.shear));
-  tangential->reason = SAM_TANGENTIAL_CONVERGED_RTOL;
+  if (level->finest) PetscCall(VecScale(level->traction, 1 + lie.shear));
+  tangential->reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CreateNormalLiar(SamNormal normal)
+static PetscErrorCode CreateNormalLiar(SamSolver normal)
 {
   PetscFunctionBegin;
   PetscCall(SamNormalCreate_ActiveSet(normal));
-  solve_normal  = normal->solve;
-  normal->solve = LieOfPressure;
+  solve_normal      = normal->ops.solve;
+  normal->ops.solve = LieOfPressure;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CreateTangentialLiar(SamTangential tangential)
+static PetscErrorCode CreateTangentialLiar(SamSolver tangential)
 {
   PetscFunctionBegin;
   PetscCall(SamTangentialCreate_Newton(tangential));
-  solve_tangential  = tangential->solve;
-  tangential->solve = LieOfShear;
+  solve_tangential      = tangential->ops.solve;
+  tangential->ops.solve = LieOfShear;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
