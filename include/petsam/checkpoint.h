@@ -1,35 +1,38 @@
-/* Checkpoints: the state of a contact on the disk. */
+/* Checkpoints: the state of a contact in a file, from which a stopped run goes on. */
 #ifndef PETSAM_CHECKPOINT_H
 #define PETSAM_CHECKPOINT_H
 
 #include <petsam/output.h>
 
-/* SamNote - whole numbers that a program keeps in a checkpoint under a name, such as how far its load program is. */
+/* SamNote - whole numbers that a program adds to a checkpoint under a name, such as its position in a load program. */
 typedef struct {
   const char *name;
   PetscInt    count;
-  uint64_t   *values; /* written from here, read to here */
+  uint64_t   *values; /* written from here, read into here */
 } SamNote;
 
 /*
-  SamCheckpointWrite - the committed state of a contact, what defines it, and a program's notes (n of them), in an HDF5
-  file that all ranks write together. It is written beside (name.tmp), brought to the disk, and renamed; the one before
-  it becomes name.1. Whatever ends the run, there is a checkpoint that can be read if there was one. Collective. Errors:
-  SAM_ERR_FILE; the checkpoints that were there stay.
+  SamCheckpointWrite - writes the committed state of a contact, the parameters that define it, and a program's n notes
+  to an HDF5 file, all ranks together. The file is written as name.tmp, flushed to the disk, and renamed; the previous
+  checkpoint becomes name.1. So once there is a checkpoint, there always is one that can be read, whatever ends the run.
+  Collective. Errors: SAM_ERR_FILE; earlier checkpoints are kept then.
 */
 PETSC_EXTERN PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact,
                                                const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 /*
   SamCheckpointRead - gives a contact the state in a file, to the last bit, on any number of ranks, and reads the notes.
-  Where the problem has another gap now than then, the next step finds the pressure anew, and slip goes on. Collective.
-  Errors: SAM_ERR_USER, naming the parameter, for another version or other fixed parameters; SAM_ERR_FILE for a file that
-  is missing or damaged, which is told by checksums; then the message names name.1 if that can be read.
+  When the problem's gap is not the one the checkpoint was written with, the next step solves the pressure again and
+  keeps the slip. Collective. Errors: SAM_ERR_USER for a checkpoint of another version or with another value of a fixed
+  parameter, which the message names; SAM_ERR_FILE for a file that is missing or damaged (checksums are compared). The
+  message then names the checkpoint before it, name.1, if that can be read.
 */
 PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact,
                                               const SamParameters *parameters, PetscInt n, const SamNote notes[]);
-/* SamCheckpointCheckName - raises SAM_ERR_FILE unless a checkpoint of that name could be written. Collective. */
+/*
+  SamCheckpointCheckName - fails early if a checkpoint of that name cannot be written. Collective. Errors: SAM_ERR_FILE.
+*/
 PETSC_EXTERN PetscErrorCode SamCheckpointCheckName(SamGrid grid, const char filename[]);
-/* SamCheckpointChecksum - of a field (values by cell): the same on any number of ranks. Collective. */
+/* SamCheckpointChecksum - a checksum of a field's values by cell, the same on any number of ranks. Collective. */
 PETSC_EXTERN PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 
 #endif

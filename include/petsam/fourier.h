@@ -71,8 +71,8 @@ PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod peri
                                              SamFourier *fourier);
 PETSC_EXTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
 /*
-  SamFourierTrim - frees the memory that all transforms on the communicator share, if it is large, until one of them needs
-  it again. Collective.
+  SamFourierTrim - frees the memory that all transforms on the communicator share, if it is large, until one of them
+  needs it again. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFourierTrim(SamFourier fourier);
 /* The periods hx, hy, without the doubling of padded mode. */

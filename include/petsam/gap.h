@@ -5,39 +5,51 @@
 #include <petsam/grid.h>
 
 /*
-  SamGap - a shape: fills the separation h (m) of the undeformed bodies at the cell centres, as it is when they touch in
-  the origin without load; a registry of types, each one file of this room.
+  SamGap - the shape of the bodies: computes the separation h (m) of the undeformed bodies at the cell centres when they
+  touch at x = y = 0 without load. Its types are registered by name; a new one is one file.
 */
 typedef struct _n_SamGap *SamGap;
 
 typedef const char *SamGapType;
 #define SAM_GAP_SPHERE    "sphere"    /* -gap_radius1, -gap_radius2 (m, inf: flat): (x^2 + y^2)/2R, 1/R = 1/R1 + 1/R2 */
-#define SAM_GAP_ELLIPSOID "ellipsoid" /* -gap_radius_x, -gap_radius_y (m): x^2/2Rx + y^2/2Ry */
+#define SAM_GAP_ELLIPSOID "ellipsoid" /* -gap_radius_x, -gap_radius_y (m, inf: straight): x^2/2Rx + y^2/2Ry */
 #define SAM_GAP_PUNCH     "punch" /* -gap_flat_radius c, -gap_edge_radius R (m): 0 for r <= c, (r - c)^2/2R beyond */
-#define SAM_GAP_FLAT      "flat"  /* 0 */
-#define SAM_GAP_FILE      "file"  /* -gap_file, -gap_dataset (/height): an HDF5 dataset of (ny, nx), m */
+#define SAM_GAP_FLAT      "flat"  /* two planes: 0 */
+#define SAM_GAP_FILE      "file"  /* -gap_file, -gap_dataset (/height): an HDF5 dataset of shape (ny, nx), m */
 
+/* SamGapCreate - a gap without a type. Its errors are raised on `comm`. Collective. */
 PETSC_EXTERN PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap);
+/* SamGapDestroy - frees the gap and sets the handle to NULL. Not collective. */
 PETSC_EXTERN PetscErrorCode SamGapDestroy(SamGap *gap);
-/* SamGapRegister - adds a type, or replaces one of that name; `create` sets the methods. Not collective. */
+/*
+  SamGapRegister - adds a type, or replaces the one of that name. `create` sets the type's methods; see
+  <petsam/private/gapimpl.h>. Not collective, but to be called on all ranks.
+*/
 PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap));
-/* SamGapSetOptionsPrefix - what stands before `gap_` in the names of the options. */
+/* SamGapSetOptionsPrefix - the prefix of its options, before `gap_`; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
+/*
+  SamGapSetType - chooses the shape; its parameters are zero until options are read. Option -gap_type. Collective.
+  Errors: SAM_ERR_USER for an unknown type, with the list of those known.
+*/
 PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 /*
-  SamGapSetFromOptions - -gap_type (required), the options of that type, and -gap_rough_file, -gap_rough_dataset for
-  roughness added to any of them. A type set before stands when -gap_type is absent. While the help is printed, the
-  options of all types are listed, none is required, and the gap is left flat. Collective. Errors: SAM_ERR_USER for
-  missing or wrong values.
+  SamGapSetFromOptions - reads -gap_type (required unless a type has been set), the options of that type, which are all
+  required, and -gap_rough_file, -gap_rough_dataset (default /height) for a roughness (m) that is added to the shape.
+  While the help is printed, the options of all types are listed, none is required, and the gap is left flat.
+  Collective. Errors: SAM_ERR_USER for missing or wrong values.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
 /*
-  SamGapFill - writes the separation (m) into h (one component), roughness included. Collective. Errors: SAM_ERR_FILE
-  for a file that cannot be read, is not HDF5, lacks the dataset or has one of another shape or with values that are not
-  finite; SAM_ERR_USER when values of the shape's options overflow on this grid.
+  SamGapFill - writes the separation with the roughness (m) into h (one component). Collective. Errors: PETSC_ERR_ORDER
+  without a type; SAM_ERR_FILE for a file that cannot be read, is not HDF5, or lacks the dataset, and for a dataset of
+  another shape or with values that are not finite; SAM_ERR_USER when the shape's parameters overflow on this grid.
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
-/* SamGapGetParameters - names (as options, without dash) and values of the numbers that define the shape; borrowed. */
+/*
+  SamGapGetParameters - the type, and the numbers that define the shape: how many, their names (those of the options,
+  without dash and prefix) and values. All borrowed; NULL for one that is not wanted. Not collective.
+*/
 PETSC_EXTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count,
                                                 const char *const **names, const PetscReal **values);
 

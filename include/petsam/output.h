@@ -1,18 +1,18 @@
-/* Results in an HDF5 file. */
+/* Results in an HDF5 file, and the parameters of the run that they belong to. */
 #ifndef PETSAM_OUTPUT_H
 #define PETSAM_OUTPUT_H
 
 #include <petsam/contact.h>
 
 /*
-  SamParameters - what defines a run, by the names of its options: stored with results and checkpoints. With `fixed` a
-  run that was stopped can only go on with the same value.
+  SamParameters - what defines a run, by the names of its options (without dash). Stored with results and checkpoints.
+  Where `fixed` is true, a stopped run can only go on with the same value.
 */
-#define SAM_PARAMETERS 48
+#define SAM_PARAMETERS 48 /* most parameters of a run */
 typedef struct {
   char      name[32];
   PetscBool fixed;
-  PetscInt  count; /* of values, 0: a text */
+  PetscInt  count; /* number of values, 1 or 2; 0: the parameter is a text */
   PetscReal value[2];
   char      text[64];
 } SamParameter;
@@ -21,72 +21,85 @@ typedef struct {
   SamParameter list[SAM_PARAMETERS];
 } SamParameters;
 
-/* Not collective. */
+/*
+  SamParametersAddReals, SamParametersAddText - append a parameter: one or two numbers, or a text of at most 63
+  characters. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for another count, or a parameter too many.
+*/
 PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, const char name[], PetscBool fixed,
                                                   PetscInt count, const PetscReal values[]);
 PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, const char name[], PetscBool fixed,
                                                  const char text[]);
 
 /*
-  SamOutput - a results file that grows by a load step at a time (layout: README, "Results"). Every dataset has `units`
-  and `long_name`; dimension scales time, y, x are attached, so that h5py and xarray (netcdf4) open it. The same
-  datasets stand in a group VTKHDF, which VTK from 9.3 on reads, and in an XDMF file beside it for older ParaViews and
-  VisIt.
+  SamOutput - a results file, to which one load step at a time is appended (layout: README, "Results"). Every dataset
+  has the attributes `units` and `long_name`, and the dimension scales time, y, x, so that h5py and xarray (netcdf4)
+  open it. For ParaView the same datasets are linked in a group VTKHDF (read by VTK from 9.3 on) and described by an
+  XDMF file beside the results (for older versions, and VisIt).
 */
 typedef struct _n_SamOutput *SamOutput;
 
 /* How a results file is written. */
 typedef struct {
-  PetscInt  compress;       /* level of deflate of the fields, 0 (none) to 9 */
-  PetscInt  chunk[2];       /* most cells of a chunk of the file in x, y */
-  PetscBool xdmf;           /* an XDMF file beside the results */
-  PetscBool friction_scale; /* the history has a column of it */
+  PetscInt  compress;       /* deflate level of the fields, 0 (none) to 9 */
+  PetscInt  chunk[2];       /* most cells of an HDF5 chunk in x, y */
+  PetscBool xdmf;           /* write an XDMF file beside the results */
+  PetscBool friction_scale; /* the history has a column for the friction scale */
 } SamOutputSettings;
 /*
-  SamOutputSettingsSetFromOptions - the defaults, and -output_compress, -output_chunk, -output_xdmf. Collective. Errors:
-  SAM_ERR_USER.
+  SamOutputSettingsSetFromOptions - sets the defaults (no compression, chunks of 1024 x 256 cells, with XDMF file, no
+  friction scale), then reads -output_compress, -output_chunk and -output_xdmf. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 
 /*
-  SamOutputCreate - creates the file, replacing one of this name, with the coordinates of the grid and no step yet. All
-  ranks write together through MPI-IO. Collective. Errors: SAM_ERR_FILE when it cannot be created (an existing file of
-  a name that cannot be written stays as it is).
+  SamOutputCreate - creates the file with the coordinates of the grid and no step yet; replaces a file of that name. All
+  ranks write together through MPI-IO. Collective. Errors: SAM_ERR_FILE when the file cannot be created; one that exists
+  and cannot be written to is left unchanged.
 */
 PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                             SamOutput *output);
 /*
-  SamOutputContinue - opens the results of a run that was stopped after `steps` load steps, whose times are given, to go
-  on after these. A file that holds just these steps and was closed in order goes on as it is; otherwise those steps are
-  first copied to a new file, which then takes its name: the old one may have been left in the middle of a step, or hold
-  more. The XDMF file is made anew. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks
-  some of the steps, SAM_ERR_USER when it is of other fixed parameters or times; it is left as it was then.
+  SamOutputContinue - opens the results of a stopped run, to append to its first `steps` load steps, whose times (s) are
+  given. A file that holds exactly these steps and was closed properly is used as it is. Otherwise, as it may end in the
+  middle of a step or hold more steps, these steps are copied to a new file, which takes its name. The XDMF file is
+  written again. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps,
+  SAM_ERR_USER for one with other fixed parameters or other times; after an error the file is unchanged.
 */
 PETSC_EXTERN PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                               const SamParameters *parameters, PetscInt steps, const PetscReal times[],
                                               SamOutput *output);
-/* SamOutputSetParameters - all of them as attributes of the root. Collective. */
+/* SamOutputSetParameters - stores parameters as attributes of the root group. Collective. Errors: SAM_ERR_FILE. */
 PETSC_EXTERN PetscErrorCode SamOutputSetParameters(SamOutput output, const SamParameters *parameters);
-/* SamOutputSetReals, SamOutputSetText - attributes of the root; one number is stored as a scalar. Collective. */
+/*
+  SamOutputSetReals, SamOutputSetText - store an attribute of the root group; a single number is stored as a scalar.
+  Collective. Errors: SAM_ERR_FILE.
+*/
 PETSC_EXTERN PetscErrorCode SamOutputSetReals(SamOutput output, const char name[], PetscInt count,
                                               const PetscReal values[]);
 PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[], const char text[]);
 /*
-  SamOutputWriteStep - appends the numbers of a step to /history and, when `contact` is not NULL, its time and the fields
-  of its solution (tried, else committed); then flushes, so that the file is complete up to here whatever happens later.
-  Collective. Errors: SAM_ERR_FILE. When there is no room for the step, nothing is written and the file can be closed as
-  it is. After another failure of the disk in the middle of a step it cannot: SamOutputDestroy() then leaves the file
-  alone, and the program should end by MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
+  SamOutputWriteStep - appends the numbers of a step to /history and, when `contact` is not NULL, its time and the
+  fields of the contact's solution (SamContactGetSolution()). Then flushes: the file is complete up to here, whatever
+  happens later. Collective. Errors: SAM_ERR_FILE. When there is no space for the step, nothing is written and the file
+  can be closed. When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and
+  the program should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, const SamStep *step, SamContact contact);
-/* SamOutputWriteFields - fields alone, of a step whose numbers are there already; otherwise as SamOutputWriteStep(). */
+/*
+  SamOutputWriteFields - appends only the fields, of a step whose numbers are in the file already; `time` (s) is that of
+  the step. Otherwise as SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.
+*/
 PETSC_EXTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal time, SamContact contact);
-/* SamOutputGetSaved - load steps in the file, those with fields, and the time of the last of these. Not collective. */
+/*
+  SamOutputGetSaved - the number of load steps in the file, the number of those with fields, and the time (s) of the
+  last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.
+*/
 PETSC_EXTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
-/* SamOutputGetXdmf - name of the XDMF file beside the results, NULL without; borrowed. Not collective. */
+/* SamOutputGetXdmf - the name of the XDMF file beside the results, NULL without one; borrowed. Not collective. */
 PETSC_EXTERN PetscErrorCode SamOutputGetXdmf(SamOutput output, const char **filename);
 /*
-  SamOutputDestroy - closes the file; *output is NULL after it, also when that fails. Collective. Errors: SAM_ERR_FILE.
+  SamOutputDestroy - closes the file, frees the object and sets the handle to NULL, also when closing fails. Collective.
+  Errors: SAM_ERR_FILE.
 */
 PETSC_EXTERN PetscErrorCode SamOutputDestroy(SamOutput *output);
 

@@ -1,4 +1,4 @@
-/* What all rooms share and the user does not see: differences between PETSc's versions, log events, reductions. */
+/* What all parts of the library share: differences between PETSc versions, log events, memory, sums over the ranks. */
 #ifndef PETSAM_BASEIMPL_H
 #define PETSAM_BASEIMPL_H
 
@@ -8,7 +8,7 @@
 #include <petscpc.h>
 #include <math.h>
 
-/* ---- differences between PETSc's versions, 3.18 on ---- */
+/* ---- differences between PETSc versions, from 3.18 on ---- */
 #if PETSC_VERSION_LT(3, 19, 0)
   #define PETSC_SUCCESS 0
 #endif
@@ -21,8 +21,8 @@
 #endif
 
 /*
-  Loops over contiguous doubles, compiled for several generations of x86 and chosen at start, so that an installed
-  program needs no -march=native. Only the order of no sum is changed.
+  SAM_VECTORIZED - for functions that loop over contiguous doubles: compiled for several generations of x86, of which
+  the program chooses one at its start. So an installed program needs no -march=native.
 */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
   !defined(__SANITIZE_ADDRESS__)
@@ -31,7 +31,7 @@
   #define SAM_VECTORIZED
 #endif
 
-/* ---- log events, shown by -log_view ---- */
+/* ---- log events, for -log_view and the closing table of the program ---- */
 typedef enum {
   SAM_EVENT_SETUP_INFLUENCE,
   SAM_EVENT_FFT_ROWS,
@@ -54,30 +54,31 @@ PETSC_EXTERN PetscClassId  SAM_CLASSID;
 
 /* ---- memory ---- */
 /*
-  SamAllocate, SamAllocateZeros - arrays of any size, in large pages where they are large, to be freed by SamFree().
-  PETSC_ERR_MEM with the size when there is no memory.
+  SamAllocate, SamAllocateZeros - allocate an array of any size; a large one lies in large pages. `pointer` is the
+  address of a pointer. Freed by SamFree(). Not collective. Errors: PETSC_ERR_MEM with the size.
 */
 PETSC_EXTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
 PETSC_EXTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
 PETSC_EXTERN void           SamFree(void *pointer);
 
-/* SamZero - sets an array to zero without writing to where it is: what the system has not given memory yet stays so. */
+/* SamZero - sets n doubles to zero; does not write where they are zero, so that untouched pages take no memory. */
 PETSC_EXTERN void SamZero(PetscInt n, double x[]);
 
 /*
-  SamReturnMemory - gives the system back what was freed and the C library keeps. What is allocated next has to be
-  mapped anew, which costs time: for the end of long stages.
+  SamReturnMemory - returns freed memory that the C library keeps to the system. The next allocations have to map it
+  again, which takes time, so call it only at the end of long stages.
 */
 PETSC_EXTERN void SamReturnMemory(void);
 
-/* ---- reductions over the ranks of small arrays of doubles, in place. Collective. ---- */
+/* ---- sums and maxima over the ranks ---- */
+/* SamSum, SamMax - of each of n doubles, in place on all ranks. Collective. */
 PETSC_EXTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_EXTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
 
 /*
-  SamTotal - a sum kept in twice the digits of a double. Solvers add up a grid row by row, and a row is on one rank
-  whole: summed like this the result does not depend on which rows are where, and what follows from it is the same on
-  any number of ranks. Source: Knuth's exact addition; Hida, Li and Bailey 2001.
+  SamTotal - a sum with twice the digits of a double. A row of the grid always lies on one rank, so the sum over a row
+  does not depend on the number of ranks. With the sums of the rows added like this, neither does the total: results are
+  the same on any number of ranks. Source: Knuth's exact addition; Hida, Li and Bailey 2001.
 */
 typedef struct {
   double sum, rest;
@@ -94,11 +95,11 @@ static inline void SamAddAll(PetscInt n, SamTotal totals[], const double values[
 {
   for (PetscInt k = 0; k < n; k++) SamAdd(&totals[k], values[k]);
 }
-#define SAM_TOTALS 16 /* most at a time */
-/* SamSumTotals - the totals over the ranks, as doubles. Collective. */
+#define SAM_TOTALS 16 /* most totals in one call */
+/* SamSumTotals - adds n totals over the ranks and returns them as doubles. Collective. */
 PETSC_EXTERN PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[]);
 
-/* The larger of the two; infinite when the second is not a number, which a plain comparison would pass over. */
+/* The larger of two numbers; infinite when `value` is NaN, which a plain comparison would ignore. */
 static inline double SamLarger(double most, double value)
 {
   if (value <= most) return most;
@@ -107,10 +108,10 @@ static inline double SamLarger(double most, double value)
 
 /* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
-/* SamTypesList - the same as a sentence has them: a, b or c. Not collective. */
+/* SamTypesList - the names as a text, "a, b or c". Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
 
-/* SamPrintHelp - PETSC_TRUE while options are only listed for the user. */
+/* SamPrintHelp - whether the help is being printed, for which options are only listed. Not collective. */
 PETSC_EXTERN PetscErrorCode SamPrintHelp(PetscBool *print);
 
 #endif

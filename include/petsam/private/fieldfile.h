@@ -1,9 +1,13 @@
-/* Fields of (ny, nx) that are read from HDF5 files, and the options that name them. */
+/* Fields read from HDF5 datasets of shape (ny, nx), and the options that name file and dataset. */
 #ifndef PETSAM_FIELDFILE_H
 #define PETSAM_FIELDFILE_H
 
 #include <petsam/grid.h>
 
+/*
+  SamFieldFile - where a field comes from. The caller sets the names of the two options, the default and the limit; the
+  options fill in the rest.
+*/
 typedef struct {
   char        file[PETSC_MAX_PATH_LEN]; /* empty: none was given */
   char        dataset[PETSC_MAX_PATH_LEN];
@@ -13,12 +17,15 @@ typedef struct {
   PetscReal   least; /* values below are refused */
 } SamFieldFile;
 
-/* SamFieldFileSetFromOptions - reads the two options; the dataset alone is an error. Collective. */
+/*
+  SamFieldFileSetFromOptions - reads the two options; `help` describes the file. Collective. Errors: SAM_ERR_USER when
+  only the dataset is given.
+*/
 PETSC_EXTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[]);
 /*
-  SamFieldFileRead - reads the dataset into a field (one component). Collective. Errors: SAM_ERR_FILE, on all ranks alike,
-  for a file that cannot be read or is not HDF5, and for a dataset that is missing, of another shape than (ny, nx), not
-  of numbers, or with values that are not finite or too small.
+  SamFieldFileRead - reads the dataset into a field (one component); its rows are y. Collective. Errors: SAM_ERR_FILE
+  for a file that cannot be read or is not HDF5, and for a dataset that is missing, has another shape than (ny, nx),
+  does not hold numbers, or has values that are not finite or below the limit.
 */
 PETSC_EXTERN PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec field);
 

@@ -1,4 +1,4 @@
-/* What the shapes and the class of gaps share. */
+/* The inside of SamGap, for those who add a shape: src/problem/gap/sphere.c is the shortest example. */
 #ifndef PETSAM_GAPIMPL_H
 #define PETSAM_GAPIMPL_H
 
@@ -6,12 +6,12 @@
 #include <petsam/gap.h>
 #include <petsam/private/fieldfile.h>
 
-#define SAM_GAP_PARAMETERS 4 /* the most that a shape may have */
+#define SAM_GAP_PARAMETERS 4 /* most parameters of a shape */
 
-/* A number that defines a shape; all are required. */
+/* A number that defines a shape, read from a required option. */
 typedef struct {
-  const char *name; /* of the option, without dash */
-  const char *help;
+  const char *name; /* of the option, without dash and prefix */
+  const char *help; /* what it is, with its unit */
   SamRange    range;
 } SamGapParameter;
 
@@ -20,11 +20,11 @@ struct _n_SamGap {
   MPI_Comm     comm;
   char         type[64], prefix[64];
   PetscReal    values[SAM_GAP_PARAMETERS];
-  SamFieldFile source; /* of type file */
-  SamFieldFile rough;  /* added to any; no file: none */
+  SamFieldFile source; /* the separation, for type `file` */
+  SamFieldFile rough;  /* roughness, added to any type; empty file name: none */
   /*
-    what the type sets: its parameters, and height(), the separation (m) at a point (m), a pure function; or, where
-    that is not enough, methods that read options and fill a field
+    What the type sets: its parameters, and height(), a pure function that returns the separation (m) at a point (m).
+    Where this is not enough, methods of its own that read options and fill a field.
   */
   struct {
     PetscInt               count;
