@@ -1,31 +1,31 @@
 /*
   The check of a solution, which trusts no solver.
 
-  Elastic displacements are computed anew from the tractions, in double precision and on the whole grid, gap and slip
-  from their definitions, the bound of the shear from the pressure. What they violate is measured relative to the
-  solution's own scales; the formulas stand in contact.h.
+  Elastic displacements are recomputed from the tractions, in double precision and on the whole grid; gap and slip from
+  their definitions; the bound of the shear from the pressure. The errors are relative to the solution's own scales, by
+  the formulas in contact.h.
 */
 #include "contactimpl.h"
 #include <math.h>
 
-/* What pressure displaces tangentially, and shear normally. */
+/* Adds the tangential displacement by the pressure, and the normal displacement by the shear. */
 static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const SamSolution *s)
 {
-  Vec more;
+  Vec u;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(grid, 1, &more));
-  PetscCall(SamElasticityApplyTangentialToNormal(elasticity, s->shear, more));
-  PetscCall(VecAXPY(s->displacement_z, 1, more));
-  PetscCall(VecDestroy(&more));
-  PetscCall(SamGridCreateVec(grid, 2, &more));
-  PetscCall(SamElasticityApplyNormalToTangential(elasticity, s->pressure, more));
-  PetscCall(VecAXPY(s->displacement_t, 1, more));
-  PetscCall(VecDestroy(&more));
+  PetscCall(SamGridCreateVec(grid, 1, &u));
+  PetscCall(SamElasticityApplyTangentialToNormal(elasticity, s->shear, u));
+  PetscCall(VecAXPY(s->displacement_z, 1, u));
+  PetscCall(VecDestroy(&u));
+  PetscCall(SamGridCreateVec(grid, 2, &u));
+  PetscCall(SamElasticityApplyNormalToTangential(elasticity, s->pressure, u));
+  PetscCall(VecAXPY(s->displacement_t, 1, u));
+  PetscCall(VecDestroy(&u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u_z unless it is known, u_t, and what each traction adds to the other's where they are coupled. */
+/* u_z unless it is known, and u_t, both with the coupling. */
 static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s)
 {
@@ -51,7 +51,7 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
 
 enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
 
-/* Largest of each kind in a row, but for the edge; a value that is not a number makes the gap infinite. */
+/* Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. */
 SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict g,
                                      const double *restrict u, double max[COUNT])
 {
@@ -75,7 +75,7 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
   max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], displacement);
 }
 
-/* Largest pressure of a row's cells at the grid's border. */
+/* The largest pressure in those cells of a row that lie at the grid's border. */
 static double EdgeOfRow(SamGrid grid, PetscInt j, const double p[])
 {
   const PetscInt row  = grid->row_start + j;
@@ -112,7 +112,7 @@ static PetscErrorCode CheckNormal(SamGrid grid, Vec separation, const SamSolutio
   PetscCall(SamMax(grid->comm, COUNT, max));
   check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
   check->normal = max[TENSION] > 0 ? max[TENSION] / PetscMax(max[PRESSURE], max[TENSION]) : 0;
-  /* without contact there is no displacement: then the openings are the measure */
+  /* without contact there is no displacement: the largest opening is the scale then */
   if (max[GAP] > 0) {
     const double scale = max[DISPLACEMENT] > 0 ? max[DISPLACEMENT] : max[OPENING];
 
@@ -121,12 +121,15 @@ static PetscErrorCode CheckNormal(SamGrid grid, Vec separation, const SamSolutio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sums over cells: squares of the residual, of q, of D(q - ds/c) and of the bound; largest |q| - mu p, and mu p. */
+/*
+  Over the cells: sums of the squares of the residual, of q, of D(q - ds/c), and of the least scale of the residual, a
+  part of the bound; the largest |q| - mu p, and the largest mu p. The first four are read as an array.
+*/
 typedef struct {
   double residual, shear, projected, least, over, most;
 } TangentialSums;
 
-/* One row: its shear, bound and slip increment as pairs of rows x, y. */
+/* The sums of one row, from its bound, its shear and its slip increment (x, y); `inverse` is 1/c. */
 SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *restrict bound, const double *const q[2],
                                                    const double *const ds[2], double inverse)
 {
@@ -149,7 +152,7 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
   return (TangentialSums){residual, shear, projected, least, over, most};
 }
 
-/* The bound of the shear that the check goes by: of the pressure's positive part. */
+/* The bound of the shear, recomputed from the pressure; where that is negative the bound is 0. */
 static PetscErrorCode CreateBound(SamProblem problem, const SamSolution *s, Vec *bound)
 {
   SamGrid grid;
@@ -220,7 +223,7 @@ static PetscErrorCode CheckTangential(SamProblem problem, const SamSolution *bef
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Errors of the force-controlled loads of one kind. */
+/* Relative errors of the given loads of one kind; see SamCheck for their scales. */
 static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Vec traction, SamCheck *check)
 {
   PetscReal loads[3], total;

@@ -1,9 +1,10 @@
-/* The contact's class: what the user sets, and steps that are tried, then committed or rejected. */
+/* The class SamContact: its settings, and steps that are tried, then committed or rejected. */
 #include "contactimpl.h"
 #include <math.h>
 
 /*
-  The check may see what the solvers' recursions do not: rounding. Its limits are the tolerances with this on top.
+  The check also sees rounding, which the solvers' recurrences do not show. So its limits are the solvers' tolerances
+  times a margin; equilibrium and cone, which solvers meet to rounding, have limits of their own.
 */
 #define CHECK_MARGIN      1.05
 #define CHECK_EQUILIBRIUM 1e-10
@@ -67,9 +68,9 @@ PetscErrorCode SamContactSetCoupling(SamContact c, PetscBool full, PetscReal rto
 {
   PetscFunctionBegin;
   PetscCheck(rtol == PETSC_DEFAULT || rtol > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "A coupling tolerance of %g: expected a number > 0", (double)rtol);
+             "coupling tolerance rtol = %g: expected a number > 0", (double)rtol);
   PetscCheck(max_it == PETSC_DEFAULT || max_it > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "%" PetscInt_FMT " passes: expected at least 1", max_it);
+             "coupling passes max_it = %" PetscInt_FMT ": expected at least 1", max_it);
   c->coupling = full;
   if (rtol != PETSC_DEFAULT) c->coupling_rtol = rtol;
   if (max_it != PETSC_DEFAULT) c->coupling_max_it = max_it;
@@ -155,7 +156,7 @@ PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
 
 /* ---- a step ---- */
 
-/* Areas of contact and stick, and the work of friction in this step, -sum q.(s - s_before) dA. */
+/* Areas of contact and of stick, and the frictional work of this step, -sum q.(s - s_before) dA. */
 static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
 {
   const SamSolution *s     = &c->tried.solution;
@@ -206,7 +207,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(c->normal, &limits.normal, NULL));
   PetscCall(SamSolverGetTolerances(c->tangential, &limits.tangential, NULL));
-  /* the last shear is one pass younger than the pressure */
+  /* the shear was solved after the pressure, so the pressure does not know its last change */
   if (SamContactIsCoupled(c)) limits.normal += c->coupling_rtol;
   limits.normal *= CHECK_MARGIN;
   limits.tangential *= CHECK_MARGIN;
@@ -219,7 +220,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses a control that is not one; where there are no rotations they are held at 0. */
+/* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
   PetscFunctionBegin;
@@ -229,7 +230,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
     PetscCheck(isfinite(control->value[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
     if (k < SAM_COMPONENT_MX || c->traits.rotations) continue;
     PetscCheck(control->value[k] == 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-               "%s = %g: these bodies are periodic, which neither moments nor rotations are", name,
+               "%s = %g: expected 0: moments and rotations have no meaning for periodic bodies", name,
                (double)control->value[k]);
     control->force[k] = PETSC_FALSE;
   }
@@ -238,12 +239,12 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %g: expected a number >= 0", (double)control->friction_scale);
   for (PetscInt k = 0; k < 3; k++)
-    PetscCheck(isfinite(control->stretch[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "A stretch of %g",
-               (double)control->stretch[k]);
+    PetscCheck(isfinite(control->stretch[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+               "stretch[%" PetscInt_FMT "] = %g: expected a finite number", k, (double)control->stretch[k]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The elasticity as the committed state had it: what a try has changed of it must not be seen by the next one. */
+/* Makes the elasticity use the committed state's part of the grid again: a rejected try must leave no trace. */
 static PetscErrorCode RestoreWindow(SamContact c)
 {
   PetscFunctionBegin;
@@ -251,7 +252,7 @@ static PetscErrorCode RestoreWindow(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the committed pressure is that of the next step too: its control and its gap are the same, and no shear acts on it. */
+/* Whether the next step has the committed pressure: same normal control, same gap, and no shear that acts on it. */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
   PetscObjectState revision;
@@ -269,14 +270,15 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The check and the numbers of the tried solution. */
+/* Checks the tried solution and fills in the numbers of the step. */
 static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *step)
 {
   SamSolution       *s      = &c->tried.solution;
   const SamSolution *before = c->steps ? &c->committed.solution : NULL;
 
   PetscFunctionBegin;
-  if (!c->steps) SamReturnMemory(); /* of the nested grids: takes the peak from 99 to 90 MB at 512 x 512 cells */
+  /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */
+  if (!c->steps) SamReturnMemory();
   PetscCall(SamSolutionCreateDisplacements(c->grid, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(before->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->coupling, same_pressure, before, s, &step->check));
@@ -287,7 +289,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution what was not given is not known. */
+/* Without a solution only the prescribed loads and displacements are known. */
 static void SetUnknown(SamStep *step)
 {
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {

@@ -5,11 +5,11 @@
 #include <petsam/private/balanceimpl.h>
 #include <petsam/contact.h>
 
-/* A solution and what else belongs to the state it makes. */
+/* A solution, and what else later steps depend on. */
 typedef struct {
   SamSolution      solution;
-  PetscObjectState gap_revision;                 /* of the gap that the pressure was found with */
-  PetscInt         window_first[2], window_n[2]; /* part of the grid that the solvers worked on last; n = 0: none */
+  PetscObjectState gap_revision;                 /* of the gap that the pressure was solved with; -1: another gap */
+  PetscInt         window_first[2], window_n[2]; /* part of the grid that the solvers worked on: cells; n = 0: all */
 } SamContactMark;
 
 struct _n_SamContact {
@@ -19,15 +19,15 @@ struct _n_SamContact {
   PetscReal coupling_rtol;
   PetscInt  coupling_max_it;
   PetscBool coupling_monitor, print_check;
-  /* what it is made of */
+  /* its parts */
   SamProblem          problem;
-  SamElasticity       elasticity; /* the problem's; borrowed */
-  SamGrid             grid;       /* likewise */
+  SamElasticity       elasticity; /* of the problem; borrowed */
+  SamGrid             grid;       /* of the problem; borrowed */
   SamElasticityTraits traits;
   SamNormal           normal;
   SamTangential       tangential;
   /* its states */
-  PetscInt       steps;     /* committed so far */
+  PetscInt       steps;     /* number of committed steps */
   SamContactMark committed; /* after the last of them */
   SamSolution    before;    /* one step back: tractions only */
   SamContactMark tried;
@@ -36,32 +36,32 @@ struct _n_SamContact {
 
 /* ---- states (state.c) ---- */
 
-/* SamSolutionCreate, SamSolutionDestroy - the fields of a solution, zero, without displacements. Collective. */
+/* SamSolutionCreate - the fields of a solution, all zero, without the displacements. Collective. */
 PETSC_INTERN PetscErrorCode SamSolutionCreate(SamGrid grid, SamSolution *solution);
 /*
-  SamSolutionCreateDisplacements - its displacements, zero, unless it has them. They are made when they are first needed:
-  in the first step that is after the solvers, whose memory they take. Collective.
+  SamSolutionCreateDisplacements - adds the displacements, zero, unless the solution has them. Called as late as
+  possible: in the first step they then use the memory that the solvers have freed. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionCreateDisplacements(SamGrid grid, SamSolution *solution);
 PETSC_INTERN PetscErrorCode SamSolutionDestroy(SamSolution *solution);
-/* SamVecCopyNonzero - copies a field; what is zero in both stays unwritten, and takes no memory. Collective. */
+/* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */
 PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
 
-/* The three components of one kind, as the solvers take them. */
+/* The normal or the tangential components of a control, as the solvers take them. */
 PETSC_INTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind);
-/* Puts a balance's loads and rigid displacements to their places among the six. */
+/* Copies a balance's loads and rigid displacements into arrays of all six components. */
 PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
-/* Whether the components of one kind are prescribed the same. */
+/* Whether two controls prescribe the same for the components of one kind. */
 PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
-/* The six components' numbers of one kind. */
+/* The SamComponents of each SamBalanceKind. */
 PETSC_INTERN const PetscInt SamComponentsOf[2][3];
 
 /*
-  SamMotion - what is taken off a solution's elastic displacements to make its gap and its slip: rigid displacements,
-  less the stretch. In a row of cells each is a + b xi.
+  SamMotion - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
+  displacement minus the stretch. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
 */
 typedef struct {
-  SamFrame  normal, tangential; /* with all displacements given */
+  SamFrame  normal, tangential; /* frames with all rigid displacements given */
   PetscReal stretch[3];
 } SamMotion;
 typedef struct {
@@ -70,7 +70,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamGrid grid, const SamSolution *solution);
 PETSC_INTERN SamMotionRow   SamMotionOfGap(const SamMotion *motion, PetscInt j);
 PETSC_INTERN SamMotionRow   SamMotionOfSlip(const SamMotion *motion, PetscInt component, PetscInt j);
-/* value = u - a - b xi of a row of the grid. */
+/* value = u - a - b xi along a row of the grid. */
 PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, const double u[], double value[]);
 /* value = u + h - a - b xi. */
 PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
@@ -80,14 +80,15 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSoluti
                                                    double slip[]);
 
 /*
-  SamIncrement - the slip of a step, row by row: that of a solution less that of the one before (NULL: none). Compute puts
-  row j of both components, m, to row[0] and row[1]. Creation and destruction are collective.
+  SamIncrement - the slip of a step: the slip of a solution minus that of the previous one (NULL: no slip so far).
+  ComputeRow writes the slip (m) along x and y of this rank's row j to row[0] and row[1]. Creation and destruction are
+  collective.
 */
 typedef struct {
   SamGrid       grid;
   SamMotion     now, before;
   Vec           v_now, v_before;
-  const double *u_now, *u_before; /* elastic displacements; u_before NULL: nothing has slipped */
+  const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double       *row[2], *scratch;
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamGrid grid, const SamSolution *before, const SamSolution *now,
@@ -103,24 +104,28 @@ static inline PetscBool SamContactIsCoupled(SamContact c)
   return (c->traits.coupled && c->coupling) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* How the tried step starts. */
+/* The guess from which a step is solved. */
 typedef struct {
-  PetscBool pressure, shear; /* the tried solution holds a start of the pressure; of the shear */
-  double    rigid[3];        /* start of the tangential rigid displacements */
+  PetscBool pressure, shear; /* whether the tried solution holds a guess of the pressure; of the shear */
+  double    rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
 } SamStepStart;
 
-/* SamContactPredict - the start of a step, and whether there is one (predict.c). Collective. */
+/* SamContactPredict - makes the guess for a step, where the steps before allow one (predict.c). Collective. */
 PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStepStart *start);
-/* SamFollowPressure - scales a shear that belonged to one pressure to another: what slips goes on slipping. */
+/*
+  SamFollowPressure - scales a shear by the change of the pressure from `pressure_before`, cell by cell: cells that slip
+  go on slipping.
+*/
 PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear);
 
 /*
-  SamContactSolveStep - solves the tried step's problems, in turn when they are coupled, from its start; what fails is in
-  the step's status (step.c). `same_pressure`: the pressure is that of the committed state. Collective.
+  SamContactSolveStep - solves the normal and the tangential problem of the tried step, in turn when they are coupled.
+  Failures are reported in the step's status (step.c). `same_pressure`: the pressure is that of the committed state and
+  not solved again. Collective.
 */
 PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamStepStart *start, PetscBool same_pressure,
                                                 SamStep *step);
-/* SamStepFail - the first failure stays: what comes after it follows from it. */
+/* SamStepFail - sets status and message unless the step has failed already: later failures follow from the first. */
 PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
 
 #endif

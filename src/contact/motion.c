@@ -1,8 +1,8 @@
 /*
-  What follows from a solution: the gap u_z + h - rigid, the slip u_t + stretch - rigid, the state of each cell.
+  Fields that follow from a solution: the gap u_z + h - rigid, the slip u_t + stretch - rigid, the state of each cell.
 
-  They are computed when they are wanted, row by row, and by these functions alone: so they are the same to the last bit
-  in the check, in the next step's problem and in the results.
+  They are not stored, but computed row by row where they are needed, always by these functions: so they are the same to
+  the last bit in the check, in the next step and in the results.
 */
 #include "contactimpl.h"
 
@@ -26,7 +26,7 @@ SamMotionRow SamMotionOfGap(const SamMotion *m, PetscInt j)
   return (SamMotionRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
 }
 
-/* The stretch moves a point at (x, y) by (xx x + xy y, xy x + yy y). */
+/* The rigid displacement minus the stretch, which moves a point at (x, y) by (xx x + xy y, xy x + yy y). */
 SamMotionRow SamMotionOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
 {
   const SamGrid    grid = m->tangential.grid;
@@ -126,13 +126,13 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
 PetscErrorCode SamContactComputeSlip(SamContact c, PetscInt component, Vec slip)
 {
   const SamSolution *s;
-  double            *values;
+  double            *slips;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(VecGetArrayWrite(slip, &values));
-  PetscCall(SamSolutionComputeSlip(c->grid, s, component, values));
-  PetscCall(VecRestoreArrayWrite(slip, &values));
+  PetscCall(VecGetArrayWrite(slip, &slips));
+  PetscCall(SamSolutionComputeSlip(c->grid, s, component, slips));
+  PetscCall(VecRestoreArrayWrite(slip, &slips));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

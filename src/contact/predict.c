@@ -1,31 +1,35 @@
 /*
-  The start of a step.
+  The guess from which a step is solved.
 
-  Where what is controlled goes on as it went in the last step, the tractions are extrapolated, and the finest grid
-  alone finishes the work in a few iterations. Where it turns, nested grids find the new slip zones faster.
+  When the prescribed values go on as they did in the last step, the tractions are extrapolated, and a few iterations on
+  the finest grid finish the work. When they turn, nested grids find the new slip zones faster.
 
-  At the edge of the contact the pressure, and at the edge of the stick zone what the shear lacks of the bound, go to
-  zero like the square root of the distance. Edges move: extrapolating p or q cell by cell would be wrong by a part of
-  the order of one wherever an edge passes. Their squares are linear in the position of the edge, and where the
-  extrapolated square is negative the edge has passed. So p^2 is extrapolated, and for q/(mu p), which moves in the unit
-  disc, the square of the distance to the disc's edge in the direction in which it moved in the last step. On the edge,
-  where cells slip, it goes on along it.
+  Near the edge of the contact the pressure goes to zero like the square root of the distance from the edge; so does
+  mu p - |q| near the edge of the stick zone. Edges move, and extrapolating p or q themselves would give relative errors
+  of order one where an edge passes. Their squares are linear in the position of the edge, and a negative extrapolated
+  square means that the edge has passed. So p^2 is extrapolated. The ratio q/(mu p) moves in the unit disc; for it, the
+  square of its distance to the circle is extrapolated, measured in the direction of its last change. In cells that
+  slip, where the ratio lies on the circle, it goes on along the circle.
 */
 #include "contactimpl.h"
 #include <math.h>
 
-/* The change of a step is predicted when it is across the last one's by at most this part, and so many times as far. */
+/*
+  A step is extrapolated when the part of its change across that of the last step is at most PREDICT_ACROSS, relative to
+  the whole change, and the part along it at most PREDICT_FARTHEST times as long as that of the last step.
+*/
 #define PREDICT_ACROSS   0.3
 #define PREDICT_FARTHEST 3.0
 
-/* A cell is on its circle from this part of the bound on. */
+/* A cell counts as slipping where |q| is at least this part of the bound. */
 #define ON_CIRCLE (1 - 1e-7)
 
-/* ---- how far the change goes on ---- */
+/* ---- how far to extrapolate ---- */
 
 /*
-  The factor alpha by which the change to the next step goes on along the one before, when what is controlled changes in
-  nearly the same proportions (component by component, in units of the largest value so far), else 0.
+  The length alpha of the change to the next step along the last change, in units of the last change; 0 when the
+  prescribed values do not change in nearly the same proportions. Each component is scaled by its largest value in the
+  three steps.
 */
 static double Continuation(const SamControl *before, const SamControl *now, const SamControl *next)
 {
@@ -44,22 +48,22 @@ static double Continuation(const SamControl *before, const SamControl *now, cons
   }
   if (old == 0 || along <= 0) return 0;
   alpha = along / old;
-  /* what is left of the change across the old one, relative */
+  /* |change|^2 - alpha along is the square of the part across the last change */
   return (change - alpha * along <= PREDICT_ACROSS * PREDICT_ACROSS * change && alpha <= PREDICT_FARTHEST) ? alpha : 0;
 }
 
 /* ---- extrapolation ---- */
 
-/* p, bound, q_x and q_y of the step before, of the last and of the next one; coefficients of friction of the next one. */
+/* p, bound, q_x and q_y one step back, in the last step and in the next one; friction of the next one. */
 enum { P, B, X, Y, FIELDS };
 typedef struct {
   const double *before[FIELDS], *now[FIELDS];
   double       *next[FIELDS]; /* without the bound */
-  const double *friction;     /* NULL: the number `coefficient` */
+  const double *friction;     /* a field; NULL: the number `coefficient` */
   double        coefficient, scale;
 } Tractions;
 
-/* One row's cells first ... last - 1 of the next p and q; `mu`: their coefficients. */
+/* The next p and q of n cells from index k on; `mu`: their coefficients of friction, scaled. */
 SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, ptrdiff_t k, PetscInt n, const double *mu)
 {
   const double *restrict p0 = t->before[P] + k, *restrict b0 = t->before[B] + k, *restrict qx0 = t->before[X] + k,
@@ -78,8 +82,9 @@ SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, pt
                  way2 = x * x + y * y, n2 = rx * rx + ry * ry;
     const double moves = way2 > 0 ? 1 : 0, inside = n2 < ON_CIRCLE * ON_CIRCLE ? 1 : 0, way = sqrt(way2),
                  along = (rx * x + ry * y) / (way + (1 - moves)), rest = along * along + 1 - n2;
-    const double left = sqrt(rest > 0 ? rest : 0) - along, last = left + way,
-                 left2 = (1 + alpha) * left * left - alpha * last * last, go = left - sqrt(left2 > 0 ? left2 : 0);
+    const double left = sqrt(rest > 0 ? rest : 0) - along, left_before = left + way,
+                 left2 = (1 + alpha) * left * left - alpha * left_before * left_before,
+                 go    = left - sqrt(left2 > 0 ? left2 : 0);
     const double part = inside > 0 ? moves * go / (way + (1 - moves)) : alpha, vx = rx + part * x, vy = ry + part * y,
                  v2    = vx * vx + vy * vy;
     const double scale = friction[i] * pressure * (inside > 0 ? 1 : 1 / sqrt(v2 > 0 ? v2 : 1));
@@ -90,7 +95,7 @@ SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, pt
   }
 }
 
-/* Row j where there is or was pressure; returns the largest pressure. Elsewhere p and q of the next step are zero. */
+/* Extrapolates row j where there is or was pressure, and zeroes the rest. Returns the largest pressure of the row. */
 static double ExtrapolateRow(const Tractions *t, SamGrid grid, double alpha, PetscInt j, double mu[])
 {
   const PetscInt  nx = grid->nx;
@@ -132,7 +137,7 @@ static PetscErrorCode RestoreTractions(const SamSolution *s, const double *field
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The next pressure and shear, alpha times as far on as the last step went; `found`: there is contact. */
+/* Extrapolates pressure and shear by alpha times their last change; `found`: there is contact. */
 static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_scale, PetscBool *found)
 {
   const SamSolution *before = &c->before, *now = &c->committed.solution, *next = &c->tried.solution;
@@ -163,7 +168,7 @@ static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_sc
 
 /* ---- the start ---- */
 
-/* The pressure goes on from the last one where only the gap has changed since. */
+/* The committed pressure as the guess, for a step in which only the gap has changed. */
 static PetscErrorCode StartFromLastPressure(SamContact c, SamStepStart *start)
 {
   PetscReal most;

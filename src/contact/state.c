@@ -1,4 +1,4 @@
-/* Solutions and states: their fields, what follows from them, and taking a state out and putting it back. */
+/* Solutions and states: their fields, and getting and setting the committed state. */
 #include "contactimpl.h"
 #include <string.h>
 
@@ -130,7 +130,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Copies a solution, of which the fields `to` has are wanted. */
+/* Copies a solution into one that keeps its own vectors; displacements only where `to` has them. */
 static PetscErrorCode CopySolution(const SamSolution *from, SamSolution *to)
 {
   SamSolution own = *to;
@@ -157,7 +157,8 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
   PetscFunctionBegin;
   PetscCheck(s->steps >= 0 && s->now.pressure && s->now.bound && s->now.shear && s->now.displacement_z &&
                s->now.displacement_t && (s->steps < 2 || (s->before.pressure && s->before.bound && s->before.shear)),
-             c->grid->comm, PETSC_ERR_ARG_INCOMP, "The state lacks fields");
+             c->grid->comm, PETSC_ERR_ARG_INCOMP,
+             "The state is incomplete: it lacks tractions, displacements, or the tractions one step back");
   PetscCall(SamContactReject(c));
   PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
   PetscCall(CopySolution(&s->now, &c->committed.solution));
@@ -166,6 +167,6 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
   PetscCall(PetscArraycpy(c->committed.window_first, s->window_first, 2));
   PetscCall(PetscArraycpy(c->committed.window_n, s->window_n, 2));
   PetscCall(SamProblemGetGapRevision(c->problem, &revision));
-  c->committed.gap_revision = s->gap_is_current ? revision : -1; /* no revision: found with another gap */
+  c->committed.gap_revision = s->gap_is_current ? revision : -1; /* -1: solved with another gap */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,10 +1,10 @@
 /*
   The solution of one load step.
 
-  Similar materials: the normal problem does not know the shear, so one pass solves the step. Dissimilar materials:
-  pressure moves the surfaces tangentially and shear moves them normally. The two problems are solved in turn, each with
-  the displacement that the other's traction causes, until neither traction changes (Panagiotopoulos 1975, Ing.-Arch.
-  44, 421).
+  Similar materials: the pressure does not depend on the shear, so one pass, the normal and then the tangential problem,
+  solves the step. Dissimilar materials: pressure displaces the surfaces tangentially, and shear displaces them
+  normally. The two problems are then solved in turn, each with the displacement by the other's traction, until neither
+  traction changes (Panagiotopoulos 1975, Ing.-Arch. 44, 421).
 */
 #include "contactimpl.h"
 
@@ -14,10 +14,10 @@ typedef struct {
   SamSolution *s; /* the tried solution */
   SamStep     *step;
   PetscBool    coupled, same_pressure;
-  SamBalance   normal, tangential;        /* as given */
-  double       rigid[3];                  /* where the tangential rigid displacements start */
-  Vec          h;                         /* gap and u_z from q; coupled only */
-  Vec          last_pressure, last_shear; /* of the pass before; coupled only */
+  SamBalance   normal, tangential;                /* as prescribed */
+  double       rigid[3];                          /* guess of the tangential rigid displacements */
+  Vec          h;                                 /* separation plus u_z from q; coupled only */
+  Vec          previous_pressure, previous_shear; /* of the previous pass; coupled only */
 } Solve;
 
 static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step, Solve *w)
@@ -30,8 +30,8 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
   PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
   if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
-  PetscCall(SamGridCreateVec(c->grid, 1, &w->last_pressure));
-  PetscCall(SamGridCreateVec(c->grid, 2, &w->last_shear));
+  PetscCall(SamGridCreateVec(c->grid, 1, &w->previous_pressure));
+  PetscCall(SamGridCreateVec(c->grid, 2, &w->previous_shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -39,12 +39,12 @@ static PetscErrorCode End(Solve *w)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&w->h));
-  PetscCall(VecDestroy(&w->last_pressure));
-  PetscCall(VecDestroy(&w->last_shear));
+  PetscCall(VecDestroy(&w->previous_pressure));
+  PetscCall(VecDestroy(&w->previous_shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds what a solver's last solve took to the numbers of the step. */
+/* Adds the counts of a solver's last solve to those of the step. */
 static PetscErrorCode Count(SamSolver solver, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions)
 {
   PetscInt its, products, others;
@@ -59,7 +59,7 @@ static PetscErrorCode Count(SamSolver solver, PetscInt *iterations, PetscInt *ap
 
 /* ---- the normal problem ---- */
 
-/* Says which loads, or which approach, no pressure balances, and the limit. */
+/* The message for loads that no pressure balances, or for an approach that is too large, with the limit. */
 static PetscErrorCode DescribeImpossible(Solve *w, char message[], size_t size)
 {
   const SamGrid grid = w->c->grid;
@@ -102,7 +102,7 @@ static PetscErrorCode JudgeNormal(Solve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The pressure of the committed state, where nothing has changed for it. */
+/* Copies the pressure of the committed state, where nothing that it depends on has changed. */
 static PetscErrorCode TakePressure(Solve *w)
 {
   const SamSolution *from = &w->c->committed.solution;
@@ -118,7 +118,7 @@ static PetscErrorCode TakePressure(Solve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The separation as the normal problem sees it: with what the shear displaces. */
+/* The separation for the normal problem: the gap, plus the normal displacement by the shear. */
 static PetscErrorCode GetSeparation(Solve *w, PetscBool has_shear, Vec *h)
 {
   PetscFunctionBegin;
@@ -130,7 +130,7 @@ static PetscErrorCode GetSeparation(Solve *w, PetscBool has_shear, Vec *h)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `has_pressure`, `has_shear`: the solution holds a start of the one and the other. */
+/* `has_pressure`, `has_shear`: the tried solution holds a guess of the pressure; of the shear. */
 static PetscErrorCode SolveNormal(Solve *w, PetscBool has_pressure, PetscBool has_shear)
 {
   SamBalance balance   = w->normal;
@@ -157,7 +157,7 @@ static PetscErrorCode SolveNormal(Solve *w, PetscBool has_pressure, PetscBool ha
 
 /* ---- the tangential problem ---- */
 
-/* Says which loads slide, and their limit. */
+/* The message for gross slip: the tangential loads, and the limit of each in the same proportions. */
 static PetscErrorCode DescribeSliding(Solve *w, char message[], size_t size)
 {
   PetscReal factor;
@@ -275,21 +275,21 @@ static PetscErrorCode SolveTangential(Solve *w, PetscBool has_shear)
 
 /* ---- both ---- */
 
-/* Relative change of a traction since the pass before, which it then replaces. */
-static PetscErrorCode Change(SamGrid grid, Vec now, Vec last, PetscReal *change)
+/* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
+static PetscErrorCode Change(SamGrid grid, Vec now, Vec previous, PetscReal *change)
 {
   PetscReal norm;
 
   PetscFunctionBegin;
-  PetscCall(VecAYPX(last, -1, now));
-  PetscCall(SamGridNorm(grid, last, NORM_2, change));
+  PetscCall(VecAYPX(previous, -1, now));
+  PetscCall(SamGridNorm(grid, previous, NORM_2, change));
   PetscCall(SamGridNorm(grid, now, NORM_2, &norm));
   *change = *change > 0 ? *change / norm : 0;
-  PetscCall(VecCopy(now, last));
+  PetscCall(VecCopy(now, previous));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the passes end: tractions no longer change, or there are too many. */
+/* Whether the passes end: the tractions no longer change, or there have been too many passes. */
 static PetscErrorCode IsLastPass(Solve *w, PetscInt pass, PetscBool *last)
 {
   const SamContact c         = w->c;
@@ -297,8 +297,8 @@ static PetscErrorCode IsLastPass(Solve *w, PetscInt pass, PetscBool *last)
   char             message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(Change(c->grid, w->s->pressure, w->last_pressure, &change[0]));
-  PetscCall(Change(c->grid, w->s->shear, w->last_shear, &change[1]));
+  PetscCall(Change(c->grid, w->s->pressure, w->previous_pressure, &change[0]));
+  PetscCall(Change(c->grid, w->s->shear, w->previous_shear, &change[1]));
   if (c->coupling_monitor)
     PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass,
                           (double)change[0], (double)change[1]));
@@ -330,7 +330,7 @@ static PetscErrorCode SolvePasses(Solve *w, const SamStepStart *start)
     if (w->step->status == SAM_STATUS_CONVERGED)
       PetscCall(SolveTangential(w, has_shear));
     else
-      PetscCall(SamVecZero(w->s->shear)); /* there is none to this pressure */
+      PetscCall(SamVecZero(w->s->shear)); /* no shear has been solved for this pressure */
     w->step->coupling_iterations = pass;
     if (!w->coupled || !friction || w->step->status != SAM_STATUS_CONVERGED) break;
     PetscCall(IsLastPass(w, pass, &last));

@@ -1,4 +1,4 @@
-/* The verdict: what the check of a step found becomes its status. */
+/* The verdict: turns the errors that the check of a step found into its status and message. */
 #include "contactimpl.h"
 
 PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[])
@@ -10,7 +10,7 @@ PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Written so that a residual that is not a number disagrees too. */
+/* Written with <= so that a NaN is refused, too. */
 static PetscBool Agrees(const SamCheck *check, const SamCheckLimits *limits)
 {
   return (check->normal <= limits->normal && check->tangential <= limits->tangential &&
@@ -26,9 +26,12 @@ PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)
 
   PetscFunctionBegin;
   if (!Agrees(check, limits)) {
-    PetscCall(PetscSNPrintf(
-      message, sizeof(message), "the check disagrees: normal residual %g, tangential %g, equilibrium %g, cone %g",
-      (double)check->normal, (double)check->tangential, (double)check->equilibrium, (double)check->cone));
+    PetscCall(PetscSNPrintf(message, sizeof(message),
+                            "the check disagrees: normal residual %g (limit %g), tangential %g (%g), equilibrium %g "
+                            "(%g), cone %g (%g)",
+                            (double)check->normal, (double)limits->normal, (double)check->tangential,
+                            (double)limits->tangential, (double)check->equilibrium, (double)limits->equilibrium,
+                            (double)check->cone, (double)limits->cone));
     PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
   if (check->edge == 0 || step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
