@@ -1,4 +1,4 @@
-/* Start and end of the library, log events and small reductions. */
+/* Start and end of the library, log events, sums and maxima over the ranks. */
 #include <petsam/private/baseimpl.h>
 #include <fftw3-mpi.h>
 

@@ -1,9 +1,9 @@
 /*
-  Memory of large arrays, in large pages where the system has them: with small ones much of the time would go into
-  getting them, and into looking up addresses where columns touch every row.
+  Memory for large arrays, in large pages where the system has them. With small pages much time is lost in page faults,
+  and in address translation where columns touch every row.
 
-  Large arrays of zeros come from the system, which clears them when they are touched; what never is takes no memory.
-  All others are the C library's, which keeps what is freed for the next ones.
+  Large arrays of zeros are mapped from the system, which clears a page when it is first touched; untouched pages take no
+  memory. All other arrays come from the C library, which keeps freed memory for the next allocation.
 */
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>
@@ -14,10 +14,11 @@
   #include <malloc.h>
 #endif
 
-/* From this size on zeros come from the system: smaller arrays would be rounded up to its pages. */
+/* From this size (bytes) on, arrays of zeros are mapped; for smaller ones rounding up to pages would waste memory. */
 #define LARGE      ((size_t)8 << 20)
 #define LARGE_PAGE ((size_t)2 << 20)
 
+/* The mapped arrays, for SamFree() to know them. */
 typedef struct Mapped {
   void          *base;
   size_t         bytes;
@@ -33,7 +34,7 @@ static void UseLargePages(void *p, size_t bytes)
 #endif
 }
 
-/* The mapping begins at a large page: what is too much at both ends is given back. NULL: there is no memory. */
+/* Maps zeros that begin at a large page: maps more and unmaps the excess at both ends. NULL when there is no memory. */
 static void *MapZeros(size_t bytes)
 {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (bytes + page - 1) / page * page;

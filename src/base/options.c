@@ -1,9 +1,9 @@
 /*
-  Reading options so that a mistake is named.
+  Reading options, with errors that name the mistake.
 
-  PETSc's own getters accept trailing text in some places and answer a wrong value with a stack trace that does not say
-  which option was meant. Here the text is fetched and read as a whole, and the error names the option, the text and
-  what was expected.
+  PETSc's own functions accept trailing text in some places, and report a wrong value with a stack trace that does not
+  say which option was meant. Here the whole text must be a value, and the error names the option, the text and what was
+  expected.
 */
 #include <petsam/private/baseimpl.h>
 #include <errno.h>
@@ -36,8 +36,8 @@ PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[])
 }
 
 /*
-  A line of the help: name, kind of the value, what it is, and its default unless it must be given. A name that is too
-  long for its column has a line of its own.
+  A line of the help: name, kind of value, description, and the default unless the option is required. A name that is too
+  long for its column gets a line of its own.
 */
 #define HELP_COLUMN 40
 static PetscErrorCode PrintHelpLine(const SamOptions *from, const char name[], const char help[], const char kind[],
@@ -58,7 +58,7 @@ static PetscErrorCode PrintHelpLine(const SamOptions *from, const char name[], c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Fetches the text of an option; an option given without a value is an error. */
+/* Gets the text of an option; an option without a value is an error. */
 static PetscErrorCode GetText(const SamOptions *from, const char name[], const char expected[], char text[],
                               size_t size, PetscBool *set)
 {

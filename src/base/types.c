@@ -1,4 +1,4 @@
-/* Lists of registered types, as the help and messages name them. */
+/* Lists of registered types, for the help and for messages. */
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The six components and what is prescribed of them. */
+/* The names of the six components, and the control of a load step. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/control.h>
 #include <string.h>
@@ -31,5 +31,5 @@ PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal v
     control->value[k] = value;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "No load or displacement is named %s", name);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "%s is not the name of a load or displacement", name);
 }

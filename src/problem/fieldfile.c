@@ -1,8 +1,8 @@
 /*
-  Fields of (ny, nx) in HDF5 files.
+  Fields read from HDF5 datasets of shape (ny, nx).
 
-  A file may be wrong in many ways. Rank 0 looks at it with the serial driver and tells the others its verdict, so that
-  all raise the same error and none waits for another in a collective call; only then all read their rows together.
+  A file may be wrong in many ways. Rank 0 examines it with the serial driver and broadcasts its verdict. So all ranks
+  raise the same error, and none waits for another in a collective call. Only then all read their rows together.
 */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/fieldfile.h>
@@ -31,7 +31,7 @@ typedef struct {
   long long detail[2]; /* UNREADABLE: errno; WRONG_RANK: rank; WRONG_SHAPE: shape; NOT_FINITE, TOO_SMALL: row, column */
 } Verdict;
 
-/* HDF5 prints its own stack of errors unless told not to. */
+/* HDF5 prints its own error stack unless that is switched off; this holds what to restore. */
 typedef struct {
   H5E_auto2_t print;
   void       *data;
@@ -101,7 +101,7 @@ static Verdict JudgeDataset(SamGrid grid, hid_t dataset)
   return verdict;
 }
 
-/* Looks at the file, on one rank. */
+/* Examines the file, on one rank. */
 static Verdict Judge(const SamFieldFile *source, SamGrid grid)
 {
   Verdict     verdict = {GOOD, {0, 0}};
@@ -177,7 +177,7 @@ static PetscErrorCode CheckFile(const SamFieldFile *source, SamGrid grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Opens file and dataset on all ranks; what could not be opened is negative. */
+/* Opens file and dataset on all ranks; an identifier is negative where that failed. */
 static void Open(const SamFieldFile *source, SamGrid grid, hid_t *file, hid_t *dataset)
 {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
@@ -189,7 +189,7 @@ static void Open(const SamFieldFile *source, SamGrid grid, hid_t *file, hid_t *d
   if (access >= 0) (void)H5Pclose(access);
 }
 
-/* Reads this rank's rows, collectively: a rank without rows takes part with an empty selection. */
+/* Reads this rank's rows. Collective: a rank without rows takes part with an empty selection. */
 static PetscBool ReadRows(SamGrid grid, hid_t dataset, double array[])
 {
   const hsize_t start[2] = {(hsize_t)grid->row_start, 0}, count[2] = {(hsize_t)grid->rows, (hsize_t)grid->nx};
@@ -218,7 +218,7 @@ static PetscErrorCode Read(const SamFieldFile *source, SamGrid grid, double arra
   PetscFunctionBegin;
   Open(source, grid, &file, &dataset);
   bad = dataset < 0;
-  PetscCall(SamMax(grid->comm, 1, &bad)); /* before the collective read, in which a rank must not be missing */
+  PetscCall(SamMax(grid->comm, 1, &bad)); /* the read is collective: either all ranks take part in it or none */
   if (bad == 0) bad = ReadRows(grid, dataset, array) ? 0 : 1;
   if (dataset >= 0 && H5Dclose(dataset) < 0) bad = 1;
   if (file >= 0 && H5Fclose(file) < 0) bad = 1;
@@ -227,7 +227,7 @@ static PetscErrorCode Read(const SamFieldFile *source, SamGrid grid, double arra
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first value in the file's order that is not finite, or below the least. */
+/* Raises an error for the first value, in the file's order, that is not finite, or else for the first below `least`. */
 static PetscErrorCode CheckValues(const SamFieldFile *source, SamGrid grid, const double array[])
 {
   const long long none   = (long long)grid->nx * grid->ny;
@@ -248,7 +248,7 @@ static PetscErrorCode CheckValues(const SamFieldFile *source, SamGrid grid, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The errors of HDF5 are kept silent by the caller. */
+/* The caller has switched off HDF5's own error output. */
 static PetscErrorCode CheckAndRead(const SamFieldFile *source, SamGrid grid, Vec h)
 {
   PetscScalar *array;

@@ -1,4 +1,4 @@
-/* What is given of a contact, and the bound of the shear that follows from it. */
+/* The problem of a contact (elasticity, gap, friction), and the bound of the shear that follows from the friction. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/fieldfile.h>
 #include <petsam/problem.h>
@@ -8,10 +8,10 @@
 struct _n_SamProblem {
   PetscInt      references;
   SamElasticity elasticity;
-  SamGrid       grid; /* the elasticity's; borrowed */
-  Vec           gap;  /* PETSc counts its changes: that is its revision */
+  SamGrid       grid; /* of the elasticity; borrowed */
+  Vec           gap;  /* its revision is PETSc's object state, which grows with every change */
   PetscReal     friction;
-  Vec           field; /* of coefficients; NULL: the number counts */
+  Vec           field; /* coefficients of friction by cell; NULL: the number counts */
 };
 
 PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
@@ -89,7 +89,7 @@ PetscErrorCode SamProblemSetFriction(SamProblem p, PetscReal friction)
 {
   PetscFunctionBegin;
   PetscCheck(friction >= 0 && isfinite(friction), p->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "A coefficient of friction of %g: expected a number >= 0", (double)friction);
+             "coefficient of friction %g: expected a finite number >= 0", (double)friction);
   p->friction = friction;
   PetscCall(VecDestroy(&p->field));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -106,7 +106,7 @@ PetscErrorCode SamProblemSetFrictionField(SamProblem p, Vec friction)
   PetscCall(VecRestoreArrayRead(friction, &mu));
   PetscCall(SamSum(p->grid->comm, 1, &bad));
   PetscCheck(bad == 0, p->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "%.0f cells have a coefficient of friction that is not a number >= 0", bad);
+             "%.0f cells have a coefficient of friction that is not a finite number >= 0", bad);
   if (!p->field) PetscCall(SamGridCreateVec(p->grid, 1, &p->field));
   PetscCall(VecCopy(friction, p->field));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -156,7 +156,7 @@ PetscErrorCode SamProblemHasFriction(SamProblem p, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* scale * friction * pressure of n cells. Returns the sum, which is 0 where all are. */
+/* b = scale * mu * p for n cells. Returns the sum of b, to find rows without a bound. */
 SAM_VECTORIZED static double BoundRow(PetscInt n, const double *restrict p, const double *restrict mu, double scale,
                                       double *restrict b)
 {
@@ -188,7 +188,7 @@ PetscErrorCode SamProblemComputeBound(SamProblem p, PetscReal scale, Vec pressur
   for (ptrdiff_t k = 0; k < p->grid->cells; k += nx) {
     const double sum = BoundRow(nx, pressures + k, field ? field + k : number, scale, row);
 
-    /* rows without a bound stay unwritten: what is zero from the start takes no memory */
+    /* a row without a bound is not written to, so that untouched pages take no memory */
     if (sum != 0)
       PetscCall(PetscArraycpy(bounds + k, row, nx));
     else

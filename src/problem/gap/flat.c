@@ -1,4 +1,4 @@
-/* Two planes: h = 0. Of use with a roughness. */
+/* Two planes: h = 0. Useful with a roughness. */
 #include <petsam/private/gapimpl.h>
 
 static PetscReal Height_Flat(const PetscReal values[], PetscReal x, PetscReal y)

@@ -1,4 +1,4 @@
-/* The class of gaps: types, their parameters, roughness. The shapes are in files of their own. */
+/* The class SamGap: types, their parameters, roughness. Each shape is in a file of its own. */
 #include <petsam/private/gapimpl.h>
 #include <math.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static PetscErrorCode RegisterAll(void)
 PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap))
 {
   PetscFunctionBegin;
-  PetscCall(RegisterAll()); /* first, so that a type of the user's replaces one of the same name */
+  PetscCall(RegisterAll()); /* first, so that a user's type replaces ours of the same name */
   PetscCall(PetscFunctionListAdd(&SamGapList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -90,13 +90,14 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
   PetscCall(create(gap));
   PetscCheck(gap->ops.count <= SAM_GAP_PARAMETERS, gap->comm, PETSC_ERR_PLIB, "Gap type %s has more than %d parameters",
              type, SAM_GAP_PARAMETERS);
-  PetscCheck(gap->ops.height || gap->ops.fill, gap->comm, PETSC_ERR_PLIB, "Gap type %s set no method", type);
+  PetscCheck(gap->ops.height || gap->ops.fill, gap->comm, PETSC_ERR_PLIB, "Gap type %s sets neither height nor fill",
+             type);
   for (PetscInt k = 0; k < gap->ops.count; k++) gap->names[k] = gap->ops.parameters[k].name;
   PetscCall(PetscStrncpy(gap->type, type, sizeof(gap->type)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads what the type asks for; all of it is required, except while the help is printed. */
+/* Reads the options of the type, all of which are required, except while the help is printed. */
 static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
 {
   const SamOptions from = {gap->comm, gap->prefix};
@@ -115,7 +116,7 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lists the options of all types, and leaves a gap that needs none. */
+/* Lists the options of all types in the help, and leaves a flat gap, which needs no option. */
 static PetscErrorCode PrintTypes(SamGap gap)
 {
   const char **types;
@@ -173,7 +174,7 @@ static PetscErrorCode FillHeight(SamGap gap, SamGrid grid, Vec h)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A radius or a roughness out of all proportion to the grid may overflow. */
+/* The separation may overflow when a radius or the roughness is extreme for the grid. */
 static PetscErrorCode CheckFinite(SamGap gap, SamGrid grid, Vec h)
 {
   const PetscScalar *array;
@@ -182,12 +183,12 @@ static PetscErrorCode CheckFinite(SamGap gap, SamGrid grid, Vec h)
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(h, &array));
 #pragma omp simd reduction(+ : bad)
-  for (PetscInt k = 0; k < grid->cells; k++) bad += 0 * array[k]; /* which is no number when array[k] is not finite */
+  for (PetscInt k = 0; k < grid->cells; k++) bad += 0 * array[k]; /* NaN when array[k] is not finite */
   PetscCall(VecRestoreArrayRead(h, &array));
   bad = isnan(bad) ? 1 : 0;
   PetscCall(SamMax(grid->comm, 1, &bad));
   PetscCheck(bad == 0, gap->comm, SAM_ERR_USER,
-             "-gap_type %s: the separation is not finite everywhere on the grid: look at the values of its options",
+             "-gap_type %s: the separation is not finite everywhere on the grid: check the values of its options",
              gap->type);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,5 @@
 /*
-  Two spheres, by the paraboloid that touches them: h = (x^2 + y^2)/2R with 1/R = 1/R1 + 1/R2.
+  Two spheres in the parabolic approximation: h = (x^2 + y^2)/2R with 1/R = 1/R1 + 1/R2.
   K. L. Johnson, Contact Mechanics (Cambridge University Press, 1985), eq. 4.3 with equal radii of curvature.
 */
 #include <petsam/private/gapimpl.h>
