@@ -2,8 +2,8 @@
   Memory for large arrays, in large pages where the system has them. With small pages much time is lost in page faults,
   and in address translation where columns touch every row.
 
-  Large arrays of zeros are mapped from the system, which clears a page when it is first touched; untouched pages take no
-  memory. All other arrays come from the C library, which keeps freed memory for the next allocation.
+  Large arrays of zeros are mapped from the system, which clears a page when it is first touched; untouched pages take
+  no memory. All other arrays come from the C library, which keeps freed memory for the next allocation.
 */
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>

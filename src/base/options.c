@@ -36,8 +36,8 @@ PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[])
 }
 
 /*
-  A line of the help: name, kind of value, description, and the default unless the option is required. A name that is too
-  long for its column gets a line of its own.
+  A line of the help: name, kind of value, description, and the default unless the option is required. A name that is
+  too long for its column gets a line of its own.
 */
 #define HELP_COLUMN 40
 static PetscErrorCode PrintHelpLine(const SamOptions *from, const char name[], const char help[], const char kind[],

@@ -1,17 +1,17 @@
 /*
-  The state of a contact in a file: SamContactState, what defines the contact, and a program's notes.
+  The state of a contact in a file: SamContactState, the parameters that define the contact, and a program's notes.
 
-  The fields are datasets (components, ny, nx), each with a checksum that does not depend on how its cells lie on the
-  ranks; all else is attributes of the root, over which HDF5 itself keeps checksums in the format used here.
+  The fields are datasets of shape (components, ny, nx), each with a checksum that does not depend on the number of
+  ranks. All else is stored as attributes of the root group; HDF5 keeps checksums of these in the format used here.
 */
 #include "ioimpl.h"
 #include <petsam/checkpoint.h>
 #include <string.h>
 
-#define FORMAT  2  /* of this file's content */
-#define NUMBERS 29 /* of a solution: control, loads, displacements */
+#define FORMAT  2  /* version of a checkpoint's contents */
+#define NUMBERS 29 /* numbers of a solution: control, loads, rigid displacements */
 
-/* The fields and what they are called. Those of the step before the last are missing while there is none. */
+/* The fields and their names in the file. Those one step back are missing before the second step. */
 static const struct {
   const char *name;
   PetscInt    components;
@@ -33,7 +33,7 @@ static Vec *FieldOf(SamContactState *state, PetscInt k)
 
 /* ---- checksums ---- */
 
-/* The finalizer of MurmurHash3 (A. Appleby, public domain): all bits of x act on all bits of the result. */
+/* The finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects every bit of the result. */
 static uint64_t Mix(uint64_t x)
 {
   x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
@@ -49,7 +49,7 @@ static uint64_t Bits(double value)
   return bits;
 }
 
-/* A sum over the cells, each mixed with its place, so that the order of the summation does not count. */
+/* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
 PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum)
 {
   const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,
@@ -210,7 +210,7 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 
 /* ---- writing ---- */
 
-/* What is written or read, besides the state. */
+/* What is stored besides the state. */
 typedef struct {
   const SamParameters *parameters;
   PetscInt             n;
@@ -283,7 +283,7 @@ PetscErrorCode SamCheckpointCheckName(SamGrid grid, const char filename[])
 
 /* ---- reading ---- */
 
-/* Whether the file may be used by this contact; which parameter speaks against it. */
+/* Whether the file is of this version and has the same fixed parameters; if not, the message says what differs. */
 static PetscErrorCode IsUsable(SamFile f, const SamParameters *parameters, char message[], size_t size, PetscBool *good)
 {
   char *version = NULL;
@@ -339,7 +339,7 @@ static PetscErrorCode ReadAll(SamFile f, const Rest *rest, SamContactState *stat
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads a whole checkpoint; the vectors of the state are the caller's, also after an error. */
+/* Reads a checkpoint. The caller destroys the vectors of the state, also after an error. */
 static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *rest, SamContactState *state,
                                uint64_t *gap)
 {
@@ -356,7 +356,7 @@ static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* An error's first message, kept until it is known what else is to be said. */
+/* An error handler that keeps the first message (in `context`), to which advice may be added. */
 static PetscErrorCode Keep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                            PetscErrorType type, const char *message, void *context)
 {
@@ -368,7 +368,7 @@ static PetscErrorCode Keep(MPI_Comm comm, int line, const char *function, const 
   return code;
 }
 
-/* What to do about a file that cannot be read: name the one before it, if that can be. */
+/* Advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
 static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *rest, char advice[], size_t size)
 {
   SamContactState state;

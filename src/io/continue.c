@@ -1,38 +1,39 @@
 /*
   Results that go on where a run was stopped.
 
-  A run may have been killed in the middle of a step. What it has told of can be read (hdf5.c), but HDF5's indices may
-  be between two states, and nothing should be written into those. So unless the file was closed in order, the steps
-  that count are copied to a new one beside it, which is put in its place when it is whole.
+  A run may have been killed in the middle of a step. The steps that it has reported can be read (output.c), but HDF5's
+  indices may be in an inconsistent state, and nothing should be appended to those. So unless the file was closed
+  properly, the wanted steps are copied to a new file beside it, which replaces it when it is complete.
 */
 #include "ioimpl.h"
 #include <string.h>
 
-#define STEP_BYTES 4096 /* more than the numbers of a step take, and its part of HDF5's indices */
+#define STEP_BYTES 4096 /* more than the numbers of a step and its part of HDF5's indices take */
 
-/* What the file is to hold. */
+/* What the file must hold. */
 typedef struct {
   const SamParameters *parameters;
   hsize_t              steps;
   const PetscReal     *times; /* of these steps */
 } Wanted;
 
-/* What is found in the file. */
+/* What was found in the file. */
 typedef struct {
-  hsize_t        steps, saved; /* complete ones */
-  hsize_t        keep;         /* steps with fields among those that count */
-  PetscBool      whole;        /* closed in order, with these steps and no others */
+  hsize_t        steps, saved; /* complete steps, and complete steps with fields */
+  hsize_t        keep;         /* steps with fields among the wanted ones */
+  PetscBool      whole;        /* closed properly, with the wanted steps and no others */
   char           problem[256];
   PetscErrorCode code; /* of the problem */
 } Found;
 
+/* Notes the first problem. */
 static void Complain(Found *found, PetscErrorCode code, const char text[])
 {
   if (!found->code) (void)snprintf(found->problem, sizeof(found->problem), "%s", text);
   if (!found->code) found->code = code;
 }
 
-/* The least of the lengths of all series, and of all fields. */
+/* A step is complete when all series have it, and its fields when all of them have it. */
 static void CountSteps(SamOutput o, Found *found)
 {
   found->steps = found->saved = HSIZE_UNDEF;
@@ -43,28 +44,28 @@ static void CountSteps(SamOutput o, Found *found)
   found->saved = PetscMin(found->saved, SamOutputLength(o, o->time));
 }
 
-/* Times must be those of the load program, and say which fields belong to the steps that count. */
+/* Compares the times with those of the load program, and counts the fields that belong to the wanted steps. */
 static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, Found *found)
 {
   const hsize_t    steps = wanted->steps;
   const PetscReal *times = wanted->times;
-  double          *values;
+  double          *stored;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(PetscMax(steps, found->saved), &values));
-  SamOutputReadSeries(o, o->columns[0], H5T_NATIVE_DOUBLE, 0, steps, values);
+  PetscCall(PetscCalloc1(PetscMax(steps, found->saved), &stored));
+  SamOutputReadSeries(o, o->columns[0], H5T_NATIVE_DOUBLE, 0, steps, stored);
   for (hsize_t k = 0; k < steps; k++)
-    if (values[k] != (double)times[k])
-      Complain(found, SAM_ERR_USER, "its times are not those of the load program (-history, -steps)");
-  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, found->saved, values);
-  for (found->keep = 0; found->keep < found->saved && steps && values[found->keep] <= (double)times[steps - 1];
+    if (stored[k] != (double)times[k])
+      Complain(found, SAM_ERR_USER, "its times differ from those of the load program (-history, -steps)");
+  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, found->saved, stored);
+  for (found->keep = 0; found->keep < found->saved && steps && stored[found->keep] <= (double)times[steps - 1];
        found->keep++)
-    o->saved_time = values[found->keep];
-  PetscCall(PetscFree(values));
+    o->saved_time = stored[found->keep];
+  PetscCall(PetscFree(stored));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Looks at a file that is open. */
+/* Examines a file that is open. */
 static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
 {
   char   text[192];
@@ -88,7 +89,7 @@ static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Opens the file and looks at it. Errors leave nothing open. */
+/* Opens and examines the file. After an error nothing is open. */
 static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode, const SamOutputSettings *set,
                            const Wanted *wanted, SamOutput *output, Found *found)
 {
@@ -113,7 +114,7 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
 
 /* ---- copying ---- */
 
-/* The numbers of a step from the history. */
+/* Reads the numbers of a step from the history. */
 static void ReadStep(SamOutput o, hsize_t k, SamStep *step)
 {
   memset(step, 0, sizeof(*step));
@@ -141,7 +142,7 @@ static void ReadStep(SamOutput o, hsize_t k, SamStep *step)
   }
 }
 
-/* Where fields are copied from. */
+/* Gives SamOutputAppend() the fields of another file. */
 typedef struct {
   SamOutput output;
   hsize_t   index; /* of the saved step */
@@ -160,7 +161,7 @@ static PetscErrorCode GetFileValues(SamOutput to, PetscInt f, void *context, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step by step, as a run would write them. */
+/* Copies the steps one by one, as a run would write them. */
 static PetscErrorCode CopySteps(SamOutput from, hsize_t steps, hsize_t keep, SamOutput to, double cells[])
 {
   FileFields fields = {.output = from, .cells = cells};
@@ -179,12 +180,12 @@ static PetscErrorCode CopySteps(SamOutput from, hsize_t steps, hsize_t keep, Sam
     PetscCall(SamOutputAppend(to, &step, step.control.time, has ? GetFileValues : NULL, &fields));
     fields.index += has ? 1 : 0;
   }
-  PetscCall(SamFileBegin(from->f)); /* what failed in reading a field */
+  PetscCall(SamFileBegin(from->f)); /* raises what failed when a field was read */
   PetscCall(SamFileEnd(from->f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the first run was called with stays. */
+/* Keeps the command line of the first run. */
 static PetscErrorCode CopyOptions(SamOutput from, SamOutput to)
 {
   char *options = NULL;
@@ -227,7 +228,7 @@ static PetscBool HasOptional(SamOutput o)
   return PETSC_FALSE;
 }
 
-/* The steps that count, in a new file that takes the old one's place. */
+/* Copies the wanted steps to a new file, which replaces the old one. */
 static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const Wanted *wanted, hsize_t keep)
 {
   SamOutputSettings plain = *set;
@@ -253,7 +254,7 @@ static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, cons
 
 /* ---- going on ---- */
 
-/* The XDMF file anew: it may have been moved, or tell of steps that no longer count. */
+/* Writes the XDMF file again: it may be missing, or describe steps that are no longer there. */
 static PetscErrorCode RewriteXdmf(SamOutput o)
 {
   double *times;
@@ -269,7 +270,7 @@ static PetscErrorCode RewriteXdmf(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From now on the file counts as open, whatever ends the run. */
+/* Marks the file as not closed, in case the run is killed. */
 static PetscErrorCode MarkOpen(SamOutput o)
 {
   const int8_t closed = 0;

@@ -1,7 +1,7 @@
 /*
-  What the results hold: the fields of a saved step and the numbers of every step, each a line of a table.
+  The contents of the results: a table of the fields of a saved step, and a table of the numbers of every step.
 
-  A new field is a line and, unless the contact has it, a function that computes it; a new number is a line.
+  To add a field, add a line and a function that gets or computes it; to add a number, add a line.
 */
 #include "ioimpl.h"
 

@@ -1,10 +1,9 @@
 /*
   An HDF5 file that all ranks write or read together through MPI-IO.
 
-  Open MPI's collective writes, and HDF5 where it flushes its administration, may hang for ever when writing fails on
-  one rank alone. So what is likely to go wrong is found before MPI-IO sees it, on rank 0: a name that cannot be
-  written, and a disk or quota that is full, by allocating the space first. The file is then in order as it is, and can
-  be closed.
+  Open MPI's collective writes, and HDF5 when it flushes its metadata, may hang for ever if writing fails on one rank
+  only. So rank 0 looks for the likely failures before MPI-IO meets them: a name that cannot be written, and, by
+  allocating the space first, a full disk or quota. The file is then still consistent and can be closed.
 */
 #include "ioimpl.h"
 #include <errno.h>
@@ -16,7 +15,7 @@
 
 /* ---- errors ---- */
 
-/* HDF5 prints its own stack of errors unless told not to. */
+/* HDF5 prints its own error stack unless that is switched off. */
 static void Silence(SamFile f)
 {
   (void)SamFileNote(f, H5Eget_auto2(H5E_DEFAULT, &f->print, &f->print_data));
@@ -64,7 +63,7 @@ PetscErrorCode SamFileEnd(SamFile f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first entry of a walk upward through HDF5's errors is where it went wrong. */
+/* The first entry of an upward walk through HDF5's error stack is the cause. */
 static herr_t TakeReason(unsigned n, const H5E_error2_t *error, void *reason)
 {
   if (n == 0 && error->desc) (void)snprintf((char *)reason, sizeof(((SamFile)NULL)->reason), "%s", error->desc);
@@ -88,9 +87,9 @@ PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filena
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- looking at the file before HDF5 does, on one rank; these return an errno or 0 ---- */
+/* ---- before HDF5 uses the file, on rank 0; these return an errno or 0 ---- */
 
-/* Allocates this many bytes beyond the end of the file, which becomes that much longer if they are to be kept. */
+/* Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer, else it is as before. */
 static int Reserve(int file, off_t bytes, PetscBool keep)
 {
   struct stat    status;
@@ -100,7 +99,7 @@ static int Reserve(int file, off_t bytes, PetscBool keep)
   if (fstat(file, &status)) return errno;
 #if defined(__linux__)
   error = fallocate(file, 0, status.st_size, bytes) ? errno : 0;
-  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* part may be allocated */
+  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* after an error, a part may be allocated */
 #endif
   if (error != EOPNOTSUPP && error != ENOSYS) return error;
   if (fstatvfs(file, &space)) return errno;
@@ -118,18 +117,18 @@ static int ReserveInFile(const char filename[], off_t bytes)
   return close(file) && !error ? errno : error;
 }
 
-/* Whether a file of the name can be written; leaves an existing one as it is, and none that was not there. */
+/* Whether a file of the name can be written. Does not change an existing file, and removes one that it has created. */
 static int Probe(const char filename[])
 {
   struct stat status, link;
-  const int   exists = !stat(filename, &status), named = !lstat(filename, &link); /* a link may lead nowhere */
+  const int   exists = !stat(filename, &status), named = !lstat(filename, &link); /* a link may be dangling */
   int         file, error;
 
   if (exists && S_ISDIR(status.st_mode)) return EISDIR;
   if (exists && !S_ISREG(status.st_mode)) return EINVAL; /* a pipe would wait for its reader */
   file = open(filename, O_WRONLY | O_CREAT, 0666);
   if (file < 0) return errno;
-  error = Reserve(file, SAM_FILE_ADMINISTRATION, PETSC_FALSE);
+  error = Reserve(file, SAM_FILE_METADATA, PETSC_FALSE);
   if (close(file) && !error) error = errno;
   if (!named && unlink(filename) && !error) error = errno;
   return error;
@@ -152,21 +151,21 @@ PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
   int error = 0;
 
   PetscFunctionBegin;
-  if (f->rank == 0) error = ReserveInFile(f->filename, SAM_FILE_ADMINISTRATION + bytes);
+  if (f->rank == 0) error = ReserveInFile(f->filename, SAM_FILE_METADATA + bytes);
   PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the disk, on rank 0 ---- */
 
-/* What has been written to a file, or to a folder's list of names, goes to the disk; an errno or 0. */
+/* Flushes a file, or a folder's list of names, to the disk. Returns an errno or 0. */
 static int Sync(const char name[], int flags)
 {
   const int file = open(name, flags);
   int       error;
 
   if (file < 0) return errno;
-  error = fsync(file) && errno != EINVAL && errno != EROFS ? errno : 0; /* not every system can do it for folders */
+  error = fsync(file) && errno != EINVAL && errno != EROFS ? errno : 0; /* some systems cannot flush folders */
   return close(file) && !error ? errno : error;
 }
 
@@ -180,7 +179,10 @@ static int SyncFolderOf(const char filename[])
   return Sync(folder, O_RDONLY | O_DIRECTORY);
 }
 
-/* Gives a file a second name in the place of what has it; where there are no links it loses the first. */
+/*
+  Gives a file the second name `kept`, replacing a file of that name; if there is no file, does nothing. Where the file
+  system has no hard links, the file is renamed and loses its first name.
+*/
 static int KeepAs(const char filename[], const char kept[])
 {
   char temporary[PETSC_MAX_PATH_LEN + 16];
@@ -240,7 +242,7 @@ static PetscErrorCode Free(SamFile *file)
 
 #define NOT_HDF5 (-1)
 
-/* Looks at a file that is to be read, on rank 0, so that what is commonly wrong with it is told in plain words. */
+/* Examines an existing file on rank 0, to report common mistakes in plain words. */
 static PetscErrorCode Examine(SamFile f)
 {
   struct stat status;
@@ -274,7 +276,7 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
   (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));
   (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
-  /* the newest format has checksums of all but the data */
+  /* the newest format has checksums of the metadata */
   if (mode == SAM_FILE_CREATE_CHECKED)
     (void)SamFileNote(f, H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST));
   f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
@@ -298,7 +300,7 @@ PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], co
   (*file)->writing = mode == SAM_FILE_READ ? PETSC_FALSE : PETSC_TRUE;
   ierr             = OpenFile(*file, mode);
   if (ierr) {
-    (*file)->id = -1; /* not closed: that would wait for a rank that could not open it */
+    (*file)->id = -1; /* not closed: closing would wait for a rank that could not open the file */
     Silence(*file);
     SamFileClose(*file);
     Unsilence(*file);
@@ -346,7 +348,7 @@ void SamFileWriteAttribute(SamFile f, hid_t object, const char name[], hid_t sto
   (void)SamFileNote(f, H5Sclose(space));
 }
 
-/* Texts are stored with variable length, which h5py gives back as str. */
+/* Texts are stored with variable length, which h5py reads as str. */
 void SamFileWriteTextAttribute(SamFile f, hid_t object, const char name[], const char text[])
 {
   const hid_t type = SamFileNote(f, H5Tcopy(H5T_C_S1));
@@ -387,7 +389,7 @@ void SamFileReadTextAttribute(SamFile f, hid_t object, const char name[], char *
 
 /* ---- fields ---- */
 
-/* What this rank has of a layer; a rank without rows takes part with an empty selection. */
+/* Selects this rank's rows of a layer; a rank without rows takes part with an empty selection. */
 static void SelectLayer(SamFile f, hid_t dataset, hsize_t layer, hid_t *space, hid_t *memory)
 {
   const SamGrid grid     = f->grid;

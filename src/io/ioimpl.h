@@ -1,6 +1,6 @@
-/* What the files of the HDF5 results share. */
-#ifndef PETSAM_HDF5IMPL_H
-#define PETSAM_HDF5IMPL_H
+/* What results and checkpoints share: an HDF5 file that all ranks use together, and the tables of what it holds. */
+#ifndef PETSAM_IOIMPL_H
+#define PETSAM_IOIMPL_H
 
 #include <petsam/private/baseimpl.h>
 #include <petsam/output.h>
@@ -8,94 +8,106 @@
 #include <sys/types.h>
 
 /*
-  SamFile - an HDF5 file that all ranks have open together, and what they know of its errors. Calls of HDF5 stand
-  between Begin and End. A call that fails on one rank must not keep it from the collective calls that the others make,
-  so failures are only noted, and all ranks make all calls; End agrees on the outcome and raises SAM_ERR_FILE with the
-  option's name.
+  SamFile - an HDF5 file that all ranks have open together, and its errors so far. Calls of HDF5 are made between
+  SamFileBegin() and SamFileEnd(). A rank on which a call fails must still take part in the collective calls that
+  follow. So failures are only noted (SamFileNote()), all ranks make all calls, and SamFileEnd() agrees on the outcome
+  and raises SAM_ERR_FILE with the option's name.
 */
 typedef struct _n_SamFile *SamFile;
 struct _n_SamFile {
   /* what the user set */
   SamGrid     grid;
   SamEvent    event;
-  const char *option; /* that named the file, without dash */
+  const char *option; /* option (without dash) that named the file */
   char       *filename;
   PetscBool   writing;
   /* what it owns; identifiers are negative where nothing is open */
   PetscMPIInt rank;
-  hid_t       id, transfer; /* transfer: collective */
+  hid_t       id, transfer; /* the file; property list for collective transfer */
   /* status */
-  PetscBool   failed;      /* on this rank, until SamFileEnd() or SamFileAgree() makes it common */
+  PetscBool   failed;      /* on this rank; on all after SamFileEnd() or SamFileAgree() */
   char        reason[256]; /* of the first failure */
-  H5E_auto2_t print;       /* how HDF5 reports errors outside of these functions */
+  H5E_auto2_t print;       /* HDF5's own error output, to be restored by SamFileEnd() */
   void       *print_data;
 };
 
-#define SAM_FILE_ADMINISTRATION \
-  (1 << 20) /* bytes, more than HDF5 needs for its administration at creation or for a step */
+#define SAM_FILE_METADATA (1 << 20) /* bytes, more than HDF5's metadata take at creation or in a step */
 
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_CHECKED, SAM_FILE_READ, SAM_FILE_APPEND } SamFileMode;
 /*
-  SamFileOpen - opens a file, or creates it in the place of one of that name; CREATE_CHECKED: with checksums over
-  its administration. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  SamFileOpen - opens a file to READ or to APPEND, or CREATEs it, replacing one of that name; CREATE_CHECKED: in the
+  format that has checksums of HDF5's metadata. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
-/* SamFileClose - between Begin and End. SamFileDestroy - closes (unless that would hang) and frees. Collective. */
+/*
+  SamFileClose - closes the file; to be called between Begin and End, notes its failures.
+  SamFileDestroy - frees the object, and with `close` first closes the file; without it the file stays open, for where
+  closing would hang. Errors: SAM_ERR_FILE.
+  SamFileBegin, SamFileEnd - switch off HDF5's error output, and restore it and raise SAM_ERR_FILE for a noted failure.
+  SamFileAgree - makes a failure of any rank known to all, without raising it.
+  All are collective.
+*/
 PETSC_INTERN void           SamFileClose(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close);
 PETSC_INTERN PetscErrorCode SamFileBegin(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileEnd(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileAgree(SamFile file);
-/* SamFileNote - passes on what an HDF5 call returned, and notes a failure with HDF5's reason. Not collective. */
+/* SamFileNote - returns `result`, that of an HDF5 call, and notes a failure with HDF5's reason. Not collective. */
 PETSC_INTERN hid_t SamFileNote(SamFile file, hid_t result);
 
 /*
-  SamFileCheckName - raises SAM_ERR_FILE unless a file of the name could be written; leaves everything as it is.
-  Collective.
+  SamFileCheckName - fails early if a file of that name cannot be written; changes nothing on the disk. Collective.
+  Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[]);
 /*
-  SamFileReserve - room for so many bytes and their administration, by which the file becomes longer; what is not
-  needed of it, HDF5 cuts off when it flushes. Collective.
+  SamFileReserve - allocates disk space for so many bytes and HDF5's metadata: the file becomes longer, and HDF5 cuts
+  off the unused part when it flushes. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
 /*
-  SamFileReplace - puts a finished file, once it is on the disk, in the place of another, of which `kept` (NULL:
-  nothing) becomes the name. At every moment there is a file of the name, if there was one. Collective. Errors:
-  SAM_ERR_FILE.
+  SamFileReplace - flushes the finished file `temporary` to the disk and renames it to `filename`. A file of that name
+  is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of the name, if there
+  was one. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
                                            const char filename[], const char kept[]);
-/* SamFileRaise - raises SAM_ERR_FILE for the errno that rank 0 has; does nothing for 0. Collective. */
+/* SamFileRaise - raises SAM_ERR_FILE for the errno of rank 0; does nothing if that is 0. Collective. */
 PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
 
-/* The following note their failures. A text that is read is the caller's to free. Collective. */
+/*
+  Attributes, and layers of datasets; all note their failures and are collective. `stored` is the type in the file,
+  `type` that in memory. The caller frees a text that is read, with PetscFree().
+*/
 PETSC_INTERN void SamFileWriteAttribute(SamFile file, hid_t object, const char name[], hid_t stored, hid_t type,
                                         PetscInt count, const void *values);
 PETSC_INTERN void SamFileWriteTextAttribute(SamFile file, hid_t object, const char name[], const char text[]);
 PETSC_INTERN void SamFileReadAttribute(SamFile file, hid_t object, const char name[], hid_t type, PetscInt count,
                                        void *values);
 PETSC_INTERN void SamFileReadTextAttribute(SamFile file, hid_t object, const char name[], char **text);
-/* One layer of a dataset (layers, ny, nx): each rank has its rows. */
+/* One layer of a dataset of shape (layers, ny, nx): each rank writes or reads its rows. */
 PETSC_INTERN void SamFileWriteLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, const void *values);
 PETSC_INTERN void SamFileReadLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, void *values);
 
 /*
-  SamParametersWrite - all parameters as attributes of the root. SamParametersDiffer - whether one that must not differ
-  is another in the file; which one, and the values, are told. Both note failures. Collective.
+  SamParametersWrite - writes all parameters as attributes of the root group.
+  SamParametersDiffer - whether a fixed parameter has another value in the file, or is missing there; the message names
+  it and both values.
+  Both note their failures. Collective.
 */
 PETSC_INTERN void      SamParametersWrite(SamFile file, const SamParameters *parameters);
 PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *parameters, char message[], size_t size);
 
-/* A dataset's name and what its attributes say. */
+/* A dataset's name, and two of its attributes. */
 typedef struct {
   const char *name, *units, *long_name;
 } SamOutputLabel;
 
 /*
-  A field: `get` finds it in a vector of the contact's, or computes it in `work`, which has one component; `component`
-  says which one of the former, or is handed to `get`. Its values are real numbers, or SamStates, stored as bytes.
+  A field of the results. `get` returns a vector of the contact that holds the field as its `component`, or computes the
+  field in `work`, a vector of one component, and returns that; `component` is passed on to `get`. The values are real
+  numbers, or SamStates, stored as bytes.
 */
 typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE } SamOutputFieldKind;
 typedef struct {
@@ -105,7 +117,7 @@ typedef struct {
   PetscInt component;
 } SamOutputField;
 
-/* A column of the history: a number of SamStep. Optional ones, which are real, are there where they vary. */
+/* A column of the history: a member of SamStep. An optional column is real, and only in files where it varies. */
 typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS, SAM_COLUMN_OPTIONAL } SamOutputColumnKind;
 typedef struct {
   SamOutputLabel      label;
@@ -113,7 +125,7 @@ typedef struct {
   size_t              offset; /* in SamStep */
 } SamOutputColumn;
 
-#define SAM_OUTPUT_MOST 64 /* lines of the tables */
+#define SAM_OUTPUT_MOST 64 /* most lines of each table */
 PETSC_INTERN const SamOutputField  SamOutputFields[];
 PETSC_INTERN const PetscInt        SamOutputFieldCount;
 PETSC_INTERN const SamOutputColumn SamOutputColumns[];
@@ -127,55 +139,60 @@ struct _n_SamOutput {
   SamOutputSettings set;
   /* what it owns; identifiers are negative where nothing is open */
   hid_t        vtk_steps; /* attribute: number of steps that VTK sees */
-  hid_t        closed;    /* attribute: whether the file has been closed after it was written to */
+  hid_t        closed;    /* attribute: whether the file was closed properly */
   SamXdmf      xdmf;      /* NULL: none */
   hid_t        time, fields[SAM_OUTPUT_MOST], columns[SAM_OUTPUT_MOST];
   signed char *states; /* of this rank's cells */
-  Vec          work;   /* for fields that have to be computed; NULL until then */
+  Vec          work;   /* for fields that are computed; NULL until the first one */
   /* status */
   hsize_t   steps, saved; /* load steps in the history, steps with fields */
   PetscReal saved_time;   /* of the last step with fields */
-  PetscBool unchanged;    /* only looked at */
-  PetscBool copying;      /* all steps are reserved and brought to the disk together */
+  PetscBool unchanged;    /* the file has only been examined, so `closed` stays as it is */
+  PetscBool copying;      /* many steps at once: disk space is reserved, and the file flushed, by the caller */
   PetscBool broken;       /* a step could not be written: no collective call on the file may follow */
 };
 
-/* The following note their failures. Collective. */
-/* SamOutputCreateLayout - all datasets, without a step, and their attributes. */
+/* The functions of the layout note their failures. Collective. */
+/*
+  SamOutputCreateLayout - creates all datasets, without a step, and their attributes.
+  SamOutputOpenLayout - opens them in a file that has them.
+  SamOutputCloseLayout - closes them.
+*/
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
+PETSC_INTERN void           SamOutputOpenLayout(SamOutput output);
 PETSC_INTERN void           SamOutputCloseLayout(SamOutput output);
-/* SamOutputFieldBytes - what the fields of one step take uncompressed. */
+/* SamOutputFieldBytes - the size of the fields of one step, uncompressed. Not collective. */
 PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
 /*
-  SamOutputCreateVTK, SamOutputOpenVTK, SamOutputCountVTK - the group VTKHDF of the file, and how many steps there are
-  in it.
+  SamOutputCreateVTK, SamOutputOpenVTK - create or open the group VTKHDF of the file.
+  SamOutputCountVTK - sets the number of steps that VTK sees.
 */
 PETSC_INTERN void SamOutputCreateVTK(SamOutput output);
 PETSC_INTERN void SamOutputOpenVTK(SamOutput output);
 PETSC_INTERN void SamOutputCountVTK(SamOutput output, hsize_t saved);
 
-/* SamOutputOpenLayout - the same datasets of a file that has them. */
-PETSC_INTERN void SamOutputOpenLayout(SamOutput output);
 /*
-  SamOutputLength - steps in a dataset. SamOutputReadSeries - `count` numbers of a series from `first` on, on all
-  ranks.
+  SamOutputLength - the number of steps in a dataset.
+  SamOutputReadSeries - reads `count` numbers of a series from index `first` on, on all ranks.
 */
 PETSC_INTERN hsize_t SamOutputLength(SamOutput output, hid_t dataset);
 PETSC_INTERN void    SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t type, hsize_t first, hsize_t count,
                                          void *values);
-/* SamOutputAllocate - an object on an open file, which it takes, with no dataset open. Collective. */
+/* SamOutputAllocate - an object that takes over an open file; no dataset is open yet. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output);
 /*
-  SamOutputAppend - the numbers of a step (NULL: none) and its fields (`values` NULL: none), and what belongs to them; then
-  all of it is on its way to the disk. `values` gives this rank's values of field f, doubles or bytes. Collective.
+  SamOutputAppend - appends the numbers of a step (NULL: none) and its fields (`values` NULL: none), and flushes the
+  file unless `copying`. `values` returns this rank's values of field f, doubles or bytes; it is called with `context`.
+  Collective. Errors: SAM_ERR_FILE.
 */
 typedef PetscErrorCode (*SamOutputValues)(SamOutput output, PetscInt f, void *context, const void **values);
 PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const SamStep *step, PetscReal time,
                                             SamOutputValues values, void *context);
 
 /*
-  SamXdmfCreate - a file with no step for results of that name, replacing one there is. SamXdmfAddStep - one more, which
-  has that index in the results. Collective. Errors: SAM_ERR_FILE; the object, and the file with the steps before, stay.
+  SamXdmfCreate - creates an XDMF file without a step for results of that name; replaces one that is there.
+  SamXdmfAddStep - appends the step of that index in the results. After an error the file still has the earlier steps.
+  Both are collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);

@@ -1,13 +1,13 @@
 /*
   The datasets of the results file: names, units, dimensions, attributes.
 
-  Dimension scales are those of the HDF5 dimension scale specification, which netCDF-4 and xarray take for coordinates;
-  the attributes follow the CF conventions.
+  Dimension scales follow the HDF5 dimension scale specification, so that netCDF-4 and xarray know the coordinates; the
+  attributes follow the CF conventions.
 */
 #include "ioimpl.h"
 #include <hdf5_hl.h>
 
-#define CHUNK_STEPS 256 /* of what has one number a step */
+#define CHUNK_STEPS 256 /* steps in a chunk of a series, which has one number a step */
 
 static const SamOutputLabel x_label        = {"x", "m", "x of the cell centres"};
 static const SamOutputLabel y_label        = {"y", "m", "y of the cell centres"};
@@ -15,7 +15,7 @@ static const SamOutputLabel time_label     = {"time", "s", "time of the saved fi
 static const char           state_words[]  = "open stick slip"; /* SamState */
 static const char           status_words[] = "converged not_converged no_equilibrium edge_contact";
 
-/* A shape: dimensions at first, their largest, and chunks. */
+/* The shape of a dataset: size when created, largest size, and size of a chunk (0: not chunked). */
 typedef struct {
   int     rank;
   hsize_t size[3], largest[3], chunk[3];
@@ -31,7 +31,7 @@ static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label
   hid_t dataset;
 
   if (shape->chunk[0]) (void)SamFileNote(o->f, H5Pset_chunk(creation, shape->rank, shape->chunk));
-  /* all is written that is there: filling new chunks would only write them twice */
+  /* every value is written, so filling new chunks would only write them twice */
   (void)SamFileNote(o->f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
   if (compress > 0) {
     (void)SamFileNote(o->f, H5Pset_shuffle(creation));
@@ -45,7 +45,7 @@ static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label
   return dataset;
 }
 
-/* A coordinate, which CF's attributes tell by its axis and its standard name. */
+/* A coordinate, marked by the CF attributes `axis` and `standard_name`. */
 static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const char axis[],
                          const char standard_name[], const Shape *shape)
 {
@@ -57,7 +57,7 @@ static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, 
   return scale;
 }
 
-/* The coordinates of the cell centres, which rank 0 writes. */
+/* The coordinates of the cell centres along x (0) or y (1), written by rank 0. */
 static PetscErrorCode CreateAxis(SamOutput o, const SamOutputLabel *label, PetscInt direction, hid_t *scale)
 {
   const PetscInt n     = direction ? o->f->grid->ny : o->f->grid->nx;
@@ -78,7 +78,10 @@ static PetscErrorCode CreateAxis(SamOutput o, const SamOutputLabel *label, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The size of the fewest equal chunks of n that are no larger than most; the last may reach a little beyond n. */
+/*
+  Divides n into as few chunks of equal size as possible, none larger than `most`, and returns their size; the last may
+  reach a little beyond n.
+*/
 static hsize_t ChunkSize(hsize_t n, hsize_t most)
 {
   const hsize_t chunks = (n + most - 1) / most;
@@ -105,7 +108,7 @@ static hid_t StoredType(const SamOutputField *field)
 off_t SamOutputFieldBytes(SamOutput o)
 {
   const Shape shape = FieldShape(o);
-  hsize_t     cells = 1, bytes = 0; /* of whole chunks; a cell's */
+  hsize_t     cells = 1, bytes = 0; /* cells in whole chunks; bytes of all fields in a cell */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
@@ -187,7 +190,7 @@ static void OpenDataset(SamOutput o, hid_t where, const char name[], hid_t *data
   *dataset = SamFileNote(o->f, H5Dopen2(where, name, H5P_DEFAULT));
 }
 
-/* Chunks as they are in the file. */
+/* Takes over the chunk sizes that the file has. */
 static void ReadChunks(SamOutput o)
 {
   const hid_t creation = SamFileNote(o->f, H5Dget_create_plist(o->fields[0]));

@@ -1,8 +1,8 @@
 /*
   Results in an HDF5 file, written by all ranks together.
 
-  Datasets stay open and grow by one along time with each step; each rank writes its rows. The space of a step is
-  reserved before anything of it is written.
+  Datasets stay open and grow by one along time with each step; each rank writes its rows. Disk space for a step is
+  reserved before any of it is written.
 */
 #include "ioimpl.h"
 #include <errno.h>
@@ -31,18 +31,18 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- on one rank ---- */
+/* ---- on rank 0 ---- */
 
 /*
-  Moves what the superblock says is the end of the data to the end of the file, before HDF5 writes what points there:
-  the space of a step has been reserved, so that it lies before. HDF5 itself tells the end last; a run that is killed in
-  between would leave datasets that lead beyond it, and with them steps that were complete before. Version 0 of the
-  superblock has no checksum and the end at byte 40 (HDF5 file format specification, II.A); of others this is left to
-  HDF5.
+  Sets the end of data in the superblock to the end of the file, before HDF5 flushes its metadata. HDF5 itself updates
+  the superblock last. A run killed in between would leave metadata that point beyond the recorded end, and earlier
+  steps, too, would be lost. The space of a step is reserved before, so all of its data lie within the file. Version 0
+  of the superblock has no checksum, and the end of data at byte 40 (HDF5 file format specification, II.A); other
+  versions are left to HDF5. Returns an errno or 0.
 */
-#define SUPERBLOCK_VERSION 8
-#define SUPERBLOCK_OFFSETS 13 /* bytes of an address */
-#define SUPERBLOCK_END     40
+#define SUPERBLOCK_VERSION 8  /* byte: version of the superblock */
+#define SUPERBLOCK_OFFSETS 13 /* byte: size of an address, in bytes */
+#define SUPERBLOCK_END     40 /* byte: first of the end of data */
 static int MoveEnd(const char filename[])
 {
   const int     file = open(filename, O_RDWR);
@@ -51,7 +51,7 @@ static int MoveEnd(const char filename[])
   int           error = 0;
 
   if (file < 0) return errno;
-  errno = EIO; /* of what is shorter than it should be */
+  errno = EIO; /* for a short read or write, which sets none */
   if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status))
     error = errno;
   else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
@@ -100,7 +100,7 @@ PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOut
   *output = NULL;
   PetscCall(SamInitialize());
   PetscCall(SamFileCheckName(grid, "output", filename));
-  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, &xdmf)); /* first: the old results stay if it fails */
+  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, &xdmf)); /* first: if it fails, old results are kept */
   ierr = SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &file);
   if (ierr) {
     PetscCall(SamXdmfDestroy(&xdmf));
@@ -114,7 +114,7 @@ PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOut
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The last word of a run: what is read as open, was left by one that did not get to its end. */
+/* Written last: a file that is not marked as closed was left by a run that did not get to its end. */
 static void MarkClosed(SamOutput o)
 {
   const int8_t closed = 1;
@@ -131,7 +131,7 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   PetscFunctionBegin;
   *output = NULL;
   if (!o) PetscFunctionReturn(PETSC_SUCCESS);
-  o->f->failed = PETSC_FALSE; /* what failed before has been raised */
+  o->f->failed = PETSC_FALSE; /* earlier failures have been raised */
   PetscCall(SamFileBegin(o->f));
   if (!o->broken) {
     MarkClosed(o);
@@ -186,7 +186,7 @@ PetscErrorCode SamOutputSetText(SamOutput o, const char name[], const char text[
 
 /* ---- steps ---- */
 
-/* Appends a number to a series, which rank 0 writes. */
+/* Appends a number to a series; rank 0 writes it. */
 static void AppendNumber(SamOutput o, hid_t dataset, hid_t type, hsize_t index, const void *number)
 {
   const hsize_t size = index + 1, one = 1;
@@ -213,7 +213,7 @@ static void AppendHistory(SamOutput o, const SamStep *step)
     double            real;
     int64_t           whole;
 
-    if (o->columns[c] < 0) continue; /* an optional one that is not there */
+    if (o->columns[c] < 0) continue; /* an optional column that this file does not have */
     switch (SamOutputColumns[c].kind) {
     case SAM_COLUMN_REAL:
     case SAM_COLUMN_OPTIONAL:
@@ -253,16 +253,16 @@ static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes the file complete up to here: first its end is told, then HDF5 writes its administration. */
+/* Makes the file complete up to here: first sets its end of data, then lets HDF5 write its metadata. */
 static PetscErrorCode Flush(SamOutput o)
 {
   int error = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamFileAgree(o->f)); /* flush only what is there */
+  PetscCall(SamFileAgree(o->f)); /* a step that failed on any rank must not be flushed */
   if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (o->f->rank == 0) error = MoveEnd(o->f->filename);
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->f->grid->comm)); /* readers see the end before what points there */
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->f->grid->comm)); /* no rank flushes before the end is set */
   if (error) {
     o->f->failed = PETSC_TRUE;
     (void)snprintf(o->f->reason, sizeof(o->f->reason), "%s", strerror(error));
@@ -299,10 +299,10 @@ PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where the values of a contact's field are. */
+/* Gives SamOutputAppend() the fields of a contact. */
 typedef struct {
   SamContact    contact;
-  Vec           field; /* NULL: none yet */
+  Vec           field; /* whose array is in use; NULL: none */
   const double *array;
 } ContactFields;
 

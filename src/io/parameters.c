@@ -1,12 +1,12 @@
-/* What defines a run, as attributes of its files. */
+/* The parameters of a run, as attributes of its files. */
 #include "ioimpl.h"
 #include <string.h>
 
 static PetscErrorCode Add(SamParameters *p, const char name[], PetscBool fixed, SamParameter **added)
 {
   PetscFunctionBegin;
-  PetscCheck(p->count < SAM_PARAMETERS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d parameters",
-             SAM_PARAMETERS);
+  PetscCheck(p->count < SAM_PARAMETERS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+             "Parameter %s: there are %d parameters already, which is the most", name, SAM_PARAMETERS);
   *added = &p->list[p->count++];
   PetscCall(PetscMemzero(*added, sizeof(**added)));
   PetscCall(PetscStrncpy((*added)->name, name, sizeof((*added)->name)));
@@ -20,7 +20,8 @@ PetscErrorCode SamParametersAddReals(SamParameters *p, const char name[], PetscB
   SamParameter *added = NULL;
 
   PetscFunctionBegin;
-  PetscCheck(count == 1 || count == 2, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "One or two values");
+  PetscCheck(count == 1 || count == 2, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+             "Parameter %s: count = %" PetscInt_FMT ": expected 1 or 2 values", name, count);
   PetscCall(Add(p, name, fixed, &added));
   added->count = count;
   for (PetscInt k = 0; k < count; k++) added->value[k] = values[k];
@@ -49,7 +50,7 @@ void SamParametersWrite(SamFile f, const SamParameters *parameters)
   }
 }
 
-/* What the file has of a parameter. */
+/* Reads the file's value of a parameter. */
 static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *read)
 {
   char *text = NULL;

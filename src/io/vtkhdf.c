@@ -1,13 +1,13 @@
 /*
-  The results as VTK sees them: a group VTKHDF in the same file, for ParaView from 5.12 on.
+  The results for VTK: a group VTKHDF in the same file, for ParaView from 5.12 on.
 
-  The datasets are the file's own, linked under a second name, so that nothing is stored twice: an image of one layer of
-  cells, with a series of steps (VTKHDF file format 2.0, https://docs.vtk.org, "VTKHDF File Format").
+  The group describes an image of one layer of cells with a series of steps (VTKHDF file format 2.0,
+  https://docs.vtk.org, "VTKHDF File Format"). It links to the datasets of the file, so that nothing is stored twice.
 */
 #include "ioimpl.h"
 #include <stdio.h>
 
-/* VTK takes the type's name as a text of fixed length in ASCII. */
+/* VTK reads the type's name only as an ASCII text of fixed length. */
 static void WriteType(SamOutput o, hid_t group)
 {
   static const char image[] = "ImageData";
@@ -41,7 +41,7 @@ static hid_t CreateGroup(SamOutput o, hid_t where, const char name[])
   return SamFileNote(o->f, H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-/* A soft link leaves the dataset its own name only, which is what readers tell of a dimension. */
+/* A soft link: with a hard link, readers might take the second name for that of a dimension. */
 static void Link(SamOutput o, hid_t group, const char name[], const char dataset[])
 {
   char path[64];

@@ -1,8 +1,8 @@
 /*
-  A file beside the results that tells ParaView and VisIt what is in them (XDMF, version 2: https://xdmf.org).
+  A file beside the results that describes them to ParaView and VisIt (XDMF, version 2: https://xdmf.org).
 
-  Rank 0 writes it. Each step is put in the place of the closing tags, together with new ones, by one call to the
-  system: the file is whole before and after it.
+  Rank 0 writes it. One system call overwrites the closing tags with the next step and new closing tags, so that the
+  file is complete before and after it.
 */
 #include "ioimpl.h"
 #include <errno.h>
@@ -16,7 +16,7 @@ static const char tail[] = "    </Grid>\n  </Domain>\n</Xdmf>\n";
 struct _n_SamXdmf {
   SamGrid grid;
   char   *filename;
-  char   *results; /* name of the results seen from this file's folder, as XML has it */
+  char   *results; /* name of the results file, without folder, escaped for XML */
   int     file;    /* on rank 0 */
   off_t   end;     /* where the closing tags are */
 };
@@ -56,6 +56,7 @@ static PetscErrorCode MakeName(const char results[], char **name)
 
 /* ---- text that grows ---- */
 
+/* Appends to *text, which becomes NULL when there is no memory. */
 static void Print(char **text, size_t *length, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
 static void Print(char **text, size_t *length, const char format[], ...)
 {
@@ -93,8 +94,8 @@ static void PrintField(SamXdmf x, char **text, size_t *length, const char name[]
 }
 
 /*
-  A step and the closing tags; NULL without memory. Coordinates go z, y, x. The cells' centres are the points of a
-  plane: VTK's reader finds no cells in a single layer of them.
+  A step and the closing tags; NULL when there is no memory. Coordinates are in the order z, y, x. The cell centres are
+  given as the points of a plane, since VTK's reader finds no cells in a single layer of cells.
 */
 static char *StepText(SamXdmf x, long step, double time, size_t *length)
 {
@@ -164,7 +165,7 @@ static int Append(SamXdmf x, long step, double time)
   if (!error)
     x->end += (off_t)(length - strlen(tail));
   else if (!WriteAt(x->file, tail, strlen(tail), x->end))
-    error = ftruncate(x->file, x->end + (off_t)strlen(tail)) ? errno : error; /* as it was */
+    error = ftruncate(x->file, x->end + (off_t)strlen(tail)) ? errno : error; /* restores the earlier steps */
   return error;
 }
 

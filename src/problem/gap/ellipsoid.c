@@ -1,6 +1,6 @@
 /*
-  Curved bodies whose principal directions are x and y: h = x^2/2Rx + y^2/2Ry, where Rx and Ry are the principal relative
-  radii of curvature. If one of them is infinite: a cylinder.
+  Curved bodies whose principal directions are x and y: h = x^2/2Rx + y^2/2Ry, where Rx and Ry are the principal
+  relative radii of curvature. If one of them is infinite: a cylinder.
   K. L. Johnson, Contact Mechanics (Cambridge University Press, 1985), eq. 4.3.
 */
 #include <petsam/private/gapimpl.h>
