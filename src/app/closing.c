@@ -1,7 +1,7 @@
 /*
-  The end of the report: where the time went, the worst residuals, the files, and what the run used.
+  The end of the report: times by part, worst residuals, files written, and time and memory used.
 
-  Times are those of petsam's own log events, on the rank where they are largest.
+  Times are those of petsam's log events, each from the rank where it is largest.
 */
 #include "reportimpl.h"
 #include <stdio.h>
@@ -9,14 +9,14 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-/* A row: the times of one or more events together. */
+/* A row of the table: the sum of the times of one or more events. */
 typedef struct {
   const char *name;
   SamEvent    events[3];
   PetscInt    count;
 } Part;
 
-/* These follow on one another, and with set-up and the rest make up the whole run. */
+/* These parts do not overlap; with set-up and the rest they make up the whole run. */
 static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
                              {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
                              {"check", {SAM_EVENT_CHECK}, 1},
@@ -24,7 +24,7 @@ static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
                              {"checkpoints", {SAM_EVENT_CHECKPOINT}, 1}};
 static const Part files   = {"files", {SAM_EVENT_OUTPUT, SAM_EVENT_CHECKPOINT}, 2};
 
-/* These lie within those. */
+/* These are contained in the parts above. */
 static const Part inner[] = {
   {"influence coefficients", {SAM_EVENT_SETUP_INFLUENCE}, 1},
   {"products", {SAM_EVENT_APPLY_NORMAL, SAM_EVENT_APPLY_TANGENTIAL, SAM_EVENT_APPLY_COUPLING}, 3},
@@ -103,8 +103,8 @@ static PetscErrorCode PrintFiles(SamReport r)
 }
 
 /*
-  The most memory held so far, bytes. What getrusage() tells may be the launcher's, from before this program was
-  loaded.
+  The peak memory of this process so far, bytes. That of getrusage() may include the launcher, from before this program
+  was loaded.
 */
 static double LargestMemory(void)
 {
@@ -121,7 +121,7 @@ static double LargestMemory(void)
   return 1024 * (double)used.ru_maxrss;
 }
 
-/* Time and memory, the largest rank's. */
+/* Time and memory, each the largest of all ranks. */
 static PetscErrorCode PrintResources(SamReport r)
 {
   struct rusage used;

@@ -1,24 +1,24 @@
-/* The load program: options and a file in, steps out. */
+/* The load program: made of options and a file, asked for its steps. */
 #include "historyimpl.h"
 
 #define FRICTION "friction_scale"
 
 struct _n_SamHistory {
-  SamControl constant; /* which components are loads, and the values of those without a column */
+  SamControl constant; /* the kind of control of each component, and the values of those without a column */
   PetscInt   rows, increments;
   SamTable   table;                  /* empty without a file */
   PetscInt   time, friction;         /* columns; -1: none */
-  PetscInt   column[SAM_COMPONENTS]; /* of each component, -1: constant */
+  PetscInt   column[SAM_COMPONENTS]; /* column of each component, -1: constant */
 };
 
 PetscErrorCode SamHistoryClaimOption(void)
 {
-  PetscErrorCode code = PetscOptionsCreateDefault(); /* before PetscInitialize(): no error handling yet */
+  PetscErrorCode code = PetscOptionsCreateDefault(); /* no PetscCall(): PETSc is not initialized yet */
 
   return code ? code : PetscOptionsSetAlias(NULL, "-history", "-load_history");
 }
 
-/* One component: its load or its displacement, by option or by column; not by more than one of the four. */
+/* Reads one component: its load or its displacement, from an option or a column, but only one of these four. */
 static PetscErrorCode ReadComponent(SamHistory h, const SamOptions *from, const char file[], PetscInt c)
 {
   const SamComponentName *name        = &SamComponentNames[c];
@@ -41,7 +41,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const SamOptions *from, const 
              "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file, line,
              name->load, name->rigid);
   PetscCheck(!has_column || (!has_load && !has_rigid), from->comm, SAM_ERR_USER,
-             "-%s%s: %s has the column %s; give one of them", prefix, has_rigid ? name->rigid : name->load, file,
+             "-%s%s: %s has the column %s: give one of them", prefix, has_rigid ? name->rigid : name->load, file,
              column);
   h->constant.force[c] = (has_rigid || rigid_column >= 0) ? PETSC_FALSE : PETSC_TRUE;
   h->constant.value[c] = has_rigid ? rigid : load;
@@ -53,7 +53,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const SamOptions *from, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a column of the file means something. */
+/* Whether the name of a column is known. */
 static PetscBool IsKnown(SamHistory h, PetscInt column)
 {
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
@@ -61,7 +61,7 @@ static PetscBool IsKnown(SamHistory h, PetscInt column)
   return (column == h->time || column == h->friction) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* What a row must hold besides numbers: times that increase, no negative normal force or friction. */
+/* Checks the names of the columns; in the rows, that times increase and normal force and friction are >= 0. */
 static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
 {
   const SamTable *t        = &h->table;
@@ -79,24 +79,25 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
     const double *row = t->value + r * t->columns, *before = row - t->columns;
 
     PetscCheck(r == 0 || row[h->time] > before[h->time], comm, SAM_ERR_USER,
-               "%s, line %" PetscInt_FMT ": time %g does not come after %g", file, t->line[r], row[h->time],
-               before[h->time]);
+               "%s, line %" PetscInt_FMT ": time %g: expected more than %g, that of the row before", file, t->line[r],
+               row[h->time], before[h->time]);
     for (PetscInt k = 0; k < 2; k++)
       PetscCheck(least[k] < 0 || row[least[k]] >= 0, comm, SAM_ERR_USER,
-                 "%s, line %" PetscInt_FMT ": %s %g, expected a number >= 0", file, t->line[r], t->name[least[k]],
+                 "%s, line %" PetscInt_FMT ": %s %g: expected a number >= 0", file, t->line[r], t->name[least[k]],
                  row[least[k]]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The database calls the option -load_history; users are told of -history. */
+/* The options database has the name -load_history (SamHistoryClaimOption()); messages say -history. */
 static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t size, PetscBool *set)
 {
   PetscFunctionBegin;
   PetscCall(PetscOptionsGetString(NULL, from->prefix, "-load_history", file, size, set));
   PetscCheck(!*set || file[0], from->comm, SAM_ERR_USER, "-history has no value: expected the name of a file");
-  PetscCall(SamOptionsString(from, "load_history", "text file with a load step a row (README, Histories); or -history",
-                             file, size, set));
+  PetscCall(SamOptionsString(from, "load_history",
+                             "text file with one row for each load step (README, Histories); or -history", file, size,
+                             set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -123,8 +124,9 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *h
   h->time     = SamTableFind(&h->table, "time");
   h->friction = SamTableFind(&h->table, FRICTION);
   PetscCheck(h->increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
-             "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT " rows is more steps than can be counted",
-             SamOptionsPrefix(from), h->increments, h->rows);
+             "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
+             " rows is more steps than can be counted (%" PetscInt_FMT ")",
+             SamOptionsPrefix(from), h->increments, h->rows, PETSC_MAX_INT);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, from, file, c));
   if (has_file) PetscCall(CheckRows(h, from->comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -160,7 +162,7 @@ PetscErrorCode SamHistoryHasFrictionScale(SamHistory h, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Row r of a column; row -1 is the start. */
+/* Row r of a column. Below, row -1 stands for the start, before the first row. */
 static double Entry(SamHistory h, PetscInt column, PetscInt r)
 {
   return h->table.value[r * h->table.columns + column];
@@ -192,7 +194,7 @@ PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
 
   PetscFunctionBegin;
   *control = h->constant;
-/* between the rows; a row's own value without rounding at its end */
+/* linear between the rows; at a row exactly its own value */
 #define BETWEEN(before, after) (i == h->increments ? (after) : (before) + part * ((after) - (before)))
   control->time           = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   control->friction_scale = BETWEEN(FrictionOfRow(h, r - 1), FrictionOfRow(h, r));

@@ -5,38 +5,40 @@
 #include <petsam/control.h>
 
 /*
-  SamHistory - a sequence of load steps: times, and for each of the six components a load or a displacement, the same
-  choice in all steps. Either from a file with a row a step, or the single load of the options; each row's change may be
-  divided into equal increments.
+  SamHistory - a sequence of load steps: a time, and for each of the six components a load or a displacement, the same
+  choice in all steps. It comes from a file with one row for each step, or, as a single row, from the options. The
+  change from row to row may be divided into equal increments, each a load step.
 
-  The file: text, fields separated by commas; # begins a comment; empty lines count for nothing. The first line names the
-  columns: `time` and any of the names of loads and displacements (load_n ... rot_z), and friction_scale. Then one row a
-  step, times increasing. Components without a column keep the value of their option, 0 without.
+  The file is text. Fields are separated by commas, # begins a comment, empty lines are ignored. The first line names
+  the columns: `time`, any of the names of loads and displacements (load_n ... rot_z), and friction_scale. The rows
+  follow, with increasing times (s). A component without a column has the value of its option, or 0, in all rows.
 */
 typedef struct _n_SamHistory *SamHistory;
 
 /*
-  SamHistoryClaimOption - to be called before PetscInitialize(): PETSc has an option -history of its own, which would
-  append a log to the file that is named here. From now on -history is another name for -load_history, which is what the
-  database of options keeps. Not collective.
+  SamHistoryClaimOption - makes -history an alias of -load_history, the name in the options database. To be called
+  before PetscInitialize(): PETSc has an option -history of its own, which would append a log to the user's file. Not
+  collective.
 */
 PETSC_INTERN PetscErrorCode SamHistoryClaimOption(void);
 
 /*
-  SamHistoryCreateFromOptions - reads -history, -steps, and the twelve -load_, -disp_ and -rot_ options; the whole file
-  is read and checked. Collective. Errors: SAM_ERR_USER naming the option or the file and line, SAM_ERR_FILE for a file
-  that cannot be read.
+  SamHistoryCreateFromOptions - reads -history, -steps (increments), and the twelve -load_, -disp_ and -rot_ options;
+  reads and checks the whole file. Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
+  SAM_ERR_FILE for a file that cannot be read.
 */
 PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history);
+/* SamHistoryDestroy - frees the history and sets the handle to NULL. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
+/* The number of load steps, and the number of increments for each row. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *steps);
-PETSC_INTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments); /* of each row */
-/* SamHistoryHasFrictionScale - whether the friction varies. Not collective. */
+PETSC_INTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments);
+/* SamHistoryHasFrictionScale - whether the file has a column friction_scale. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryHasFrictionScale(SamHistory history, PetscBool *has);
 /*
-  SamHistoryGetStep - what step k (from 0) prescribes. Increments before the first row start from no load and no
-  displacement at time 0, or, when the first time is not positive, as far before it as the second row is after it (1 s
-  when there is none); the friction is that of the first row from the start. Not collective.
+  SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads and
+  displacements at time 0; if the first row's time is not positive, they start before it by the time between the first
+  two rows (1 s for a single row). The friction scale is that of the first row from the start. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
 

@@ -13,17 +13,17 @@ typedef struct {
   PetscInt  columns, rows;
   char      name[SAM_TABLE_COLUMNS][SAM_TABLE_NAME];
   double   *value; /* (rows, columns) */
-  PetscInt *line;  /* of each row in the file, from 1 */
+  PetscInt *line;  /* line in the file of each row, from 1 */
   PetscInt  header_line;
 } SamTable;
 
 /*
-  SamTableRead - rank 0 reads the file, all get the table. Errors: SAM_ERR_FILE for a file that cannot be read,
-  SAM_ERR_USER with file and line for what is in it. Collective.
+  SamTableRead - reads a table on rank 0 and gives it to all ranks. Collective. Errors: SAM_ERR_FILE for a file that
+  cannot be read, SAM_ERR_USER with file and line for wrong contents.
 */
 PETSC_INTERN PetscErrorCode SamTableRead(MPI_Comm comm, const char file[], SamTable *table);
 PETSC_INTERN PetscErrorCode SamTableDestroy(SamTable *table);
-/* Column of that name, or -1. */
+/* The column of that name, or -1. */
 PETSC_INTERN PetscInt SamTableFind(const SamTable *table, const char name[]);
 
 #endif

@@ -1,22 +1,22 @@
-/* What a run needs, and whether a node has it. */
+/* The memory that a run needs, and whether each node has it. */
 #include "runimpl.h"
 
 /*
-  Bytes a cell at the peak, shared memory counted once, and the program with its libraries. Measured at 512 to 4096
-  cells: in one step without friction 55 to 85, with friction 115 to 130 for contact on half of the grid and 215 on all
-  of it; 115 to 155 and 225 to 310 when pressure and shear are coupled. In several steps 125 to 155, 250 to 290; 215,
-  315.
+  Bytes per cell at the peak, shared memory counted once. Measured on grids of 512 to 4096 cells a side:
+    one step        without friction 55 to 85; with friction 115 to 130 for contact on half of the grid, 215 for
+                    contact on all of it; coupled: 115 to 155, with friction 225 to 310
+    several steps   without friction 125 to 155, with friction 250 to 290; coupled: 215, with friction 315
 */
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {170, 270}},
-                                               {{140, 220}, {275, 320}}}; /* by steps, friction and coupling */
-#define BYTES_PROGRAM 50e6
+                                               {{140, 220}, {275, 320}}}; /* [several steps][friction][coupled] */
+#define BYTES_PROGRAM 50e6 /* the program and its libraries, on each rank */
 
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
   return BYTES_PROGRAM + bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] * (double)grid->cells;
 }
 
-/* Memory of this node that can be had, bytes; 0 when it cannot be told. */
+/* Available memory of this node, bytes; 0 if that is not known. */
 static double AvailableMemory(void)
 {
   FILE  *file = fopen("/proc/meminfo", "r");

@@ -1,4 +1,4 @@
-/* What defines a run, by the names of its options. */
+/* The parameters that define a run, named as its options. */
 #include "runimpl.h"
 
 static PetscErrorCode DescribeField(SamGrid grid, Vec field, char text[], size_t size)
@@ -12,7 +12,7 @@ static PetscErrorCode DescribeField(SamGrid grid, Vec field, char text[], size_t
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Separations that come from files are known by their checksum: a file may change under its name. */
+/* A separation from a file is identified by its checksum, since a file may change and keep its name. */
 static PetscErrorCode AddFiles(SamRun *run)
 {
   static const char *const options[] = {"-gap_file", "-gap_rough_file"};
@@ -73,7 +73,7 @@ static PetscErrorCode AddGap(SamRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The number, or the file's field by its checksum. */
+/* The coefficient of friction; a field is identified by its checksum. */
 static PetscErrorCode AddFriction(SamRun *run)
 {
   PetscReal friction;
@@ -92,7 +92,8 @@ static PetscErrorCode AddFriction(SamRun *run)
 }
 
 /*
-  Of a history, the last step's: how it went there stands in /history, and checkpoints look at the steps themselves.
+  The loads of the last step. The steps of a history are in /history of the results, and checkpoints compare them
+  themselves (checkpoints.c).
 */
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
 {

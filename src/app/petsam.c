@@ -1,9 +1,9 @@
 /*
-  The program: the command line, errors and exit codes around a run (run/run.c).
+  The program: the command line, errors and exit codes around a run (run.c).
 
-  Exit codes: 0 converged and checked; 2 bad usage; 3 a file; 10 not converged; 11 no equilibrium; 12 contact at the
-  grid's edge; 75 stopped with a checkpoint; others are PETSc's. Nothing is written before all of the input has been
-  read and found right.
+  Exit codes: 0 converged and checked; 2 bad usage; 3 a file cannot be used; 10 not converged; 11 no equilibrium; 12
+  contact at the grid's edge; 75 stopped with a checkpoint; others are PETSc's. Nothing is written before all input has
+  been read and checked.
 */
 #include "runimpl.h"
 #include <errno.h>
@@ -32,13 +32,12 @@ static const char usage[] =
   "    -output sphere.h5\n"
   "\n"
   "-help prints this, -version the version. PETSc's options work too (-options_file, -log_view, ...).\n"
-  "Exit codes: 0 converged, 2 bad usage, 3 a file, 10 not converged, 11 no equilibrium, 12 contact at the grid's "
-  "edge,\n"
-  "75 stopped with a checkpoint.\n";
+  "Exit codes: 0 converged, 2 bad usage, 3 a file cannot be used, 10 not converged, 11 no equilibrium,\n"
+  "12 contact at the grid's edge, 75 stopped with a checkpoint.\n";
 
 /* ---- errors ---- */
 
-/* The user's mistakes are told in their own words by the first rank; all others as PETSc does. */
+/* Prints a user's mistake as one line, from rank 0; leaves all other errors to PETSc's handler. */
 static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                                   PetscErrorType type, const char *message, void *context)
 {
@@ -64,7 +63,7 @@ static int ExitCode(PetscErrorCode code)
 
 /* ---- command line ---- */
 
-/* What PETSc takes for an option's name: a dash and a letter (a number is a value). */
+/* Whether PETSc takes a word for an option's name: a dash and a letter (after a dash and a digit it is a value). */
 static PetscBool IsOption(const char text[])
 {
   return (text[0] == '-' &&
@@ -73,8 +72,8 @@ static PetscBool IsOption(const char text[])
            : PETSC_FALSE;
 }
 
-/* Takes -help, --help, -h, --version, -version out of the arguments; PETSc would answer with its own, and go on. */
-static void TakeWords(int *argc, char **argv, PetscBool *help, PetscBool *version)
+/* Removes -help, --help, -h, --version, -version from the arguments: PETSc would print its own text and go on. */
+static void TakeHelpAndVersion(int *argc, char **argv, PetscBool *help, PetscBool *version)
 {
   int kept = 1;
 
@@ -92,7 +91,7 @@ static void TakeWords(int *argc, char **argv, PetscBool *help, PetscBool *versio
   argv[kept] = NULL;
 }
 
-/* Whether a line holds more than an option and its value, which PETSc ends the program for; quotes are left to it. */
+/* Whether a line has more than an option and a value, at which PETSc ends the program. Not for lines with quotes. */
 static int HasMoreWords(const char text[])
 {
   int words = 0;
@@ -105,7 +104,7 @@ static int HasMoreWords(const char text[])
   return words > 2;
 }
 
-/* What is wrong with an options file, before PETSc stumbles over it: a code of the two errors, or 0. */
+/* Looks for mistakes in an options file at which PETSc would end the program. Returns their error code, or 0. */
 static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size_t size)
 {
   FILE        *file   = fopen(name, "r");
@@ -118,7 +117,7 @@ static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size
   struct stat    status;
 
   if (!file || fstat(fileno(file), &status) || S_ISDIR(status.st_mode)) {
-    snprintf(message, size, "-options_file %s: cannot be read: %s", name, file ? "it is no file" : strerror(errno));
+    snprintf(message, size, "-options_file %s: cannot be read: %s", name, file ? "it is not a file" : strerror(errno));
     if (file) fclose(file);
     return SAM_ERR_FILE;
   }
@@ -131,7 +130,7 @@ static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size
                name, number);
       code = SAM_ERR_USER;
     } else if (begins && IsOption(text) && HasMoreWords(text)) {
-      snprintf(message, size, "-options_file %s, line %d: expected one option and its value a line", name, number);
+      snprintf(message, size, "-options_file %s, line %d: expected one option and its value on a line", name, number);
       code = SAM_ERR_USER;
     }
     begins = strchr(line, '\n') != NULL;
@@ -140,7 +139,7 @@ static PetscErrorCode ExamineOptionsFile(const char name[], char message[], size
   return code;
 }
 
-/* Takes options files that PETSc could not read out of the arguments; says what is wrong with the first. */
+/* Removes options files with mistakes from the arguments. Returns the code of the first error, with its message. */
 static PetscErrorCode TakeBadOptionsFiles(int *argc, char **argv, char message[], size_t size)
 {
   int            kept  = 1;
@@ -166,7 +165,7 @@ static PetscErrorCode TakeBadOptionsFiles(int *argc, char **argv, char message[]
   return first;
 }
 
-/* PETSc passes over what is not an option or the value of one. */
+/* Refuses words that are neither an option nor its value, which PETSc would ignore. */
 static PetscErrorCode RefuseStrayWords(int argc, char **argv)
 {
   PetscFunctionBegin;
@@ -179,10 +178,10 @@ static PetscErrorCode RefuseStrayWords(int argc, char **argv)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* After all is set up, an option that nobody has asked for is a misspelled one. */
+/* Refuses options that the set-up has not read: they are misspelled, or have no effect. */
 static PetscErrorCode RefuseUnknownOptions(void)
 {
-  /* those that PETSc itself reads only when it ends */
+  /* options that PETSc itself reads only in PetscFinalize() */
   static const char *const late[] = {"-malloc_dump",
                                      "-malloc_view",
                                      "-malloc_test",
@@ -212,7 +211,7 @@ static PetscErrorCode RefuseUnknownOptions(void)
       PetscSNPrintf(first, sizeof(first), "-%s%s%s", names[0], values[0] ? " " : "", values[0] ? values[0] : ""));
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   PetscCheck(!first[0], PETSC_COMM_WORLD, SAM_ERR_USER,
-             "%s: unknown option, or one that has no meaning with the others given", first);
+             "%s: unknown option, or one that has no effect with the others given", first);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -228,7 +227,7 @@ static PetscErrorCode RunProgram(SamRun *run, int argc, char **argv, PetscBool h
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", usage));
     PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
     PetscCall(SamRunSetUp(run));
-    PetscCall(PetscOptionsClearValue(NULL, "-help")); /* or PETSc adds its own at the end */
+    PetscCall(PetscOptionsClearValue(NULL, "-help")); /* else PetscFinalize() would print PETSc's help */
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(RefuseStrayWords(argc, argv));
@@ -239,20 +238,20 @@ static PetscErrorCode RunProgram(SamRun *run, int argc, char **argv, PetscBool h
 }
 
 /*
-  Large fields come from the system and go back to it. SuperLU_DIST, which PETSc may link, turns that off for the whole
-  program when it is loaded; half of the memory would be holes then.
+  Makes malloc() map large fields from the system and return them to it when they are freed. SuperLU_DIST, which PETSc
+  may link, switches that off for the whole program; half of the memory would then be lost to fragmentation.
 */
 static void ReturnLargeFields(void)
 {
 #if defined(__GLIBC__)
   (void)mallopt(M_MMAP_MAX, 65536);
-  (void)mallopt(M_MMAP_THRESHOLD, 16 << 20); /* smaller ones come and go each step */
+  (void)mallopt(M_MMAP_THRESHOLD, 16 << 20); /* smaller fields are allocated in every step, and are faster reused */
 #endif
 }
 
 /*
-  A program that nobody launched as one of several needs no network. Open MPI would look for one, and start a daemon to
-  be found by, which takes longer than a small problem and cannot be done everywhere. What the user has set stays.
+  Without an MPI launcher no network is needed. Open MPI would look for one and start a daemon, which takes longer than
+  a small problem and is not possible everywhere. Settings of the user are not changed.
 */
 static void StartAlone(void)
 {
@@ -264,8 +263,8 @@ static void StartAlone(void)
   for (int k = 0; launched[k]; k++)
     if (getenv(launched[k])) return;
   (void)setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  (void)setenv("OMPI_MCA_orte_create_session_dirs", "0", 0); /* or all that run at the same time would use the same */
-  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0);               /* it needs one */
+  (void)setenv("OMPI_MCA_orte_create_session_dirs", "0", 0); /* else concurrent programs would share one */
+  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0);               /* needs a session directory */
   (void)setenv("OMPI_MCA_pml", "ob1", 0);
   (void)setenv("OMPI_MCA_btl", "self", 0);
 #endif
@@ -281,14 +280,14 @@ int main(int argc, char **argv)
 
   ReturnLargeFields();
   StartAlone();
-  TakeWords(&argc, argv, &help, &version);
+  TakeHelpAndVersion(&argc, argv, &help, &version);
   bad_file = TakeBadOptionsFiles(&argc, argv, message, sizeof(message));
   memset(&run, 0, sizeof(run));
   code = SamHistoryClaimOption();
   if (!code) code = PetscInitialize(&argc, &argv, NULL, NULL);
   if (code) return code;
-  (void)signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of the call that tries */
-  (void)signal(SIGPIPE, SIG_DFL); /* `petsam -help | head` is no crash to be traced */
+  (void)signal(SIGXFSZ, SIG_IGN); /* a file at its size limit becomes an error of the call that writes */
+  (void)signal(SIGPIPE, SIG_DFL); /* `petsam -help | head` ends quietly, without PETSc's trace */
   PetscCall(PetscPushErrorHandler(HandleError, NULL));
   if (version) {
     char petsc[256];
@@ -300,7 +299,7 @@ int main(int argc, char **argv)
   }
   code   = RunProgram(&run, argc, argv, help, bad_file, message);
   status = code ? ExitCode(code) : run.stopped ? EXIT_STOPPED : (int)run.point.worst;
-  /* other errors may be one rank's alone, and a file that could not be written cannot be closed: nobody must wait */
+  /* other errors may have occurred on one rank only, and a file that failed in writing cannot be closed: do not wait */
   if (code && (status == (int)code || run.writing)) MPI_Abort(PETSC_COMM_WORLD, status);
   PetscCall(SamRunTearDown(&run));
   PetscCall(SamFinalize());

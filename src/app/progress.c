@@ -1,28 +1,31 @@
 /*
-  A line on the terminal that is written over while a step is being solved.
+  A line on the terminal that is updated while a step is solved.
 
-  It is for eyes only, so that nothing of it may get into a file. Under an MPI launcher that is not told by rank 0's own
-  stdout: Open MPI gives its processes a pseudo terminal wherever the launcher's output goes. There the launcher's, that
-  is the parent's, counts too; where it cannot be seen, nothing is shown.
+  It must not get into a file. Under an MPI launcher, rank 0's own stdout does not show where the output goes: Open MPI
+  gives its processes a pseudo terminal in any case. So there the stdout of the launcher, the parent process, must be a
+  terminal too; when that cannot be found out, the line is not shown.
 */
 #include "reportimpl.h"
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#define AFTER    1.0  /* s: shorter steps need no line */
-#define INTERVAL 0.25 /* s */
+#define AFTER    1.0  /* s; shorter steps show no line */
+#define INTERVAL 0.25 /* s between updates */
 
 static const char *const mode_words[] = {"auto", "always", "never", NULL};
 
-/* The environment that this process began with: MPI adds its own variables to that of a process without a launcher. */
+/*
+  Whether the environment that this process was started with has a launcher's variables. getenv() would not do: MPI
+  itself sets such variables in a process without a launcher.
+*/
 static PetscBool LaunchedByMPI(void)
 {
   static const char *const names[] = {"OMPI_COMM_WORLD_SIZE=", "PMI_RANK=", "PMIX_RANK=", "SLURM_PROCID=", NULL};
   FILE                    *file    = fopen("/proc/self/environ", "r");
   char                    *entry   = NULL;
   size_t                   size    = 0;
-  PetscBool                found   = file ? PETSC_FALSE : PETSC_TRUE; /* it cannot be told: then rather so */
+  PetscBool                found   = file ? PETSC_FALSE : PETSC_TRUE; /* not known: assume a launcher */
 
   while (!found && getdelim(&entry, &size, '\0', file) > 0)
     for (PetscInt k = 0; names[k]; k++)
@@ -32,7 +35,7 @@ static PetscBool LaunchedByMPI(void)
   return found;
 }
 
-/* Whether what is written to stdout is seen by somebody. */
+/* Whether stdout goes to a terminal. */
 static PetscBool OnTerminal(void)
 {
   char    link[64], target[64];

@@ -1,12 +1,12 @@
-/* The report: banner, a line a load step, messages. */
+/* The report: banner, a line for each load step, messages. */
 #include "reportimpl.h"
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>
 
 /*
-  Whether PETSc's log can tell the time of an event: not where the user asked for a nested log, whose events are
-  others.
+  Starts PETSc's log, from which the times by part are taken. Not with a nested log (-log_view in XML or flame graph
+  format), which does not have the times in that form.
 */
 static PetscErrorCode StartLog(SamReport r)
 {
@@ -33,8 +33,9 @@ PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *rep
   r->comm  = from->comm;
   r->start = r->first = r->begin = MPI_Wtime();
   PetscCallMPI(MPI_Comm_rank(from->comm, &r->rank));
-  PetscCall(SamOptionsHeading(from, "What the run says"));
-  PetscCall(SamOptionsBool(from, "quiet", "nothing on stdout; warnings and errors stay", &r->quiet, NULL));
+  PetscCall(SamOptionsHeading(from, "What the run prints"));
+  PetscCall(
+    SamOptionsBool(from, "quiet", "print nothing on stdout; warnings and errors go to stderr", &r->quiet, NULL));
   PetscCall(SamProgressSetFromOptions(r, from));
   if (!r->quiet) PetscCall(StartLog(r));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -54,7 +55,7 @@ PetscErrorCode SamReportDestroy(SamReport *report)
 
 /* ---- banner ---- */
 
-/* What runs under this program, with versions: "PETSc 3.18.5, FFTW 3.3.10, HDF5 1.10.8, Open MPI v4.1.4". */
+/* The libraries with their versions: "PETSc 3.18.5, FFTW 3.3.10, HDF5 1.10.8, Open MPI v4.1.4". */
 static PetscErrorCode DescribeLibraries(char text[], size_t size)
 {
   char        mpi[MPI_MAX_LIBRARY_VERSION_STRING], fftw[64];
@@ -68,7 +69,7 @@ static PetscErrorCode DescribeLibraries(char text[], size_t size)
   PetscCheck(H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB,
              "H5get_libversion() failed");
   PetscCallMPI(MPI_Get_library_version(mpi, &length));
-  mpi[strcspn(mpi, ",\n")] = '\0'; /* the rest tells how it was built */
+  mpi[strcspn(mpi, ",\n")] = '\0'; /* the rest says how it was built */
   snprintf(fftw, sizeof(fftw), "%s", number ? number + 1 : fftw_version);
   fftw[strcspn(fftw, "-")] = '\0';
   snprintf(text, size, "PETSc %d.%d.%d, FFTW %s, HDF5 %u.%u.%u, %s", (int)petsc[0], (int)petsc[1], (int)petsc[2], fftw,
@@ -141,7 +142,7 @@ PetscErrorCode SamReportBeginStep(SamReport r, PetscInt number, SamContact conta
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Seconds that the remaining steps will take if they are as the last ones were. */
+/* Estimated seconds of the remaining steps: each as long as the mean of the last ones, of which this took `seconds`. */
 static double TimeLeft(SamReport r, double seconds)
 {
   const PetscInt known = PetscMin(r->done, SAM_REPORT_RECENT);
@@ -164,7 +165,7 @@ static void KeepWorst(SamReport r, const SamStep *step)
   }
 }
 
-/* A step's message goes to stderr, from the first rank. */
+/* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
 static void PrintMessage(SamReport r, const SamStep *step)
 {
   char where[32] = "", option[48] = "";

@@ -6,16 +6,16 @@
 #include "report.h"
 
 #define SAM_REPORT_FILES  8
-#define SAM_REPORT_RECENT 5 /* steps of which the mean gives the time left */
+#define SAM_REPORT_RECENT 5 /* the mean time of so many steps gives the estimate of the time left */
 
 typedef enum { SAM_PROGRESS_AUTO, SAM_PROGRESS_ALWAYS, SAM_PROGRESS_NEVER } SamProgressMode;
 
-/* The line within a step; only rank 0 has something to show. */
+/* The progress line within a step, which only rank 0 shows. */
 typedef struct {
-  PetscBool active;   /* on this rank */
-  double    after;    /* seconds into a step from which it is shown */
-  double    shown_at; /* when last */
-  int       length;   /* of the text on the terminal */
+  PetscBool active;   /* whether this rank shows it */
+  double    after;    /* shown after so many seconds of a step */
+  double    shown_at; /* when it was updated last (MPI_Wtime) */
+  int       length;   /* characters on the terminal, to be erased */
 } SamProgress;
 
 /* A solution's largest residual so far, and its step. */
@@ -32,9 +32,9 @@ struct _n_SamReport {
   PetscInt    restart_step;
   /* status */
   PetscMPIInt    rank;
-  PetscBool      logging;                   /* PETSc's log holds the times */
-  double         start, first, begin;       /* of the report, of the first step, of this one (MPI_Wtime) */
-  double         output_before;             /* seconds of results and checkpoints in the set-up */
+  PetscBool      logging;                   /* whether PETSc's log has the times */
+  double         start, first, begin;       /* MPI_Wtime() at the start of the report, of the first step, of this one */
+  double         output_before;             /* seconds spent on results and checkpoints before the first step */
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
   SamReportWorst worst[3]; /* normal, tangential, equilibrium */
@@ -45,13 +45,13 @@ struct _n_SamReport {
   PetscInt files;
 };
 
-/* Sets progress from -progress and from where stdout goes. */
+/* Reads -progress and decides whether to show the line: `auto` depends on where stdout goes. Collective. */
 PETSC_INTERN PetscErrorCode SamProgressSetFromOptions(SamReport report, const SamOptions *from);
-/* Adds the monitors of a contact's solvers, once. */
+/* Adds monitors to a contact's solvers, once. Not collective. */
 PETSC_INTERN PetscErrorCode SamProgressWatch(SamReport report, SamContact contact);
-/* Takes the line off the terminal. Not collective. */
+/* Erases the line on the terminal. Not collective. */
 PETSC_INTERN void SamProgressErase(SamReport report);
-/* Seconds spent on results and checkpoints so far, the largest rank's. Collective. */
+/* Seconds spent on results and checkpoints so far, the largest of all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamReportGetOutputTime(SamReport report, double *seconds);
 /* Seconds as h:mm:ss. */
 PETSC_INTERN void SamReportDuration(double seconds, char text[], size_t size);

@@ -1,11 +1,11 @@
-/* The run: every option in, objects made, the load steps solved, results and checkpoints out. */
+/* The run: reads all options, makes the objects, solves the load steps, writes results and checkpoints. */
 #include "runimpl.h"
 #include <string.h>
 #include <sys/stat.h>
 
 /* ---- files ---- */
 
-/* Whether two names are of one file, which may not be there yet. */
+/* Whether two names are those of the same file; files that do not exist yet are compared by name. */
 static PetscBool SameFile(const char a[], const char b[])
 {
   struct stat one, other;
@@ -16,8 +16,8 @@ static PetscBool SameFile(const char a[], const char b[])
 }
 
 /*
-  A file that is written would replace one that the run reads. A checkpoint may replace the one that the run goes on
-  from.
+  Refuses an output file that would overwrite an input file. With `restart` the file of -restart counts as an input,
+  too: results must not overwrite it, but a new checkpoint may.
 */
 static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
 {
@@ -34,7 +34,7 @@ static PetscErrorCode RefuseOverwriting(const char option[], const char filename
     if (!restart && !strcmp(inputs[k], "-restart")) continue;
     PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
     PetscCheck(!set || !SameFile(name, filename), PETSC_COMM_WORLD, SAM_ERR_USER,
-               "-%s %s: is the file of %s, which it would replace", option, filename, names[k]);
+               "-%s %s: would overwrite the file of %s", option, filename, names[k]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -48,13 +48,13 @@ static PetscErrorCode CheckFiles(const SamRun *run)
   if (run->has_output) PetscCall(RefuseOverwriting("output", run->filename, PETSC_TRUE));
   if (checkpoint) PetscCall(RefuseOverwriting("checkpoint", checkpoint, PETSC_FALSE));
   PetscCheck(!checkpoint || !run->has_output || !SameFile(checkpoint, run->filename), PETSC_COMM_WORLD, SAM_ERR_USER,
-             "-checkpoint %s: is the file of -output", checkpoint);
+             "-checkpoint %s: is also the file of -output", checkpoint);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- set-up ---- */
 
-/* What is given of the contact: bodies, gap, friction; while the help is printed, nothing of it is large. */
+/* Makes the problem, and reads the options of the gap, which is filled only after the memory check. */
 static PetscErrorCode CreateProblem(SamRun *run, const SamOptions *from)
 {
   SamElasticityTraits traits;
@@ -76,7 +76,7 @@ static PetscErrorCode CreateProblem(SamRun *run, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Moments and rotations, where these bodies have none, are told by the name that the user gave. */
+/* Refuses moments and rotations where the bodies have none, by the name that the user gave. */
 static PetscErrorCode CheckComponents(SamRun *run, const SamOptions *from)
 {
   SamElasticityTraits traits;
@@ -170,7 +170,7 @@ static PetscErrorCode CreateResults(SamRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The results of the run that was stopped, up to its checkpoint. */
+/* Opens the results of the stopped run, up to its checkpoint. */
 static PetscErrorCode ContinueResults(SamRun *run)
 {
   PetscReal     *times;
@@ -191,7 +191,7 @@ static PetscErrorCode ContinueResults(SamRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The state of the run that was stopped, if there was one, and its results. */
+/* Restores the state of a stopped run, if there is one, prints the banner, and opens the results. */
 static PetscErrorCode Begin(SamRun *run)
 {
   const char *checkpoint, *restart;
@@ -212,7 +212,7 @@ static PetscErrorCode Begin(SamRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution there are no fields of this step, but the last ones there are must be in the file. */
+/* When step k has no solution, makes sure that the fields of the step before, the last ones, are in the file. */
 static PetscErrorCode WriteLastFields(SamRun *run, PetscInt k)
 {
   SamControl before;
@@ -227,7 +227,7 @@ static PetscErrorCode WriteLastFields(SamRun *run, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Results of step k. */
+/* Writes the results of step k (from 0): its numbers, and its fields when they are due. */
 static PetscErrorCode WriteStep(SamRun *run, const SamStep *step, PetscInt k)
 {
   const PetscBool due =
@@ -245,7 +245,7 @@ static PetscErrorCode WriteStep(SamRun *run, const SamStep *step, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Closes the results file, so that what is said of it is true. */
+/* Closes the results before the closing table, which prints their size. */
 static PetscErrorCode FinishResults(SamRun *run)
 {
   char        content[96];
@@ -280,7 +280,7 @@ static PetscErrorCode ReportCheckpoint(SamRun *run)
 
 /* ---- steps ---- */
 
-/* One load step; says whether it is the last one that can be solved. */
+/* Solves one load step; `ended`: it failed, so that no further step can be solved. */
 static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
 {
   const PetscInt k = run->point.steps;
@@ -292,7 +292,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
   PetscCall(SamReportBeginStep(run->report, k, run->contact));
   PetscCall(SamContactTry(run->contact, &control, &step));
   PetscCall(WriteStep(run, &step, k));
-  PetscCall(SamReportEndStep(run->report, &step)); /* a step that is told is in the file */
+  PetscCall(SamReportEndStep(run->report, &step)); /* after writing: a reported step is in the file */
   *ended =
     (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
   if (!*ended) PetscCall(SamContactCommit(run->contact));
@@ -301,7 +301,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All that are left. Ends early where a step has no solution, or with a checkpoint. */
+/* Solves the remaining steps; ends early when a step fails, or with a checkpoint. */
 static PetscErrorCode SolveSteps(SamRun *run)
 {
   PetscBool ended = PETSC_FALSE;

@@ -7,7 +7,7 @@
 #include "checkpoints.h"
 #include "report.h"
 
-/* What the memory of a run depends on, besides the grid. */
+/* What the memory of a run depends on besides the grid. */
 typedef struct {
   PetscBool friction, coupled;
   PetscInt  steps;
@@ -27,27 +27,28 @@ typedef struct {
   SamParameters     parameters;
   SamReport         report;
   SamRunNeeds       needs;
-  SamRunPoint       point;   /* where the run is, steps before a restart included */
-  PetscBool         stopped; /* before the end, with a checkpoint */
+  SamRunPoint       point;   /* position in the load program; steps before a restart count too */
+  PetscBool         stopped; /* before its end, with a checkpoint */
   PetscInt          output_every;
   PetscBool         has_output;
   PetscBool         writing; /* a collective write is under way */
   char              filename[PETSC_MAX_PATH_LEN];
 } SamRun;
 
-/* SamRunSetUp - reads every option and makes every object, but writes nothing. Collective. */
+/* SamRunSetUp - reads all options and input files and makes all objects; writes nothing. Collective. */
 PETSC_INTERN PetscErrorCode SamRunSetUp(SamRun *run);
-/* SamRunSolve - banner, restart, all load steps with what is kept of them, closing table. Collective. */
+/* SamRunSolve - banner, restart, all load steps with their results and checkpoints, closing table. Collective. */
 PETSC_INTERN PetscErrorCode SamRunSolve(SamRun *run);
+/* SamRunTearDown - destroys all objects, also after an error. Collective. */
 PETSC_INTERN PetscErrorCode SamRunTearDown(SamRun *run);
 
-/* SamRunCollectParameters - what defines the run, for its results and checkpoints. Collective. */
+/* SamRunCollectParameters - fills run->parameters, for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamRunCollectParameters(SamRun *run);
-/* SamRunMemory - what this rank will need, bytes. */
+/* SamRunMemory - the memory that this rank will need, bytes. Not collective. */
 PETSC_INTERN double SamRunMemory(SamGrid grid, const SamRunNeeds *needs);
 /*
-  SamRunRefuseTooLarge - raises SAM_ERR_USER for what this node cannot hold, before the system kills the run for it; not
-  with -memory_check false. Collective.
+  SamRunRefuseTooLarge - refuses a run that a node has not enough memory for, before the system would kill it; option
+  -memory_check false skips this. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamRunNeeds *needs, const SamOptions *from);
 

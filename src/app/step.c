@@ -1,4 +1,4 @@
-/* A load step in words: in full, and as a line of a table. */
+/* Prints a load step: in full, and as a line of a table. */
 #include "reportimpl.h"
 
 static PetscErrorCode ViewComponent(const SamStep *s, SamComponent c, const char title[], PetscViewer viewer)

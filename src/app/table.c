@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What rank 0 found; code 0 when all is well. All ranks raise the same. */
+/* The error that rank 0 found, which all ranks raise; code 0: none. */
 typedef struct {
   PetscErrorCode code;
   char           message[1024];
@@ -25,7 +25,7 @@ static PetscErrorCode Judge(Verdict *verdict, PetscErrorCode code, const char fo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Cuts a comment and white space at both ends. */
+/* Removes a comment, and white space at both ends. */
 static char *Trim(char *text)
 {
   char *end;
@@ -63,7 +63,7 @@ static PetscErrorCode ReadHeader(const char file[], PetscInt line, char *text, S
     else if (t->columns == SAM_TABLE_COLUMNS)
       PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: more than %d columns", file, (int)line, SAM_TABLE_COLUMNS));
     else {
-      strncpy(t->name[t->columns], field, SAM_TABLE_NAME - 1); /* a longer name is unknown anyway */
+      strncpy(t->name[t->columns], field, SAM_TABLE_NAME - 1); /* a longer name will be refused as unknown */
       t->columns++;
     }
   }
@@ -123,7 +123,7 @@ static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
 
     line++;
     if (strlen(buffer) != (size_t)length) {
-      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: has a zero byte in it: expected text", file, (int)line));
+      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: contains a zero byte: expected text", file, (int)line));
       break;
     }
     text = Trim(buffer);

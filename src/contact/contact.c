@@ -112,7 +112,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
                            coupling_words, &coupling, NULL));
   PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE,
                            &rtol, NULL));
-  PetscCall(SamOptionsInt(&from, "coupling_max_it", "most passes", 1, &max_it, NULL));
+  PetscCall(SamOptionsInt(&from, "coupling_max_it", "most passes of the coupling", 1, &max_it, NULL));
   PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
   PetscCall(
     SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
