@@ -13,7 +13,7 @@ B          := build
 Q          := $(if $(V),,@)
 say        := $(if $(V),@true,@echo)
 
-# in the command itself: before GNU make 4.4 $(shell) does not see what is exported
+# set in the command itself: before GNU make 4.4, $(shell) does not see exported variables
 ifneq ($(PETSC_DIR),)
   PC := PKG_CONFIG_PATH="$(PETSC_DIR)/$(PETSC_ARCH)/lib/pkgconfig:$(PETSC_DIR)/lib/pkgconfig:$(PKG_CONFIG_PATH)" $(PKG_CONFIG)
   RPATH := -Wl,-rpath,$(shell $(PC) --variable=libdir petsc)
@@ -23,7 +23,7 @@ endif
 HDF5_PC := $(shell for p in hdf5-openmpi hdf5-mpich hdf5; do $(PC) --exists $$p && echo $$p && break; done)
 PACKAGES := petsc fftw3 $(HDF5_PC)
 
-# `:=` for what asks pkg-config: asked once, not once a file
+# `:=`, so that pkg-config is called once and not for every file
 PC_CFLAGS := $(shell $(PC) --cflags $(PACKAGES))
 PC_LIBS   := $(shell $(PC) --libs-only-L --libs-only-other $(PACKAGES)) $(RPATH) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PC) --libs-only-l $(PACKAGES)) -lhdf5_hl $(if $(filter Linux,$(shell uname -s)),-lrt) -lm
 ifeq ($(origin CC),default)
@@ -86,11 +86,11 @@ units: $(UNIT) ## build the unit tests
 
 bench-programs: $(BENCHES) ## build the benchmark's programs
 
-bench: all bench-programs venv peers ## run the benchmark, or go on with an unfinished one, report in build/bench/report: ARGS=--quick for a short one, ARGS=--anew to start over
+bench: all bench-programs venv peers ## run the benchmark, or go on with an unfinished one; the report is in build/bench/report: ARGS=--quick for a short one, ARGS=--anew to start over
 	$(PYTHON) tests/bench/benchmark.py --build $(B) --out $(B)/bench/report $(ARGS)
 
-# the programs that the benchmark compares with, built for this processor; without one of them it runs all the same
-peers: $(B)/peers/done ## install the benchmark's peers
+# the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
+peers: $(B)/peers/done ## install the programs that the benchmark compares with
 $(B)/peers/done: tests/bench/requirements.txt
 	@mkdir -p $(B)
 	$(PYTHON) -m venv $(B)/peers
@@ -99,7 +99,7 @@ $(B)/peers/done: tests/bench/requirements.txt
 	    { echo "peers: no $$package: aspher needs g++ and libeigen3-dev" >&2; failed=1; }; \
 	done < $<; [ -n "$$failed" ] || touch $@
 
-# the scripts' Python: one environment, from PyPI, made anew when its list changes; it finds the package in scripts/
+# the scripts' Python environment, from PyPI, made again when its list changes; it finds the package in scripts/
 venv: $(B)/venv/done ## make the Python environment of the scripts
 $(B)/venv/done: scripts/requirements.txt
 	@mkdir -p $(B)
@@ -108,7 +108,7 @@ $(B)/venv/done: scripts/requirements.txt
 	@echo '$(CURDIR)/scripts' > $$($(B)/venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/petsam.pth
 	touch $@
 
-# what the tests need besides; where there is no wheel of an optional one, its tests are skipped and say so
+# what only the tests need; where an optional package has no wheel, its tests are skipped with a message
 $(B)/venv/tests-done: tests/requirements.txt tests/requirements-optional.txt $(B)/venv/done
 	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
 	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r tests/requirements-optional.txt || echo "not installed: $$(cat tests/requirements-optional.txt); its tests will be skipped"
@@ -124,17 +124,17 @@ check-sanitize: ## unit tests under the address and undefined-behaviour sanitize
 check-valgrind: all units ## unit tests under valgrind, one rank
 	for t in $(UNIT); do valgrind -q --error-exitcode=9 $$t > $(B)/valgrind.log 2>&1 || { cat $(B)/valgrind.log; exit 1; }; done
 
-check-mutants: venv ## change lines that guard correctness, one by one, and see that tests notice: ARGS="word ..." for some
+check-mutants: venv ## change lines that guard correctness, one at a time; a test must fail each time: ARGS="word ..." for some
 	$(PYTHON) tests/mutants/run.py $(ARGS)
 
-# the layout of the sources; the formatters come with the tests' environment, in fixed versions
+# the format of the sources; the tests' environment has the formatters in fixed versions
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
 PYTHON_SOURCES := scripts examples tests scripts/petsam-plot scripts/petsam-study
-format: $(B)/venv/tests-done ## put C and Python in the layout of .clang-format and .ruff.toml
+format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.toml
 	$(B)/venv/bin/clang-format -i $(C_SOURCES)
 	$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)
 
-check-format: $(B)/venv/tests-done ## whether they are
+check-format: $(B)/venv/tests-done ## check the format of C and Python
 	$(B)/venv/bin/clang-format --dry-run -Werror $(C_SOURCES)
 	@awk 'length > 120 {print FILENAME ":" FNR ": more than 120 columns"; n++} END {exit n > 0}' $(C_SOURCES)
 	$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
@@ -143,7 +143,7 @@ check-format: $(B)/venv/tests-done ## whether they are
 lint: ## cppcheck over the sources
 	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) src/app/petsam.c
 
-# the scripts and examples of users; what builds and maintains petsam stays in its sources
+# what is installed for users; scripts that build and maintain petsam are not
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what petsam needs on Debian 12 and its relatives: compiler, MPI, PETSc, FFTW, HDF5, CMocka, Python for the
-# scripts. Asks for nothing; uses sudo when not run as root.
+# Installs what petsam needs on Debian 12 and distributions based on it: compiler, MPI, PETSc, FFTW, HDF5, CMocka, and
+# Python for the scripts. Asks no questions; uses sudo unless run by root.
 set -eu
 
 packages="gcc make pkg-config libopenmpi-dev openmpi-bin petsc-dev libfftw3-dev libfftw3-mpi-dev \

@@ -1,5 +1,5 @@
 #!/bin/sh
-# From a fresh clone to the sphere study's figures: installs what is missing, builds, runs the study on two ranks.
+# From a fresh clone to the figures of the sphere example: installs what is missing, builds petsam, runs the example.
 set -eu
 cd "$(dirname "$0")/.."
 scripts/install-dependencies.sh

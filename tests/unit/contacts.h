@@ -1,4 +1,4 @@
-/* Contacts, controls and steps for the tests of the rooms above the solvers. All functions are collective. */
+/* Contacts, controls and steps for the tests of src/contact, src/io and src/app. All functions are collective. */
 #ifndef PETSAM_CONTACTS_H
 #define PETSAM_CONTACTS_H
 
@@ -33,7 +33,7 @@ static inline void SetOptions(const char *options)
   sam_call(PetscOptionsInsertString(NULL, options));
 }
 
-/* The contact of a sphere, which it takes. */
+/* The contact of a sphere; DestroyCase() destroys the sphere, too. */
 static inline Case NewCaseOn(Sphere s, double friction, const char *prefix, const char *options)
 {
   Case c = {.s = s, .friction = friction};
@@ -62,7 +62,7 @@ static inline void DestroyCase(Case *c)
   DestroySphere(&c->s);
 }
 
-/* All six under force control: N, Tx, Ty, Mz in their units. */
+/* All six components under force control: N, Tx, Ty, Mz in the units of Case. */
 static inline SamControl Loads(const Case *c, double N, double x, double y, double z)
 {
   const double T = c->friction > 0 ? c->friction * c->s.N : c->s.N;
@@ -76,14 +76,14 @@ static inline SamControl Loads(const Case *c, double N, double x, double y, doub
   return control;
 }
 
-/* Gives a component by its displacement. */
+/* Prescribes a component by its displacement. */
 static inline void Displace(SamControl *control, SamComponent component, double value)
 {
   control->force[component] = PETSC_FALSE;
   control->value[component] = value;
 }
 
-/* The most iterations of the solvers; 0: their defaults again. */
+/* Limits the iterations of the solvers; 0: their defaults. */
 static inline void SetMostIterations(const Case *c, PetscInt normal, PetscInt tangential)
 {
   SamNormal     n;

@@ -1,4 +1,4 @@
-/* Grids, fields and bodies for the tests of the numeric rooms. All functions are collective. */
+/* Grids, fields and bodies for the tests of grid, transforms, elasticity and solvers. All functions are collective. */
 #ifndef PETSAM_FIELDS_H
 #define PETSAM_FIELDS_H
 
@@ -215,7 +215,7 @@ static inline double Hertz(const Sphere *s, double r)
   return r < s->a ? s->p0 * sqrt(1 - r * r / (s->a * s->a)) : 0;
 }
 
-/* What the first error said that was caught last. */
+/* The message of the first error since BeginCatching(). */
 static inline char *CaughtMessage(void)
 {
   static char message[4096];
@@ -235,7 +235,7 @@ static inline PetscErrorCode KeepCaught(MPI_Comm comm, int line, const char *fun
   return code;
 }
 
-/* Errors of the calls between these are returned and keep their message instead of printing it. */
+/* Between these, calls that fail return their error and keep its message instead of printing it. */
 static inline void BeginCatching(void)
 {
   CaughtMessage()[0] = '\0';
@@ -247,7 +247,7 @@ static inline void EndCatching(void)
   sam_call(PetscPopErrorHandler());
 }
 
-/* Calls that are to fail do so without PETSc's trace. */
+/* Asserts that a call fails with this error code; prints no trace. */
 #define sam_fails(petsc_call_expr, expected) \
   do { \
     PetscErrorCode sam_ierr_; \

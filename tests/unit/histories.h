@@ -24,7 +24,7 @@ static inline void Remove(void)
   (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
-/* Rank 0 writes the file; only it needs to see it. */
+/* Rank 0 writes the file, as only rank 0 reads it. */
 static inline void WriteBytes(const char *text, size_t size)
 {
   int good = 1;
@@ -51,7 +51,7 @@ static inline void SetOptions(const char *options)
   sam_call(PetscOptionsInsertString(NULL, options));
 }
 
-/* The history of the options, or of the file when there are none about it. */
+/* The history that these options give; without options about it, that of the file. */
 static inline SamHistory Read(const char *options)
 {
   SamHistory h;
@@ -74,7 +74,7 @@ static inline SamControl StepOf(SamHistory h, PetscInt k)
 {
   SamControl step;
 
-  memset(&step, 0x55, sizeof(step)); /* all of it is to be set */
+  memset(&step, 0x55, sizeof(step)); /* every member must be set */
   sam_call(SamHistoryGetStep(h, k, &step));
   return step;
 }
@@ -85,7 +85,7 @@ static const char *NameOf(PetscInt component, PetscBool rigid)
   return rigid ? SamComponentNames[component].rigid : SamComponentNames[component].load;
 }
 
-/* Refused with that code on all ranks, in one line that has both texts. */
+/* Asserts that the options are refused with this code on all ranks, in a one-line message that has both texts. */
 static inline void AssertRefused(const char *options, PetscErrorCode code, const char *one, const char *other)
 {
   SamHistory     h = NULL;
@@ -106,7 +106,7 @@ static inline void AssertRefused(const char *options, PetscErrorCode code, const
   sam_assert(good);
 }
 
-/* A file that is refused for what stands in that line, in words that have `says`. */
+/* Asserts that a file is refused because of that line, in a message that has `says`. */
 static inline void AssertMalformed(const char *text, int line, const char *says)
 {
   char where[64];

@@ -1,4 +1,4 @@
-/* Results for the tests of the room io: a contact with values of choice, steps in a file, and reading them back. */
+/* Results for the tests of src/io: a contact with prescribed fields, steps in a file, and reading them back. */
 #ifndef PETSAM_RESULTS_H
 #define PETSAM_RESULTS_H
 
@@ -218,7 +218,7 @@ static inline void WriteFile(SamGrid grid, const char *name, const SamOutputSett
   sam_assert(output == NULL);
 }
 
-/* ---- reading back, on one rank; all return whether it is as it should be ---- */
+/* ---- reading back, on one rank; all return whether the file holds what was written ---- */
 
 static inline int HasText(hid_t object, const char *name, const char *expected)
 {
@@ -415,7 +415,7 @@ static inline int IsGood(const char *name, SamGrid grid, int steps, int saved)
   return good;
 }
 
-/* Rank 0 copies a file as it is on the disk. */
+/* Rank 0 copies a file byte by byte. */
 static inline int CopyFile(const char *from, const char *to)
 {
   char   buffer[65536];

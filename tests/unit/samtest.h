@@ -1,6 +1,6 @@
 /*
-  CMocka under MPI. A plain assert that fails on one rank leaves the others waiting in a collective call; these agree on
-  the outcome first, so that all ranks fail together. They are collective on PETSC_COMM_WORLD.
+  CMocka under MPI. A plain assert that fails on one rank leaves the others waiting in a collective call. The asserts
+  here agree on the outcome first, so that all ranks fail together. They are collective on PETSC_COMM_WORLD.
 */
 #ifndef PETSAM_SAMTEST_H
 #define PETSAM_SAMTEST_H

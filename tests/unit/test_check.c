@@ -1,9 +1,9 @@
 /*
- * The check of a solution: a right one passes it, and what is wrong with a wrong one is found.
+ * The check of a solution: a right solution passes, and each kind of error is found.
  */
 #include "contacts.h"
 
-/* What is wrong is done to a copy of the solution. */
+/* Errors are made in a copy of the solution. */
 typedef void (*Spoil)(const Case *c, SamSolution *s);
 
 /* Solves, spoils the solution, and checks what is left. */
@@ -286,7 +286,7 @@ static void test_check_finds_wrong_stretch(void **state)
 
 /* ---- loads ---- */
 
-static PetscInt wrong; /* the component whose load is another than the one that was solved for */
+static PetscInt wrong; /* the component whose load is changed after the solve */
 
 static void ChangeLoad(const Case *c, SamSolution *s)
 {
@@ -313,7 +313,7 @@ static void ChangeFreeLoad(const Case *c, SamSolution *s)
   s->control.force[wrong] = PETSC_FALSE;
 }
 
-/* What is given by its displacement has no load to be out of. */
+/* A component given by its displacement has no load that could be wrong. */
 static void test_check_asks_no_equilibrium_of_given_displacements(void **state)
 {
   (void)state;

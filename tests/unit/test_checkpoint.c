@@ -1,6 +1,6 @@
 /*
- * The state of a contact in a file: what is read is what was written, on all ranks; a checksum sees what changes and
- * not where it lies.
+ * The state of a contact in a file: what is read is what was written, on any number of ranks. Checksums depend on the
+ * values, and not on how the cells lie on the ranks.
  */
 #include "contacts.h"
 
@@ -186,7 +186,7 @@ static void test_gap_that_has_changed_is_told(void **state)
 
 /* ---- files that cannot be used ---- */
 
-/* Refused on all ranks in words with each of these (NULL: none); the contact is as it was. */
+/* Asserts that the file is refused on all ranks, in a message with these texts (NULL: none); the contact stays. */
 static void AssertUnreadable(const Case *c, const SamParameters *parameters, PetscErrorCode code,
                              const char *const words[2])
 {
@@ -348,7 +348,7 @@ static void test_other_version_is_named(void **state)
   Remove();
 }
 
-/* Those that are not fixed may be others. */
+/* Parameters that are not fixed may differ. */
 static void test_other_fixed_parameter_is_named(void **state)
 {
   SamParameters parameters = NewParameters(friction);

@@ -1,5 +1,5 @@
 /*
- * Load steps: their numbers, what stands in the way of one, dissimilar bodies.
+ * Load steps: their numbers, steps that have no solution or are refused, periodic and dissimilar bodies.
  */
 #include "contacts.h"
 
@@ -21,7 +21,7 @@ static void test_step_with_all_tangential_loads_passes_its_check(void **state)
   DestroyCase(&c);
 }
 
-/* The slip of one step is the reference of the next: the same load again neither slips nor dissipates. */
+/* Slip goes on from the step before: the same load again causes no slip and no dissipation. */
 static void test_second_step_with_the_same_load_dissipates_nothing(void **state)
 {
   Case             c       = NewCase(Steel(), 40, 1.5, MU, "");
@@ -53,7 +53,7 @@ static void test_dissipation_is_work_at_the_final_shear_less_that_of_the_elastic
   DestroyCase(&c);
 }
 
-/* A given displacement is kept, and the load that it takes, given in its place, leads back to it. */
+/* A given displacement is kept; prescribing the load that it takes gives the same displacement again. */
 static void test_loads_and_displacements_are_two_ways_to_give_the_same_step(void **state)
 {
   Case       c = NewCase(Steel(), 48, 1.5, MU, ""), d = NewCase(Steel(), 48, 1.5, MU, "");
@@ -132,7 +132,7 @@ static void test_moment_beyond_the_grid_is_told(void **state)
   DestroyCase(&c);
 }
 
-/* Only what was given is known of a step that has no solution. */
+/* Of a step without a solution only the given values are known. */
 static void test_what_a_step_without_equilibrium_lacks_is_nan(void **state)
 {
   Case       c       = NewCase(Steel(), 40, 1.5, MU, "");
@@ -168,7 +168,7 @@ static void test_contact_at_the_edge_of_the_grid_is_a_status(void **state)
   }
 }
 
-/* What is not a control is refused, and changes nothing. */
+/* A wrong control is refused, and changes nothing. */
 static void test_controls_that_are_none_are_refused(void **state)
 {
   Case             c    = NewCase(Steel(), 40, 1.5, MU, "");
@@ -273,7 +273,7 @@ static void test_coupling_can_be_left_out(void **state)
   DestroyCase(&c);
 }
 
-/* The passes end at their tolerance, or at their number with a status. */
+/* The passes end when the tolerance is met, or at the largest number of passes, with a status. */
 static void test_too_few_passes_are_a_status(void **state)
 {
   Case             c       = NewCase(Dissimilar(), 40, 1.5, MU, "-coupling_max_it 2");

@@ -17,7 +17,7 @@ static void test_defaults_prescribe_no_load(void **state)
   for (PetscInt k = 0; k < 3; k++) sam_assert(control.stretch[k] == 0);
 }
 
-/* A name changes its component alone; the later of a pair counts. */
+/* A name changes only its component; of a load and its displacement the later one counts. */
 static void test_names_give_loads_or_displacements(void **state)
 {
   (void)state;

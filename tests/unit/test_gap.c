@@ -1,5 +1,5 @@
 /*
- * The separations: closed forms of the shapes, fields read from HDF5 files, and what is said about wrong input.
+ * The separations: closed forms of the shapes, fields read from HDF5 files, and messages about wrong input.
  */
 #include "samtest.h"
 

@@ -1,5 +1,5 @@
 /*
- * Load histories: what is read from a file and the options, and how steps divide it.
+ * Load histories: reading the file and the options, and dividing rows into increments.
  */
 #include "histories.h"
 
@@ -277,7 +277,7 @@ static void test_friction_scale_is_one_without_its_column(void **state)
   sam_call(SamHistoryDestroy(&h));
 }
 
-/* It is the first row's from the start: friction does not grow from nothing as loads do. */
+/* The first row's friction holds from the start: friction does not grow from zero as loads do. */
 static void test_friction_scale_is_interpolated_between_rows(void **state)
 {
   static const double rows[4] = {0.5, 0.5, 2, 0};

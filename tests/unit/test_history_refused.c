@@ -45,7 +45,7 @@ static void test_file_without_times_is_refused(void **state)
   AssertMalformed("Time,load_tx\n1,2\n", 1, "time");
 }
 
-/* Whichever line is named, the column as it was read shows what is wrong. */
+/* The message may name one line or the other, but it shows the column as it was read. */
 static void test_other_separators_are_refused(void **state)
 {
   (void)state;
@@ -211,7 +211,7 @@ static void test_files_without_a_step_are_refused(void **state)
   }
 }
 
-/* Blocks of zeros are what a crash may leave of a file; text behind one must not be lost in silence. */
+/* A crash may leave blocks of zeros in a file; the text after one must not be ignored silently. */
 static void test_zero_bytes_are_refused(void **state)
 {
   static const char inside[] = "time,load_tx\n1,2\0 000\n", block[] = "time,load_tx\n1,2\n\0\0\0\0\0\0\0\0\n3,4\n",
@@ -259,7 +259,7 @@ static void test_too_many_steps_are_refused(void **state)
   AssertRefused("-history test_history.csv -steps 2000000000", SAM_ERR_USER, "-steps", "");
 }
 
-/* A refused history leaves nothing behind that a good one would stumble over. */
+/* A refused history leaves nothing behind that disturbs the next one. */
 static void test_good_history_is_read_after_a_refused_one(void **state)
 {
   (void)state;

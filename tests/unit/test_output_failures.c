@@ -1,5 +1,5 @@
 /*
- * Results that cannot be written: said on all ranks, and nothing is lost.
+ * Results that cannot be written: the error is raised on all ranks, and no earlier step is lost.
  */
 #include "results.h"
 

@@ -1,5 +1,5 @@
 /*
- * The start of a step from those before it: exact where the edges of contact and stick move evenly.
+ * The guess for a step: exact where the squared radii of contact and stick change evenly from step to step.
  */
 #include "contacts.h"
 
@@ -177,7 +177,7 @@ static void test_prediction_keeps_what_would_vanish(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
-/* Nothing is predicted of loads that turn, or of a component that is now given otherwise. */
+/* No guess when loads turn, or when a component changes between load and displacement. */
 static void test_what_turns_is_not_predicted(void **state)
 {
   const Stage  stages[2] = {{1, 0}, {sqrt(0.9), 0}};

@@ -1,5 +1,5 @@
 /*
- * What is given of a contact may change between its steps: the gap, and the friction as a number or a field.
+ * The problem of a contact may change between steps: the gap, and the friction as a number or a field.
  */
 #include "contacts.h"
 
@@ -135,7 +135,7 @@ static void test_slip_stays_with_its_place_when_the_gap_changes(void **state)
   DestroyCase(&c);
 }
 
-/* The state's pressure belongs to its own gap. The check finds out where that is not said. */
+/* A state's pressure belongs to the gap it was solved with. If the state claims another gap, the check finds out. */
 static void test_state_of_another_gap_is_solved_anew(void **state)
 {
   (void)state;
@@ -262,7 +262,7 @@ static double Stripes(double x, double y, const void *a)
   return stripes[(int)floor(8 * x / *(const double *)a) & 1];
 }
 
-/* What a cell violates of Coulomb's law. */
+/* How far a cell violates Coulomb's law. */
 typedef struct {
   double cone, stick, direction; /* over the bound; slip of what sticks; slip along the shear or across it */
   double cells[2][3];            /* how many there are: by stripe, then state */

@@ -73,7 +73,7 @@ static Case NewBody(void)
   return NewCase(Steel(), 37, 2.5, MU, "");
 }
 
-/* Solves step `point->steps` and lets the checkpoints do what they do; whether the run is to stop. */
+/* Solves step `point->steps`, then calls SamCheckpointsAfterStep(); returns whether the run is to stop. */
 static PetscBool TakeStep(SamCheckpoints k, const Case *c, SamRunPoint *point)
 {
   SamControl control;
@@ -169,7 +169,10 @@ static void WriteCheckpoint(void)
   DestroyCase(&c);
 }
 
-/* Goes on with a program, which it takes; `says` NULL: it may, else why not. */
+/*
+  Goes on from the checkpoint with this program, and destroys it. `says` NULL: this works; else it is refused, in a
+  message with this text.
+*/
 static void AssertRestart(SamHistory history, const char *says)
 {
   Case           c     = NewBody();
@@ -190,7 +193,7 @@ static void AssertRestart(SamHistory history, const char *says)
   DestroyCase(&c);
 }
 
-/* What comes after the checkpoint may be another; so may the number of steps. */
+/* After the checkpoint the program may differ, also in the number of steps. */
 static void test_run_goes_on_with_the_program_that_it_had(void **state)
 {
   (void)state;

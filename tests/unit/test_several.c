@@ -1,5 +1,5 @@
 /*
- * Several contacts in one process, one after the other's step or at the same time: each is as if it were alone.
+ * Several contacts in one process, solved in turn or at the same time: each is as if it were alone.
  */
 #include "contacts.h"
 
@@ -65,7 +65,7 @@ static void AssertSameRecords(const Record *a, const Record *b)
   }
 }
 
-/* Each hears its own options; their steps alternate. */
+/* Each reads its own options; their steps alternate. */
 static void test_contacts_with_different_prefixes_do_not_disturb_each_other(void **state)
 {
   static const char *const prefixes[BODIES] = {"one_", "other_"};

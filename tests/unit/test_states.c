@@ -256,7 +256,7 @@ static void test_step_that_does_not_converge_is_not_committed_by_itself(void **s
   DestroyCase(&d);
 }
 
-/* What is left of earlier steps does not pass for the shear of a pressure that was not found. */
+/* When the pressure does not converge, the shear is zero and not what earlier steps have left. */
 static void test_there_is_no_shear_to_a_pressure_that_is_not_found(void **state)
 {
   Case c = NewCase(Steel(), 40, 1.5, MU, "");
@@ -306,7 +306,7 @@ static void test_step_without_equilibrium_leaves_the_contact_as_it_was(void **st
   }
 }
 
-/* ---- taking a state out and putting it in ---- */
+/* ---- getting and setting a state ---- */
 
 static SamControl Turn(const Case *c, int k)
 {

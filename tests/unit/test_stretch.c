@@ -6,7 +6,7 @@
 #include <petsam/checkpoint.h>
 #include <unistd.h>
 
-/* Strain of Cattaneo's displacement over the contact radius, at which slip zones are of the order of the contact. */
+/* A strain of the size of Cattaneo's displacement over the contact radius, at which large parts of the contact slip. */
 static double StrainOf(const Case *c)
 {
   return 0.3 * MU * c->s.a / c->s.R;
@@ -157,7 +157,7 @@ static void test_rigid_displacement_takes_back_the_stretch_of_the_centre(void **
   DestroyCase(&there);
 }
 
-/* Where the strain stays, nothing slips. */
+/* Without a change of strain nothing slips. */
 static void test_stretch_that_stays_dissipates_nothing(void **state)
 {
   Case             c       = NewCase(Steel(), 45, 1.5, MU, "");

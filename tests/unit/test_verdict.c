@@ -105,7 +105,7 @@ static void test_verdict_does_not_mend_a_failed_step(void **state)
   }
 }
 
-/* A wrong solution at the grid's edge is not converged, not only at the edge. */
+/* A wrong solution that reaches the grid's edge is NOT_CONVERGED, not EDGE_CONTACT. */
 static void test_disagreement_comes_before_the_edge(void **state)
 {
   SamStep step;
@@ -120,7 +120,7 @@ static void test_disagreement_comes_before_the_edge(void **state)
 
 /* ---- solvers that lie ---- */
 
-/* What is wrong with the traction that they call converged. */
+/* How the traction is wrong that they report as converged. */
 typedef struct {
   PetscReal pressure, shear; /* factor on all of it, less 1 */
   PetscInt  cell[2];         /* one cell of the finest grid, column and row; negative: none */
@@ -267,7 +267,7 @@ static void test_wrong_shear_that_a_solver_calls_converged_is_refused(void **sta
   }
 }
 
-/* Far less than the tangential residual may be. */
+/* Far below the limit of the tangential residual. */
 static void test_shear_that_is_a_little_beyond_the_cone_is_refused(void **state)
 {
   SamStep step;
