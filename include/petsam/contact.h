@@ -1,4 +1,7 @@
-/* A contact through a sequence of load steps, each tried, then committed or rejected; and the check of a solution. */
+/*
+  The contact of two bodies through a sequence of load steps. Each step is tried, then committed or rejected. Also the
+  independent check of a solution, and the verdict on it.
+*/
 #ifndef PETSAM_CONTACT_H
 #define PETSAM_CONTACT_H
 
@@ -7,10 +10,11 @@
 #include <petsam/problem.h>
 #include <petsam/tangential.h>
 
-/* State of a cell. */
+/* State of a cell, as the results store it. */
 typedef enum { SAM_STATE_OPEN, SAM_STATE_STICK, SAM_STATE_SLIP } SamState;
-/* A cell in contact slips where |q| >= (1 - this) of its bound mu p. */
+/* Relative margin: a cell in contact counts as slipping where |q| >= (1 - SAM_SLIP_MARGIN) mu p. */
 #define SAM_SLIP_MARGIN 1e-5
+/* SamStateOf - the state of a cell from its pressure, shear and bound mu p (all Pa). Not collective. */
 static inline SamState SamStateOf(PetscReal p, PetscReal qx, PetscReal qy, PetscReal bound)
 {
   if (p <= 0) return SAM_STATE_OPEN;
@@ -18,13 +22,15 @@ static inline SamState SamStateOf(PetscReal p, PetscReal qx, PetscReal qy, Petsc
 }
 
 /*
-  SamSolution - the solution of a load step. Fields have one component, or two: x, then y on each rank. The slip is
-  s = u_t + stretch - rigid, the gap g = u_z + h - rigid (SamContactComputeSlip(), SamContactComputeGap()).
+  SamSolution - the solution of a load step: tractions, rigid displacements and relative elastic displacements u.
+  A field has one component, or two: on each rank all of x, then all of y. With the separation h of the undeformed
+  bodies, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid; SamContactComputeGap() and
+  SamContactComputeSlip() compute them.
 */
 typedef struct {
   SamControl control;               /* what was prescribed */
-  PetscReal  load[SAM_COMPONENTS];  /* N, N m */
-  PetscReal  rigid[SAM_COMPONENTS]; /* m, rad */
+  PetscReal  load[SAM_COMPONENTS];  /* N, N m: given or found */
+  PetscReal  rigid[SAM_COMPONENTS]; /* m, rad: given or found */
   Vec        pressure;              /* Pa */
   Vec        bound;                 /* Pa: mu p, the largest shear */
   Vec        shear;                 /* Pa, two components: acts on body 2 */
@@ -33,13 +39,16 @@ typedef struct {
 } SamSolution;
 
 /*
-  What the check of a solution finds, from tractions and rigid displacements alone: elastic displacements are computed
-  anew and no solver is trusted. All relative; zero for the exact solution of the discrete problem.
-    normal       largest of |g| where p > 0, -g where p = 0, and -p u/p_max anywhere, over the largest displacement u
-    tangential   |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm: D projects each cell's shear
-                 on its disc |q| <= mu p, ds is the slip of the step, c a cell's self-influence. It holds stick, slip
-                 direction and cone in one
-    equilibrium  largest error of a given load over the sum of |traction| dA, moments also over the grid's half width
+  SamCheck - the errors that the check of a solution finds. It uses only the tractions and the rigid displacements,
+  recomputes the elastic displacements, and trusts no solver. All errors are relative; all are zero for the exact
+  solution of the discrete problem.
+    normal       error of p >= 0, g >= 0, p g = 0: the largest of |g| where p > 0, of -g where p = 0, and of -p u/p_max,
+                 over the largest displacement u
+    tangential   error of the law of friction: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the
+                 2-norm. D projects each cell's shear onto its disc |q| <= mu p, ds is the slip of the step, c the
+                 self-influence of a cell. One number for stick, direction of slip, and the limit mu p
+    equilibrium  largest error of a given load over the sum of |traction| dA; a moment's also over half the grid's
+                 larger width plus the distance of its centre from the origin
     cone         largest |q| - mu p over the largest mu p
     edge         largest pressure in the outermost cells over the largest pressure; 0 where the grid has no edge
 */
@@ -48,14 +57,15 @@ typedef struct {
 } SamCheck;
 
 /*
-  SamCheckSolution - checks a solution. Reads its control, rigid displacements, pressure and shear; computes its elastic
-  displacements (with normal-tangential coupling unless that is false; u_z is left as it is when `u_z_known`). `before`
-  is the solution at the end of the step before, from which slip goes on; NULL: nothing has slipped. Collective.
+  SamCheckSolution - checks a solution. Input: its control, rigid displacements, pressure and shear, and `before`, the
+  solution of the previous step (NULL: no slip so far). Output: the errors, and the solution's elastic displacements,
+  for which it must have the vectors. `coupling`: pressure and shear of dissimilar bodies act on each other. `u_z_known`:
+  displacement_z is right already and is used as it is. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamCheckSolution(SamProblem problem, PetscBool coupling, PetscBool u_z_known,
                                              const SamSolution *before, SamSolution *solution, SamCheck *check);
 
-/* Outcome of a step, the worst that applies; as stored in the results. */
+/* SamStatus - the outcome of a load step, with the numbers that the results store and the program exits with. */
 typedef enum {
   SAM_STATUS_CONVERGED      = 0,
   SAM_STATUS_NOT_CONVERGED  = 10, /* a solver, or the coupling, stopped without converging, or the check disagrees */
@@ -63,9 +73,9 @@ typedef enum {
   SAM_STATUS_EDGE_CONTACT   = 12  /* the contact reached the edge of the grid */
 } SamStatus;
 
-/* The numbers of one load step. */
+/* SamStep - the numbers of one load step. Without a solution (NO_EQUILIBRIUM), those that were not given are NaN. */
 typedef struct {
-  SamControl control;                  /* as it was given */
+  SamControl control;                  /* as given */
   PetscReal  load[SAM_COMPONENTS];     /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS];    /* m, rad: given or found */
   PetscReal  contact_area, stick_area; /* m2 */
@@ -75,94 +85,121 @@ typedef struct {
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
   PetscInt   coupling_iterations;
   SamStatus  status;
-  char       message[512]; /* why the status is not 0, or a warning */
-  char       setting[32];  /* the setting that decides it, as its option is named: grid_size ...; empty: none */
+  char       message[512]; /* why the status is not CONVERGED, or a warning; else empty */
+  char       setting[32];  /* option (without dash) of the setting behind the message, grid_size ...; empty: none */
 } SamStep;
 
-/* What the check may find at most for a step that counts as converged. */
+/* SamCheckLimits - the largest errors of a step that counts as converged. */
 typedef struct {
   PetscReal normal, tangential, equilibrium, cone;
-  PetscBool edge; /* contact at the grid's edge is allowed */
+  PetscBool edge; /* contact at the grid's edge is only a warning */
 } SamCheckLimits;
 
 /*
-  SamStepJudge - turns what the check of a step found into its status and message. A failure that the step has already
-  stays. Not collective: all ranks have the same numbers.
+  SamStepJudge - sets a step's status and message from the errors in step->check. An error that is NaN fails. A status
+  other than CONVERGED that the step already has is kept. Not collective: all ranks have the same numbers.
 */
 PETSC_EXTERN PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits);
 
 /*
-  SamContact - the contact of two bodies through a sequence of load steps. It has a problem, the state committed last,
-  and a tried one:
-    SamContactTry()     solves a step from the committed state; again and again if wanted, each try replaces the last
-    SamContactCommit()  makes the tried step the state from which the next one goes on
-    SamContactReject()  forgets the tried step; nothing of it is left, to the last bit
-  The gap and the friction of the problem may change between steps: slip is remembered by place, and what depends on the
-  gap is found anew.
+  SamContact - the contact of two bodies through a sequence of load steps. It holds a problem, the committed state, and
+  at most one tried state:
+    SamContactTry()     solves a step from the committed state; may be repeated, each try replaces the one before
+    SamContactCommit()  makes the tried state the committed one, from which the next step starts
+    SamContactReject()  discards the tried state: later steps are the same, to the last bit, as if it had not been tried
+  The gap and the friction of the problem may change between steps. Slip belongs to a place on the grid and is kept;
+  the pressure is solved again when the gap has changed.
 */
 typedef struct _n_SamContact *SamContact;
 
-/* SamContactCreate - references the problem. The committed state is that of bodies that have never touched. Collective. */
+/*
+  SamContactCreate - a contact without any step so far; the bodies have never touched. References the problem.
+  Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact);
+/* SamContactDestroy - frees the contact and sets the handle to NULL. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
-/* SamContactSetOptionsPrefix - what stands before the names of its options, and of its solvers'. Not collective. */
+/* SamContactSetOptionsPrefix - the prefix of its options and of its solvers'; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
 /*
-  SamContactSetFromOptions - -coupling (full or none), -coupling_rtol, -coupling_max_it, -coupling_monitor, -warm_start,
-  -allow_edge_contact, -contact_check (prints the check), and the options of both solvers. Collective.
+  SamContactSetFromOptions - reads -coupling (full or none), -coupling_rtol, -coupling_max_it, -warm_start and
+  -allow_edge_contact, which mirror the functions below; -coupling_monitor (prints the change after each pass);
+  -contact_check (prints the errors of each step); and the options of both solvers. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 /*
-  SamContactSetCoupling - whether normal-tangential coupling of dissimilar materials counts (default: true), the relative
-  change of p and q between passes at which these end (1e-6) and the most passes (100). PETSC_DEFAULT keeps a number.
+  SamContactSetCoupling - `full`: normal-tangential coupling of dissimilar materials is taken into account (default:
+  true; option -coupling). The normal and the tangential problem are then solved in turn, a pass each, until p and q
+  change by at most `rtol`, relative to their norms, from pass to pass (1e-6; -coupling_rtol), in at most `max_it`
+  passes (100; -coupling_max_it). PETSC_DEFAULT keeps a number. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
+  number that is not positive.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetCoupling(SamContact contact, PetscBool full, PetscReal rtol, PetscInt max_it);
+/* SamContactGetCoupling - whether coupling is taken into account. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetCoupling(SamContact contact, PetscBool *full);
-/* SamContactSetWarmStart - whether a step starts from the ones before (default: true). */
+/*
+  SamContactSetWarmStart - whether a step starts from a guess made of the steps before (default: true), on the finest
+  grid only. Option -warm_start. Not collective.
+*/
 PETSC_EXTERN PetscErrorCode SamContactSetWarmStart(SamContact contact, PetscBool warm);
-/* SamContactAllowEdge - whether contact at the grid's edge is a warning only (default: false). */
+/*
+  SamContactAllowEdge - whether contact at the grid's edge is only a warning and not a status (default: false). Option
+  -allow_edge_contact. Not collective.
+*/
 PETSC_EXTERN PetscErrorCode SamContactAllowEdge(SamContact contact, PetscBool allow);
+/* The objects of a contact. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetProblem(SamContact contact, SamProblem *problem);          /* borrowed */
 PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);                   /* borrowed */
 PETSC_EXTERN PetscErrorCode SamContactGetNormal(SamContact contact, SamNormal *normal);             /* borrowed */
 PETSC_EXTERN PetscErrorCode SamContactGetTangential(SamContact contact, SamTangential *tangential); /* borrowed */
 
 /*
-  SamContactTry - solves one load step from the committed state, and fills in its numbers. A status other than 0 comes
-  with a message. After NO_EQUILIBRIUM there is no tried state. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
-  control that is not finite, a negative normal force or friction, or a moment or rotation where the elasticity has none.
+  SamContactTry - solves one load step from the committed state, checks the solution, and fills `step` with the numbers
+  of the step. That a step has no solution or does not converge is a status with a message, not an error; after
+  NO_EQUILIBRIUM there is no tried state. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a control that is not finite,
+  a negative normal force or friction scale, or a moment or rotation that is not zero where the elasticity has none.
 */
 PETSC_EXTERN PetscErrorCode SamContactTry(SamContact contact, const SamControl *control, SamStep *step);
-/* SamContactCommit - errors: PETSC_ERR_ORDER without a tried state. Collective. */
+/*
+  SamContactCommit - makes the tried state the committed one. Collective. Errors: PETSC_ERR_ORDER without a tried state.
+*/
 PETSC_EXTERN PetscErrorCode SamContactCommit(SamContact contact);
-/* SamContactReject - does nothing without a tried state. Collective. */
+/* SamContactReject - discards the tried state, if there is one. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
-/* SamContactGetSolution - of the tried state if there is one, else of the committed one; borrowed until the next call. */
+/*
+  SamContactGetSolution - the solution of the tried state if there is one, else of the committed one. Borrowed until the
+  next try, commit or rejection. Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamSolution **solution);
 /*
-  Fields that follow from the solution, written to the caller's vectors of one component: the gap between the deformed
-  surfaces, with the problem's present separation (m), the slip since the start along x (0) or y (1) (m), the state of
-  each cell (a SamState). Collective.
+  Fields that follow from the solution (that of SamContactGetSolution()), written to the caller's vectors of one
+  component. Collective.
+  SamContactComputeGap - the gap between the deformed surfaces (m), with the separation that the problem has now.
+  SamContactComputeSlip - the slip since the start (m), along x for component 0 and along y for component 1.
+  SamContactComputeState - the state of each cell, a SamState as a real number.
 */
 PETSC_EXTERN PetscErrorCode SamContactComputeGap(SamContact contact, Vec gap);
 PETSC_EXTERN PetscErrorCode SamContactComputeSlip(SamContact contact, PetscInt component, Vec slip);
 PETSC_EXTERN PetscErrorCode SamContactComputeState(SamContact contact, Vec state);
 
 /*
-  SamContactState - all that the committed steps have to say to those that come: a contact of the same problem that is
-  given the state of another goes on as that one would, to the last bit and on any number of ranks.
+  SamContactState - the committed state: all that later steps depend on. A contact of the same problem that is given the
+  state of another goes on as that one would, to the last bit, on any number of ranks.
 */
 typedef struct {
-  PetscInt    steps;                        /* committed so far */
-  SamSolution now;                          /* after the last of them */
+  PetscInt    steps;                        /* number of committed steps */
+  SamSolution now;                          /* of the last committed step */
   SamSolution before;                       /* one step back, tractions only; vectors NULL before the second step */
-  PetscInt    window_first[2], window_n[2]; /* part of the grid that the solvers worked on; n = 0: none */
-  PetscBool   gap_is_current;               /* `now` was found with the gap that the problem has at present */
+  PetscInt    window_first[2], window_n[2]; /* part of the grid that the solvers worked on: cells; n = 0: all of it */
+  PetscBool   gap_is_current;               /* `now` was solved with the gap that the problem has now */
 } SamContactState;
 
-/* SamContactGetState - the committed state; the vectors are borrowed until the next commit. Collective. */
+/* SamContactGetState - the committed state; its vectors are borrowed until the next commit. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamContactState *state);
-/* SamContactSetState - copies the vectors into the committed state; a tried one is forgotten. Collective. */
+/*
+  SamContactSetState - copies a state, vectors included, into the committed state; discards a tried one. Collective.
+  Errors: PETSC_ERR_ARG_INCOMP when the state lacks vectors.
+*/
 PETSC_EXTERN PetscErrorCode SamContactSetState(SamContact contact, const SamContactState *state);
 
 #endif

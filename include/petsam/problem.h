@@ -1,53 +1,61 @@
-/* What is given of a contact: the bodies' elasticity, their gap, their friction. */
+/* The problem of a contact: the bodies' elasticity, their gap and their friction. */
 #ifndef PETSAM_PROBLEM_H
 #define PETSAM_PROBLEM_H
 
 #include <petsam/elasticity.h>
 
 /*
-  SamProblem - what a contact is given besides the control of each step: an elasticity, the gap (separation of the
+  SamProblem - what a contact is given besides the control of each step: an elasticity, the gap (the separation of the
   undeformed bodies, m) and the coefficient of friction, a number or a field.
 
-  All of it may change between steps. What is computed from the gap remembers the gap's revision, a number that grows
-  with every change; it never compares values.
+  Gap and friction may change between steps. The gap has a revision, a number that grows with every change. What is
+  computed from the gap keeps the revision it came from, so that no values need to be compared.
 */
 typedef struct _n_SamProblem *SamProblem;
 
-/* SamProblemCreate - references the elasticity; the gap is zero, and there is no friction. Collective. */
+/* SamProblemCreate - a problem with zero gap and without friction; references the elasticity. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem);
+/* SamProblemReference - adds a reference, which SamProblemDestroy() gives back. Not collective. */
 PETSC_EXTERN PetscErrorCode SamProblemReference(SamProblem problem);
+/* SamProblemDestroy - gives back a reference, frees the problem with the last, and sets the handle to NULL. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemDestroy(SamProblem *problem);
+/* The elasticity and its grid. Not collective. */
 PETSC_EXTERN PetscErrorCode SamProblemGetElasticity(SamProblem problem, SamElasticity *elasticity); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamProblemGetGrid(SamProblem problem, SamGrid *grid);                   /* borrowed */
 
 /*
   SamProblemSetGap - copies the separation h (m, one component). Collective.
-  SamProblemGetGap - the problem's own field, borrowed. It may be written to through PETSc's functions (VecGetArray(),
-  VecAXPY() ...), which raise its revision, a number of each rank's own: any rank may write without the others. Not
-  collective.
+  SamProblemGetGap - the problem's own field, borrowed. It may be changed through PETSc's functions (VecGetArray(),
+  VecAXPY() ...), which raise its revision. Not collective.
+  SamProblemGetGapRevision - the revision on this rank. Each rank counts for itself, so that one may write to its part
+  without the others. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
 PETSC_EXTERN PetscErrorCode SamProblemGetGap(SamProblem problem, Vec *h);
 PETSC_EXTERN PetscErrorCode SamProblemGetGapRevision(SamProblem problem, PetscObjectState *revision);
 
 /*
-  SamProblemSetFriction - Coulomb's coefficient, the same everywhere; SamProblemSetFrictionField - one for each cell
-  (one component), copied. The later call counts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for one that is negative
-  or not finite.
+  SamProblemSetFriction - the coefficient of friction, the same everywhere.
+  SamProblemSetFrictionField - one coefficient for each cell (one component), copied.
+  The later of the two calls counts. Both are collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is
+  negative or not finite.
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetFriction(SamProblem problem, PetscReal friction);
 PETSC_EXTERN PetscErrorCode SamProblemSetFrictionField(SamProblem problem, Vec friction);
 /*
-  SamProblemSetFrictionFromOptions - from -friction, or -friction_file and -friction_dataset (/friction): an HDF5 dataset
-  of (ny, nx), each value >= 0. Collective. Errors: SAM_ERR_USER for wrong options, SAM_ERR_FILE for a wrong file.
+  SamProblemSetFrictionFromOptions - reads -friction (a number), or -friction_file and -friction_dataset (default
+  /friction): an HDF5 dataset of shape (ny, nx) with values >= 0. Without these options the friction stays as it is.
+  Collective. Errors: SAM_ERR_USER for wrong options, SAM_ERR_FILE for a file that cannot be used.
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetFrictionFromOptions(SamProblem problem, const SamOptions *from);
-/* SamProblemGetFriction - the number, or its field (borrowed; NULL when it is a number). Not collective. */
+/* SamProblemGetFriction - the coefficient as a number, and as a field (borrowed; NULL: the number counts). Not collective. */
 PETSC_EXTERN PetscErrorCode SamProblemGetFriction(SamProblem problem, PetscReal *friction, Vec *field);
 /* SamProblemHasFriction - whether the coefficient is positive anywhere. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemHasFriction(SamProblem problem, PetscBool *has);
-/* SamProblemComputeBound - the largest shear of each cell, scale * friction * pressure (Pa, one component);
-   both may be the same vector. Collective. */
+/*
+  SamProblemComputeBound - the largest shear that each cell bears, scale * friction * pressure (Pa, one component).
+  `pressure` and `bound` may be the same vector. Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamProblemComputeBound(SamProblem problem, PetscReal scale, Vec pressure, Vec bound);
 
 #endif

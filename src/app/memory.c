@@ -2,13 +2,13 @@
 #include "runimpl.h"
 
 /*
-  Bytes a cell at the peak, shared memory counted once, and the program with its libraries. Measured at 512 to 4096
-  cells: in one step without friction 55 to 85, with friction 115 to 130 for contact on half of the grid and 215 on all
-  of it; 115 to 155 and 225 to 310 when pressure and shear are coupled. In several steps 125 to 155, 250 to 290; 215,
-  315.
+  Bytes a cell at the peak, shared memory counted once, without the program and its libraries. Measured at 1024 cells for
+  contact on half of the grid and on all of it: in one step without friction 72 and 82, with friction 165 and 214, when
+  pressure and shear are coupled 216 and 283. In several steps, which need a second state to go back to, 255 and 270,
+  335 and 358, 362 and 401. From 2048 cells on it is up to 15 less.
 */
-static const double bytes_per_cell[2][2][2] = {{{85, 150}, {170, 270}},
-                                               {{140, 220}, {275, 320}}}; /* by steps, friction and coupling */
+static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 260}},
+                                               {{265, 365}, {350, 390}}}; /* by steps, friction and coupling */
 #define BYTES_PROGRAM 50e6
 
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)

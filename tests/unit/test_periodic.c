@@ -1,5 +1,5 @@
 /*
-  Periodic bodies: products against sums over waves and against half-spaces, symmetry, translations, precision, inverses.
+  Periodic bodies: products against sums over waves and against half-spaces; symmetry, translations, precision, inverses
 */
 #include "fields.h"
 
@@ -69,8 +69,8 @@ static void Symbol(int row, int column, const long double k[2], long double *re,
 }
 
 /*
-  Displacement along `row` at a lag of (i, j) cells from unit traction along `column` on one cell: the sum over all waves
-  on the grid. A wave of two cells' length is its own mirror image: what is odd in its wave number has no meaning.
+  Displacement along `row` at a lag of (i, j) cells from unit traction along `column` on one cell: the sum over all
+  waves on the grid. A wave of two cells' length is its own mirror image: what is odd in its wave number has no meaning.
 */
 static double Influence(SamGrid grid, int row, int column, PetscInt i, PetscInt j)
 {

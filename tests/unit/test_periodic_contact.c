@@ -110,8 +110,8 @@ static double Westergaard(double x, double sine)
 }
 
 /*
-  Errors of a contact of half width 0.3 wavelengths, relative: of the approach, and of the pressure in the 2-norm, in the
-  inner half of the contact and in all of it.
+  Errors of a contact of half width 0.3 wavelengths, relative: of the approach, and of the pressure in the 2-norm, in
+  the inner half of the contact and in all of it.
 */
 static void WestergaardErrors(PetscInt n, SamSolverType type, double errors[3])
 {
