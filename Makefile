@@ -124,8 +124,8 @@ check-sanitize: ## unit tests under the address and undefined-behaviour sanitize
 check-valgrind: all units ## unit tests under valgrind, one rank
 	for t in $(UNIT); do valgrind -q --error-exitcode=9 $$t > $(B)/valgrind.log 2>&1 || { cat $(B)/valgrind.log; exit 1; }; done
 
-check-mutants: venv ## change lines that guard correctness, one at a time; a test must fail each time: ARGS="word ..." for some
-	$(PYTHON) tests/mutants/run.py $(ARGS)
+check-mutants: $(B)/venv/tests-done ## change lines that guard correctness, one at a time; a test must fail each time: ARGS="word ..." for some
+	$(PYTHON) tests/mutants/check.py $(ARGS)
 
 # the format of the sources; the tests' environment has the formatters in fixed versions
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')

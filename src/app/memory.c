@@ -2,13 +2,14 @@
 #include "runimpl.h"
 
 /*
-  Bytes per cell at the peak, shared memory counted once. Measured on grids of 512 to 4096 cells a side:
-    one step        without friction 55 to 85; with friction 115 to 130 for contact on half of the grid, 215 for
-                    contact on all of it; coupled: 115 to 155, with friction 225 to 310
-    several steps   without friction 125 to 155, with friction 250 to 290; coupled: 215, with friction 315
+  Bytes per cell at the peak, shared memory counted once, without the program and its libraries. Measured at 1024 cells
+  a side, for contact on half of the grid and on all of it; up to 15 less from 2048 cells on:
+    one step        without friction 72 and 82, with friction 165 and 214, coupled 216 and 283
+    several steps   without friction 255 and 270, with friction 335 and 358, coupled 362 and 401
+  Several steps need a second state to go back to.
 */
-static const double bytes_per_cell[2][2][2] = {{{85, 150}, {170, 270}},
-                                               {{140, 220}, {275, 320}}}; /* [several steps][friction][coupled] */
+static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 260}},
+                                               {{265, 365}, {350, 390}}}; /* [several steps][friction][coupled] */
 #define BYTES_PROGRAM 50e6 /* the program and its libraries, on each rank */
 
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)

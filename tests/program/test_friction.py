@@ -176,3 +176,13 @@ def test_all_fields_are_the_same_on_any_number_of_ranks(solve, tmp_path):
     one = solve(case)
     for ranks in 2, 3:
         assert_same(solve(case, ranks=ranks), one, 0, FIELDS)
+
+
+@pytest.mark.parametrize("option", ["output", "checkpoint"])
+def test_results_do_not_replace_the_field(petsam, tmp_path, option):
+    path = tmp_path / "mu.h5"
+    case = with_field(BALL, path, np.full((60, 60), 0.1))
+    before = path.read_bytes()
+    done = petsam(case, {option: path}, check=2)
+    assert f"-{option} {path}: is the file of -friction_file" in done.complaint[0]
+    assert path.read_bytes() == before

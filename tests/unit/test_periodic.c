@@ -1,6 +1,5 @@
 /*
-  Periodic bodies: products against sums over waves and against half-spaces, symmetry, translations, precision,
-  inverses.
+  Periodic bodies: products against sums over waves and against half-spaces; symmetry, translations, precision, inverses
 */
 #include "fields.h"
 

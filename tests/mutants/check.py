@@ -2,7 +2,7 @@
 """Change a line that guards correctness, and see whether the tests that should notice do.
 
     make check-mutants                       all of tests/mutants/*.txt
-    tests/mutants/run.py verdict contact     those whose file or text has one of these words
+    tests/mutants/check.py verdict contact     those whose file or text has one of these words
 
 Each mutant is built in a copy of the sources and run against the unit tests, or program tests, that its entry names.
 One that passes has survived: a line that nothing guards. Survivors, and entries that no longer fit the sources, are
