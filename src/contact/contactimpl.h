@@ -53,8 +53,6 @@ PETSC_INTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalan
 PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
 /* Whether the components of one kind are prescribed the same. */
 PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
-/* The six components' numbers of one kind. */
-PETSC_INTERN const PetscInt SamComponentsOf[2][3];
 
 /*
   SamMotion - what is taken off a solution's elastic displacements to make its gap and its slip: rigid displacements,

@@ -7,6 +7,7 @@
 #include <petscmat.h>
 #include <petscpc.h>
 #include <math.h>
+#include <string.h>
 
 /* ---- differences between PETSc's versions, 3.18 on ---- */
 #if PETSC_VERSION_LT(3, 19, 0)
@@ -69,6 +70,25 @@ PETSC_EXTERN void SamZero(PetscInt n, double x[]);
   mapped anew, which costs time: for the end of long stages.
 */
 PETSC_EXTERN void SamReturnMemory(void);
+
+/* ---- checksums ---- */
+
+/* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): all bits of x act on all bits of the result. */
+static inline uint64_t SamHashMix(uint64_t x)
+{
+  x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
+  x = (x ^ x >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
+  return x ^ x >> 33;
+}
+
+/* SamHashBits - the bits of a number. */
+static inline uint64_t SamHashBits(double value)
+{
+  uint64_t bits;
+
+  memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
 
 /* ---- reductions over the ranks of small arrays of doubles, in place. Collective. ---- */
 PETSC_EXTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
