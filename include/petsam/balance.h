@@ -2,6 +2,7 @@
 #ifndef PETSAM_BALANCE_H
 #define PETSAM_BALANCE_H
 
+#include <petsam/control.h>
 #include <petsam/grid.h>
 
 /*
@@ -22,9 +23,8 @@ typedef struct {
   PetscReal      rigid[3];
 } SamBalance;
 
-/* Names of the six components by kind, as options spell them: load_n, disp_z, ... */
-PETSC_EXTERN const char *const SamLoadNames[2][3];
-PETSC_EXTERN const char *const SamRigidNames[2][3];
+/* The components (SamComponent) of a kind of balance, in its order. */
+PETSC_EXTERN const PetscInt SamComponentsOf[2][3];
 
 /* SamBalanceGetLoads - the three loads that a field of traction (1 or 2 components, Pa) carries. Collective. */
 PETSC_EXTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3]);

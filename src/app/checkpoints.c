@@ -153,22 +153,6 @@ static PetscBool TimeIsUp(const SamCheckpoints cp, double now)
 
 #define COLUMNS (2 + SAM_COMPONENTS) /* of the load program: time, friction, the components */
 
-/* The finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects every bit of the result. */
-static uint64_t Mix(uint64_t x)
-{
-  x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
-  x = (x ^ x >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
-  return x ^ x >> 33;
-}
-
-static uint64_t Bits(double value)
-{
-  uint64_t bits;
-
-  memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-
 /* Checksums of each column of the load program over the first steps; for a component, with its kind of control. */
 static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64_t columns[COLUMNS])
 {
@@ -178,11 +162,11 @@ static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64
     SamControl control;
 
     PetscCall(SamHistoryGetStep(history, s, &control));
-    columns[0] = Mix(columns[0] + Bits(control.time));
-    columns[1] = Mix(columns[1] + Bits(control.friction_scale));
+    columns[0] = SamHashMix(columns[0] + SamHashBits(control.time));
+    columns[1] = SamHashMix(columns[1] + SamHashBits(control.friction_scale));
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-      columns[2 + c] = Mix(columns[2 + c] + Bits(control.value[c]));
-      columns[2 + c] = Mix(columns[2 + c] + (control.force[c] ? 1 : 2));
+      columns[2 + c] = SamHashMix(columns[2 + c] + SamHashBits(control.value[c]));
+      columns[2 + c] = SamHashMix(columns[2 + c] + (control.force[c] ? 1 : 2));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

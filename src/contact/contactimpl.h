@@ -53,8 +53,6 @@ PETSC_INTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalan
 PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
 /* Whether two controls prescribe the same for the components of one kind. */
 PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
-/* The SamComponents of each SamBalanceKind. */
-PETSC_INTERN const PetscInt SamComponentsOf[2][3];
 
 /*
   SamMotion - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid

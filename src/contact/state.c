@@ -2,9 +2,6 @@
 #include "contactimpl.h"
 #include <string.h>
 
-const PetscInt SamComponentsOf[2][3] = {{SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY},
-                                        {SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ}};
-
 /* ---- components ---- */
 
 SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind)

@@ -33,22 +33,6 @@ static Vec *FieldOf(SamContactState *state, PetscInt k)
 
 /* ---- checksums ---- */
 
-/* The finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects every bit of the result. */
-static uint64_t Mix(uint64_t x)
-{
-  x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
-  x = (x ^ x >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
-  return x ^ x >> 33;
-}
-
-static uint64_t Bits(double value)
-{
-  uint64_t bits;
-
-  memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-
 /* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
 PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum)
 {
@@ -62,8 +46,8 @@ PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum
   PetscCall(VecGetLocalSize(field, &n));
   PetscCall(VecGetArrayRead(field, &values));
   for (PetscInt k = 0; k < n; k++)
-    *checksum +=
-      Mix(Bits(values[k]) + Mix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
+    *checksum += SamHashMix(SamHashBits(values[k]) +
+                            SamHashMix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
   PetscCall(VecRestoreArrayRead(field, &values));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, checksum, 1, MPI_UINT64_T, MPI_SUM, grid->comm));
   PetscFunctionReturn(PETSC_SUCCESS);

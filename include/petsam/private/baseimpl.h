@@ -7,6 +7,7 @@
 #include <petscmat.h>
 #include <petscpc.h>
 #include <math.h>
+#include <string.h>
 
 /* ---- differences between PETSc versions, from 3.18 on ---- */
 #if PETSC_VERSION_LT(3, 19, 0)
@@ -69,6 +70,25 @@ PETSC_EXTERN void SamZero(PetscInt n, double x[]);
   again, which takes time, so call it only at the end of long stages.
 */
 PETSC_EXTERN void SamReturnMemory(void);
+
+/* ---- checksums ---- */
+
+/* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects all bits of the result. */
+static inline uint64_t SamHashMix(uint64_t x)
+{
+  x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
+  x = (x ^ x >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
+  return x ^ x >> 33;
+}
+
+/* SamHashBits - the bits of a number. */
+static inline uint64_t SamHashBits(double value)
+{
+  uint64_t bits;
+
+  memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
 
 /* ---- sums and maxima over the ranks ---- */
 /* SamSum, SamMax - of each of n doubles, in place on all ranks. Collective. */

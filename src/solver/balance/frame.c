@@ -2,8 +2,8 @@
 #include <petsam/private/balanceimpl.h>
 #include <math.h>
 
-const char *const SamLoadNames[2][3]  = {{"load_n", "load_mx", "load_my"}, {"load_tx", "load_ty", "load_mz"}};
-const char *const SamRigidNames[2][3] = {{"disp_z", "rot_x", "rot_y"}, {"disp_x", "disp_y", "rot_z"}};
+const PetscInt SamComponentsOf[2][3] = {{SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY},
+                                        {SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ}};
 
 /* The rigid displacement of unit component k as a combination of the phi. */
 static void ComponentRow(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3])

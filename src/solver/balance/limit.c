@@ -64,7 +64,7 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
   for (PetscInt k = 1; k < 3 && *possible; k++) {
     const PetscReal first = k == 1 ? SamGridY(grid, 0) : SamGridX(grid, 0);
     const PetscReal last  = k == 1 ? SamGridY(grid, grid->ny - 1) : SamGridX(grid, grid->nx - 1);
-    const char     *name  = SamLoadNames[SAM_BALANCE_NORMAL][k];
+    const char     *name  = SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load;
     PetscReal       lever;
 
     if (!balance->force[k]) continue;
