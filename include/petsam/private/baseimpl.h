@@ -73,7 +73,7 @@ PETSC_EXTERN void SamReturnMemory(void);
 
 /* ---- checksums ---- */
 
-/* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects all bits of the result. */
+/* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects the whole result. */
 static inline uint64_t SamHashMix(uint64_t x)
 {
   x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
