@@ -131,14 +131,14 @@ check-mutants: $(B)/venv/tests-done ## change lines that guard correctness, one 
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
 PYTHON_SOURCES := scripts examples tests scripts/petsam-plot scripts/petsam-study
 format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.toml
-	$(B)/venv/bin/clang-format -i $(C_SOURCES)
-	$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)
+	@$(B)/venv/bin/clang-format -i $(C_SOURCES)
+	@$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)
 
 check-format: $(B)/venv/tests-done ## check the format of C and Python
-	$(B)/venv/bin/clang-format --dry-run -Werror $(C_SOURCES)
+	@$(B)/venv/bin/clang-format --dry-run -Werror $(C_SOURCES)
 	@awk 'length > 120 {print FILENAME ":" FNR ": more than 120 columns"; n++} END {exit n > 0}' $(C_SOURCES)
-	$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
-	$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
+	@$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
+	@$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
 
 lint: ## cppcheck over the sources
 	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) src/app/petsam.c

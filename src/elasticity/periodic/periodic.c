@@ -6,7 +6,8 @@
     u_t from q:  (2 pi (A + B)/|k|)(I - nu kk'/|k|^2)       B = pair.shear_xx, nu = B/(A + B)
     u_t from p:  -2 pi i coupling k/|k|^2
     u_z from q:  +2 pi i coupling k'/|k|^2
-  by the transforms of 1/r, 2 pi/|k|, of x_a x_b/r^3, (2 pi/|k|)(delta_ab - k_a k_b/|k|^2), and of x/r^2, -2 pi i k/|k|^2.
+  by the transforms of 1/r, 2 pi/|k|, of x_a x_b/r^3, (2 pi/|k|)(delta_ab - k_a k_b/|k|^2), and of x/r^2,
+  -2 pi i k/|k|^2.
 
   The mean, k = 0: a uniform traction would displace the surface without bound, so displacements are counted from the
   mean surface, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
@@ -47,7 +48,7 @@ typedef struct {
 #define Name(x) x##Single
 #include "symbols.h"
 
-/* A column in three stretches: wave numbers from 0 up, that of two cells' length if there is one, and the negative ones. */
+/* A column in three stretches: wave numbers from 0 up, that of two cells' length if there is one, the negative ones. */
 static void GetStretches(PetscInt n, Stretch s[3])
 {
   s[0] = (Stretch){0, (n + 1) / 2, 0};
@@ -368,8 +369,8 @@ static void SumWaves(SamElasticity e, const Symbol *s, PetscInt m, double sums[3
 }
 
 /*
-  A unit traction on one cell alone has all waves at the same amplitude, so that a cell's influence on itself is the mean
-  of the symbol over all waves.
+  A unit traction on one cell alone has all waves at the same amplitude, so that a cell's influence on itself is the
+  mean of the symbol over all waves.
 */
 static PetscErrorCode ComputeSelfInfluence(SamElasticity e, Periodic *data)
 {

@@ -10,15 +10,16 @@ static PetscErrorCode SamGapSetFromOptions_File(SamGap gap)
   PetscCall(SamFieldFileSetFromOptions(&gap->source, &from, "HDF5 file with the separation: required by file"));
   PetscCall(SamPrintHelp(&help));
   PetscCheck(gap->source.file[0] || help, gap->comm, SAM_ERR_USER,
-             "-gap_file is missing: the HDF5 file with the separation, required by -gap_type %s", gap->type);
+             "-%sgap_file is missing: the HDF5 file with the separation, required by -%sgap_type %s", gap->prefix,
+             gap->prefix, gap->type);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode SamGapFill_File(SamGap gap, SamGrid grid, Vec h)
 {
   PetscFunctionBegin;
-  PetscCheck(gap->source.file[0], gap->comm, SAM_ERR_USER,
-             "-gap_file is missing: the HDF5 file with the separation, required by -gap_type %s", gap->type);
+  PetscCheck(gap->source.file[0], gap->comm, PETSC_ERR_ORDER,
+             "A gap of type %s has no file: its options have not been read", gap->type);
   PetscCall(SamFieldFileRead(&gap->source, grid, h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -83,7 +83,7 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
   PetscCall(PetscFunctionListFind(SamGapList, type, &create));
   if (!create) {
     PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
-    SETERRQ(gap->comm, SAM_ERR_USER, "-gap_type %s: expected %s", type, list);
+    SETERRQ(gap->comm, SAM_ERR_USER, "%s is no type of gap: expected %s", type, list);
   }
   PetscCall(PetscMemzero(&gap->ops, sizeof(gap->ops)));
   PetscCall(PetscMemzero(gap->values, sizeof(gap->values)));
@@ -101,6 +101,7 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
 static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
 {
   const SamOptions from = {gap->comm, gap->prefix};
+
   PetscFunctionBegin;
   for (PetscInt k = 0; k < gap->ops.count; k++) {
     const SamGapParameter *parameter = &gap->ops.parameters[k];
@@ -109,8 +110,8 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
 
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required by %s", parameter->help, gap->type));
     PetscCall(SamOptionsReal(&from, parameter->name, text, parameter->range, &gap->values[k], &set));
-    PetscCheck(set || help, gap->comm, SAM_ERR_USER, "-%s is missing: %s, required by -gap_type %s", parameter->name,
-               parameter->help, gap->type);
+    PetscCheck(set || help, gap->comm, SAM_ERR_USER, "-%s%s is missing: %s, required by -%sgap_type %s", gap->prefix,
+               parameter->name, parameter->help, gap->prefix, gap->type);
   }
   if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -138,6 +139,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   const SamOptions from = {gap->comm, gap->prefix};
   char             type[64], list[512], text[600];
   PetscBool        set, help;
+  PetscErrorCode (*create)(SamGap);
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
@@ -149,7 +151,9 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   if (help) {
     PetscCall(PrintTypes(gap));
   } else {
-    PetscCheck(set || gap->type[0], gap->comm, SAM_ERR_USER, "-gap_type is missing: %s", list);
+    PetscCheck(set || gap->type[0], gap->comm, SAM_ERR_USER, "-%sgap_type is missing: %s", gap->prefix, list);
+    PetscCall(PetscFunctionListFind(SamGapList, type, &create));
+    PetscCheck(create, gap->comm, SAM_ERR_USER, "-%sgap_type %s: expected %s", gap->prefix, type, list);
     if (set) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
   }
@@ -188,8 +192,8 @@ static PetscErrorCode CheckFinite(SamGap gap, SamGrid grid, Vec h)
   bad = isnan(bad) ? 1 : 0;
   PetscCall(SamMax(grid->comm, 1, &bad));
   PetscCheck(bad == 0, gap->comm, SAM_ERR_USER,
-             "-gap_type %s: the separation is not finite everywhere on the grid: check the values of its options",
-             gap->type);
+             "-%sgap_type %s: the separation is not finite everywhere on the grid: check the values of its options",
+             gap->prefix, gap->type);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

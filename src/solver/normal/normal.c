@@ -213,9 +213,9 @@ static PetscErrorCode SetSeparated(SamSolver s, SamLevel *level)
 }
 
 /*
-  Whether a given approach can be held at all. Where a uniform pressure displaces nothing, displacements have no mean: an
-  approach beyond the mean separation leaves a gap below 0 somewhere under any pressure, and the mean itself is reached
-  by every pressure that is high enough.
+  Whether a given approach can be held at all. Where a uniform pressure displaces nothing, displacements have no mean:
+  an approach beyond the mean separation leaves a gap below 0 somewhere under any pressure, and the mean itself is
+  reached by every pressure that is high enough.
 */
 static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can)
 {
