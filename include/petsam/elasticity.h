@@ -38,7 +38,7 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElasticity *elasticity);
 /*
   SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
-  type that is not registered.
+  type that is not registered; PETSC_ERR_ORDER when a problem or a solver refers to the elasticity already.
 */
 PETSC_EXTERN PetscErrorCode SamElasticitySetType(SamElasticity elasticity, SamElasticityType type);
 PETSC_EXTERN PetscErrorCode SamElasticityGetType(SamElasticity elasticity, SamElasticityType *type); /* borrowed */

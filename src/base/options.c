@@ -13,6 +13,15 @@
 
 #define TEXT_SIZE PETSC_MAX_PATH_LEN
 
+PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
+{
+  PetscFunctionBegin;
+  PetscCheck(!prefix || strlen(prefix) < SAM_PREFIX, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
+             "Prefix %s: expected at most %d characters", prefix, SAM_PREFIX - 1);
+  PetscCall(PetscStrncpy(to, prefix ? prefix : "", SAM_PREFIX));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 const char *SamOptionsPrefix(const SamOptions *from)
 {
   return from->prefix ? from->prefix : "";

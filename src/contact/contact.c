@@ -58,7 +58,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
 PetscErrorCode SamContactSetOptionsPrefix(SamContact c, const char prefix[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(c->prefix, prefix ? prefix : "", sizeof(c->prefix)));
+  PetscCall(SamSetPrefix(c->prefix, prefix));
   PetscCall(SamSolverSetOptionsPrefix(c->normal, prefix));
   PetscCall(SamSolverSetOptionsPrefix(c->tangential, prefix));
   PetscFunctionReturn(PETSC_SUCCESS);

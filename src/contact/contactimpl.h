@@ -14,7 +14,7 @@ typedef struct {
 
 struct _n_SamContact {
   /* what the user set */
-  char      prefix[64];
+  char      prefix[SAM_PREFIX];
   PetscBool coupling, warm, allow_edge;
   PetscReal coupling_rtol;
   PetscInt  coupling_max_it;

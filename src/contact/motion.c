@@ -129,6 +129,9 @@ PetscErrorCode SamContactComputeSlip(SamContact c, PetscInt component, Vec slip)
   double            *slips;
 
   PetscFunctionBegin;
+  PetscCheck(component == 0 || component == 1, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Component %" PetscInt_FMT " of the slip: expected 0 (x) or 1 (y)", component);
+  PetscCall(SamGridCheckVec(c->grid, 1, slip, "The slip"));
   PetscCall(SamContactGetSolution(c, &s));
   PetscCall(VecGetArrayWrite(slip, &slips));
   PetscCall(SamSolutionComputeSlip(c->grid, s, component, slips));
@@ -145,6 +148,7 @@ PetscErrorCode SamContactComputeGap(SamContact c, Vec gap)
   Vec                separation;
 
   PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(c->grid, 1, gap, "The gap"));
   PetscCall(SamContactGetSolution(c, &s));
   PetscCall(SamMotionSet(&motion, c->grid, s));
   PetscCall(SamProblemGetGap(c->problem, &separation));

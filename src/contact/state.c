@@ -147,6 +147,15 @@ static PetscErrorCode CopySolution(const SamSolution *from, SamSolution *to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode CheckTractions(SamGrid grid, const SamSolution *s)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(grid, 1, s->pressure, "The state's pressure"));
+  PetscCall(SamGridCheckVec(grid, 1, s->bound, "The state's bound"));
+  PetscCall(SamGridCheckVec(grid, 2, s->shear, "The state's shear"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
 {
   PetscObjectState revision;
@@ -156,6 +165,10 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
                s->now.displacement_t && (s->steps < 2 || (s->before.pressure && s->before.bound && s->before.shear)),
              c->grid->comm, PETSC_ERR_ARG_INCOMP,
              "The state is incomplete: it lacks tractions, displacements, or the tractions one step back");
+  PetscCall(CheckTractions(c->grid, &s->now));
+  if (s->steps > 1) PetscCall(CheckTractions(c->grid, &s->before));
+  PetscCall(SamGridCheckVec(c->grid, 1, s->now.displacement_z, "The state's normal displacement"));
+  PetscCall(SamGridCheckVec(c->grid, 2, s->now.displacement_t, "The state's tangential displacement"));
   PetscCall(SamContactReject(c));
   PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
   PetscCall(CopySolution(&s->now, &c->committed.solution));

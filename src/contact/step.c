@@ -273,18 +273,54 @@ static PetscErrorCode SolveTangential(Solve *w, PetscBool has_shear)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The pressure is not right, so that no shear is sought: there is none, and displacements that are not given stay. */
+static PetscErrorCode SkipTangential(Solve *w)
+{
+  SamBalance balance = w->tangential;
+
+  PetscFunctionBegin;
+  PetscCall(SamVecZero(w->s->shear));
+  for (PetscInt k = 0; k < 3; k++)
+    if (balance.force[k]) balance.rigid[k] = w->rigid[k];
+  SamBalanceStore(&balance, w->s->load, w->s->rigid);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- both ---- */
 
-/* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
-static PetscErrorCode Change(SamGrid grid, Vec now, Vec previous, PetscReal *change)
+/*
+  The norm of a traction by which its changes are measured. Where a uniform traction displaces nothing, it is the norm of
+  what is left without the mean, which may be a small part: displacements, and so the check, depend on that part alone.
+*/
+static PetscErrorCode ComputeSize(SamContact c, SamBalanceKind kind, Vec traction, PetscReal *size)
 {
-  PetscReal norm;
+  const double least = 1e-7; /* of the norm: a smaller part is lost in the rounding of the difference of squares */
+  const double area = c->grid->dx * c->grid->dy, cells = (double)c->grid->nx * (double)c->grid->ny;
+  PetscReal    norm, loads[3];
+  double       rest;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridNorm(c->grid, traction, NORM_2, &norm));
+  *size = norm;
+  if (c->traits.mean) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamBalanceGetLoads(c->grid, kind, traction, loads));
+  rest = norm * norm;
+  for (PetscInt k = 0; k < (kind == SAM_BALANCE_NORMAL ? 1 : 2); k++)
+    rest -= loads[k] * loads[k] / (area * area * cells);
+  *size = PetscMax(rest > 0 ? sqrt(rest) : 0, least * norm);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
+static PetscErrorCode ComputeChange(SamContact c, SamBalanceKind kind, Vec now, Vec previous, PetscReal *change)
+{
+  PetscReal size = 0;
 
   PetscFunctionBegin;
   PetscCall(VecAYPX(previous, -1, now));
-  PetscCall(SamGridNorm(grid, previous, NORM_2, change));
-  PetscCall(SamGridNorm(grid, now, NORM_2, &norm));
-  *change = *change > 0 ? *change / norm : 0;
+  PetscCall(SamGridNorm(c->grid, previous, NORM_2, change));
+  PetscCall(ComputeSize(c, kind, now, &size));
+  *change = *change > 0 ? *change / size : 0;
   PetscCall(VecCopy(now, previous));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -297,8 +333,8 @@ static PetscErrorCode IsLastPass(Solve *w, PetscInt pass, PetscBool *last)
   char             message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(Change(c->grid, w->s->pressure, w->previous_pressure, &change[0]));
-  PetscCall(Change(c->grid, w->s->shear, w->previous_shear, &change[1]));
+  PetscCall(ComputeChange(c, SAM_BALANCE_NORMAL, w->s->pressure, w->previous_pressure, &change[0]));
+  PetscCall(ComputeChange(c, SAM_BALANCE_TANGENTIAL, w->s->shear, w->previous_shear, &change[1]));
   if (c->coupling_monitor)
     PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass,
                           (double)change[0], (double)change[1]));
@@ -320,17 +356,15 @@ static PetscErrorCode SolvePasses(Solve *w, const SamStepStart *start)
   PetscFunctionBegin;
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));
   for (PetscInt pass = 1; !last; pass++) {
-    const PetscBool again = pass > 1 ? PETSC_TRUE : PETSC_FALSE;
-
-    const PetscBool has_pressure = again || start->pressure ? PETSC_TRUE : PETSC_FALSE;
-    const PetscBool has_shear    = again || start->shear ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool has_pressure = pass > 1 || start->pressure ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool has_shear    = pass > 1 || start->shear ? PETSC_TRUE : PETSC_FALSE;
 
     PetscCall(SolveNormal(w, has_pressure, has_shear));
     PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
     if (w->step->status == SAM_STATUS_CONVERGED)
       PetscCall(SolveTangential(w, has_shear));
     else
-      PetscCall(SamVecZero(w->s->shear)); /* no shear has been solved for this pressure */
+      PetscCall(SkipTangential(w));
     w->step->coupling_iterations = pass;
     if (!w->coupled || !friction || w->step->status != SAM_STATUS_CONVERGED) break;
     PetscCall(IsLastPass(w, pass, &last));

@@ -86,6 +86,8 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Type %s of elasticity: expected %s", type, types);
+  PetscCheck(e->references == 1, e->grid->comm, PETSC_ERR_ORDER,
+             "The type of an elasticity must be set before a problem or a solver refers to it");
   PetscCall(Reset(e));
   PetscCall(create(e));
   PetscCall(PetscStrncpy(e->type, type, sizeof(e->type)));
@@ -102,7 +104,7 @@ PetscErrorCode SamElasticityGetType(SamElasticity e, SamElasticityType *type)
 PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(e->prefix, prefix ? prefix : "", sizeof(e->prefix)));
+  PetscCall(SamSetPrefix(e->prefix, prefix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

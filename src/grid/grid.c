@@ -157,6 +157,23 @@ PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, const char words[])
+{
+  PetscInt here, all;
+  double   bad;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(field, &here));
+  PetscCall(VecGetSize(field, &all));
+  bad = here != components * grid->cells || all != components * grid->nx * grid->ny ? 1 : 0;
+  PetscCall(SamMax(grid->comm, 1, &bad));
+  PetscCheck(bad == 0, grid->comm, PETSC_ERR_ARG_SIZ,
+             "%s is not a field of %" PetscInt_FMT " component(s) on this grid of %" PetscInt_FMT " x %" PetscInt_FMT
+             " cells",
+             words, components, grid->nx, grid->ny);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamVecZero(Vec v)
 {
   double  *x;

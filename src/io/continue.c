@@ -65,6 +65,14 @@ static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, Found *fou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether the history has its optional column. */
+static PetscBool HasOptional(SamOutput o)
+{
+  for (PetscInt c = 0; c < SamOutputColumnCount; c++)
+    if (SamOutputColumns[c].kind == SAM_COLUMN_OPTIONAL && o->columns[c] >= 0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 /* Examines a file that is open. */
 static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
 {
@@ -85,7 +93,10 @@ static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
   }
   PetscCall(CompareTimes(o, wanted, found));
   (void)SamFileNote(o->f, H5Aread(o->closed, H5T_NATIVE_INT8, &closed));
-  found->whole = (closed && found->steps == wanted->steps && found->saved == found->keep) ? PETSC_TRUE : PETSC_FALSE;
+  found->whole = (closed && found->steps == wanted->steps && found->saved == found->keep &&
+                  (HasOptional(o) || !o->set.friction_scale))
+                   ? PETSC_TRUE
+                   : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -114,10 +125,12 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
 
 /* ---- copying ---- */
 
-/* Reads the numbers of a step from the history. */
-static void ReadStep(SamOutput o, hsize_t k, SamStep *step)
+/* Reads the numbers of a step from the history; an optional column that is not there leaves its default. */
+static PetscErrorCode ReadStep(SamOutput o, hsize_t k, SamStep *step)
 {
-  memset(step, 0, sizeof(*step));
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(step, sizeof(*step)));
+  PetscCall(SamControlInitialize(&step->control));
   for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
     char *const place = (char *)step + SamOutputColumns[c].offset;
     double      real  = 0;
@@ -140,6 +153,7 @@ static void ReadStep(SamOutput o, hsize_t k, SamStep *step)
       break;
     }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Gives SamOutputAppend() the fields of another file. */
@@ -173,7 +187,7 @@ static PetscErrorCode CopySteps(SamOutput from, hsize_t steps, hsize_t keep, Sam
     PetscBool has;
 
     PetscCall(SamFileBegin(from->f));
-    ReadStep(from, k, &step);
+    PetscCall(ReadStep(from, k, &step));
     if (fields.index < keep) SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, fields.index, 1, &time);
     PetscCall(SamFileEnd(from->f));
     has = (fields.index < keep && time == (double)step.control.time) ? PETSC_TRUE : PETSC_FALSE;
@@ -220,14 +234,6 @@ static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the history has its optional column. */
-static PetscBool HasOptional(SamOutput o)
-{
-  for (PetscInt c = 0; c < SamOutputColumnCount; c++)
-    if (SamOutputColumns[c].kind == SAM_COLUMN_OPTIONAL && o->columns[c] >= 0) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
 /* Copies the wanted steps to a new file, which replaces the old one. */
 static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const Wanted *wanted, hsize_t keep)
 {
@@ -238,7 +244,7 @@ static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, cons
 
   PetscFunctionBegin;
   plain.xdmf           = PETSC_FALSE;
-  plain.friction_scale = HasOptional(from);
+  plain.friction_scale = set->friction_scale || HasOptional(from) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", from->f->filename));
   PetscCall(SamOutputCreate(from->f->grid, temporary, &plain, &to));
   ierr = CopyAll(from, wanted, keep, to);

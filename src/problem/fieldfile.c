@@ -58,7 +58,7 @@ PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions
   PetscBool   set, print;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(source->prefix, prefix, sizeof(source->prefix)));
+  PetscCall(SamSetPrefix(source->prefix, prefix));
   PetscCall(PetscStrncpy(source->dataset, source->default_dataset, sizeof(source->dataset)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "dataset in it: (ny, nx), %s", source->unit));
   PetscCall(SamOptionsString(from, source->file_option, help, source->file, sizeof(source->file), NULL));

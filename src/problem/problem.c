@@ -67,6 +67,7 @@ PetscErrorCode SamProblemGetGrid(SamProblem p, SamGrid *grid)
 PetscErrorCode SamProblemSetGap(SamProblem p, Vec h)
 {
   PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(p->grid, 1, h, "The gap"));
   PetscCall(VecCopy(h, p->gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -101,6 +102,7 @@ PetscErrorCode SamProblemSetFrictionField(SamProblem p, Vec friction)
   double        bad = 0;
 
   PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(p->grid, 1, friction, "The friction"));
   PetscCall(VecGetArrayRead(friction, &mu));
   for (PetscInt k = 0; k < p->grid->cells; k++) bad += mu[k] >= 0 && isfinite(mu[k]) ? 0 : 1;
   PetscCall(VecRestoreArrayRead(friction, &mu));

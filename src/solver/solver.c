@@ -129,7 +129,7 @@ PetscErrorCode SamSolverGetType(SamSolver s, SamSolverType *type)
 PetscErrorCode SamSolverSetOptionsPrefix(SamSolver s, const char prefix[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(s->prefix, prefix ? prefix : "", sizeof(s->prefix)));
+  PetscCall(SamSetPrefix(s->prefix, prefix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -191,9 +191,44 @@ PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *
 
 /* ---- the solve and its results ---- */
 
+/* Whether all given fields hold finite numbers. Methods search and compare, and might take a NaN for something else. */
+static PetscErrorCode IsGivenFinite(const SamLevel *level, const SamSolverKind *kind, PetscBool *is)
+{
+  double bad = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt g = 0; g < SAM_GIVEN; g++) {
+    const PetscInt n   = kind->given_components[g] * level->grid->cells;
+    double         sum = 0;
+    const double  *x;
+
+    if (!level->given[g]) continue;
+    PetscCall(VecGetArrayRead(level->given[g], &x));
+#pragma omp simd reduction(+ : sum)
+    for (PetscInt k = 0; k < n; k++) sum += 0 * x[k]; /* NaN when x[k] is not finite */
+    PetscCall(VecRestoreArrayRead(level->given[g], &x));
+    if (isnan(sum)) bad = 1;
+  }
+  PetscCall(SamMax(level->grid->comm, 1, &bad));
+  *is = bad == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckFields(const SamLevel *level, const SamSolverKind *kind)
+{
+  PetscFunctionBegin;
+  for (PetscInt g = 0; g < SAM_GIVEN; g++)
+    if (level->given[g])
+      PetscCall(
+        SamGridCheckVec(level->grid, kind->given_components[g], level->given[g], "What is given to the solver"));
+  PetscCall(SamGridCheckVec(level->grid, kind->components, level->traction, "The traction"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamLevel *problem, PetscBool guess)
 {
-  SamLevel level = *problem;
+  SamLevel  level  = *problem;
+  PetscBool finite = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCheck(s->kind == kind, s->comm, PETSC_ERR_ARG_WRONG, "A %s solver cannot solve the %s problem", s->kind->name,
@@ -209,7 +244,14 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamL
   level.rtol                                    = s->rtol;
   level.finest                                  = PETSC_TRUE;
   PetscCall(SamElasticityGetGrid(s->elasticity, &level.grid));
-  PetscCall(kind->solve(s, &level, guess));
+  PetscCall(CheckFields(&level, kind));
+  PetscCall(IsGivenFinite(&level, kind, &finite));
+  if (finite) {
+    PetscCall(kind->solve(s, &level, guess));
+  } else {
+    PetscCall(SamVecZero(level.traction));
+    s->reason = SAM_SOLVER_DIVERGED_NAN;
+  }
   PetscCall(PetscLogEventEnd(SamEvents[kind->event], 0, 0, 0, 0));
   PetscCheck(s->reason, s->comm, PETSC_ERR_PLIB, "Method %s set no reason", s->type);
   PetscCall(SamSolverViewFromOptions(s));

@@ -184,5 +184,20 @@ def test_results_do_not_replace_the_field(petsam, tmp_path, option):
     case = with_field(BALL, path, np.full((60, 60), 0.1))
     before = path.read_bytes()
     done = petsam(case, {option: path}, check=2)
-    assert f"-{option} {path}: is the file of -friction_file" in done.complaint[0]
+    assert f"-{option} {path}: would overwrite the file of -friction_file" in done.complaint[0]
     assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_scale_that_begins_after_a_restart_is_in_the_results(petsam, solve, tmp_path, ranks):
+    """The results of before the restart did not have the column: they get it, with 1 for their steps."""
+    rows = [(k, 5.0 * k, 1.0) for k in (1, 2, 3)]
+    run = dict(BALL, checkpoint=tmp_path / "c.h5", checkpoint_every=1, output=tmp_path / "r.h5")
+    petsam(run, history(tmp_path / "plain.csv", "time,load_tx", *[row[:2] for row in rows]), ranks=ranks)
+    scaled = history(tmp_path / "scaled.csv", "time,load_tx,friction_scale", *rows, (4, 16.0, 0.75))
+    petsam(run, scaled, dict(restart=tmp_path / "c.h5"), ranks=ranks)
+    once = solve(BALL, scaled)
+    with h5py.File(tmp_path / "r.h5") as f, h5py.File(once.path) as g:
+        assert list(f["history/friction_scale"]) == [1.0, 1.0, 1.0, 0.75]
+        assert all(np.array_equal(f["history"][name], g["history"][name], equal_nan=True) for name in g["history"])
+        assert np.array_equal(f["shear_x"], g["shear_x"]) and np.array_equal(f["time"], g["time"])

@@ -222,7 +222,49 @@ static void test_periodic_bodies_have_no_edge_and_no_moments(void **state)
   DestroyCase(&c);
 }
 
+/* Whatever is given, and whatever the bodies: it is the numbers, and not the loads, that have no solution. */
+static void test_gap_that_is_no_number_is_told(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 4; kind++) {
+    Sphere     s = NewSphereOf(Steel(), 24, 1.5);
+    Case       c;
+    SamControl control;
+    SamStep    step;
+
+    if (kind / 2) sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
+    AddAt(s.grid, 0, 11, 23, NAN, s.h); /* one cell, of the last rank */
+    c       = NewCaseOn(s, MU, NULL, "");
+    control = Loads(&c, 1, 0.3, 0, 0);
+    for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) Displace(&control, (SamComponent)k, 0);
+    if (kind % 2) Displace(&control, SAM_COMPONENT_N, 1e-6);
+    step = Try(&c, &control);
+    sam_assert(step.status == SAM_STATUS_NOT_CONVERGED && strstr(step.message, "NAN"));
+    DestroyCase(&c);
+  }
+}
+
 /* ---- dissimilar bodies ---- */
+
+/* The mean of the tractions, most of them here, has no part in what the bodies do to each other. */
+static void test_dissimilar_periodic_bodies_in_full_contact_pass_their_check(void **state)
+{
+  Sphere     s = NewSphereOf(Dissimilar(), 36, 1.5);
+  Case       c;
+  SamControl control;
+  SamStep    step;
+
+  (void)state;
+  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
+  sam_call(VecScale(s.h, 1e-3));
+  c       = NewCaseOn(s, 0.2, NULL, "");
+  control = Loads(&c, 1, 0.4, 0.1, 0);
+  for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) Displace(&control, (SamComponent)k, 0);
+  step = Solve(&c, &control);
+  AssertGood(&step);
+  sam_assert_close(step.contact_area, 9 * s.a * s.a, 1e-12 * s.a * s.a);
+  DestroyCase(&c);
+}
 
 static void test_dissimilar_bodies_without_friction_need_one_pass(void **state)
 {
@@ -304,6 +346,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_contact_at_the_edge_of_the_grid_is_a_status),
     cmocka_unit_test(test_controls_that_are_none_are_refused),
     cmocka_unit_test(test_periodic_bodies_have_no_edge_and_no_moments),
+    cmocka_unit_test(test_gap_that_is_no_number_is_told),
+    cmocka_unit_test(test_dissimilar_periodic_bodies_in_full_contact_pass_their_check),
     cmocka_unit_test(test_dissimilar_bodies_without_friction_need_one_pass),
     cmocka_unit_test(test_exchanged_bodies_have_the_same_pressure_and_opposite_shear),
     cmocka_unit_test(test_coupling_can_be_left_out),

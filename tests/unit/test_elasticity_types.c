@@ -258,6 +258,21 @@ static SamElasticity Part(SamElasticity e, PetscInt x, PetscInt y, PetscInt nx, 
   return part;
 }
 
+/* What refers to it has asked for the type's traits. */
+static void test_type_is_fixed_once_others_refer_to_it(void **state)
+{
+  SamGrid       grid = NewGrid(12, 10, 1, 1);
+  SamElasticity e = NewElasticity(grid), same = e;
+
+  (void)state;
+  sam_call(SamElasticityReference(e));
+  sam_fails(SamElasticitySetType(e, SAM_ELASTICITY_PERIODIC), PETSC_ERR_ORDER);
+  sam_call(SamElasticityDestroy(&same));
+  sam_call(SamElasticitySetType(e, SAM_ELASTICITY_PERIODIC));
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
+}
+
 static void test_two_parts_are_kept(void **state)
 {
   const PetscInt none[2] = {0, 0}, first[2] = {2, 3}, n[2] = {16, 16};
@@ -337,6 +352,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_unknown_types_are_refused),
     cmocka_unit_test(test_transforms_have_the_settings_of_their_object),
     cmocka_unit_test(test_a_change_of_type_forgets_what_the_old_one_made),
+    cmocka_unit_test(test_type_is_fixed_once_others_refer_to_it),
     cmocka_unit_test(test_two_parts_are_kept),
     cmocka_unit_test(test_periodic_bodies_have_no_parts),
     cmocka_unit_test(test_release_changes_nothing),

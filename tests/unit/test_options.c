@@ -284,10 +284,29 @@ static void test_read_options_are_used(void **state)
   SetText(NULL);
 }
 
+static void test_prefix_that_does_not_fit_is_refused(void **state)
+{
+  char          prefix[65];
+  SamGrid       grid = NewGrid(4, 4, 1, 1);
+  SamPair       pair = NewPair(1e9, 0.3, 1e9, 0.3);
+  SamElasticity e;
+
+  (void)state;
+  sam_call(SamElasticityCreate(grid, &pair, &e));
+  memset(prefix, 'a', sizeof(prefix));
+  prefix[64] = '\0';
+  sam_fails(SamElasticitySetOptionsPrefix(e, prefix), PETSC_ERR_ARG_SIZ);
+  prefix[63] = '\0';
+  sam_call(SamElasticitySetOptionsPrefix(e, prefix));
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_malformed_reals_are_refused),
+    cmocka_unit_test(test_prefix_that_does_not_fit_is_refused),
     cmocka_unit_test(test_reals_outside_their_range_are_refused),
     cmocka_unit_test(test_too_many_numbers_are_refused),
     cmocka_unit_test(test_malformed_and_huge_ints_are_refused),

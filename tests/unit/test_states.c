@@ -278,6 +278,28 @@ static void test_there_is_no_shear_to_a_pressure_that_is_not_found(void **state)
   DestroyCase(&c);
 }
 
+/* What was given stays given, also where tries with other values were rejected before. */
+static void test_given_displacements_stay_when_the_pressure_is_not_found(void **state)
+{
+  Case       c       = NewCase(Steel(), 40, 1.5, MU, "");
+  SamControl control = Loads(&c, 1, 0, 0.2, 0), other = control;
+
+  (void)state;
+  Displace(&control, SAM_COMPONENT_TX, 1e-7);
+  Displace(&other, SAM_COMPONENT_TX, 7e-7);
+  for (int k = 0; k < 2; k++) {
+    SetMostIterations(&c, 1, 0);
+    sam_assert(Try(&c, &control).status == SAM_STATUS_NOT_CONVERGED);
+    sam_assert(SolutionOf(&c)->rigid[SAM_COMPONENT_TX] == 1e-7 && SolutionOf(&c)->load[SAM_COMPONENT_TX] == 0);
+    sam_assert(SolutionOf(&c)->load[SAM_COMPONENT_TY] == control.value[SAM_COMPONENT_TY]);
+    sam_assert(SolutionOf(&c)->rigid[SAM_COMPONENT_TY] == 0);
+    SetMostIterations(&c, 0, 0);
+    sam_assert(Try(&c, &other).status == SAM_STATUS_CONVERGED);
+    sam_call(SamContactReject(c.contact));
+  }
+  DestroyCase(&c);
+}
+
 /* Gross slip at the same and at another N, and a moment that tips. */
 static void test_step_without_equilibrium_leaves_the_contact_as_it_was(void **state)
 {
@@ -391,6 +413,32 @@ static void test_state_that_lacks_fields_is_refused(void **state)
   DestroyCase(&c);
 }
 
+static void test_fields_of_another_grid_are_refused(void **state)
+{
+  Case             c = NewCase(Steel(), 40, 1.5, MU, ""), d = NewCase(Steel(), 24, 1.5, MU, "");
+  const SamControl control = Loads(&c, 1, 0.3, 0, 0);
+  Vec              shorter = NewField(d.s.grid, 1), both = NewField(c.s.grid, 2), right = NewField(c.s.grid, 1);
+  SamContactState  held;
+
+  (void)state;
+  (void)Solve(&c, &control);
+  (void)Solve(&d, &control);
+  sam_call(SamContactGetState(d.contact, &held));
+  sam_fails(SamContactSetState(c.contact, &held), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactComputeGap(c.contact, shorter), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactComputeSlip(c.contact, 0, shorter), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactComputeSlip(c.contact, 1, both), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactComputeSlip(c.contact, 2, right), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_fails(SamContactComputeSlip(c.contact, -1, right), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_fails(SamProblemSetGap(c.problem, shorter), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamProblemSetFrictionField(c.problem, both), PETSC_ERR_ARG_SIZ);
+  sam_call(VecDestroy(&shorter));
+  sam_call(VecDestroy(&both));
+  sam_call(VecDestroy(&right));
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -400,10 +448,12 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_reject_gives_back_the_committed_solution),
     cmocka_unit_test(test_step_that_does_not_converge_is_not_committed_by_itself),
     cmocka_unit_test(test_there_is_no_shear_to_a_pressure_that_is_not_found),
+    cmocka_unit_test(test_given_displacements_stay_when_the_pressure_is_not_found),
     cmocka_unit_test(test_step_without_equilibrium_leaves_the_contact_as_it_was),
     cmocka_unit_test(test_contact_with_the_state_of_another_goes_on_as_it_would),
     cmocka_unit_test(test_state_is_what_was_set),
     cmocka_unit_test(test_state_that_lacks_fields_is_refused),
+    cmocka_unit_test(test_fields_of_another_grid_are_refused),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

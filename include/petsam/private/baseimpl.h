@@ -71,6 +71,12 @@ PETSC_EXTERN void SamZero(PetscInt n, double x[]);
 */
 PETSC_EXTERN void SamReturnMemory(void);
 
+/* ---- options ---- */
+
+/* SamSetPrefix - copies the prefix of an object's options (NULL: none). Errors: PETSC_ERR_ARG_SIZ for more than 63. */
+#define SAM_PREFIX 64
+PETSC_EXTERN PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[]);
+
 /* ---- checksums ---- */
 
 /* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects the whole result. */

@@ -40,7 +40,7 @@ struct _n_SamElasticity {
   SamGrid  grid;
   SamPair  pair;
   /* settings */
-  char               type[64], prefix[64];
+  char               type[64], prefix[SAM_PREFIX];
   SamFourierSettings fft;
   /* of the type, set by its create function; the data may be allocated there or in setup */
   SamElasticityOps    ops;

@@ -11,7 +11,7 @@
 typedef struct {
   char        file[PETSC_MAX_PATH_LEN]; /* empty: none was given */
   char        dataset[PETSC_MAX_PATH_LEN];
-  char        prefix[64];                   /* of the options */
+  char        prefix[SAM_PREFIX];           /* of the options */
   const char *file_option, *dataset_option; /* without prefix and dash */
   const char *default_dataset, *unit;
   PetscReal   least; /* values below are refused */

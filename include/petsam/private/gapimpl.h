@@ -18,7 +18,7 @@ typedef struct {
 struct _n_SamGap {
   /* what the user set */
   MPI_Comm     comm;
-  char         type[64], prefix[64];
+  char         type[64], prefix[SAM_PREFIX];
   PetscReal    values[SAM_GAP_PARAMETERS];
   SamFieldFile source; /* the separation, for type `file` */
   SamFieldFile rough;  /* roughness, added to any type; empty file name: none */

@@ -89,7 +89,7 @@ struct _n_SamSolver {
   void    *data; /* the type's own */
   PetscInt default_levels, default_max_it;
   /* what the user set; 0 stands for the type's default */
-  char             type[64], prefix[64];
+  char             type[64], prefix[SAM_PREFIX];
   PetscReal        rtol;
   PetscInt         max_it, levels;
   PetscBool        monitor_error, error_if_not_converged;

@@ -63,7 +63,7 @@ PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
 PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(gap->prefix, prefix ? prefix : "", sizeof(gap->prefix)));
+  PetscCall(SamSetPrefix(gap->prefix, prefix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
