@@ -9,6 +9,7 @@ import numpy as np
 from .errors import Error, Missing
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
+NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
 BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
 # what h5py raises for a file that is damaged, or laid out in another way
 DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
@@ -39,7 +40,7 @@ class Results:
     x, y        cell centres, m
     times       of the saved fields, s
     steps       numbers of the load steps, from 1, whose fields are saved
-    history     name: array with a value for every load step, all of /history
+    history     name: array with a value for every load step, all of /history; NaN where a step has no solution
     units       name: unit, of the same
     parameters  name of an option: value, all root attributes
     """
@@ -88,6 +89,25 @@ class Results:
         return Error(f"{self.path}: {_reason(error)}")
 
     # ------------------------------------------------------------ steps
+
+    @cached_property
+    def solved(self):
+        """Rows of the history, from 0, whose steps have a solution.
+
+        The row of a refused step holds the loads and displacements that were asked for, and NaN for what is unknown.
+        The step that a killed run was writing may be there in some datasets only, and does not count either.
+        """
+        complete = min(values.shape[0] for values in self.history.values())
+        return np.flatnonzero(self.history["status"][:complete] != NO_EQUILIBRIUM)
+
+    def series(self, name):
+        """Values of /history/name of the steps that have a solution: what sums and extremes are taken of."""
+        return self.history[name][self.solved]
+
+    def need_solution(self):
+        """Error where no step has a solution."""
+        if not self.solved.size:
+            raise Error(f"{self.path}: no step has a solution")
 
     def of_step(self, number):
         """Index into the fields of the load step number: from 1, or from the end, -1 being the last."""

@@ -32,6 +32,21 @@ def single(solve):
     return solve(dict(CASE, grid_n=(40, 56), load_tx=0.5 * AMPLITUDE)).path
 
 
+@pytest.fixture(scope="module")
+def refused(solve, tmp_path_factory):
+    """Back and forth, then a load that friction cannot balance: the row of the last step has no solution."""
+    table = tmp_path_factory.mktemp("history") / "refused.csv"
+    loads = [0.0, *(float(sign * AMPLITUDE) for sign in (1, -1, 1)), float(2 * slide_limit(CASE)[0])]
+    table.write_text("time,load_tx\n" + "".join(f"{k},{load!r}\n" for k, load in enumerate(loads, 1)))
+    return solve(CASE, dict(history=table), check=11).path
+
+
+@pytest.fixture(scope="module")
+def unsolved(solve):
+    """The only step is refused."""
+    return solve(dict(CASE, load_tx=2 * slide_limit(CASE)[0]), check=11).path
+
+
 @pytest.fixture
 def plot(tmp_path):
     """petsam-plot in tmp_path: the completed process."""
@@ -84,6 +99,20 @@ def test_a_single_step_gives_no_loop(plot, single, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["one_maps.png", "one_profiles.png"]
 
 
+def test_a_history_with_a_refused_step_gives_all_four_pictures(plot, refused, tmp_path):
+    plot(refused)
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == [f"results_{kind}.png" for kind in ("history", "loop", "maps", "profiles")]
+
+
+def test_one_solved_step_before_a_refused_one_gives_no_loop(plot, solve, tmp_path):
+    table = tmp_path / "two.csv"
+    table.write_text(f"time,load_tx\n1,0\n2,{float(2 * slide_limit(CASE)[0])!r}\n")
+    plot(solve(CASE, dict(history=table), check=11).path, "-o", "one")
+    table.unlink()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["one_maps.png", "one_profiles.png"]
+
+
 @pytest.mark.parametrize("kind", ["maps", "profiles", "loop", "history"])
 def test_pdf_by_the_end_of_the_name(plot, strokes, tmp_path, kind):
     plot("--" + kind, strokes, "-o", "picture.pdf")
@@ -111,6 +140,13 @@ def test_several_files_of_different_grids_are_compared(plot, strokes, single, tm
 def test_what_the_file_has_not_is_named(plot, strokes, words, message):
     errors = plot(strokes, *words, check=3).stderr.splitlines()
     assert len(errors) == 1 and errors[0].startswith("petsam-plot: error: ") and message in errors[0]
+
+
+@pytest.mark.parametrize("kind", ["loop", "history"])
+def test_a_file_without_any_solution_is_named(plot, refused, unsolved, kind):
+    for files in ([unsolved], [refused, unsolved]):
+        errors = plot("--" + kind, *files, check=3).stderr.splitlines()
+        assert errors == [f"petsam-plot: error: {unsolved}: no step has a solution"]
 
 
 def test_a_file_that_is_no_results_file_is_named(plot, tmp_path):
@@ -220,6 +256,51 @@ def test_history_sums_the_energy(strokes):
         results.history["dissipated_energy"].sum(),
         rtol=1e-12,
     )
+
+
+def test_loop_leaves_out_a_refused_step(refused):
+    results = Results(str(refused))
+    assert results.history["status"].tolist() == [0, 0, 0, 0, 11] and np.isnan(results.history["disp_x"][-1])
+    assert pictures.busiest(results) == "tx"
+    axes = pictures.loop([results]).axes[0]
+    assert np.allclose(lines(axes)[0][1], results.history["load_tx"][:4])
+    last = axes.lines[1].get_data()
+    assert [one[0] for one in last] == [one[3] for one in lines(axes)[0]]
+    text = axes.get_legend().get_texts()[0].get_text()
+    energy = results.history["dissipated_energy"][:4].sum()
+    assert any(f"{factor * energy:.4g} " in text for factor in (1e9, 1e6))
+
+
+def test_history_of_a_refused_step_has_the_panels_and_sums_of_the_others(refused):
+    results = Results(str(refused))
+    labels = [axes.get_ylabel().split(",")[0] for axes in pictures.history([results]).axes if axes.get_ylabel()]
+    expected = ["$T_x$", "$d_x$", "contact area", "stick area", "dissipated energy", "tangential iterations"]
+    assert labels == expected
+    axes = pictures.history([results], ["dissipated_energy", "status"]).axes
+    (time, energy), (every, status) = lines(axes[0])[0], lines(axes[1])[0]
+    assert time.tolist() == [1, 2, 3, 4] and every.tolist() == [1, 2, 3, 4, 5] and status[-1] == 11
+    assert np.isclose(
+        energy[-1] * (1e-9 if "nJ" in axes[0].get_ylabel() else 1e-6),
+        results.history["dissipated_energy"][:4].sum(),
+        rtol=1e-12,
+    )
+
+
+def test_a_step_that_is_in_some_datasets_only_does_not_count(strokes, tmp_path):
+    """As a killed run may leave it."""
+    path = tmp_path / "killed.h5"
+    path.write_bytes(strokes.read_bytes())
+    with h5py.File(path, "r+") as file:
+        cut = file["history/dissipated_energy"][:-1]
+        units = file["history/dissipated_energy"].attrs["units"]
+        del file["history/dissipated_energy"]
+        file["history/dissipated_energy"] = cut
+        file["history/dissipated_energy"].attrs["units"] = units
+    results = Results(str(path))
+    assert results.solved.tolist() == list(range(cut.size))
+    assert np.isclose(results.series("dissipated_energy").sum(), cut.sum(), rtol=1e-14)
+    pictures.loop([results])
+    pictures.history([results])
 
 
 @pytest.mark.parametrize(

@@ -172,6 +172,21 @@ def test_files_are_meant_relative_to_the_table(tmp_path):
     assert study_cases.read(str(path))[0].options == {"options_file": str(tmp_path / "a.opts"), "history": "/b.csv"}
 
 
+INPUTS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file", "friction_file")
+
+
+@pytest.mark.parametrize("option", INPUTS)
+def test_a_file_of_any_option_is_found_and_its_change_noticed(tmp_path, option):
+    (tmp_path / "input").write_text("1")
+    path = table(tmp_path, f"{option},load_tx\ninput,1\n")
+    case = study_cases.read(str(path))[0]
+    assert case.options[option] == str(tmp_path / "input")
+    before = case.identity()
+    assert study_cases.read(str(path))[0].identity() == before
+    (tmp_path / "input").write_text("12")
+    assert study_cases.read(str(path))[0].identity() != before
+
+
 @pytest.mark.parametrize(
     "name, text, message",
     [
@@ -234,6 +249,31 @@ def test_failures_are_listed_with_exit_code_and_message(run, tmp_path):
     assert "2 cases: 1 finished, 1 failed" in said and "slides  exit 11: gross slip" in said
     with h5py.File(tmp_path / "cases" / "results.h5", "r") as file:
         assert file["exit_code"][:].tolist() == [0, 11] and b"gross slip" in file["message"][1]
+
+
+def test_the_energy_of_a_case_that_ends_in_gross_slip_is_that_of_the_steps_before(run, tmp_path):
+    loads = [float(factor * LIMIT) for factor in (0.0, 0.5, -0.5, 0.5, 1.5)]
+    (tmp_path / "h.csv").write_text("time,load_tx\n" + "".join(f"{k},{load!r}\n" for k, load in enumerate(loads, 1)))
+    table(tmp_path, f"history,load_tx,case\nh.csv,,slides\n,{loads[-1]!r},at-once\n")
+    run("cases.csv", "--", *words(CASE), check=1)
+    with h5py.File(tmp_path / "cases" / "results.h5", "r") as both:
+        assert both["exit_code"][:].tolist() == [11, 11] and both["results/status"][:].tolist() == [11, 11]
+        energy = both["cases/slides/history/dissipated_energy"][:]
+        total = both["results/dissipated_energy_sum"][:]
+    assert np.isnan(energy[-1]) and energy[:-1].sum() > 0.0
+    assert np.isclose(total[0], energy[:-1].sum(), rtol=1e-14) and np.isnan(total[1])
+
+
+def test_a_changed_friction_file_runs_its_case_again(run, tmp_path, fake):
+    (tmp_path / "f.h5").write_text("one")
+    table(tmp_path, "friction_file,load_tx\nf.h5,1\n,2\n")
+    run("cases.csv", **fake)
+    assert f"-friction_file {tmp_path / 'f.h5'} " in " ".join([*runs(tmp_path)[0], *runs(tmp_path)[1], ""])
+    run("cases.csv", **fake)
+    assert len(runs(tmp_path)) == 2
+    (tmp_path / "f.h5").write_text("other")
+    run("cases.csv", **fake)
+    assert [line[1] for line in runs(tmp_path)[2:]] == ["friction_file=f.h5_load_tx=1"]
 
 
 def test_the_same_command_again_runs_only_what_has_not_finished(run, tmp_path, fake):

@@ -4,8 +4,8 @@
     petsam-plot --loop -o loop.pdf a.h5 b.h5       one picture, two files compared
     petsam-plot --maps --step 20,-1 strokes.h5     two steps below each other
 
-Without a kind given, maps and profiles of the last saved step are drawn, and of several load steps the loop and the
-history too. Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
+Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop
+and the history too. Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
 """
 
 import argparse
@@ -83,7 +83,7 @@ def chosen(options, results):
     ]
     if kinds:
         return kinds
-    several = any(one.history["time"].size > 1 for one in results)
+    several = any(one.solved.size > 1 for one in results)
     return [kind for kind in KINDS if kind in ("maps", "profiles") or several]
 
 

@@ -192,7 +192,7 @@ def busiest(results):
     """The pair of load and displacement whose product varies most; None where none does."""
 
     def work(pair):
-        load, way = (results.history[name] for name in PAIRS[pair])
+        load, way = (results.series(name) for name in PAIRS[pair])
         return float(np.ptp(load) * np.ptp(way))
 
     # the tangential loads before the normal ones: these dissipate nothing
@@ -203,18 +203,20 @@ def busiest(results):
 
 
 def loop(results, pair=None):
-    """A load over its displacement, of every file."""
+    """A load over its displacement, of every file; steps without a solution are left out."""
+    for one in results:
+        one.need_solution()
     pair = pair or busiest(results[0])
     if pair is None:
         raise Error(f"{results[0].path}: no load varies, a loop needs several steps")
     force, way = PAIRS[pair]
     factors = {
-        name: scale(results[0].units[name], largest(one.history[name] for one in results)) for name in (force, way)
+        name: scale(results[0].units[name], largest(one.series(name) for one in results)) for name in (force, way)
     }
     figure, axes = plt.subplots(figsize=(6.4, 4.8), constrained_layout=True)
     for one, tint in zip(results, colors(len(results))):
-        x, y = (factors[name][0] * one.history[name] for name in (way, force))
-        energy = float(np.sum(one.history["dissipated_energy"]))
+        x, y = (factors[name][0] * one.series(name) for name in (way, force))
+        energy = float(np.sum(one.series("dissipated_energy")))
         factor, unit = scale("J", energy)
         axes.plot(
             x,
@@ -241,16 +243,22 @@ def loop(results, pair=None):
 
 
 def _series(results, name):
-    """Values of /history/name over the steps; of the dissipated energy the sum."""
-    values = results.history[name].astype(float)
-    return np.cumsum(values) if name == "dissipated_energy" else values
+    """Times and values of /history/name of the steps that have a solution; of the dissipated energy the sum.
+
+    The status is that of all steps: it tells which of them have none.
+    """
+    if name == "status":
+        status = results.history[name]
+        return results.history["time"][: status.size], status.astype(float)
+    values = results.series(name).astype(float)
+    return results.series("time"), np.cumsum(values) if name == "dissipated_energy" else values
 
 
 def _varying(results):
     """Names that a picture of the history shows by itself: what is zero but for rounding does not vary."""
     length = max(largest((one.x, one.y)) for one in results)
     force, way = (
-        max(largest(one.history[name] for one in results) for name in names)
+        max(largest(one.series(name) for one in results) for name in names)
         for names in (("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y"))
     )
     size = {"N": force, "N m": force * length, "m": way, "rad": way / length}
@@ -258,14 +266,15 @@ def _varying(results):
         name
         for pair in PAIRS.values()
         for name in pair
-        if any(np.ptp(one.history[name]) > 1e-9 * size[one.units[name]] for one in results)
+        if any(np.ptp(one.series(name)) > 1e-9 * size[one.units[name]] for one in results)
     ]
     return [*loads, "contact_area", "stick_area", "dissipated_energy", "tangential_iterations"]
 
 
 def history(results, names=None):
-    """Datasets of /history over time, a panel each, a line a file."""
+    """Datasets of /history over time, a panel each, a line a file; of steps without a solution the status alone."""
     for one in results:
+        one.need_solution()
         for name in names or ():
             if name not in one.history:
                 raise Error(
@@ -280,17 +289,10 @@ def history(results, names=None):
         rows, columns, figsize=(4.2 * columns, 2.6 * rows + 0.3), squeeze=False, sharex=True, constrained_layout=True
     )
     for panel, name in zip(axes.flat, names):
-        factor, unit = scale(results[0].units[name], largest(_series(one, name) for one in results))
+        factor, unit = scale(results[0].units[name], largest(_series(one, name)[1] for one in results))
         for one, tint in zip(results, colors(len(results))):
-            panel.plot(
-                one.history["time"],
-                factor * _series(one, name),
-                ".-",
-                color=tint,
-                linewidth=1.1,
-                markersize=3.0,
-                label=one.label,
-            )
+            time, values = _series(one, name)
+            panel.plot(time, factor * values, ".-", color=tint, linewidth=1.1, markersize=3.0, label=one.label)
         panel.set(ylabel=label(SYMBOLS.get(name, name.replace("_", " ")), unit))
     for panel in axes.flat[len(names) :]:
         panel.set_axis_off()

@@ -22,8 +22,10 @@ import yaml
 from ..errors import Error
 from .expressions import Expander
 
-PATHS = ("options_file", "history", "gap_file", "gap_rough_file")
-HASHED = ("options_file", "history")  # small texts; of the others size and time tell whether they have changed
+# options that name files which are read; -load_history is another spelling of -history
+PATHS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file", "friction_file")
+# of these, small texts; of the others size and time tell whether they have changed
+HASHED = ("options_file", "history", "load_history")
 TAKEN = {
     "output": "petsam-study names the results",
     "checkpoint": "see --checkpoint",

@@ -1,7 +1,8 @@
 """The results table of a study: a row a case, with inputs and the scalars of its last load step, as CSV and HDF5.
 
 CSV: case, exit_code (empty: not run), seconds, ranks, the inputs, `steps`, the names of petsam's /history (those of the
-last step, and `dissipated_energy_sum` of all steps), message. A scalar that has an input's name gets `_end` added.
+last step, with NaN for what is unknown if it has no solution; `dissipated_energy_sum` of all steps that have one),
+message. A scalar that has an input's name gets `_end` added.
 
 HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
@@ -29,7 +30,9 @@ def scalars(path):
                 if values.ndim == 1:
                     found[name] = (values[-1].item(), results.units[name])
             energy = "dissipated_energy"
-            found[energy + "_sum"] = (float(np.sum(results.history[energy])), results.units[energy])
+            # without any solution the energy is unknown, not zero
+            total = float(np.sum(results.series(energy))) if results.solved.size else np.nan
+            found[energy + "_sum"] = (total, results.units[energy])
             return found
     except Error:
         return {}
