@@ -1,35 +1,12 @@
 /*
-  The influence operator and its preconditioner: against sums over the closed forms, closed solutions, symmetry.
+  The influence operator: against sums over the closed forms, closed solutions, symmetry, bodies.
 */
-#include "fields.h"
+#include "elasticities.h"
 
-#include <petscksp.h>
-
-#include <petsam/elasticity.h>
 #include <petsam/influence.h>
-
-/* Sizes that do not divide, odd, prime, and fewer rows than ranks; cells that are not square. */
-static const PetscInt sizes[][2] = {{13, 9}, {7, 5}, {16, 11}, {5, 2}, {2, 17}};
-enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]) };
 
 /* Rounding of the transforms and of the sums they are compared to, n^2 terms of one sign. */
 static const double tolerance = 1e-13;
-
-/* Two bodies that have nothing in common. */
-static const double young[2] = {210e9, 3e9}, poisson[2] = {0.3, 0.2};
-
-static SamElasticity NewCompliance(SamGrid grid, SamPair pair)
-{
-  SamElasticity C;
-
-  sam_call(SamElasticityCreate(grid, &pair, &C));
-  return C;
-}
-
-static SamElasticity NewDissimilar(SamGrid grid)
-{
-  return NewCompliance(grid, NewPair(young[0], poisson[0], young[1], poisson[1]));
-}
 
 /*
   Displacement along `row` at lag (i, j) from unit traction along `column` (0, 1, 2: x, y, z), body by body (Johnson
@@ -81,8 +58,6 @@ static Vec SumDirectly(SamGrid grid, int first_in, PetscInt n_in, int first_out,
   free(whole);
   return u;
 }
-
-typedef PetscErrorCode (*Product)(SamElasticity, Vec, Vec);
 
 static void AssertProduct(Product product, PetscBool tangential_in, PetscBool tangential_out)
 {
@@ -493,117 +468,6 @@ static void test_coarser_operators_end_below_32_cells(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
-/* ---- preconditioner ---- */
-
-static void AssertPreconditioner(PetscInt components, Product precondition)
-{
-  const PetscInt n[][2] = {{16, 12}, {15, 9}, {7, 21}, {13, 11}, {5, 2}}; /* periods even and odd, equal to n and not */
-
-  for (int k = 0; k < 5; k++) {
-    SamGrid       grid = NewGrid(n[k][0], n[k][1], 3e-3, 1e-3);
-    SamElasticity C    = NewDissimilar(grid);
-
-    for (PetscInt seed = 0; seed < 5; seed++) {
-      Vec x = NewRandom(grid, components, seed), y = NewRandom(grid, components, seed + 50), mx = Copy(x), my = Copy(y);
-      double size;
-
-      if (seed == 4) sam_call(VecSet(x, 1)); /* the mean has a gain as well */
-      sam_call(precondition(C, x, mx));
-      sam_call(precondition(C, my, my)); /* in place */
-      size = Norm(x, NORM_2) * Norm(my, NORM_2) + Norm(y, NORM_2) * Norm(mx, NORM_2);
-      sam_assert_close(Dot(x, my), Dot(y, mx), 1e-6 * size); /* rounding of single precision, summed up */
-      sam_assert(Dot(x, mx) > 1e-3 * Norm(x, NORM_2) * Norm(mx, NORM_2));
-      sam_assert(Dot(y, my) > 1e-3 * Norm(y, NORM_2) * Norm(my, NORM_2));
-      sam_call(VecDestroy(&x));
-      sam_call(VecDestroy(&y));
-      sam_call(VecDestroy(&mx));
-      sam_call(VecDestroy(&my));
-    }
-    sam_call(SamElasticityDestroy(&C));
-    sam_call(SamGridDestroy(&grid));
-  }
-}
-
-static void test_normal_preconditioner_is_symmetric_positive(void **state)
-{
-  (void)state;
-  AssertPreconditioner(1, SamElasticityPreconditionNormal);
-}
-
-static void test_tangential_preconditioner_is_symmetric_positive(void **state)
-{
-  (void)state;
-  AssertPreconditioner(2, SamElasticityPreconditionTangential);
-}
-
-/* Iterations of PETSc's CG for C x = random b to 1e-8, and the true residual. */
-static PetscInt Iterations(PetscInt components, PetscInt nx, PetscInt ny, PetscBool precondition)
-{
-  SamGrid            grid = NewGrid(nx, ny, 3e-3, 2e-3);
-  SamElasticity      C    = NewDissimilar(grid);
-  Vec                b = NewRandom(grid, components, 3), x = NewField(grid, components), r = NewField(grid, components);
-  Mat                mat;
-  PC                 pc;
-  KSP                ksp;
-  PetscInt           its;
-  KSPConvergedReason reason;
-
-  sam_call(SamElasticityCreateMat(C, components, &mat));
-  sam_call(KSPCreate(PETSC_COMM_WORLD, &ksp));
-  sam_call(KSPSetType(ksp, KSPCG));
-  sam_call(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
-  if (precondition) {
-    sam_call(SamElasticityCreatePC(C, components, &pc));
-    sam_call(KSPSetPC(ksp, pc));
-    sam_call(PCDestroy(&pc));
-  } else {
-    sam_call(KSPGetPC(ksp, &pc));
-    sam_call(PCSetType(pc, PCNONE));
-  }
-  sam_call(KSPSetOperators(ksp, mat, mat));
-  sam_call(KSPSetTolerances(ksp, 1e-8, 0, PETSC_DEFAULT, 500));
-  sam_call(KSPSolve(ksp, b, x));
-  sam_call(KSPGetConvergedReason(ksp, &reason));
-  sam_call(KSPGetIterationNumber(ksp, &its));
-  sam_assert(reason > 0);
-  sam_call(MatMult(mat, x, r));
-  sam_assert_close(Difference(r, b, NORM_2), 0, 2e-8); /* asked for 1e-8 of the recursive residual */
-  sam_call(KSPDestroy(&ksp));
-  sam_call(MatDestroy(&mat));
-  sam_call(VecDestroy(&b));
-  sam_call(VecDestroy(&x));
-  sam_call(VecDestroy(&r));
-  sam_call(SamElasticityDestroy(&C));
-  sam_call(SamGridDestroy(&grid));
-  return its;
-}
-
-static void test_krylov_method_gains_by_the_preconditioner(void **state)
-{
-  (void)state;
-  for (PetscInt components = 1; components <= 2; components++) {
-    const PetscInt with    = Iterations(components, 48, 37, PETSC_TRUE),
-                   without = Iterations(components, 48, 37, PETSC_FALSE);
-
-    if (getenv("SAM_SHOW"))
-      print_message("# CG %d components: %d with, %d without\n", (int)components, (int)with, (int)without);
-    sam_assert(2 * with < without);
-  }
-}
-
-static void test_preconditioned_iterations_do_not_grow_with_the_grid(void **state)
-{
-  (void)state;
-  for (PetscInt components = 1; components <= 2; components++) {
-    const PetscInt coarse = Iterations(components, 24, 16, PETSC_TRUE),
-                   fine   = Iterations(components, 96, 64, PETSC_TRUE);
-
-    if (getenv("SAM_SHOW"))
-      print_message("# CG %d components: %d at 24, %d at 96\n", (int)components, (int)coarse, (int)fine);
-    sam_assert(fine < coarse + 8); /* without it, twice as many for four times the cells */
-  }
-}
-
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -623,10 +487,6 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_impossible_bodies_are_refused),
     cmocka_unit_test(test_self_influence_is_that_of_one_cell),
     cmocka_unit_test(test_coarser_operators_end_below_32_cells),
-    cmocka_unit_test(test_normal_preconditioner_is_symmetric_positive),
-    cmocka_unit_test(test_tangential_preconditioner_is_symmetric_positive),
-    cmocka_unit_test(test_krylov_method_gains_by_the_preconditioner),
-    cmocka_unit_test(test_preconditioned_iterations_do_not_grow_with_the_grid),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
