@@ -1,6 +1,4 @@
-/*
-  Contact of periodic bodies: Westergaard's wavy surface, a surface with waves in both directions, stick and slip.
-*/
+/* Contact of periodic bodies: Westergaard's surface, waves in both directions, roughness, stick and slip. */
 #include "fields.h"
 
 #include <petsam/normal.h>
@@ -284,6 +282,45 @@ static void test_valleys_near_full_contact_are_cracks(void **state)
   DestroyCase(&c);
 }
 
+/* ---- roughness ---- */
+
+/* Waves of pseudo-random phases, self-affine, folded at their mean plane. The seed is the context. */
+static double Rough(double x, double y, const void *context)
+{
+  const PetscInt seed = *(const PetscInt *)context;
+  double         h    = 0;
+
+  for (PetscInt k = 0; k <= 8; k++)
+    for (PetscInt l = k ? -8 : 1; l <= 8; l++)
+      h +=
+        (k * k + l * l <= 64 ? 1 : 0) * pow((double)(k * k + l * l), -0.9) *
+        cos(2 * PETSC_PI * ((double)k * x + (double)l * y * 97 / 53) / wavelength + PETSC_PI * Random(seed, 0, k, l));
+  return 0.2 * amplitude * fabs(h);
+}
+
+/* Cells that part in short steps come to zero pressure, or else their gap is an error that stays, as it did here. */
+static void test_cells_part_when_steps_are_short(void **state)
+{
+  const PetscInt seeds[5] = {4, 25, 43, 47, 57};
+
+  (void)state;
+  for (int k = 0; k < 5; k++) {
+    Case         c = NewCase(97, 53, wavelength * 53 / 97, Wave);
+    SamBalance   b = {.kind = SAM_BALANCE_NORMAL}, other = b;
+    const double mean = (k ? 0.05363 : 0.02823) * FullPressure(&c);
+    Vec          p;
+
+    sam_call(VecDestroy(&c.h));
+    c.h = NewFrom(c.grid, Rough, &seeds[k]);
+    sam_assert(Press(&c, types[0], 1e-8, mean, &b) == SAM_SOLVER_CONVERGED_RTOL);
+    p = Copy(c.p);
+    sam_assert(Press(&c, types[1], 1e-8, mean, &other) == SAM_SOLVER_CONVERGED_RTOL);
+    sam_assert_close(Difference(p, c.p, NORM_2), 0, 1e-6); /* rtol times the condition, about n */
+    sam_call(VecDestroy(&p));
+    DestroyCase(&c);
+  }
+}
+
 /* ---- stick and slip ---- */
 
 static double Hills(double x, double y, const void *context)
@@ -451,6 +488,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_waves_in_full_contact_are_exact),
     cmocka_unit_test(test_summits_under_a_light_load_are_hertz_contacts),
     cmocka_unit_test(test_valleys_near_full_contact_are_cracks),
+    cmocka_unit_test(test_cells_part_when_steps_are_short),
     cmocka_unit_test(test_stick_and_slip_by_direct_summation),
     cmocka_unit_test(test_stick_and_slip_on_nested_grids),
     cmocka_unit_test(test_full_contact_sticks_or_slides),

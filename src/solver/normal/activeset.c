@@ -15,6 +15,11 @@
     4. The product of trial - p gives the best point between p and the trial, or beyond it as far as p >= 0. When no
        cell meets its bound, that is the step of linear conjugate gradients. So p is admissible and the energy falls
        throughout; cells enter and leave by the thousand without a product of their own; and conjugacy is kept.
+  A step that ends before the trial, by t < 1 of it, leaves the part 1 - t of their pressure on cells that are to part.
+  So they come nearer to their bound and never reach it, while all of their gap counts as error. The energy converges
+  and the error does not. Therefore, when the error has not fallen for some iterations, a pressure left there that is no
+  more than rounding of the step is taken off, and the gap is computed anew.
+
   If the trial is uphill, or the error has not fallen for several iterations, the direction is the residual itself:
   projected gradient steps with the best length converge whatever is between them. Stops when |g| under pressure and -g
   elsewhere are below the tolerance, relative to the largest displacement.
@@ -44,7 +49,8 @@
 #define DESCENT 0.1
 /* The trial's length follows the best one, by at most the root of this factor in an iteration. */
 #define FOLLOW 2.0
-/* Iterations without progress before a gradient step, and before giving up because of rounding. */
+/* Iterations without progress before cells are made to part, a gradient step, and giving up because of rounding. */
+#define PARTING    4
 #define PATIENCE   10
 #define STAGNATION 100
 
@@ -269,17 +275,33 @@ static PetscErrorCode ComputeCurvature(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Makes cells part that a step of the length t would leave with a pressure of no more than rounding. */
+static PetscErrorCode Part(Work *w, double t)
+{
+  SamRow row;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < w->rows; j++)
+    for (PetscInt end = 0; NextBusy(w, j, &end, &row);) w->lost = PetscMax(w->lost, SamActiveSetPartRow(w, row, t));
+  PetscCall(SamMax(w->level->grid->comm, 1, &w->lost));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Step 4: the least energy between where the step begins and where a pressure vanishes. `best`: the length of the step
   without that bound.
 */
 static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {
+  double t;
+
   PetscFunctionBegin;
   PetscCall(SamLevelApplySingle(w->solver, w->level, 1 / w->self, w->s, w->u));
   PetscCall(ComputeCurvature(w));
   *best = w->curvature > 0 ? PetscMax(-w->slope / w->curvature, 0) : 0;
-  SetLength(w, *best * w->shrink > 1 ? 1 / w->shrink : *best, contact);
+  t     = *best * w->shrink > 1 ? 1 / w->shrink : *best;
+  if (w->stagnates && t > 0 && t < 1) PetscCall(Part(w, t));
+  SetLength(w, t, contact);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -293,6 +315,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
 
   PetscFunctionBegin;
   w->unit = w->error;
+  w->lost = 0;
   if (!gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, found));
@@ -352,8 +375,9 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
   while (!reason) {
     const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE;
 
+    w.stagnates = stagnant >= PARTING ? PETSC_TRUE : PETSC_FALSE;
     PetscCall(Iterate(&w, gradient, &downhill, &found));
-    if (downhill && (gradient || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
+    if (downhill && (gradient || w.lost > 0 || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
     stagnant = w.error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, w.error);
     PetscCall(GetReason(&w, stagnant, downhill, found, &reason));

@@ -29,6 +29,8 @@ typedef struct {
   double          shrink;         /* largest part of its pressure that a cell loses in the step */
   double          curvature;      /* s.u; 0: no step yet */
   double          alpha;          /* length of the trial */
+  PetscBool       stagnates;      /* the error has not fallen for some iterations */
+  double          lost;           /* the largest pressure that was taken off in the step without a product, Pa */
 } SamActiveSet;
 
 /* Sums over the cells of a row that take part: their number, xi, xi^2, g and xi g. */
@@ -94,6 +96,11 @@ PETSC_INTERN void SamActiveSetDirectionRow(SamActiveSet *w, SamRow row, const do
 PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
 /* s.u of at most SAM_STRETCH cells. */
 PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
+/*
+  Where the trial has no pressure, and t times the step would leave one of no more than rounding, takes that off, so
+  that the step will end at 0; returns the largest.
+*/
+PETSC_INTERN double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t);
 /* From the trial, where p has gone by s, to t times that; adds to the sums over the cells with pressure. */
 PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);
 /* The same where there is neither pressure nor a step: returns the least gap. */

@@ -176,6 +176,23 @@ SAM_VECTORIZED double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row
   return (double)sum;
 }
 
+SAM_VECTORIZED double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t)
+{
+  const float *restrict s = w->s + row.first;
+  double *restrict p      = w->p + row.first;
+  const double by = (1 - t) * w->unit / w->self, least = SAM_SINGLE_ROUNDING * w->unit / w->self;
+  double       most = 0;
+
+#pragma omp simd reduction(max : most)
+  for (int i = 0; i < row.count; i++) {
+    const double left = by * -(double)s[i], none = p[i] == 0 && left > 0 && left <= least ? left : 0;
+
+    p[i] -= none;
+    most = none > most ? none : most;
+  }
+  return most;
+}
+
 /* A pressure that is no more than the step's rounding is none. */
 SAM_VECTORIZED void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums)
 {
