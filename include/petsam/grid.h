@@ -44,8 +44,8 @@ PETSC_EXTERN PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse);
 */
 PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
 /*
-  SamGridCheckVec - raises PETSC_ERR_ARG_SIZ, on all ranks, unless the vector has the layout of a field of this grid with
-  `components` values a cell; `words` says what it is. Collective.
+  SamGridCheckVec - raises PETSC_ERR_ARG_SIZ, on all ranks, unless the vector has the layout of a field of this grid
+  with `components` values a cell; `words` says what it is. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, const char words[]);
 /* SamVecZero - sets a field to zero without writing to what is. Collective. */

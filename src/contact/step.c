@@ -289,8 +289,9 @@ static PetscErrorCode SkipTangential(Solve *w)
 /* ---- both ---- */
 
 /*
-  The norm of a traction by which its changes are measured. Where a uniform traction displaces nothing, it is the norm of
-  what is left without the mean, which may be a small part: displacements, and so the check, depend on that part alone.
+  The norm of a traction by which its changes are measured. Where a uniform traction displaces nothing, it is the norm
+  of what is left without the mean, which may be a small part: displacements, and so the check, depend on that part
+  alone.
 */
 static PetscErrorCode ComputeSize(SamContact c, SamBalanceKind kind, Vec traction, PetscReal *size)
 {
