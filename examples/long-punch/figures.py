@@ -64,7 +64,7 @@ class Section:
         )
 
     def _read(self, step):
-        self.bodies, self.friction = Bodies.of(step.parameters), step.results.friction
+        self.bodies, self.friction = Bodies.of(step.parameters), step.results.friction(step.index)
         self.x, self.y, self.width = step.x, step.y, step.x[1] - step.x[0]
         if self.y.size % 2:
             raise petsam.Error(f"{step.results.path}: needs an even number of rows")

@@ -46,7 +46,7 @@ solve() {
     done
 }
 
-[ "$grid_n" -ge 64 ] || fail "GRID_N must be at least 64"
+[ "$grid_n" -ge 256 ] || fail "GRID_N must be at least 256: on coarser grids the long contact reaches the edge"
 for ratio in $ratios; do
     solve "fine_r$ratio" "$ratio" "$grid_n" --
     solve "coarse_r$ratio" "$ratio" "$((grid_n / 4))" --

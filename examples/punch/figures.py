@@ -39,7 +39,7 @@ class Case(petsam.Snapshot):
 
     def __init__(self, directory, name):
         super().__init__(petsam.open(os.path.join(directory, name + ".h5")))
-        bodies, self.friction = Bodies.of(self.parameters), self.results.friction
+        bodies, self.friction = Bodies.of(self.parameters), self.results.friction(self.index)
         self.punch = Punch(*(self.parameters[name] for name in ("gap_flat_radius", "gap_edge_radius")), bodies.e_star)
         self.c, self.poisson = self.punch.c, bodies.poisson1
         self.pressure_unit = bodies.e_star * self.c / (2.0 * self.punch.edge_radius)

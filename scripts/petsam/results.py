@@ -156,6 +156,8 @@ class Results:
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
         """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell."""
         low, high, _ = rows.indices(self.y.size)
+        if name not in self.file:
+            raise Error(f"{self.path}: has no {name}")
         try:
             data = self.file[name]
             if data.shape != (self.times.size, self.y.size, self.x.size):

@@ -15,18 +15,32 @@ static PetscBool SameFile(const char a[], const char b[])
                                                                                                           : PETSC_FALSE;
 }
 
+/* PETSc reads these files before anything else, and does not keep the option. */
+static PetscErrorCode RefuseOverwritingOptions(const char option[], const char filename[])
+{
+  char **args;
+  int    count;
+
+  PetscFunctionBegin;
+  PetscCall(PetscGetArgs(&count, &args));
+  for (int k = 1; k + 1 < count; k++)
+    PetscCheck(strcmp(args[k], "-options_file") || !SameFile(args[k + 1], filename), PETSC_COMM_WORLD, SAM_ERR_USER,
+               "-%s %s: would overwrite the file of -options_file", option, filename);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Refuses an output file that would overwrite an input file. With `restart` the file of -restart counts as an input,
   too: results must not overwrite it, but a new checkpoint may.
 */
 static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
 {
-  static const char *const inputs[] = {
-    "-gap_file", "-gap_rough_file", "-friction_file", "-load_history", "-options_file", "-restart", NULL};
-  static const char *const names[] = {"-gap_file", "-gap_rough_file", "-friction_file",
-                                      "-history",  "-options_file",   "-restart"};
+  static const char *const inputs[] = {"-gap_file", "-gap_rough_file", "-friction_file", "-load_history", "-restart",
+                                       NULL};
+  static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-friction_file", "-history", "-restart"};
 
   PetscFunctionBegin;
+  PetscCall(RefuseOverwritingOptions(option, filename));
   for (PetscInt k = 0; inputs[k]; k++) {
     char      name[PETSC_MAX_PATH_LEN];
     PetscBool set;

@@ -393,6 +393,15 @@ def test_options_file_and_environment_count_as_the_command_line(petsam, sphere, 
     assert (a.pressure == c.pressure).all() and (b.shear_x == c.shear_x).all()
 
 
+@pytest.mark.parametrize("option", ["output", "checkpoint"])
+def test_results_do_not_overwrite_the_options_file(petsam, sphere, tmp_path, option):
+    path = tmp_path / "study.opts"
+    path.write_text("-load_tx 10\n")
+    done = petsam(sphere, "-options_file", "study.opts", {option: "./study.opts"}, check=2)
+    assert f"-{option} ./study.opts: would overwrite the file of -options_file" in done.complaint[0]
+    assert path.read_text() == "-load_tx 10\n"
+
+
 def test_command_line_overrides_the_options_file(petsam, sphere, tmp_path):
     from support import Results, words
 
