@@ -35,8 +35,8 @@ static PetscErrorCode RefuseOverwritingOptions(const char option[], const char f
 */
 static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
 {
-  static const char *const inputs[] = {"-gap_file", "-gap_rough_file", "-friction_file", "-load_history", "-restart",
-                                       NULL};
+  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-friction_file",
+                                       "-load_history", "-restart",        NULL};
   static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-friction_file", "-history", "-restart"};
 
   PetscFunctionBegin;
