@@ -50,7 +50,7 @@
 /* The trial's length follows the best one, by at most the root of this factor in an iteration. */
 #define FOLLOW 2.0
 /* Iterations without progress before cells are made to part, a gradient step, and giving up because of rounding. */
-#define PARTING    4
+#define PARTING    8
 #define PATIENCE   10
 #define STAGNATION 100
 
