@@ -123,10 +123,10 @@ static PetscErrorCode CheckNormal(SamGrid grid, Vec separation, const SamSolutio
 
 /*
   Over the cells: sums of the squares of the residual, of q, of D(q - ds/c), and of the least scale of the residual, a
-  part of the bound; the largest |q| - mu p, and the largest mu p. The first four are read as an array.
+  part of the bound; the largest |q| - mu p, and the largest mu p.
 */
 typedef struct {
-  double residual, shear, projected, least, over, most;
+  double sums[4], over, most;
 } TangentialSums;
 
 /* The sums of one row, from its bound, its shear and its slip increment (x, y); `inverse` is 1/c. */
@@ -149,7 +149,7 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
     over = beyond > over ? beyond : over;
     most = b > most ? b : most;
   }
-  return (TangentialSums){residual, shear, projected, least, over, most};
+  return (TangentialSums){{residual, shear, projected, least}, over, most};
 }
 
 /* The bound of the shear, recomputed from the pressure; where that is negative the bound is 0. */
@@ -185,7 +185,7 @@ static PetscErrorCode SumTangential(SamGrid grid, PetscReal self, const SamIncre
 
     SamIncrementComputeRow(increment, j);
     row = TangentialRow(grid->nx, bound + k, qs, ds, 1 / self);
-    SamAddAll(4, totals, &row.residual);
+    SamAddAll(4, totals, row.sums);
     max[0] = SamLarger(max[0], row.over);
     max[1] = SamLarger(max[1], row.most);
   }

@@ -255,15 +255,11 @@ static PetscErrorCode RestoreWindow(SamContact c)
 /* Whether the next step has the committed pressure: same normal control, same gap, and no shear that acts on it. */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
-  PetscObjectState revision;
-  double           changed;
+  PetscBool current;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGapRevision(c->problem, &revision));
-  c->tried.gap_revision = revision;
-  changed               = c->committed.gap_revision == revision ? 0 : 1;
-  PetscCall(SamMax(c->grid->comm, 1, &changed)); /* each rank counts the changes of its own part */
-  *same = (!SamContactIsCoupled(c) && c->steps && changed == 0 &&
+  PetscCall(SamContactIsGapCurrent(c, &current));
+  *same = (!SamContactIsCoupled(c) && c->steps && current &&
            SamControlIsSame(&c->committed.solution.control, control, SAM_BALANCE_NORMAL))
             ? PETSC_TRUE
             : PETSC_FALSE;
@@ -312,6 +308,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(PetscMemzero(step, sizeof(*step)));
   step->control             = given;
   c->tried.solution.control = given;
+  PetscCall(SamProblemGetGapRevision(c->problem, &c->tried.gap_revision));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
   PetscCall(SamContactPredict(c, &given, &start));
   PetscCall(SamContactSolveStep(c, &start, same_pressure, step));

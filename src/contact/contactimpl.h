@@ -44,6 +44,8 @@ PETSC_INTERN PetscErrorCode SamSolutionCreate(SamGrid grid, SamSolution *solutio
 */
 PETSC_INTERN PetscErrorCode SamSolutionCreateDisplacements(SamGrid grid, SamSolution *solution);
 PETSC_INTERN PetscErrorCode SamSolutionDestroy(SamSolution *solution);
+/* SamContactIsGapCurrent - whether the committed pressure was solved with the problem's gap of now. Collective. */
+PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
 /* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */
 PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
 

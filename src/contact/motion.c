@@ -174,6 +174,7 @@ PetscErrorCode SamContactComputeState(SamContact c, Vec state)
   double            *states;
 
   PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(c->grid, 1, state, "The state"));
   PetscCall(SamContactGetSolution(c, &s));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->shear, &q));

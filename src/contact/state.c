@@ -107,11 +107,21 @@ PetscErrorCode SamContactGetSolution(SamContact c, const SamSolution **solution)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
+PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 {
   PetscObjectState revision;
   double           changed;
 
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGapRevision(c->problem, &revision));
+  changed = c->committed.gap_revision == revision ? 0 : 1;
+  PetscCall(SamMax(c->grid->comm, 1, &changed)); /* each rank counts the changes of its own part */
+  *current = changed == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
+{
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
   PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
@@ -120,10 +130,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   if (c->steps > 1) s->before = c->before;
   PetscCall(PetscArraycpy(s->window_first, c->committed.window_first, 2));
   PetscCall(PetscArraycpy(s->window_n, c->committed.window_n, 2));
-  PetscCall(SamProblemGetGapRevision(c->problem, &revision));
-  changed = c->committed.gap_revision == revision ? 0 : 1;
-  PetscCall(SamMax(c->grid->comm, 1, &changed));
-  s->gap_is_current = changed == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(SamContactIsGapCurrent(c, &s->gap_is_current));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -431,6 +431,7 @@ static void test_fields_of_another_grid_are_refused(void **state)
     sam_fails(SamContactSetState(c.contact, &mixed), PETSC_ERR_ARG_SIZ);
   }
   sam_fails(SamContactComputeGap(c.contact, shorter), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactComputeState(c.contact, shorter), PETSC_ERR_ARG_SIZ);
   sam_fails(SamContactComputeSlip(c.contact, 0, shorter), PETSC_ERR_ARG_SIZ);
   sam_fails(SamContactComputeSlip(c.contact, 1, both), PETSC_ERR_ARG_SIZ);
   sam_fails(SamContactComputeSlip(c.contact, 2, right), PETSC_ERR_ARG_OUTOFRANGE);
