@@ -48,6 +48,8 @@ PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, 
   with `components` values a cell; `words` says what it is. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, const char words[]);
+/* SamGridIsFinite - whether all values of a field are finite numbers. Collective. */
+PETSC_EXTERN PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is);
 /* SamVecZero - sets a field to zero without writing to what is. Collective. */
 PETSC_EXTERN PetscErrorCode SamVecZero(Vec field);
 /*

@@ -91,19 +91,14 @@ static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
   r->progress.shown_at = now;
 }
 
-static PetscErrorCode WatchNormal(SamSolver normal, PetscInt it, PetscReal error, void *context)
+static PetscErrorCode Watch(SamSolver solver, PetscInt it, PetscReal error, void *context)
 {
-  PetscFunctionBegin;
-  (void)normal;
-  Show((SamReport)context, "normal", it, error);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+  const SamReport r = (SamReport)context;
+  SamNormal       normal;
 
-static PetscErrorCode WatchTangential(SamSolver tangential, PetscInt it, PetscReal error, void *context)
-{
   PetscFunctionBegin;
-  (void)tangential;
-  Show((SamReport)context, "tangential", it, error);
+  PetscCall(SamContactGetNormal(r->contact, &normal));
+  Show(r, solver == normal ? "normal" : "tangential", it, error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -115,9 +110,9 @@ PetscErrorCode SamProgressWatch(SamReport r, SamContact contact)
   PetscFunctionBegin;
   if (!r->progress.active || r->contact == contact) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNormal(contact, &normal));
-  PetscCall(SamSolverMonitorSet(normal, WatchNormal, r));
+  PetscCall(SamSolverMonitorSet(normal, Watch, r));
   PetscCall(SamContactGetTangential(contact, &tangential));
-  PetscCall(SamSolverMonitorSet(tangential, WatchTangential, r));
+  PetscCall(SamSolverMonitorSet(tangential, Watch, r));
   r->contact = contact;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -32,3 +32,16 @@ PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size)
   PetscCall(PetscFree(types));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
+                                   const char type[])
+{
+  void (*create)(void);
+  char types[512];
+
+  PetscFunctionBegin;
+  PetscCall(PetscFunctionListFind(list, type, &create));
+  PetscCall(SamTypesList(list, types, sizeof(types)));
+  PetscCheck(create, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), option, type, types);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -111,16 +111,14 @@ PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[
 PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
 {
   const SamOptions from = {e->grid->comm, e->prefix};
-  PetscErrorCode (*create)(SamElasticity);
-  char type[sizeof(e->type)], types[256];
+  char             type[sizeof(e->type)], types[256];
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCall(SamOptionsHeading(&from, "Elasticity"));
   PetscCall(PetscStrncpy(type, e->type, sizeof(type)));
   PetscCall(SamOptionsString(&from, "elasticity", types, type, sizeof(type), NULL));
-  PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
-  PetscCheck(create, from.comm, SAM_ERR_USER, "-%selasticity %s: expected %s", e->prefix, type, types);
+  PetscCall(SamTypesCheckOption(SamElasticityList, &from, "elasticity", type));
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
   if (strcmp(type, e->type) || e->is_set_up) PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
   if (e->ops.setfromoptions) PetscCall((*e->ops.setfromoptions)(e, &from));

@@ -174,6 +174,24 @@ PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is)
+{
+  const PetscScalar *values;
+  PetscInt           n;
+  double             sum = 0, bad;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(field, &n));
+  PetscCall(VecGetArrayRead(field, &values));
+#pragma omp simd reduction(+ : sum)
+  for (PetscInt k = 0; k < n; k++) sum += 0 * values[k]; /* NaN when a value is not finite */
+  PetscCall(VecRestoreArrayRead(field, &values));
+  bad = isnan(sum) ? 1 : 0;
+  PetscCall(SamMax(grid->comm, 1, &bad));
+  *is = bad == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamVecZero(Vec v)
 {
   double  *x;

@@ -1,97 +1,50 @@
 /*
   The contents of the results: a table of the fields of a saved step, and a table of the numbers of every step.
 
-  To add a field, add a line and a function that gets or computes it; to add a number, add a line.
+  To add a field, add a line, and a function where the contact does not store it; to add a number, add a line.
 */
 #include "ioimpl.h"
 
 /* ---- fields ---- */
 
-static PetscErrorCode GetPressure(SamContact contact, PetscInt component, Vec work, Vec *field)
-{
-  const SamSolution *solution;
-
-  PetscFunctionBegin;
-  (void)component;
-  (void)work;
-  PetscCall(SamContactGetSolution(contact, &solution));
-  *field = solution->pressure;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetShear(SamContact contact, PetscInt component, Vec work, Vec *field)
-{
-  const SamSolution *solution;
-
-  PetscFunctionBegin;
-  (void)component;
-  (void)work;
-  PetscCall(SamContactGetSolution(contact, &solution));
-  *field = solution->shear;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetDisplacementZ(SamContact contact, PetscInt component, Vec work, Vec *field)
-{
-  const SamSolution *solution;
-
-  PetscFunctionBegin;
-  (void)component;
-  (void)work;
-  PetscCall(SamContactGetSolution(contact, &solution));
-  *field = solution->displacement_z;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetDisplacementT(SamContact contact, PetscInt component, Vec work, Vec *field)
-{
-  const SamSolution *solution;
-
-  PetscFunctionBegin;
-  (void)component;
-  (void)work;
-  PetscCall(SamContactGetSolution(contact, &solution));
-  *field = solution->displacement_t;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetSlip(SamContact contact, PetscInt component, Vec work, Vec *field)
-{
-  PetscFunctionBegin;
-  PetscCall(SamContactComputeSlip(contact, component, work));
-  *field = work;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetGap(SamContact contact, PetscInt component, Vec work, Vec *field)
+static PetscErrorCode ComputeGap(SamContact contact, PetscInt component, Vec field)
 {
   PetscFunctionBegin;
   (void)component;
-  PetscCall(SamContactComputeGap(contact, work));
-  *field = work;
+  PetscCall(SamContactComputeGap(contact, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetState(SamContact contact, PetscInt component, Vec work, Vec *field)
+static PetscErrorCode ComputeState(SamContact contact, PetscInt component, Vec field)
 {
   PetscFunctionBegin;
   (void)component;
-  PetscCall(SamContactComputeState(contact, work));
-  *field = work;
+  PetscCall(SamContactComputeState(contact, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+#define STORED(name, units, text, member, component) \
+  { \
+    {name, units, text}, SAM_FIELD_REAL, NULL, offsetof(SamSolution, member), component \
+  }
+#define COMPUTED(name, units, text, kind, function, component) \
+  { \
+    {name, units, text}, kind, function, 0, component \
+  }
 
 const SamOutputField SamOutputFields[] = {
-  {{"pressure", "Pa", "contact pressure"}, SAM_FIELD_REAL, GetPressure, 0},
-  {{"shear_x", "Pa", "shear traction along x"}, SAM_FIELD_REAL, GetShear, 0},
-  {{"shear_y", "Pa", "shear traction along y"}, SAM_FIELD_REAL, GetShear, 1},
-  {{"slip_x", "m", "relative tangential displacement along x since the start"}, SAM_FIELD_REAL, GetSlip, 0},
-  {{"slip_y", "m", "relative tangential displacement along y since the start"}, SAM_FIELD_REAL, GetSlip, 1},
-  {{"gap", "m", "gap between the deformed surfaces"}, SAM_FIELD_REAL, GetGap, 0},
-  {{"displacement_x", "m", "relative elastic displacement along x"}, SAM_FIELD_REAL, GetDisplacementT, 0},
-  {{"displacement_y", "m", "relative elastic displacement along y"}, SAM_FIELD_REAL, GetDisplacementT, 1},
-  {{"displacement_z", "m", "relative elastic displacement along z"}, SAM_FIELD_REAL, GetDisplacementZ, 0},
-  {{"state", "1", "state of the cell"}, SAM_FIELD_STATE, GetState, 0}};
+  STORED("pressure", "Pa", "contact pressure", pressure, 0),
+  STORED("shear_x", "Pa", "shear traction along x", shear, 0),
+  STORED("shear_y", "Pa", "shear traction along y", shear, 1),
+  COMPUTED("slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL,
+           SamContactComputeSlip, 0),
+  COMPUTED("slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL,
+           SamContactComputeSlip, 1),
+  COMPUTED("gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, ComputeGap, 0),
+  STORED("displacement_x", "m", "relative elastic displacement along x", displacement_t, 0),
+  STORED("displacement_y", "m", "relative elastic displacement along y", displacement_t, 1),
+  STORED("displacement_z", "m", "relative elastic displacement along z", displacement_z, 0),
+  COMPUTED("state", "1", "state of the cell", SAM_FIELD_STATE, ComputeState, 0)};
 const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputFields[0]);
 
 /* ---- numbers ---- */

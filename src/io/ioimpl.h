@@ -105,15 +105,15 @@ typedef struct {
 } SamOutputLabel;
 
 /*
-  A field of the results. `get` returns a vector of the contact that holds the field as its `component`, or computes the
-  field in `work`, a vector of one component, and returns that; `component` is passed on to `get`. The values are real
-  numbers, or SamStates, stored as bytes.
+  A field of the results: a component of a vector of the solution, or what `compute` writes into a vector of one
+  component. The values are real numbers, or SamStates, stored as bytes.
 */
 typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE } SamOutputFieldKind;
 typedef struct {
   SamOutputLabel     label;
   SamOutputFieldKind kind;
-  PetscErrorCode (*get)(SamContact contact, PetscInt component, Vec work, Vec *field);
+  PetscErrorCode (*compute)(SamContact contact, PetscInt component, Vec field); /* NULL: it is stored */
+  size_t   offset;                                                              /* of the Vec in SamSolution */
   PetscInt component;
 } SamOutputField;
 

@@ -15,15 +15,13 @@ static PetscErrorCode SetTypeFromOptions(SamSolver s, const SamOptions *from)
 {
   char      type[sizeof(s->type)], types[256];
   PetscBool set;
-  PetscErrorCode (*create)(SamSolver);
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(type, s->type, sizeof(type)));
   PetscCall(SamTypesList(s->kind->types, types, sizeof(types)));
   PetscCall(SamOptionsString(from, "type", types, type, sizeof(type), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFunctionListFind(s->kind->types, type, &create));
-  PetscCheck(create, s->comm, SAM_ERR_USER, "-%stype %s: expected %s", SamOptionsPrefix(from), type, types);
+  PetscCall(SamTypesCheckOption(s->kind->types, from, "type", type));
   PetscCall(SamSolverSetType(s, type));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -192,25 +192,12 @@ PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *
 /* ---- the solve and its results ---- */
 
 /* Whether all given fields hold finite numbers. Methods search and compare, and might take a NaN for something else. */
-static PetscErrorCode IsGivenFinite(const SamLevel *level, const SamSolverKind *kind, PetscBool *is)
+static PetscErrorCode IsGivenFinite(const SamLevel *level, PetscBool *is)
 {
-  double bad = 0;
-
   PetscFunctionBegin;
-  for (PetscInt g = 0; g < SAM_GIVEN; g++) {
-    const PetscInt n   = kind->given_components[g] * level->grid->cells;
-    double         sum = 0;
-    const double  *x;
-
-    if (!level->given[g]) continue;
-    PetscCall(VecGetArrayRead(level->given[g], &x));
-#pragma omp simd reduction(+ : sum)
-    for (PetscInt k = 0; k < n; k++) sum += 0 * x[k]; /* NaN when x[k] is not finite */
-    PetscCall(VecRestoreArrayRead(level->given[g], &x));
-    if (isnan(sum)) bad = 1;
-  }
-  PetscCall(SamMax(level->grid->comm, 1, &bad));
-  *is = bad == 0 ? PETSC_TRUE : PETSC_FALSE;
+  *is = PETSC_TRUE;
+  for (PetscInt g = 0; g < SAM_GIVEN && *is; g++)
+    if (level->given[g]) PetscCall(SamGridIsFinite(level->grid, level->given[g], is));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -245,7 +232,7 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamL
   level.finest                                  = PETSC_TRUE;
   PetscCall(SamElasticityGetGrid(s->elasticity, &level.grid));
   PetscCall(CheckFields(&level, kind));
-  PetscCall(IsGivenFinite(&level, kind, &finite));
+  PetscCall(IsGivenFinite(&level, &finite));
   if (finite) {
     PetscCall(kind->solve(s, &level, guess));
   } else {

@@ -215,46 +215,4 @@ static inline double Hertz(const Sphere *s, double r)
   return r < s->a ? s->p0 * sqrt(1 - r * r / (s->a * s->a)) : 0;
 }
 
-/* The message of the first error since BeginCatching(). */
-static inline char *CaughtMessage(void)
-{
-  static char message[4096];
-
-  return message;
-}
-
-static inline PetscErrorCode KeepCaught(MPI_Comm comm, int line, const char *function, const char *file,
-                                        PetscErrorCode code, PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL && text && !CaughtMessage()[0]) (void)snprintf(CaughtMessage(), 4096, "%s", text);
-  return code;
-}
-
-/* Between these, calls that fail return their error and keep its message instead of printing it. */
-static inline void BeginCatching(void)
-{
-  CaughtMessage()[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepCaught, NULL));
-}
-
-static inline void EndCatching(void)
-{
-  sam_call(PetscPopErrorHandler());
-}
-
-/* Asserts that a call fails with this error code; prints no trace. */
-#define sam_fails(petsc_call_expr, expected) \
-  do { \
-    PetscErrorCode sam_ierr_; \
-    sam_call(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL)); \
-    sam_ierr_ = (petsc_call_expr); \
-    sam_call(PetscPopErrorHandler()); \
-    sam_assert(sam_ierr_ == (expected)); \
-  } while (0)
-
 #endif

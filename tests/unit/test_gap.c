@@ -298,21 +298,6 @@ static void test_roughness_is_added_to_any_shape(void **state)
 
 /* ---- wrong input ---- */
 
-/* Keeps the first message of an error instead of printing it. */
-static char message[4096];
-
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                                  PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
-  return code;
-}
-
 /* Whether the options raise this error on all ranks, with each of the two words (or NULL) in the message. */
 static void AssertError(const char *options, PetscErrorCode expected, const char *word, const char *other)
 {
@@ -325,13 +310,12 @@ static void AssertError(const char *options, PetscErrorCode expected, const char
   SetOptions(options);
   sam_call(SamGapCreate(PETSC_COMM_WORLD, &gap));
   sam_call(SamGridCreateVec(grid, 1, &h));
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = SamGapSetFromOptions(gap);
   if (!ierr) ierr = SamGapFill(gap, grid, h);
-  sam_call(PetscPopErrorHandler());
-  good = ierr == expected && (!word || strstr(message, word)) && (!other || strstr(message, other));
-  if (!good) print_error("%s: error %d, %s\n", options, (int)ierr, message);
+  EndCatching();
+  good = ierr == expected && (!word || strstr(CaughtMessage(), word)) && (!other || strstr(CaughtMessage(), other));
+  if (!good) print_error("%s: error %d, %s\n", options, (int)ierr, CaughtMessage());
   sam_assert(good);
   sam_call(PetscOptionsClear(NULL));
   sam_call(VecDestroy(&h));

@@ -136,6 +136,9 @@ static inline double SamLarger(double most, double value)
 PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
+/* SamTypesCheckOption - raises SAM_ERR_USER, with the names, for an option whose value is no name in the registry. */
+PETSC_EXTERN PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
+                                                const char type[]);
 
 /* SamPrintHelp - whether the help is being printed, for which options are only listed. Not collective. */
 PETSC_EXTERN PetscErrorCode SamPrintHelp(PetscBool *print);

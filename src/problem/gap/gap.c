@@ -1,6 +1,5 @@
 /* The class SamGap: types, their parameters, roughness. Each shape is in a file of its own. */
 #include <petsam/private/gapimpl.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -139,7 +138,6 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   const SamOptions from = {gap->comm, gap->prefix};
   char             type[64], list[512], text[600];
   PetscBool        set, help;
-  PetscErrorCode (*create)(SamGap);
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
@@ -152,8 +150,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
     PetscCall(PrintTypes(gap));
   } else {
     PetscCheck(set || gap->type[0], gap->comm, SAM_ERR_USER, "-%sgap_type is missing: %s", gap->prefix, list);
-    PetscCall(PetscFunctionListFind(SamGapList, type, &create));
-    PetscCheck(create, gap->comm, SAM_ERR_USER, "-%sgap_type %s: expected %s", gap->prefix, type, list);
+    PetscCall(SamTypesCheckOption(SamGapList, &from, "gap_type", type));
     if (set) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
   }
@@ -178,25 +175,6 @@ static PetscErrorCode FillHeight(SamGap gap, SamGrid grid, Vec h)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The separation may overflow when a radius or the roughness is extreme for the grid. */
-static PetscErrorCode CheckFinite(SamGap gap, SamGrid grid, Vec h)
-{
-  const PetscScalar *array;
-  double             bad = 0;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(h, &array));
-#pragma omp simd reduction(+ : bad)
-  for (PetscInt k = 0; k < grid->cells; k++) bad += 0 * array[k]; /* NaN when array[k] is not finite */
-  PetscCall(VecRestoreArrayRead(h, &array));
-  bad = isnan(bad) ? 1 : 0;
-  PetscCall(SamMax(grid->comm, 1, &bad));
-  PetscCheck(bad == 0, gap->comm, SAM_ERR_USER,
-             "-%sgap_type %s: the separation is not finite everywhere on the grid: check the values of its options",
-             gap->prefix, gap->type);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode AddRoughness(SamGap gap, SamGrid grid, Vec h)
 {
   PetscErrorCode ierr;
@@ -213,6 +191,8 @@ static PetscErrorCode AddRoughness(SamGap gap, SamGrid grid, Vec h)
 
 PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
 {
+  PetscBool finite = PETSC_FALSE;
+
   PetscFunctionBegin;
   PetscCheck(gap->type[0], gap->comm, PETSC_ERR_ORDER, "Call SamGapSetType() or SamGapSetFromOptions() first");
   if (gap->ops.fill)
@@ -220,7 +200,10 @@ PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
   else
     PetscCall(FillHeight(gap, grid, h));
   if (gap->rough.file[0]) PetscCall(AddRoughness(gap, grid, h));
-  PetscCall(CheckFinite(gap, grid, h));
+  PetscCall(SamGridIsFinite(grid, h, &finite)); /* it may overflow when a radius or the roughness is extreme */
+  PetscCheck(finite, gap->comm, SAM_ERR_USER,
+             "-%sgap_type %s: the separation is not finite everywhere on the grid: check the values of its options",
+             gap->prefix, gap->type);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
