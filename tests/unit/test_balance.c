@@ -98,7 +98,7 @@ static PetscBool Project(SamGrid grid, const SamBalance *b, Vec bound, Vec tract
     sam_call(SamFrameProjectNormal(&f, NULL, t, &found));
   else {
     sam_call(VecGetArrayRead(bound, &a));
-    sam_call(SamFrameProjectTangential(&f, a, PETSC_FALSE, t, &found));
+    sam_call(SamFrameProjectTangential(&f, a, NULL, PETSC_FALSE, t, &found));
     sam_call(VecRestoreArrayRead(bound, &a));
   }
   sam_call(VecRestoreArray(traction, &t));
@@ -179,6 +179,67 @@ static void test_tangential_projection_is_the_nearest_admissible_shear(void **st
 {
   (void)state;
   AssertProjection(SAM_BALANCE_TANGENTIAL);
+}
+
+/* sum d.w/weight over the cells */
+static double WeightedDot(SamGrid grid, Vec d, Vec w, const float *weight)
+{
+  const double *a, *b;
+  double        sum = 0;
+
+  sam_call(VecGetArrayRead(d, &a));
+  sam_call(VecGetArrayRead(w, &b));
+  for (PetscInt k = 0; k < 2 * grid->cells; k++) sum += a[k] * b[k] / (double)weight[k % grid->cells];
+  sam_call(VecRestoreArrayRead(w, &b));
+  sam_call(VecRestoreArrayRead(d, &a));
+  sam_call(SamSum(grid->comm, 1, &sum));
+  return sum;
+}
+
+/* With weights from 1e-3 to 1: (v - x).(w - x) <= 0 for all admissible w, each cell divided by its weight. */
+static void test_weighted_projection_is_the_nearest_shear_in_its_metric(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_GRIDS; k++) {
+    SamGrid grid  = Grid(k);
+    Vec     bound = NewPressure(grid, 3), known = NewShear(grid, bound, 4, 0.9), v = NewRandom(grid, 2, 7), x = Copy(v);
+    float  *weight = (float *)calloc((size_t)grid->cells + 1, sizeof(*weight));
+    PetscReal     loads[3];
+    SamBalance    b;
+    SamFrame      f;
+    double       *a, size;
+    const double *radius;
+    PetscBool     found;
+
+    for (PetscInt c = 0; c < grid->cells; c++) weight[c] = (float)pow(10, -((c + grid->row_start * grid->nx) % 4));
+    sam_call(SamBalanceGetLoads(grid, SAM_BALANCE_TANGENTIAL, known, loads));
+    b = Balance(SAM_BALANCE_TANGENTIAL, 7, loads);
+    sam_call(SamFrameSet(&f, grid, &b));
+    sam_call(VecGetArray(x, &a));
+    sam_call(VecGetArrayRead(bound, &radius));
+    sam_call(SamFrameProjectTangential(&f, radius, weight, PETSC_TRUE, a, &found));
+    sam_call(VecRestoreArrayRead(bound, &radius));
+    sam_call(VecRestoreArray(x, &a));
+    sam_assert(found);
+    AssertAdmissible(grid, SAM_BALANCE_TANGENTIAL, bound, x);
+    sam_assert_close(Imbalance(grid, &b, x, &size), 0, exact);
+    sam_call(VecAXPY(v, -1, x));
+    for (PetscInt seed = 20; seed < 30; seed++) {
+      Vec w = seed == 20 ? Copy(known) : NewRandom(grid, 2, seed);
+
+      sam_assert(Project(grid, &b, bound, w));
+      sam_call(VecAXPY(w, -1, x));
+      sam_assert(WeightedDot(grid, v, w, weight) <=
+                 1e-9 * 1e3 * Norm(v, NORM_2) * (Norm(w, NORM_2) + 1e-3)); /* as above, over the least weight */
+      sam_call(VecDestroy(&w));
+    }
+    free(weight);
+    sam_call(VecDestroy(&v));
+    sam_call(VecDestroy(&x));
+    sam_call(VecDestroy(&bound));
+    sam_call(VecDestroy(&known));
+    sam_call(SamGridDestroy(&grid));
+  }
 }
 
 static void test_normal_projection_keeps_to_its_mask(void **state)
@@ -475,6 +536,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_normal_projection_is_the_nearest_admissible_pressure),
     cmocka_unit_test(test_tangential_projection_is_the_nearest_admissible_shear),
+    cmocka_unit_test(test_weighted_projection_is_the_nearest_shear_in_its_metric),
     cmocka_unit_test(test_normal_projection_keeps_to_its_mask),
     cmocka_unit_test(test_impossible_normal_loads_are_found),
     cmocka_unit_test(test_force_alone_slides_at_the_sum_of_the_bound),

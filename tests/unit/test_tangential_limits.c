@@ -7,12 +7,12 @@
 
 static void test_load_beyond_friction_is_gross_slip_with_its_limit(void **state)
 {
-  const double beyond[] = {1 + 1e-6, 1.01, 5};
+  const double beyond[] = {1 + 1e-6, 1.01, 5, 1e3, 1e8, 1e30};
   Case         c        = NewCase(33, 0.3);
   Vec          q        = NewField(c.s.grid, 2);
 
   (void)state;
-  for (int k = 0; k < 3; k++)
+  for (int k = 0; k < 6; k++)
     for (int direction = 0; direction < 2; direction++) {
       SamBalance balance = direction ? Loaded(&c, 0, -beyond[k], 0) : Loaded(&c, 0.6 * beyond[k], 0.8 * beyond[k], 0);
       Outcome    o       = Solve(&c, c.bound, NULL, NULL, 0, &balance, q);
@@ -54,6 +54,48 @@ static void test_load_just_below_friction_is_balanced(void **state)
   }
   sam_call(VecDestroy(&q));
   DestroyCase(&c);
+}
+
+/* Nearly all cells slip: it is their stiffness that the motion and the directions have to respect. */
+static void AssertFewProducts(PetscInt levels)
+{
+  const double level[] = {0.9, 0.99, 0.999, 0.9999, 0.99999, 0.999999};
+  Case         c       = NewCase(129, 0.3);
+  Vec          q       = NewField(c.s.grid, 2);
+
+  for (int load = 0; load < 3; load++)
+    for (int k = 0; k < 6; k++) {
+      SamBalance    full = Loaded(&c, load == 1 ? 0 : 1, load == 2 ? 0.6 : 0, load == 0 ? 0.8 : 1), given;
+      SamTangential t;
+      PetscReal     limit;
+      PetscInt      products;
+
+      sam_call(SamBalanceSlideLimit(c.s.grid, &full, c.bound, &limit, NULL));
+      for (int n = 0; n < 3; n++) full.load[n] *= limit * level[k];
+      given = full;
+      sam_call(SamTangentialCreate(c.s.elasticity, &t));
+      sam_call(SamSolverSetLevels(t, levels));
+      sam_call(SamTangentialSolve(t, c.bound, NULL, &full, PETSC_FALSE, q));
+      sam_call(SamSolverGetStatistics(t, NULL, NULL, &products, NULL));
+      if (getenv("SAM_SHOW")) print_message("# load %d, %g of the limit: %d products\n", load, level[k], (int)products);
+      sam_assert(products <= 25);
+      AssertConditions(&c, NULL, &full, &given, q);
+      sam_call(SamSolverDestroy(&t));
+    }
+  sam_call(VecDestroy(&q));
+  DestroyCase(&c);
+}
+
+static void test_near_sliding_few_products_are_needed(void **state)
+{
+  (void)state;
+  AssertFewProducts(0);
+}
+
+static void test_near_sliding_few_products_are_needed_on_one_grid(void **state)
+{
+  (void)state;
+  AssertFewProducts(1);
 }
 
 static void test_large_displacement_slides_everywhere(void **state)
@@ -135,6 +177,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_load_at_the_limit_of_friction_is_gross_slip),
     cmocka_unit_test(test_load_beyond_friction_is_gross_slip_with_its_limit),
     cmocka_unit_test(test_load_just_below_friction_is_balanced),
+    cmocka_unit_test(test_near_sliding_few_products_are_needed),
+    cmocka_unit_test(test_near_sliding_few_products_are_needed_on_one_grid),
     cmocka_unit_test(test_large_displacement_slides_everywhere),
     cmocka_unit_test(test_without_friction_only_no_load_is_balanced),
     cmocka_unit_test(test_nan_in_the_offset_is_reported),

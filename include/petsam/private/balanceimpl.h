@@ -216,12 +216,13 @@ PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, con
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
-  SamFrameProjectTangential - q := D(q + phi a), D the projection of each cell's shear onto the disc of radius bound,
-  with the a for which the force-controlled loads are exact. `found` is false when there is none; q is then of no use.
+  SamFrameProjectTangential - q := D(q + weight phi a), D the projection of each cell's shear onto the disc of radius
+  bound, with the a for which the force-controlled loads are exact: the nearest admissible shear, a cell's distance
+  squared counting 1/weight (weight NULL: 1). `found` is false when there is none; q is then of no use.
   The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
   faster, it may differ from that by 1e-6 of the change. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], PetscBool nearest,
-                                                      double q[], PetscBool *found);
+PETSC_EXTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], const float weight[],
+                                                      PetscBool nearest, double q[], PetscBool *found);
 
 #endif

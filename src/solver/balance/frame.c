@@ -146,7 +146,7 @@ static void SolveSymmetric(PetscInt n, double A[3][3], const double b[3], double
 void SamFrameSolve(const SamFrame *f, const double gram[SAM_GRAM], const double sums[3], double a[3])
 {
   const double G[3][3] = {{gram[0], gram[1], gram[2]}, {gram[1], gram[3], gram[4]}, {gram[2], gram[4], gram[5]}};
-  double       A[3][3], b[3], x[3];
+  double       A[3][3], b[3], x[3], unit[3];
 
   for (PetscInt k = 0; k < f->count; k++) {
     b[k] = 0;
@@ -157,7 +157,13 @@ void SamFrameSolve(const SamFrame *f, const double gram[SAM_GRAM], const double 
         for (PetscInt j = 0; j < 3; j++) A[k][m] += f->basis[k][i] * G[i][j] * f->basis[m][j];
     }
   }
+  for (PetscInt k = 0; k < f->count; k++) unit[k] = A[k][k] > 0 ? 1 / sqrt(A[k][k]) : 0;
+  for (PetscInt k = 0; k < f->count; k++) {
+    b[k] *= unit[k];
+    for (PetscInt m = 0; m < f->count; m++) A[k][m] *= unit[k] * unit[m];
+  }
   SolveSymmetric(f->count, A, b, x);
+  for (PetscInt k = 0; k < f->count; k++) x[k] *= unit[k];
   for (PetscInt i = 0; i < 3; i++) {
     a[i] = 0;
     for (PetscInt k = 0; k < f->count; k++) a[i] += f->basis[k][i] * x[k];

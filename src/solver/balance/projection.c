@@ -42,7 +42,7 @@ static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
 
     for (PetscInt i = 0; i < 3; i++) e -= f->basis[k][i] * dual->sums[i];
     for (PetscInt i = 0; i < 3; i++) error[i] += e * f->basis[k][i];
-    size = PetscMax(size, fabs(e));
+    size = SamLarger(size, fabs(e));
     load = PetscMax(load, fabs(f->target[k]));
   }
   load = PetscMax(load, dual->scale);

@@ -12,14 +12,25 @@
 typedef struct {
   const double *field; /* what is projected */
   const double *bound;
+  const float  *weight; /* NULL: 1 */
 } Cells;
 
+/* Weights 1 for the cells of a chunk. */
+static const float *Ones(void)
+{
+  static float ones[SAM_CHUNK];
+
+  for (PetscInt i = 0; ones[SAM_CHUNK - 1] != 1 && i < SAM_CHUNK; i++) ones[i] = 1;
+  return ones;
+}
+
 /*
-  Some cells of a row, at most SAM_CHUNK: v = field + phi a, its projection x = D(v) onto the disc, and the derivative h
-  of D. The second loop, with roots and divisions, runs only if a cell lies beyond its disc.
+  Some cells of a row, at most SAM_CHUNK: v = field + w phi a, its projection x = D(v) onto the disc, and the derivative
+  h of D, times w. The second loop, with roots and divisions, runs only if a cell lies beyond its disc.
 */
 SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, const double *restrict qy,
-                                     const double *restrict bound, const double a[3], SamDual *sums)
+                                     const double *restrict bound, const float *restrict weight, const double a[3],
+                                     SamDual *sums)
 {
   const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
   double value = 0, scale = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0,
@@ -27,30 +38,32 @@ SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, cons
 
 #pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
   for (int i = 0; i < row.count; i++) {
-    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
-    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy;
+    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0, w = in * (double)weight[i];
+    const double vx = in * qx[i] + w * ax, vy = in * qy[i] + w * (a1 + a2 * xi), n2 = vx * vx + vy * vy;
 
     beyond += n2 > b * b ? 1 : 0;
-    value += 0.5 * n2;
+    value += 0.5 * n2 / (w + (1 - in));
     scale += fabs(vx) + fabs(vy);
     x += vx;
     y += vy;
     turn += xi * vy;
-    hxx += in;
-    xi_hyy += in * xi;
-    xi2_hyy += in * xi * xi;
+    hxx += w;
+    xi_hyy += w * xi;
+    xi2_hyy += w * xi * xi;
   }
   if (beyond > 0) {
     value = scale = x = y = turn = hxx = xi_hyy = xi2_hyy = 0;
 #pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy)
     for (int i = 0; i < row.count; i++) {
-      const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
-      const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy, size = sqrt(n2);
+      const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0, w = in * (double)weight[i];
+      const double vx = in * qx[i] + w * ax, vy = in * qy[i] + w * (a1 + a2 * xi), n2 = vx * vx + vy * vy,
+                   size    = sqrt(n2);
       const double inverse = 1 / n2, s = n2 > b * b ? b * size * inverse : in,
                    g  = n2 > b * b ? s * inverse : 0; /* one division */
-      const double px = s * vx, py = s * vy, gxx = s - g * vx * vx, gxy = -g * vx * vy, gyy = s - g * vy * vy;
+      const double px = s * vx, py = s * vy, gxx = w * (s - g * vx * vx), gxy = -w * g * vx * vy,
+                   gyy = w * (s - g * vy * vy);
 
-      value += n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2;
+      value += (n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2) / (w + (1 - in));
       scale += fabs(px) + fabs(py);
       SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
     }
@@ -77,7 +90,8 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
       const SamRow  row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
       const double *qx  = c->field + row.first;
 
-      AddShears(row, qx, qx + f->grid->cells, c->bound + row.first, a, &sums);
+      AddShears(row, qx, qx + f->grid->cells, c->bound + row.first, c->weight ? c->weight + row.first : Ones(), a,
+                &sums);
     }
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
   }
@@ -85,15 +99,16 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
 
 /* The projection of some cells of a row in place of the shear, and its moments. */
 SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *restrict qy,
-                                       const double *restrict bound, const double a[3], SamDual *sums)
+                                       const double *restrict bound, const float *restrict weight, const double a[3],
+                                       SamDual *sums)
 {
   const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
   double       scale = 0, x = 0, y = 0, turn = 0;
 
 #pragma omp simd reduction(+ : scale, x, y, turn)
   for (int i = 0; i < row.count; i++) {
-    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
-    const double vx = in * (qx[i] + ax), vy = in * (qy[i] + a1 + a2 * xi), n2 = vx * vx + vy * vy,
+    const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0, w = in * (double)weight[i];
+    const double vx = in * qx[i] + w * ax, vy = in * qy[i] + w * (a1 + a2 * xi), n2 = vx * vx + vy * vy,
                  s  = n2 > b * b ? b / sqrt(n2) : in;
     const double px = s * vx, py = s * vy;
 
@@ -111,8 +126,8 @@ SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *
 }
 
 /* The projection that belongs to a, in place of q, and its moments. */
-static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const double a[3], double q[],
-                                      SamTotal dual[])
+static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const float weight[], const double a[3],
+                                      double q[], SamTotal dual[])
 {
   const PetscInt nx = f->grid->nx;
 
@@ -126,7 +141,11 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
     SamBoundRange(nx, b, &first, &last);
     PetscCall(PetscArrayzero(qx, first));
     PetscCall(PetscArrayzero(qy, first));
-    ApplyShears(SamFrameRow(f, j, first, last), qx + first, qy + first, b + first, a, &sums);
+    for (PetscInt i = first; i < last; i += SAM_CHUNK) {
+      const SamRow row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
+
+      ApplyShears(row, qx + i, qy + i, b + i, weight ? weight + row.first : Ones(), a, &sums);
+    }
     PetscCall(PetscArrayzero(qx + last, nx - last));
     PetscCall(PetscArrayzero(qy + last, nx - last));
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
@@ -138,10 +157,10 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
   First, where that is likely to be enough, one step of Newton's method is applied without a further pass over the
   cells. If it was not enough, it is a start, and the result is the nearest shear to this start.
 */
-PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], PetscBool nearest, double q[],
-                                         PetscBool *found)
+PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], const float weight[],
+                                         PetscBool nearest, double q[], PetscBool *found)
 {
-  const Cells cells = {.field = q, .bound = bound};
+  const Cells cells = {.field = q, .bound = bound, .weight = weight};
   PetscBool   near  = PETSC_TRUE;
 
   PetscFunctionBegin;
@@ -155,7 +174,7 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
     else
       *found = PETSC_TRUE;
     if (!*found && (!near || time > 0)) break;
-    PetscCall(ApplyTangential(f, bound, a, q, totals));
+    PetscCall(ApplyTangential(f, bound, weight, a, q, totals));
     if (!*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_EXACT, found));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

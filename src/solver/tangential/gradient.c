@@ -15,6 +15,9 @@
 #include <petsam/private/tangentialimpl.h>
 #include <math.h>
 
+/* No eigenvalue of C is larger, in units of a cell's self-influence: it is below the number of cells along the grid. */
+#define STIFFEST 1e7
+
 /* Energy q.C q/2 + (offset - fixed).q from q and s. */
 static PetscErrorCode ComputeEnergy(const SamStickSlip *w, double *energy)
 {
@@ -74,12 +77,14 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double *L, double y[], doubl
   PetscCall(PetscArraycpy(sy, w->s, 2 * w->cells));
   for (;;) {
     for (PetscInt k = 0; k < 2 * w->cells; k++) w->q[k] = y[k] - sy[k] / *L;
-    PetscCall(SamFrameProjectTangential(w->frame, w->bound, PETSC_TRUE, w->q, found));
+    PetscCall(SamFrameProjectTangential(w->frame, w->bound, NULL, PETSC_TRUE, w->q, found));
     if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(SamStickSlipComputeSlip(w));
     PetscCall(ComputeBend(w, y, sy, sums));
     if (sums[0] <= *L * sums[1] * (1 + 1e-12) || !isfinite(sums[0] + sums[1])) break;
-    *L = PetscMax(2 * *L, sums[0] / sums[1]);
+    *L     = PetscMax(2 * *L, sums[0] / sums[1]);
+    *found = *L <= STIFFEST * w->self ? PETSC_TRUE : PETSC_FALSE; /* else rounding, not stiffness, breaks the bound */
+    if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -6,22 +6,25 @@
 
   Algorithm; an iteration takes one product:
     1. Sets: cells that are or should be on their circle, with s against q, slip; the others stick. Unknown are both
-       components of q in stick, and the one along the circle in slip; P projects onto them. The motion (the multipliers
-       of equilibrium) makes P s smallest. The residual is -P s, its derivative P(C + L)P, where L = |s|/b in slip is
-       the curvature of the circle.
+       components of q in stick, and the one along the circle in slip; P projects onto them. A cell that slips is as
+       stiff as its circle is curved: L = |s|/b, from 0 to 1e6 times its self-influence c. So it counts with the weight
+       h = c/(c + L), which is 1 in stick: G = sum h phi'P phi is what the motion (the multipliers of equilibrium) would
+       be fitted with if C were diagonal, and the motion solves G a = sum h phi'P s. (With weights 1 the fit would turn
+       soft and stiff cells alike, and near sliding, where almost all cells are stiff, no direction would be downhill.)
+       Sets and motion depend on each other and are found in turn. The residual is -P s, its derivative P(C + L)P.
     2. Direction: the preconditioned residual, plus the part of the last step that makes the two conjugate. Both stay
-       meaningful when the sets change, as the last step is the difference of two shears, whose product is known. The
-       preconditioner is P(w M w + (1 - h)/2(L + c))P, with M the spectral inverse of C, c a cell's self-influence,
-       h = c/(L + c), which is 1 in stick, and w = sqrt(h).
+       meaningful when the sets change, as the last step is the difference of two shears, whose product is known. Both
+       lose what would carry a load, along h P phi. The preconditioner is P(w M w + (1 - h)/2(L + c))P, with M the
+       spectral inverse of C, and w = sqrt(h).
     3. Trial: the admissible shear nearest to q + alpha times the direction, discs and equilibrium at once
        (SamFrameProjectTangential), after the slipping cells have been pushed outward. alpha is the length that was best
        in the last iterations.
     4. The product of trial - q gives the length of the step, at most to the trial: the one that leaves the residual
        normal to it, as in linear conjugate gradients, unless the energy falls much farther. Cells that slip are then a
        little within their circles, by the square of the step, and the next trial puts them back.
-  If the trial is uphill, or the error has not fallen for several iterations, the direction is the slip itself:
-  projected gradient steps with the best length converge whatever is between them. Stops on the residual of
-  q = D(q - s/c), which is zero at the solution only.
+  If the trial is uphill, or the error has not fallen for several iterations, the trial is the projected gradient in the
+  metric 1/h, the admissible shear nearest to q - h s/c; steps of the best length towards it converge whatever is
+  between them. Stops on the residual of q = D(q - s/c), which is zero at the solution only.
 
   Rounding: steps and their products are in single precision, at half the cost; q and s are in double. The slip is
   computed anew in double precision before rounding matters.
@@ -49,14 +52,17 @@
 #define DOUBT 0.2
 /* Rounding of energies, relative to the work of friction in them. */
 #define ENERGY_ROUNDING 1e-14
+/* Sets and motion depend on each other: how often they are found in turn in an iteration. */
+#define SWEEPS 2
 /* Iterations without progress before a gradient step, and before giving up. */
 #define PATIENCE   10
 #define STAGNATION 100
 
 typedef SamNewton Work;
 
-#define SPACE    ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
-#define PRODUCTS ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
+#define SPACE     ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
+#define SPACE_MAX (sizeof(SamNewtonSpace) / sizeof(double))
+#define PRODUCTS  ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
 
 /* The root of the number of cells in contact. */
 static PetscErrorCode FindReach(Work *w)
@@ -122,32 +128,46 @@ static PetscErrorCode ClearMargins(const Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Makes a step of length t and subtracts the motion a, chooses the sets, and sums up over their tangent space. */
+static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewtonSpace *space, double *most)
+{
+  SamStickSlip *u                 = &w->base;
+  SamTotal      totals[SPACE_MAX] = {{0, 0}};
+
+  PetscFunctionBegin;
+  *most = 0;
+  for (PetscInt j = 0; j < u->rows; j++) {
+    SamNewtonSpace row     = {0};
+    const double   largest = SamNewtonAdvanceRow(w, SamStickSlipRow(u, j), t, t * w->unit, a, &row);
+
+    *most = PetscMax(*most, largest);
+    SamAddAll(SPACE, totals, (const double *)&row);
+  }
+  PetscCall(SamSumTotals(u->level->grid->comm, SPACE, totals, (double *)space));
+  PetscCall(PetscArraycpy(w->gram, space->gram, SAM_GRAM));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Step 1, after a step of length t: the sets, the Gram matrix of the tangent space, the unit, the motion that fits best,
   the residual and the error.
 */
 static PetscErrorCode Advance(Work *w, double t)
 {
-  SamStickSlip  *u                                               = &w->base;
-  SamTotal       totals[sizeof(SamNewtonSpace) / sizeof(double)] = {{0, 0}}, squares[SAM_SQUARES] = {{0, 0}};
+  SamStickSlip  *u                    = &w->base;
+  SamTotal       squares[SAM_SQUARES] = {{0, 0}};
   SamNewtonSpace space;
-  double         most = 0, a[3];
+  double         most = 0, a[3] = {0, 0, 0};
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) {
-    SamNewtonSpace row     = {0};
-    const double   largest = SamNewtonAdvanceRow(w, SamStickSlipRow(u, j), t, t * w->unit, &row);
-
-    most = PetscMax(most, largest);
-    SamAddAll(SPACE, totals, (const double *)&row);
+  for (PetscInt sweep = 0; sweep < SWEEPS; sweep++) {
+    PetscCall(ChooseSets(w, sweep ? 0 : t, a, &space, &most));
+    SamFrameSolve(u->frame, w->gram, space.slip, a);
+    for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
   }
   PetscCall(SamMax(u->level->grid->comm, 1, &most));
-  PetscCall(SamSumTotals(u->level->grid->comm, SPACE, totals, (double *)&space));
   w->unit = most > 0 ? most : 1;
   w->work = space.work;
-  PetscCall(PetscArraycpy(w->gram, space.gram, SAM_GRAM));
-  SamFrameSolve(u->frame, w->gram, space.slip, a);
-  for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
   PetscCall(ClearMargins(w));
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[SAM_SQUARES] = {0};
@@ -159,13 +179,18 @@ static PetscErrorCode Advance(Work *w, double t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static double Dot(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* Step 2: z = P M r + beta P step, conjugate to the last step. */
 static PetscErrorCode NewDirection(Work *w)
 {
   SamStickSlip     *u                                                  = &w->base;
   SamTotal          totals[sizeof(SamNewtonProducts) / sizeof(double)] = {{0, 0}};
   SamNewtonProducts sums;
-  double            a[3], beta = 0;
+  double            a[3], a_step[3], zv, ev, beta = 0;
 
   PetscFunctionBegin;
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, u->self, w->z, w->z));
@@ -176,25 +201,31 @@ static PetscErrorCode NewDirection(Work *w)
     SamAddAll(PRODUCTS, totals, (const double *)&row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, PRODUCTS, totals, (double *)&sums));
+  /* both are made orthogonal to the phi: sum phi'(z - h P phi a) = 0 */
   SamFrameSolve(u->frame, w->gram, sums.z, a);
-  if (sums.ev > 0) beta = -(sums.zv - (a[0] * sums.v[0] + a[1] * sums.v[1] + a[2] * sums.v[2])) / sums.ev;
-  if (!(beta > 0) || sums.zr + beta * sums.er < DESCENT * sums.zr) beta = 0;
+  SamFrameSolve(u->frame, w->gram, sums.e, a_step);
+  zv = sums.zv - Dot(a, sums.v);
+  ev = sums.ev - Dot(a_step, sums.v);
+  if (ev > 0) beta = -zv / ev;
+  /* a step that was cut short has left a part of itself in the residual, which a negative beta would take back */
+  if ((beta < 0 && !w->exact) || !isfinite(beta) || sums.zr + beta * sums.er < DESCENT * sums.zr) beta = 0;
+  for (PetscInt c = 0; c < 3; c++) a[c] += beta * a_step[c];
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonDirectionRow(w, SamStickSlipRow(u, j), a, (float)beta);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
-  The trial becomes an admissible shear near it, with `nearest` the nearest one. Computes the step there, and its
-  products.
+  The trial becomes an admissible shear near it, with weights the nearest one in their metric. Computes the step
+  there, and its products.
 */
-static PetscErrorCode Project(Work *w, PetscBool nearest, PetscBool *found)
+static PetscErrorCode Project(Work *w, const float weight[], PetscBool *found)
 {
   SamStickSlip *u         = &w->base;
   SamTotal      totals[4] = {{0, 0}};
   double        sums[4];
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectTangential(u->frame, u->bound, nearest, w->trial, found));
+  PetscCall(SamFrameProjectTangential(u->frame, u->bound, weight, weight ? PETSC_TRUE : PETSC_FALSE, w->trial, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[4] = {0, 0, 0, 0};
@@ -217,29 +248,21 @@ static PetscErrorCode Try(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), w->alpha);
-  PetscCall(Project(w, PETSC_FALSE, found));
+  PetscCall(Project(w, NULL, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
-  The same along the slip itself. The length is that which is downhill for modes of the contact's size. Descent is
-  guaranteed with the exact projection only.
+  The same along the slip itself, in the metric 1/h, in which stiff cells turn as little as Newton's method would turn
+  them. Descent is guaranteed with the exact projection only.
 */
 static PetscErrorCode TryGradient(Work *w, PetscBool *found)
 {
-  SamStickSlip *u      = &w->base;
-  const double  length = 1 / (u->self * w->reach);
+  SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) {
-    const ptrdiff_t first = (ptrdiff_t)j * u->nx + u->first[j], last = (ptrdiff_t)j * u->nx + u->last[j];
-
-    for (ptrdiff_t k = first; k < last; k++) {
-      w->trial[k]            = u->q[k] - length * u->s[k];
-      w->trial[k + u->cells] = u->q[k + u->cells] - length * u->s[k + u->cells];
-    }
-  }
-  PetscCall(Project(w, PETSC_TRUE, found));
+  for (PetscInt j = 0; j < u->rows; j++) SamNewtonGradientRow(w, SamStickSlipRow(u, j));
+  PetscCall(Project(w, w->z, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -273,10 +296,11 @@ static PetscErrorCode Step(Work *w, double *best)
     SamAddAll(2, totals, row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
-  *best = w->along / (sums[0] + w->bend);
-  least = -w->slope / sums[0];
-  t     = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
-  t     = PetscMin(1, t);
+  *best    = w->along / (sums[0] + w->bend);
+  least    = -w->slope / sums[0];
+  t        = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
+  t        = PetscMin(1, t);
+  w->exact = t == *best ? PETSC_TRUE : PETSC_FALSE;
   SamRoundingAdd(&w->rounding, SAM_SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self);
   PetscCall(Advance(w, t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -341,7 +365,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), 0);
-  PetscCall(Project(w, PETSC_FALSE, found));
+  PetscCall(Project(w, NULL, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   /* the slip is still that of the shear before: the step changes s/c by no more than this */
   SamRoundingAdd(&w->rounding, (1 + w->reach) * sqrt(w->size) * w->unit / u->self);

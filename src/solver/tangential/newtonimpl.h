@@ -14,42 +14,47 @@ typedef struct {
   float       *step, *u;       /* last step, and C times it */
   float       *xi;             /* of the columns */
   double       unit;           /* m */
-  double       gram[SAM_GRAM]; /* of the tangent space */
+  double       gram[SAM_GRAM]; /* of the tangent space, weighted by h */
   double       slope;          /* of the energy along the step: s.step */
   double       along, bend;    /* r.P step; P step.L P step */
   double       size;           /* |step|^2 */
   double       alpha;          /* length of the trial */
+  PetscBool    exact;          /* whether the last step left the residual normal to it */
   double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
   double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
   SamRounding  rounding;       /* of s/c, in the 2-norm, Pa */
 } SamNewton;
 
-/* Sums over cells: the slip in the tangent space with the phi, the Gram matrix there, the work of friction. */
+/* Sums over cells: the slip in the tangent space with the phi and the Gram matrix there, both weighted by h; the work
+   of friction. */
 typedef struct {
   double slip[3], gram[SAM_GRAM], work;
 } SamNewtonSpace;
 
-/* A direction's sums, with e = P step and v = P(u + L step): z and v with the phi; z.r, z.v, e.v, e.r. */
+/* A direction's sums, with e = P step and v = P(u + L step): z, e and h v with the phi; z.r, z.v, e.v, e.r. */
 typedef struct {
-  double z[3], v[3], zr, zv, ev, er;
+  double z[3], e[3], v[3], zr, zv, ev, er;
 } SamNewtonProducts;
 
 /*
-  Makes the step of length t: q += t (trial - q), s += by u. Chooses stick and slip, adds to the sums, and returns the
+  Makes the step of length t: q += t (trial - q), s += by u - the motion a. Chooses stick and slip, adds to the sums, and returns the
   largest slip in the tangent space.
 */
-PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, SamNewtonSpace *space);
+PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
+                                        SamNewtonSpace *space);
 /* Subtracts the motion a from s; r = -P s, in units, and z = w r; adds to the squares of the error. */
 PETSC_INTERN void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],
                                        double squares[SAM_SQUARES]);
 /* z, which holds M w r, becomes P(w M w r + rest r), see newton.c; its products. */
 PETSC_INTERN void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, SamNewtonProducts *sums);
-/* z becomes z - P a + beta P step. */
+/* z becomes z - h P a + beta P step. */
 PETSC_INTERN void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const double a[3], float beta);
 /* trial = q + alpha z, with cells that slip beyond their circles. */
 PETSC_INTERN void SamNewtonTrialRow(const SamNewton *w, SamRow row, double alpha);
 /* step = trial - q, in units; adds its products with s, with r, with L, and its square. */
 PETSC_INTERN void SamNewtonChangeRow(const SamNewton *w, SamRow row, double sums[4]);
+/* trial = q - h s/c; z's first component becomes h. */
+PETSC_INTERN void SamNewtonGradientRow(const SamNewton *w, SamRow row);
 /* Adds step.u and u.u. */
 PETSC_INTERN void SamNewtonCurvatureRow(const SamNewton *w, SamRow row, double sums[2]);
 

@@ -11,7 +11,8 @@
 /* A cell slips when q - EASE s/c is beyond its circle. */
 #define EASE 0.25
 
-SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, SamNewtonSpace *space)
+SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
+                                          SamNewtonSpace *space)
 {
   const SamStickSlip *u       = &w->base;
   const ptrdiff_t     cells   = u->cells;
@@ -21,19 +22,21 @@ SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double
   double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict sx = u->s + row.first,
                    *restrict sy = sx + cells;
   float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first;
+  const double motion_x = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
   double most = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, work = 0;
 
 #pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, work) reduction(max : most)
   for (int i = 0; i < row.count; i++) {
-    const double ax = qx[i] + t * (vx[i] - qx[i]), ay = qy[i] + t * (vy[i] - qy[i]), bx = sx[i] + by * (double)ux[i],
-                 cy = sy[i] + by * (double)uy[i];
-    const double b = bound[i], in = b > 0 ? 1 : 0, xi = row.xi0 + (double)i * row.dxi, power = bx * ax + cy * ay;
+    const double b = bound[i], in = b > 0 ? 1 : 0, xi = row.xi0 + (double)i * row.dxi;
+    const double ax = qx[i] + t * (vx[i] - qx[i]), ay = qy[i] + t * (vy[i] - qy[i]),
+                 bx = sx[i] + by * (double)ux[i] - motion_x, cy = sy[i] + by * (double)uy[i] - a1 - a2 * xi,
+                 power = bx * ax + cy * ay;
     const double yx = ax - ease * bx, yy = ay - ease * cy, outside = yx * yx + yy * yy >= b * b ? 1 : 0,
                  slips = outside * (power < 0 ? 1 : 0);
     const double scale = slips / sqrt(ax * ax + ay * ay + (1 - slips)), ex = scale * ax, ey = scale * ay,
                  part = ex * bx + ey * cy;
-    const double px = in * bx - part * ex, py = in * cy - part * ey, gxx = in - ex * ex, gxy = -ex * ey,
-                 gyy     = in - ey * ey;
+    const double h = in / (1 - inverse * part * scale), px = in * bx - part * ex, py = in * cy - part * ey;
+    const double hx = h * px, hy = h * py, gxx = h * (1 - ex * ex), gxy = -h * ex * ey, gyy = h * (1 - ey * ey);
     const double largest = fabs(px) > fabs(py) ? fabs(px) : fabs(py);
 
     qx[i]     = ax;
@@ -42,10 +45,10 @@ SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double
     sy[i]     = cy;
     nx[i]     = (float)ex;
     ny[i]     = (float)ey;
-    weight[i] = (float)in / sqrtf((float)(1 - inverse * part * scale));
+    weight[i] = sqrtf((float)h);
     most      = largest > most ? largest : most;
     work -= slips * power;
-    SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
+    SAM_ADD_TANGENTIAL(hx, hy, gxx, gxy, gyy, xi);
   }
   space->work += work;
   space->slip[0] += x;
@@ -98,9 +101,10 @@ SAM_VECTORIZED void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, S
   const float *restrict dx = w->step + row.first, *restrict dy = dx + cells, *restrict ux = w->u + row.first,
                         *restrict uy = ux + cells;
   float *restrict zx = w->z + row.first, *restrict zy = zx + cells;
-  float z_x = 0, z_y = 0, z_turn = 0, v_x = 0, v_y = 0, v_turn = 0, zr = 0, zv = 0, ev = 0, er = 0;
+  float z_x = 0, z_y = 0, z_turn = 0, e_x = 0, e_y = 0, e_turn = 0, v_x = 0, v_y = 0, v_turn = 0, zr = 0, zv = 0,
+        ev = 0, er = 0;
 
-#pragma omp simd reduction(+ : z_x, z_y, z_turn, v_x, v_y, v_turn, zr, zv, ev, er)
+#pragma omp simd reduction(+ : z_x, z_y, z_turn, e_x, e_y, e_turn, v_x, v_y, v_turn, zr, zv, ev, er)
   for (int i = 0; i < row.count; i++) {
     const float g = weight[i], h = g * g, in = h > 0 ? 1.0f : 0.0f, rest = 0.5f * (1 - h) * h,
                 lambda = h > 0 ? (1 - h) / h : 0, part = g * (nx[i] * zx[i] + ny[i] * zy[i]);
@@ -115,15 +119,19 @@ SAM_VECTORIZED void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, S
     z_x += x;
     z_y += y;
     z_turn += xi[i] * y;
-    v_x += vx;
-    v_y += vy;
-    v_turn += xi[i] * vy;
+    e_x += ex;
+    e_y += ey;
+    e_turn += xi[i] * ey;
+    v_x += h * vx;
+    v_y += h * vy;
+    v_turn += h * xi[i] * vy;
     zr += x * rx[i] + y * ry[i];
     zv += x * vx + y * vy;
     ev += ex * vx + ey * vy;
     er += ex * rx[i] + ey * ry[i];
   }
   *sums = (SamNewtonProducts){{(double)z_x, (double)z_y, (double)z_turn - row.eta * (double)z_x},
+                              {(double)e_x, (double)e_y, (double)e_turn - row.eta * (double)e_x},
                               {(double)v_x, (double)v_y, (double)v_turn - row.eta * (double)v_x},
                               (double)zr,
                               (double)zv,
@@ -142,8 +150,8 @@ SAM_VECTORIZED void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const 
 
 #pragma omp simd
   for (int i = 0; i < row.count; i++) {
-    const float in = weight[i] > 0 ? 1.0f : 0.0f, x = beta * dx[i] - ax, y = beta * dy[i] - a1 - a2 * xi[i],
-                part = nx[i] * x + ny[i] * y;
+    const float in = weight[i] > 0 ? 1.0f : 0.0f, h = weight[i] * weight[i], x = beta * dx[i] - h * ax,
+                y = beta * dy[i] - h * (a1 + a2 * xi[i]), part = nx[i] * x + ny[i] * y;
 
     zx[i] += in * (x - part * nx[i]);
     zy[i] += in * (y - part * ny[i]);
@@ -227,4 +235,26 @@ SAM_VECTORIZED void SamNewtonCurvatureRow(const SamNewton *w, SamRow row, double
   }
   sums[0] += (double)curvature;
   sums[1] += (double)norm;
+}
+
+SAM_VECTORIZED void SamNewtonGradientRow(const SamNewton *w, SamRow row)
+{
+  const SamStickSlip *u       = &w->base;
+  const ptrdiff_t     cells   = u->cells;
+  const double        inverse = 1 / u->self;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict sx = u->s + row.first,
+                         *restrict sy = sx + cells;
+  const float *restrict weight        = w->weight + row.first;
+  double *restrict vx = w->trial + row.first, *restrict vy = vx + cells;
+  float *restrict h = w->z + row.first;
+
+#pragma omp simd
+  for (int i = 0; i < row.count; i++) {
+    const float  g      = weight[i] * weight[i];
+    const double length = inverse * (double)g;
+
+    h[i]  = g;
+    vx[i] = qx[i] - length * sx[i];
+    vy[i] = qy[i] - length * sy[i];
+  }
 }
