@@ -98,7 +98,7 @@ static PetscBool Project(SamGrid grid, const SamBalance *b, Vec bound, Vec tract
     sam_call(SamFrameProjectNormal(&f, NULL, t, &found));
   else {
     sam_call(VecGetArrayRead(bound, &a));
-    sam_call(SamFrameProjectTangential(&f, a, NULL, PETSC_FALSE, t, &found));
+    sam_call(SamFrameProjectTangential(&f, a, NULL, PETSC_FALSE, t, NULL, &found));
     sam_call(VecRestoreArrayRead(bound, &a));
   }
   sam_call(VecRestoreArray(traction, &t));
@@ -217,7 +217,7 @@ static void test_weighted_projection_is_the_nearest_shear_in_its_metric(void **s
     sam_call(SamFrameSet(&f, grid, &b));
     sam_call(VecGetArray(x, &a));
     sam_call(VecGetArrayRead(bound, &radius));
-    sam_call(SamFrameProjectTangential(&f, radius, weight, PETSC_TRUE, a, &found));
+    sam_call(SamFrameProjectTangential(&f, radius, weight, PETSC_TRUE, a, NULL, &found));
     sam_call(VecRestoreArrayRead(bound, &radius));
     sam_call(VecRestoreArray(x, &a));
     sam_assert(found);
@@ -332,7 +332,8 @@ static void test_force_alone_slides_at_the_sum_of_the_bound(void **state)
   for (int k = 0; k < 4; k++) {
     const SamBalance b = Forced(cos(k), sin(k), 0);
 
-    sam_assert_close(Limit(grid, &b, bound), all, 1e-12 * all); /* the optimum is flat: rounding of a sum */
+    sam_assert_close(Limit(grid, &b, bound), all,
+                     2e-11 * all); /* the tolerance of equilibrium, 1e-11, counts as carried */
   }
   sam_call(VecDestroy(&bound));
   sam_call(SamGridDestroy(&grid));

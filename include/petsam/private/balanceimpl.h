@@ -184,6 +184,13 @@ static inline void SamGramTangentialRow(double gram[SAM_GRAM], const double h[6]
 PETSC_EXTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3], double a[3]);
 
 /*
+  SamFrameSolveSeen - the same. Returns the part of the sums that the Gram matrix does not see, from 0 to 1 (all of
+  them); `unseen` is a combination of the phi along it, on which the sums do positive work.
+*/
+PETSC_EXTERN double SamFrameSolveSeen(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3],
+                                      double a[3], double unseen[3]);
+
+/*
   SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 on those where it is
   0, with the a for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when
   there is none; p is then as it was. Collective.
@@ -197,16 +204,18 @@ typedef struct {
   const char  *busy; /* stretches with cells in the mask, or with pressure */
   const float *step; /* the pressure goes by `by` times this */
   double       by;
-  float       *made; /* result: `scale` times the change of the pressure */
+  PetscBool    nearest; /* the nearest admissible pressure is wanted, even if that takes longer */
+  float       *made;    /* result: `scale` times the change of the pressure */
   double       scale;
+  double       motion[3]; /* result: the combination of the phi that was added before cells were cut off at 0 */
 } SamPressureStep;
 
 /*
   SamFrameProjectNormalStep - the same for p + by step, when that nearly carries the loads. p becomes an admissible
-  pressure: the nearest one where a single step of Newton's method finds it, else one about as near. Not found: p is as
-  it was, to the rounding of `made`. Collective.
+  pressure: the nearest one with `nearest`, or where a single step of Newton's method finds it, else one about as near.
+  Not found: p is as it was, to the rounding of `made`. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, const SamPressureStep *step, double p[],
+PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, SamPressureStep *step, double p[],
                                                       PetscBool *found);
 
 /*
@@ -216,13 +225,20 @@ PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, con
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
+  SamFrameClear - whether some free rigid displacement a leaves no cell with field + phi a > 0, to rounding of the
+  field: bodies that are free to tilt then lose contact. For frames without load. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double field[], double a[3], PetscBool *clear);
+
+/*
   SamFrameProjectTangential - q := D(q + weight phi a), D the projection of each cell's shear onto the disc of radius
   bound, with the a for which the force-controlled loads are exact: the nearest admissible shear, a cell's distance
-  squared counting 1/weight (weight NULL: 1). `found` is false when there is none; q is then of no use.
+  squared counting 1/weight (weight NULL: 1). `motion`, when not NULL, becomes a. `found` is false when there is none; q is then of no use.
   The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
   faster, it may differ from that by 1e-6 of the change. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], const float weight[],
-                                                      PetscBool nearest, double q[], PetscBool *found);
+                                                      PetscBool nearest, double q[], double motion[3],
+                                                      PetscBool *found);
 
 #endif

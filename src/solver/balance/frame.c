@@ -143,10 +143,14 @@ static void SolveSymmetric(PetscInt n, double A[3][3], const double b[3], double
   }
 }
 
-void SamFrameSolve(const SamFrame *f, const double gram[SAM_GRAM], const double sums[3], double a[3])
+/* Rounding of an entry of a Gram matrix, relative to the largest. */
+#define DIAGONAL_ROUNDING 1e-14
+
+double SamFrameSolveSeen(const SamFrame *f, const double gram[SAM_GRAM], const double sums[3], double a[3],
+                         double unseen[3])
 {
   const double G[3][3] = {{gram[0], gram[1], gram[2]}, {gram[1], gram[3], gram[4]}, {gram[2], gram[4], gram[5]}};
-  double       A[3][3], b[3], x[3], unit[3];
+  double       A[3][3], rest[3][3], b[3], x[3], unit[3], most = 0, all = 0, left = 0;
 
   for (PetscInt k = 0; k < f->count; k++) {
     b[k] = 0;
@@ -156,16 +160,34 @@ void SamFrameSolve(const SamFrame *f, const double gram[SAM_GRAM], const double 
       for (PetscInt i = 0; i < 3; i++)
         for (PetscInt j = 0; j < 3; j++) A[k][m] += f->basis[k][i] * G[i][j] * f->basis[m][j];
     }
+    most = PetscMax(most, A[k][k]);
   }
-  for (PetscInt k = 0; k < f->count; k++) unit[k] = A[k][k] > 0 ? 1 / sqrt(A[k][k]) : 0;
+  /* in units that make the diagonal 1, where it is more than the rounding of a sum of zeros */
+  for (PetscInt k = 0; k < f->count; k++)
+    unit[k] = 1 / sqrt(A[k][k] > DIAGONAL_ROUNDING * most ? A[k][k] : (most > 0 ? most : 1));
   for (PetscInt k = 0; k < f->count; k++) {
     b[k] *= unit[k];
-    for (PetscInt m = 0; m < f->count; m++) A[k][m] *= unit[k] * unit[m];
+    for (PetscInt m = 0; m < f->count; m++) rest[k][m] = A[k][m] *= unit[k] * unit[m];
   }
   SolveSymmetric(f->count, A, b, x);
-  for (PetscInt k = 0; k < f->count; k++) x[k] *= unit[k];
-  for (PetscInt i = 0; i < 3; i++) {
-    a[i] = 0;
-    for (PetscInt k = 0; k < f->count; k++) a[i] += f->basis[k][i] * x[k];
+  for (PetscInt i = 0; i < 3; i++) a[i] = unseen[i] = 0;
+  for (PetscInt k = 0; k < f->count; k++) {
+    double r = b[k];
+
+    for (PetscInt m = 0; m < f->count; m++) r -= rest[k][m] * x[m];
+    all += b[k] * b[k];
+    left += r * r;
+    for (PetscInt i = 0; i < 3; i++) {
+      a[i] += unit[k] * x[k] * f->basis[k][i];
+      unseen[i] += unit[k] * r * f->basis[k][i];
+    }
   }
+  return all > 0 ? sqrt(left / all) : 0;
+}
+
+void SamFrameSolve(const SamFrame *f, const double gram[SAM_GRAM], const double sums[3], double a[3])
+{
+  double unseen[3];
+
+  (void)SamFrameSolveSeen(f, gram, sums, a, unseen);
 }

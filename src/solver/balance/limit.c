@@ -9,6 +9,9 @@
 #include <petsam/private/balanceimpl.h>
 #include <math.h>
 
+/* Of the sum of the bound: an error of equilibrium that is taken for none. */
+#define TOLERANCE 1e-11
+
 /* A row's sums of t and of xi t. */
 SAM_VECTORIZED static void SumRow(SamRow row, const double *restrict t, double sums[2])
 {
@@ -91,9 +94,25 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
 /* sum b sqrt(|v|^2 + s^2), its gradient and Hessian with respect to the combination a of the phi. */
 typedef struct {
   double value, gradient[3], hessian[SAM_GRAM];
+  double bound; /* sum b */
 } Power;
 
 #define POWER ((PetscInt)(sizeof(Power) / sizeof(double)))
+
+/*
+  Adds the power of a load of the size of a tolerance, in any direction: loads so small count as carried. Without it a
+  contact of one cell could carry no load, as rounding leaves it a torque about the cell.
+*/
+static void AddTolerance(const double a[3], double smoothing, double all, Power *power)
+{
+  const double n = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + smoothing * smoothing), b = TOLERANCE * all;
+
+  power->value += b * n;
+  for (PetscInt i = 0; i < 3; i++) power->gradient[i] += b * a[i] / n;
+  for (PetscInt i = 0, entry = 0; i < 3; i++)
+    for (PetscInt k = i; k < 3; k++, entry++)
+      power->hessian[entry] += b / n * ((i == k ? 1 : 0) - a[i] * a[k] / (n * n));
+}
 
 static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], const double a[3], double smoothing,
                                     Power *power)
@@ -113,6 +132,7 @@ static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], con
       vx = SamFrameX(a, eta);
       vy = SamFrameY(a, xi);
       n  = sqrt(vx * vx + vy * vy + smoothing * smoothing);
+      row.bound += b;
       row.value += b * n;
       vx /= n;
       vy /= n;
@@ -127,6 +147,7 @@ static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], con
     SamAddAll(POWER, totals, (const double *)&row);
   }
   PetscCall(SamSumTotals(f->grid->comm, POWER, totals, (double *)power));
+  AddTolerance(a, smoothing, power->bound, power);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

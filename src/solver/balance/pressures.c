@@ -17,6 +17,8 @@ typedef struct {
   const float  *step;      /* added to the field with the factor `by`; one row of zeros where that is 0 */
   double        by, scale; /* see SamPressureStep */
   float        *made;
+  PetscBool     quick;  /* a single step of Newton's method may do */
+  double       *motion; /* what has been added along the phi; NULL: not wanted */
 } Cells;
 
 static const float *MaskOfRow(const Cells *c, PetscInt nx, PetscInt j)
@@ -158,7 +160,7 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
   *found = PETSC_FALSE;
   /* where pressures are far above the load, it is lost in their rounding; projected again, they are of its size */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
-    const PetscBool once             = (cells.made && time == 0) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool once             = (cells.quick && time == 0) ? PETSC_TRUE : PETSC_FALSE;
     SamTotal        totals[SAM_DUAL] = {{0, 0}};
     double          a[3]             = {0, 0, 0};
 
@@ -171,9 +173,11 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
       PetscCall(PetscArraycpy(before, p, f->grid->cells));
     }
     if (near) ApplyRows(f, &cells, a, p, scratch, totals);
+    for (PetscInt i = 0; cells.motion && i < 3; i++) cells.motion[i] += a[i];
     if (once && near && !*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_ENOUGH, found));
-    cells.by   = 0;
-    cells.step = zeros;
+    cells.by      = 0;
+    cells.step    = zeros;
+    cells.contact = PETSC_TRUE; /* what is left is small, and cells without pressure would all share in it */
   }
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
   if (!*found && cells.made) TakeBack(f, &cells, p);
@@ -190,13 +194,20 @@ PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const float mask[], doub
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, const SamPressureStep *s, double p[], PetscBool *found)
+PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, SamPressureStep *s, double p[], PetscBool *found)
 {
-  const Cells cells = {
-    .mask = s->mask, .busy = s->busy, .step = s->step, .by = s->by, .made = s->made, .scale = s->scale};
+  const Cells cells = {.mask   = s->mask,
+                       .busy   = s->busy,
+                       .step   = s->step,
+                       .by     = s->by,
+                       .made   = s->made,
+                       .quick  = s->nearest ? PETSC_FALSE : PETSC_TRUE,
+                       .scale  = s->scale,
+                       .motion = s->motion};
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(s->made, f->grid->cells));
+  PetscCall(PetscArrayzero(s->motion, 3));
   PetscCall(ProjectNormal(f, cells, p, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -206,5 +217,21 @@ PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], Pet
   PetscFunctionBegin;
   PetscCall(ProjectNormal(f, (Cells){.contact = PETSC_TRUE}, p, found));
   if (!*found) PetscCall(SamFrameProjectNormal(f, NULL, p, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameClear(const SamFrame *f, const double field[], double a[3], PetscBool *clear)
+{
+  Cells  cells = {.field = field};
+  float *zeros;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(f->grid->nx, &cells.row));
+  PetscCall(PetscCalloc1(f->grid->nx, &zeros));
+  for (PetscInt i = 0; i < f->grid->nx; i++) cells.row[i] = 1;
+  cells.step = zeros;
+  PetscCall(SamDualVanish(f, PassNormal, &cells, a, clear));
+  PetscCall(PetscFree(cells.row));
+  PetscCall(PetscFree(zeros));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,22 +14,21 @@
 #include "projectionimpl.h"
 #include <math.h>
 
-#define NEWTON_MAX   60
-#define HALVINGS_MAX 40
-
-static PetscErrorCode Evaluate(const SamFrame *f, SamDualPass pass, const void *context, const double a[3],
-                               SamDual *dual)
-{
-  SamTotal totals[SAM_DUAL] = {{0, 0}};
-
-  PetscFunctionBegin;
-  pass(f, context, a, totals);
-  PetscCall(SamSumTotals(f->grid->comm, SAM_DUAL, totals, (double *)dual));
-  /* subtract a.F and F along the free subspace */
-  for (PetscInt k = 0; k < f->count; k++)
-    for (PetscInt i = 0; i < 3; i++) dual->value -= a[i] * f->basis[k][i] * f->target[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+#define NEWTON_MAX 60
+/* Steps in a row that improve neither the value nor the error of equilibrium: then it is all rounding. */
+#define IDLE_MAX 5
+/* Trials of a line search, and how far each goes beyond the one before while the value still falls. */
+#define TRIALS_MAX 60
+#define FARTHER    4.0
+/* The least fall of the value and the largest slope at the end of a step, as parts of the slope at its beginning. */
+#define ENOUGH_FALL 1e-4
+#define MUCH_SLOPE  0.9
+/* The part of an error of equilibrium from which on what the Hessian does not see of it decides the step. */
+#define UNSEEN 0.1
+/* A traction has vanished when its sum is this part of what it was. */
+#define VANISHED 1e-13
+/* Rounding of the dual's value, relative to its parts. */
+#define VALUE_ROUNDING 1e-13
 
 /* Error of equilibrium along the basis, as a combination of the phi; returns its size relative to the scale. */
 static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
@@ -49,18 +48,24 @@ static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
   return load > 0 ? size / load : 0;
 }
 
-/* The Newton step for an error of equilibrium; returns the slope of the dual along it, down being positive. */
+static double Dot(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/*
+  The Newton step for an error of equilibrium; returns the slope of the dual along it, down being positive. Where the
+  Hessian does not see most of the error, as no or too few cells are within their bounds, the step goes along what it
+  does not see.
+*/
 static double NewtonStep(const SamFrame *f, const SamDual *dual, const double error[3], double step[3])
 {
-  double slope = 0;
+  double       unseen[3];
+  const double part = SamFrameSolveSeen(f, dual->gram, error, step, unseen);
 
-  SamFrameSolve(f, dual->gram, error, step);
-  for (PetscInt i = 0; i < 3; i++) slope += error[i] * step[i];
-  if (slope > 0) return slope;
-  /* the Hessian vanishes along the error, or it is not a number: go along the error itself */
-  for (PetscInt i = 0; i < 3; i++) step[i] = error[i];
-  for (PetscInt i = 0; i < 3; i++) slope += error[i] * step[i];
-  return slope;
+  if (!(part <= UNSEEN))
+    for (PetscInt i = 0; i < 3; i++) step[i] = unseen[i];
+  return Dot(error, step);
 }
 
 /* An iterate of Newton's method. */
@@ -68,55 +73,102 @@ typedef struct {
   double  a[3];
   SamDual dual;
   double  error[3], size; /* error of equilibrium, and its relative size */
+  double  rounding;       /* of the dual's value */
 } Iterate;
 
-/* A step with halving from `now` to `next`; returns the part of the Newton step that was made. */
-static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void *context, const Iterate *now,
-                                 Iterate *next, double *length)
+/* The dual, its gradient and what goes with them at a. */
+static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void *context, Iterate *at)
 {
-  double       step[3], t = 1;
+  SamTotal totals[SAM_DUAL] = {{0, 0}};
+  double   load             = 0;
+
+  PetscFunctionBegin;
+  pass(f, context, at->a, totals);
+  PetscCall(SamSumTotals(f->grid->comm, SAM_DUAL, totals, (double *)&at->dual));
+  for (PetscInt k = 0; k < f->count; k++) load += Dot(at->a, f->basis[k]) * f->target[k];
+  at->dual.value -= load;
+  at->size     = Imbalance(f, &at->dual, at->error);
+  at->rounding = VALUE_ROUNDING * (fabs(at->dual.value) + 2 * fabs(load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  A step from `now` to `next`. The value falls by at least a part
+  of what the slope promises, and the slope at the end is no longer most of that at the beginning. The Newton step
+  itself fulfils both near the minimum. Far from it, where the bounds of most cells hold, the dual is nearly linear and
+  a step may be too short by orders of magnitude, so the search goes outward as well.
+*/
+static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void *context, const Iterate *now,
+                                 Iterate *next)
+{
+  double       step[3], t = 1, least = 0, most = INFINITY;
   const double slope = NewtonStep(f, &now->dual, now->error, step);
 
   PetscFunctionBegin;
-  for (PetscInt h = 0;; h++) {
+  for (PetscInt trial = 0; trial < TRIALS_MAX; trial++) {
+    double end;
+    int    fell;
+
     for (PetscInt i = 0; i < 3; i++) next->a[i] = now->a[i] + t * step[i];
-    PetscCall(Evaluate(f, pass, context, next->a, &next->dual));
-    next->size = Imbalance(f, &next->dual, next->error);
-    /* near the minimum rounding hides the fall of the value, but not that of the gradient */
-    if (next->dual.value <= now->dual.value - 1e-4 * t * slope || next->size < 0.5 * now->size ||
-        t * slope <= 1e-13 * fabs(now->dual.value) || h == HALVINGS_MAX)
+    PetscCall(EvaluateAt(f, pass, context, next));
+    end = Dot(next->error, step);
+    if (now->size <= SAM_BALANCED_ENOUGH) break;                   /* all is rounding */
+    fell = t * slope <= now->rounding ? end >= -MUCH_SLOPE * slope /* the value cannot tell */
+                                      : next->dual.value <= now->dual.value - ENOUGH_FALL * t * slope;
+    if (!fell)
+      most = t;
+    else if (end > MUCH_SLOPE * slope)
+      least = t;
+    else
       break;
-    t *= 0.5;
+    t = isfinite(most) ? 0.5 * (least + most) : FARTHER * t;
   }
-  *length = t;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamDualMinimize(const SamFrame *f, SamDualPass pass, const void *context, double once, double a[3],
                                PetscBool *found, PetscBool *near)
 {
-  Iterate now = {.a = {0, 0, 0}}, next;
+  Iterate  now  = {.a = {0, 0, 0}}, next, best;
+  PetscInt idle = 0;
 
   PetscFunctionBegin;
-  PetscCall(Evaluate(f, pass, context, now.a, &now.dual));
-  now.size = Imbalance(f, &now.dual, now.error);
-  *found   = PETSC_FALSE;
-  *near    = PETSC_TRUE;
+  PetscCall(EvaluateAt(f, pass, context, &now));
+  *found = PETSC_FALSE;
+  *near  = PETSC_TRUE;
   if (now.size > SAM_BALANCED_EXACT && now.size <= once) {
     SamFrameSolve(f, now.dual.gram, now.error, a);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  best = now;
   for (PetscInt it = 0; it < NEWTON_MAX && now.size > SAM_BALANCED_EXACT; it++) {
-    double length = 0;
-
-    PetscCall(SearchLine(f, pass, context, &now, &next, &length));
-    if (next.size >= now.size && now.size <= SAM_BALANCED_ENOUGH) break; /* at rounding: keep the better one */
-    now = next;
-    if (length < 1e-9) break;
+    PetscCall(SearchLine(f, pass, context, &now, &next));
+    idle = next.size < best.size || next.dual.value < now.dual.value - now.rounding ? 0 : idle + 1;
+    now  = next;
+    if (now.size < best.size) best = now;
+    if (idle && (best.size <= SAM_BALANCED_ENOUGH || idle > IDLE_MAX)) break; /* at rounding */
   }
+  for (PetscInt i = 0; i < 3; i++) a[i] = best.a[i];
+  *found = best.size <= SAM_BALANCED_ENOUGH ? PETSC_TRUE : PETSC_FALSE;
+  *near  = best.size <= SAM_BALANCED_NEAR ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamDualVanish(const SamFrame *f, SamDualPass pass, const void *context, double a[3], PetscBool *vanishes)
+{
+  Iterate now = {.a = {0, 0, 0}}, next;
+  double  first;
+
+  PetscFunctionBegin;
+  PetscCall(EvaluateAt(f, pass, context, &now));
+  first = now.dual.scale;
+  for (PetscInt it = 0; it < NEWTON_MAX && now.dual.scale > VANISHED * first; it++) {
+    PetscCall(SearchLine(f, pass, context, &now, &next));
+    if (!(next.dual.value < now.dual.value)) break;
+    now = next;
+  }
+  *vanishes = now.dual.scale <= VANISHED * first ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt i = 0; i < 3; i++) a[i] = now.a[i];
-  *found = now.size <= SAM_BALANCED_ENOUGH ? PETSC_TRUE : PETSC_FALSE;
-  *near  = now.size <= SAM_BALANCED_NEAR ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -27,6 +27,13 @@ typedef void (*SamDualPass)(const SamFrame *frame, const void *context, const do
 PETSC_INTERN PetscErrorCode SamDualMinimize(const SamFrame *frame, SamDualPass pass, const void *context, double once,
                                             double a[3], PetscBool *found, PetscBool *near);
 
+/*
+  SamDualVanish - whether some a makes the traction vanish, to rounding of the traction at a = 0, when no load is to be
+  carried. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamDualVanish(const SamFrame *frame, SamDualPass pass, const void *context, double a[3],
+                                          PetscBool *vanishes);
+
 /* SamDualIsBalanced - whether a traction with these totals is in equilibrium up to a relative error. Collective. */
 PETSC_INTERN PetscErrorCode SamDualIsBalanced(const SamFrame *frame, const SamTotal totals[], double limit,
                                               PetscBool *balanced);

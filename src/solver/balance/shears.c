@@ -158,13 +158,14 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
   cells. If it was not enough, it is a start, and the result is the nearest shear to this start.
 */
 PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], const float weight[],
-                                         PetscBool nearest, double q[], PetscBool *found)
+                                         PetscBool nearest, double q[], double motion[3], PetscBool *found)
 {
   const Cells cells = {.field = q, .bound = bound, .weight = weight};
   PetscBool   near  = PETSC_TRUE;
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
+  for (PetscInt i = 0; motion && i < 3; i++) motion[i] = 0;
   for (PetscInt time = nearest ? 1 : 0; time < 2 && !*found; time++) {
     SamTotal totals[SAM_DUAL] = {{0, 0}};
     double   a[3]             = {0, 0, 0};
@@ -175,6 +176,7 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
       *found = PETSC_TRUE;
     if (!*found && (!near || time > 0)) break;
     PetscCall(ApplyTangential(f, bound, weight, a, q, totals));
+    for (PetscInt i = 0; motion && i < 3; i++) motion[i] += a[i];
     if (!*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_EXACT, found));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

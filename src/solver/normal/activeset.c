@@ -54,6 +54,9 @@
 #define PATIENCE   10
 #define STAGNATION 100
 
+/* Changes of the pressure that are no more than its rounding, relative to the largest: no step. */
+#define ROUNDING 1e-11
+
 typedef SamActiveSet Work;
 
 #define FLOATS 5
@@ -198,19 +201,28 @@ static PetscErrorCode NewDirection(Work *w)
 
 /* ---- trial and step ---- */
 
-/* Step 3: p goes to the admissible pressure on A nearest to p + alpha z; s is the step there. */
-static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
+/*
+  Step 3: p goes to the admissible pressure on A nearest to p + alpha z; s is the step there. `motion`: what the
+  projection took the rigid displacements to be short of, if z is -g.
+*/
+static PetscErrorCode Try(Work *w, double alpha, PetscBool nearest, double motion[3], PetscBool *found)
 {
-  const double          pressure = w->unit / w->self;
-  const SamPressureStep step     = {
-        .mask = w->active, .busy = w->busy, .step = w->z, .by = alpha * pressure, .made = w->s, .scale = 1 / pressure};
-  SamTotal total = {0, 0};
-  SamRow   row;
+  const double    pressure = w->unit / w->self;
+  SamPressureStep step     = {.mask    = w->active,
+                              .busy    = w->busy,
+                              .step    = w->z,
+                              .by      = alpha * pressure,
+                              .nearest = nearest,
+                              .made    = w->s,
+                              .scale   = 1 / pressure};
+  SamTotal        total    = {0, 0};
+  SamRow          row;
+  double          most[2];
 
   PetscFunctionBegin;
   PetscCall(SamFrameProjectNormalStep(w->frame, &step, w->p, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  w->shrink = 0;
+  w->shrink = w->largest = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
     double sum = 0;
 
@@ -218,27 +230,34 @@ static PetscErrorCode Try(Work *w, double alpha, PetscBool *found)
     SamAdd(&total, sum);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 1, &total, &w->slope));
-  PetscCall(SamMax(w->level->grid->comm, 1, &w->shrink));
+  most[0] = w->shrink;
+  most[1] = w->largest;
+  PetscCall(SamMax(w->level->grid->comm, 2, most));
+  w->shrink  = most[0];
+  w->largest = most[1];
   w->slope /= w->unit;
+  if (fabs(w->slope) <= ROUNDING * w->largest / pressure) w->slope = 0;
+  for (PetscInt c = 0; c < 3; c++) motion[c] = step.motion[c] * w->self / alpha;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
-  Along the residual, with no cell made to part. The length is that which is downhill for modes like the whole pressure.
+  The projected gradient: along -g on all cells, as cells of A alone may have no other pressure in equilibrium. It is
+  downhill unless the pressure is the solution. The length is that for modes like the whole pressure.
 */
-static PetscErrorCode TryGradient(Work *w, PetscBool *found)
+static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
 {
   double most = 0;
 
   PetscFunctionBegin;
   (void)memset(w->busy, 1, (size_t)(w->rows * w->stretches)); /* cells may enter anywhere */
   for (PetscInt k = 0; k < w->cells; k++) {
-    w->active[k] = w->p[k] > 0 || w->g[k] < 0 ? 1.0f : 0.0f;
+    w->active[k] = 1;
     most         = PetscMax(most, w->p[k]);
   }
   PetscCall(SamMax(w->level->grid->comm, 1, &most));
   PetscCall(ComputeResidual(w));
-  PetscCall(Try(w, most / w->displacement * w->self, found));
+  PetscCall(Try(w, most / PetscMax(w->displacement, w->unit) * w->self, PETSC_TRUE, motion, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -307,26 +326,43 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 
 /* ---- the method ---- */
 
-/* One iteration. `downhill`: there was a way down. `found`: an admissible pressure was. */
+/*
+  The trial differs from the pressure by rounding, so this is the pressure. What may be wrong are cells with pressures of
+  that size, which the trial lets part, and the motion, which A leaves open if few cells are in it. `better`: the error
+  has fallen.
+*/
+static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *better)
+{
+  SamTotal ignored[SAM_GAP_TOTALS] = {{0, 0}};
+
+  PetscFunctionBegin;
+  SetLength(w, 1, ignored);
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
+  PetscCall(SamActiveSetRefresh(w));
+  *better = w->error < w->unit ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One iteration. `downhill`: there was a way down, for the energy or the error. `found`: an admissible pressure was. */
 static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, PetscBool *found)
 {
   SamTotal contact[SAM_GAP_TOTALS] = {{0, 0}}, ignored[SAM_GAP_TOTALS] = {{0, 0}};
-  double   best = 0;
+  double   best = 0, motion[3];
 
   PetscFunctionBegin;
   w->unit = w->error;
   w->lost = 0;
   if (!gradient) {
     PetscCall(NewDirection(w));
-    PetscCall(Try(w, w->alpha, found));
+    PetscCall(Try(w, w->alpha, PETSC_FALSE, motion, found));
     gradient = (!*found || w->slope >= 0) ? PETSC_TRUE : PETSC_FALSE;
     if (*found && gradient) SetLength(w, 0, ignored);
   }
-  if (gradient) PetscCall(TryGradient(w, found));
-  if (*found && w->slope < 0)
-    PetscCall(Step(w, &best, contact));
-  else if (*found)
-    SetLength(w, 0, ignored);
+  if (gradient) PetscCall(TryGradient(w, motion, found));
+  *downhill = PETSC_FALSE;
+  if (*found && w->slope == 0) PetscCall(TakeTrial(w, motion, downhill));
+  if (!*found || w->slope == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Step(w, &best, contact));
   *downhill = best > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
   w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));

@@ -150,9 +150,23 @@ static PetscErrorCode Choose(Work *w, double ease, double motion[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds to the motion: the gap and the error follow, A does not. */
+static PetscErrorCode Move(Work *w, const double motion[3])
+{
+  double error = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
+  for (PetscInt j = 0; j < w->rows; j++)
+    error = SamLarger(error, SamActiveSetMoveRow(w, SamActiveSetRow(w, j), motion));
+  PetscCall(SamMax(w->level->grid->comm, 1, &error));
+  w->error = error;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
 {
-  double motion[3] = {0, 0, 0}, error = 0;
+  double motion[3] = {0, 0, 0};
 
   PetscFunctionBegin;
   if (contact)
@@ -160,12 +174,8 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
   else
     PetscCall(Choose(w, 0, motion));
   PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
-  for (PetscInt j = 0; j < w->rows; j++)
-    error = SamLarger(error, SamActiveSetMoveRow(w, SamActiveSetRow(w, j), motion));
-  PetscCall(SamMax(w->level->grid->comm, 1, &error));
-  w->error = error;
-  SamRoundingRaise(&w->rounding, SAM_SINGLE_ROUNDING * error);
+  PetscCall(Move(w, motion));
+  SamRoundingRaise(&w->rounding, SAM_SINGLE_ROUNDING * w->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

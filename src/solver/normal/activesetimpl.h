@@ -27,6 +27,7 @@ typedef struct {
   SamRounding     rounding;       /* of g, m */
   double          slope;          /* of the energy along the step: s.g */
   double          shrink;         /* largest part of its pressure that a cell loses in the step */
+  double          largest;        /* largest pressure of the trial, Pa */
   double          curvature;      /* s.u; 0: no step yet */
   double          alpha;          /* length of the trial */
   PetscBool       stagnates;      /* the error has not fallen for some iterations */
@@ -92,7 +93,7 @@ PETSC_INTERN void SamActiveSetResidualRow(SamActiveSet *w, SamRow row);
 PETSC_INTERN void SamActiveSetPreconditionedRow(SamActiveSet *w, SamRow row, SamDirectionSums *sums);
 /* z becomes z - motion + beta s. Outside of A, where z has no meaning, it gets none. */
 PETSC_INTERN void SamActiveSetDirectionRow(SamActiveSet *w, SamRow row, const double motion[3], float beta);
-/* The slope of the step to the trial p; raises `shrink`. */
+/* The slope of the step to the trial p; raises `shrink` and `largest`. */
 PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
 /* s.u of at most SAM_STRETCH cells. */
 PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);

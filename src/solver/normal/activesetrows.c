@@ -152,16 +152,18 @@ SAM_VECTORIZED double SamActiveSetTrialRow(SamActiveSet *w, SamRow row)
   const double *restrict p = w->p + row.first, *restrict g = w->g + row.first;
   const float *restrict s = w->s + row.first;
   const double pressure   = w->unit / w->self;
-  double       slope = 0, most = 0;
+  double       slope = 0, most = 0, largest = 0;
 
-#pragma omp simd reduction(+ : slope) reduction(max : most)
+#pragma omp simd reduction(+ : slope) reduction(max : most, largest)
   for (int i = 0; i < row.count; i++) {
     const double less = s[i] < 0 ? -pressure * (double)s[i] : 0, part = less > 0 ? less / (p[i] + less) : 0;
 
     slope += (double)s[i] * g[i];
-    most = part > most ? part : most;
+    most    = part > most ? part : most;
+    largest = p[i] > largest ? p[i] : largest;
   }
-  w->shrink = PetscMax(w->shrink, most);
+  w->shrink  = PetscMax(w->shrink, most);
+  w->largest = PetscMax(w->largest, largest);
   return slope;
 }
 

@@ -136,10 +136,14 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A coarse grid may find no contact, as its cells are too far apart for it. */
 static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 {
+  PetscReal most = 0;
+
   PetscFunctionBegin;
-  if (start == SAM_START_NONE)
+  if (start != SAM_START_NONE) PetscCall(VecMax(level->traction, NULL, &most));
+  if (most <= 0)
     PetscCall(SolveHere(s, level, StartAsFoundation));
   else
     PetscCall(SolveInWindows(s, level));
@@ -166,46 +170,70 @@ static PetscErrorCode ComputeClearance(SamGrid grid, Vec h, const SamFrame *f, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap. */
-static PetscErrorCode IsSeparated(const SamLevel *level, PetscBool *separated)
+/*
+  Whether the bodies can tilt out of contact, where that is free; then `rigid` has the rotations at which they clear
+  each other.
+*/
+static PetscErrorCode CanTilt(const SamLevel *level, PetscReal rigid[3], PetscBool *can)
 {
-  const SamBalance *b = level->balance;
-  SamFrame          frame;
-  double            clearance;
+  const SamGrid grid = level->grid;
+  SamBalance    tilt = *level->balance;
+  SamFrame      frame;
+  double       *overlap, a[3];
+  const double *h;
 
   PetscFunctionBegin;
-  if (b->force[0]) {
-    *separated = b->load[0] == 0 ? PETSC_TRUE : PETSC_FALSE;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  *separated = PETSC_FALSE;
-  if ((b->force[1] && b->load[1] != 0) || (b->force[2] && b->load[2] != 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamFrameSet(&frame, level->grid, b));
-  PetscCall(ComputeClearance(level->grid, level->given[SAM_NORMAL_SEPARATION], &frame, &clearance));
-  *separated = clearance >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(SamFrameSet(&frame, grid, level->balance));
+  *can = PETSC_FALSE;
+  if (!frame.count) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamAllocate(sizeof(*overlap) * (size_t)grid->cells, &overlap));
+  PetscCall(VecGetArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++)
+      overlap[j * grid->nx + i] =
+        SamFrameNormal(frame.fixed, frame.xi0 + (double)i * frame.dxi, SamFrameEta(&frame, j)) - h[j * grid->nx + i];
+  PetscCall(VecRestoreArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
+  PetscCall(SamFrameClear(&frame, overlap, a, can));
+  SamFree(overlap);
+  SamFrameGetRigid(&frame, a, &tilt);
+  for (PetscInt k = 0; k < 3; k++) rigid[k] = tilt.rigid[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
-  p = 0. An approach that is not given is not determined by the problem either: it becomes 0, or as far back as the
-  bodies need to clear each other.
+  Whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap. `rigid`: the
+  rigid displacements then. One that is not given is not determined by the problem either: the approach becomes 0, or as
+  far back as the bodies need to clear each other, and rotations become 0, unless it takes others to clear.
 */
-static PetscErrorCode SetSeparated(SamSolver s, SamLevel *level)
+static PetscErrorCode IsSeparated(const SamLevel *level, PetscReal rigid[3], PetscBool *separated)
 {
-  SamBalance *b     = level->balance;
-  SamBalance  still = *b;
-  SamFrame    frame;
-  double      clearance;
+  const SamBalance *b     = level->balance;
+  SamBalance        still = *b;
+  SamFrame          frame;
+  double            clearance = 0;
+
+  PetscFunctionBegin;
+  *separated = PETSC_FALSE;
+  for (PetscInt k = 0; k < 3; k++) {
+    if (b->force[k] && b->load[k] != 0) PetscFunctionReturn(PETSC_SUCCESS);
+    rigid[k] = still.rigid[k] = b->force[k] ? 0 : b->rigid[k];
+  }
+  PetscCall(SamFrameSetGiven(&frame, level->grid, &still));
+  PetscCall(ComputeClearance(level->grid, level->given[SAM_NORMAL_SEPARATION], &frame, &clearance));
+  if (b->force[0]) rigid[0] = PetscMin(0, clearance);
+  *separated = b->force[0] || clearance >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (!*separated) PetscCall(CanTilt(level, rigid, separated));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetSeparated(SamSolver s, SamLevel *level, const PetscReal rigid[3])
+{
+  SamBalance *b = level->balance;
 
   PetscFunctionBegin;
   PetscCall(VecSet(level->traction, 0));
-  for (PetscInt k = 0; k < 3; k++)
-    if (b->force[k]) still.rigid[k] = 0;
-  PetscCall(SamFrameSetGiven(&frame, level->grid, &still));
-  PetscCall(ComputeClearance(level->grid, level->given[SAM_NORMAL_SEPARATION], &frame, &clearance));
-  if (b->force[0]) still.rigid[0] = PetscMin(0, clearance);
   for (PetscInt k = 0; k < 3; k++) {
-    b->rigid[k] = still.rigid[k];
+    b->rigid[k] = rigid[k];
     b->load[k]  = 0;
   }
   s->reason = SAM_SOLVER_CONVERGED_TRIVIAL;
@@ -241,18 +269,19 @@ static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can
 
 static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 {
+  PetscReal rigid[3];
   PetscBool separated, possible, can;
   char      message[256];
 
   PetscFunctionBegin;
-  PetscCall(IsSeparated(level, &separated));
+  PetscCall(IsSeparated(level, rigid, &separated));
   PetscCall(SamBalanceLever(level->grid, level->balance, message, sizeof(message), &possible));
   PetscCall(CanHold(s, level, &can));
   if (!possible || !can) {
     PetscCall(VecSet(level->traction, 0));
     s->reason = SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
   } else if (separated) {
-    PetscCall(SetSeparated(s, level));
+    PetscCall(SetSeparated(s, level, rigid));
   } else {
     PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), guess));
     SamLevelGetRigid(level, level->balance);

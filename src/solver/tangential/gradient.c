@@ -77,7 +77,7 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double *L, double y[], doubl
   PetscCall(PetscArraycpy(sy, w->s, 2 * w->cells));
   for (;;) {
     for (PetscInt k = 0; k < 2 * w->cells; k++) w->q[k] = y[k] - sy[k] / *L;
-    PetscCall(SamFrameProjectTangential(w->frame, w->bound, NULL, PETSC_TRUE, w->q, found));
+    PetscCall(SamFrameProjectTangential(w->frame, w->bound, NULL, PETSC_TRUE, w->q, NULL, found));
     if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(SamStickSlipComputeSlip(w));
     PetscCall(ComputeBend(w, y, sy, sums));

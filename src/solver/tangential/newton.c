@@ -39,21 +39,26 @@
 #define DESCENT 0.1
 /*
   The first trial's length. From then on the trial is to be LONGER than the best step, as steps go at most to the trial,
-  and changes by at most the root of FOLLOW in an iteration. Chosen by counting iterations; other values near these
+  and changes by at most the root of FOLLOW in an iteration, after HALVINGS at most. Chosen by counting iterations; other values near these
   change the counts by a few per cent.
 */
 #define FIRST_LENGTH 0.85
 #define LONGER       1.2
+#define HALVINGS     3
 #define FOLLOW       2.0
 /* Least and largest length of a step, in parts of that to the least energy, where these bound it. */
 #define LEAST_PART   0.5
 #define LARGEST_PART 1.8
 /* The part of the error that rounding of the slip may make up before the slip is computed anew. */
 #define DOUBT 0.2
+/* The least unit of slip, relative to what the shear displaces: the residual may be zero, and steps are not. */
+#define LEAST_UNIT 1e-13
 /* Rounding of energies, relative to the work of friction in them. */
 #define ENERGY_ROUNDING 1e-14
 /* Sets and motion depend on each other: how often they are found in turn in an iteration. */
 #define SWEEPS 2
+/* A change of the shear that is rounding, relative to it. */
+#define STILL 1e-12
 /* Iterations without progress before a gradient step, and before giving up. */
 #define PATIENCE   10
 #define STAGNATION 100
@@ -166,7 +171,8 @@ static PetscErrorCode Advance(Work *w, double t)
     for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
   }
   PetscCall(SamMax(u->level->grid->comm, 1, &most));
-  w->unit = most > 0 ? most : 1;
+  w->unit = PetscMax(most, LEAST_UNIT * u->self * u->scale);
+  if (w->unit == 0) w->unit = 1;
   w->work = space.work;
   PetscCall(ClearMargins(w));
   for (PetscInt j = 0; j < u->rows; j++) {
@@ -207,8 +213,7 @@ static PetscErrorCode NewDirection(Work *w)
   zv = sums.zv - Dot(a, sums.v);
   ev = sums.ev - Dot(a_step, sums.v);
   if (ev > 0) beta = -zv / ev;
-  /* a step that was cut short has left a part of itself in the residual, which a negative beta would take back */
-  if ((beta < 0 && !w->exact) || !isfinite(beta) || sums.zr + beta * sums.er < DESCENT * sums.zr) beta = 0;
+  if (!(beta > 0) || sums.zr + beta * sums.er < DESCENT * sums.zr) beta = 0;
   for (PetscInt c = 0; c < 3; c++) a[c] += beta * a_step[c];
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonDirectionRow(w, SamStickSlipRow(u, j), a, (float)beta);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -218,14 +223,15 @@ static PetscErrorCode NewDirection(Work *w)
   The trial becomes an admissible shear near it, with weights the nearest one in their metric. Computes the step
   there, and its products.
 */
-static PetscErrorCode Project(Work *w, const float weight[], PetscBool *found)
+static PetscErrorCode Project(Work *w, const float weight[], double motion[3], PetscBool *found)
 {
   SamStickSlip *u         = &w->base;
   SamTotal      totals[4] = {{0, 0}};
   double        sums[4];
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectTangential(u->frame, u->bound, weight, weight ? PETSC_TRUE : PETSC_FALSE, w->trial, found));
+  PetscCall(
+    SamFrameProjectTangential(u->frame, u->bound, weight, weight ? PETSC_TRUE : PETSC_FALSE, w->trial, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[4] = {0, 0, 0, 0};
@@ -241,28 +247,19 @@ static PetscErrorCode Project(Work *w, const float weight[], PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 3. */
-static PetscErrorCode Try(Work *w, PetscBool *found)
-{
-  SamStickSlip *u = &w->base;
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), w->alpha);
-  PetscCall(Project(w, NULL, found));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   The same along the slip itself, in the metric 1/h, in which stiff cells turn as little as Newton's method would turn
-  them. Descent is guaranteed with the exact projection only.
+  them. Descent is guaranteed with the exact projection only. `motion`: what the projection took the motion to be short
+  of.
 */
-static PetscErrorCode TryGradient(Work *w, PetscBool *found)
+static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
 {
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonGradientRow(w, SamStickSlipRow(u, j));
-  PetscCall(Project(w, w->z, found));
+  PetscCall(Project(w, w->z, motion, found));
+  for (PetscInt c = 0; c < 3; c++) motion[c] *= u->self;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -272,9 +269,35 @@ static PetscBool IsRounding(const Work *w)
   return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work ? PETSC_TRUE : PETSC_FALSE;
 }
 
+/* Whether the trial is the shear itself, to rounding. */
+static PetscBool IsStill(const Work *w)
+{
+  return sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale ? PETSC_TRUE : PETSC_FALSE;
+}
+
 static PetscBool IsDownhill(const Work *w)
 {
+  if (IsStill(w)) return PETSC_FALSE;
   return (IsRounding(w) ? w->along > 0 : w->slope < 0) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: one is. */
+static PetscErrorCode Try(Work *w, PetscBool *downhill)
+{
+  SamStickSlip *u     = &w->base;
+  double        alpha = w->alpha;
+  PetscBool     found = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  *downhill = PETSC_FALSE;
+  for (PetscInt halving = 0; halving <= HALVINGS && found && !*downhill; halving++, alpha *= 0.5) {
+    for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), alpha);
+    PetscCall(Project(w, NULL, NULL, &found));
+    *downhill = (found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
+    if (*downhill) w->alpha = alpha;
+    if (w->along <= 0) break;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
@@ -296,11 +319,10 @@ static PetscErrorCode Step(Work *w, double *best)
     SamAddAll(2, totals, row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
-  *best    = w->along / (sums[0] + w->bend);
-  least    = -w->slope / sums[0];
-  t        = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
-  t        = PetscMin(1, t);
-  w->exact = t == *best ? PETSC_TRUE : PETSC_FALSE;
+  *best = w->along / (sums[0] + w->bend);
+  least = -w->slope / sums[0];
+  t     = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
+  t     = PetscMin(1, t);
   SamRoundingAdd(&w->rounding, SAM_SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self);
   PetscCall(Advance(w, t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -336,21 +358,43 @@ static SamSolverReason Reason(const Work *w, PetscInt stagnant)
   return stagnant > STAGNATION ? SAM_SOLVER_DIVERGED_STAGNATED : SAM_SOLVER_ITERATING;
 }
 
-/* One iteration. `downhill`: there was a way down. `found`: an admissible shear was. */
+/*
+  This is the shear. The motion is what is left: its fit leaves it open where few cells are in contact, or all slip.
+  `better`: the error has fallen.
+*/
+static PetscErrorCode MoveOnly(Work *w, const double motion[3], PetscBool *better)
+{
+  SamStickSlip *u     = &w->base;
+  const double  error = u->error;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; c++) u->motion[c] += motion[c];
+  PetscCall(SamStickSlipComputeSlip(u));
+  PetscCall(Advance(w, 0));
+  w->rounding.bound = 0;
+  *better           = u->error < error ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One iteration. `downhill`: there was a way down, for energy or error. `found`: an admissible shear was. */
 static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, PetscBool *found)
 {
   SamStickSlip *u    = &w->base;
-  double        best = 0;
+  double        best = 0, motion[3];
 
   PetscFunctionBegin;
   if (!gradient) {
     PetscCall(NewDirection(w));
-    PetscCall(Try(w, found));
-    gradient = (!*found || !IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
+    PetscCall(Try(w, downhill));
+    gradient = *downhill ? PETSC_FALSE : PETSC_TRUE;
   }
-  if (gradient) PetscCall(TryGradient(w, found));
-  *downhill = (*found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
-  if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
+  if (gradient) PetscCall(TryGradient(w, motion, found));
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!IsDownhill(w)) { /* the projected gradient is, unless it is rounding */
+    PetscCall(MoveOnly(w, motion, downhill));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  *downhill = PETSC_TRUE;
   PetscCall(Step(w, &best));
   if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(LONGER * best, 1 / FOLLOW), FOLLOW));
   PetscCall(Refresh(w));
@@ -365,7 +409,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), 0);
-  PetscCall(Project(w, NULL, found));
+  PetscCall(Project(w, NULL, NULL, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   /* the slip is still that of the shear before: the step changes s/c by no more than this */
   SamRoundingAdd(&w->rounding, (1 + w->reach) * sqrt(w->size) * w->unit / u->self);

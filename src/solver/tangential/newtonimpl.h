@@ -19,7 +19,6 @@ typedef struct {
   double       along, bend;    /* r.P step; P step.L P step */
   double       size;           /* |step|^2 */
   double       alpha;          /* length of the trial */
-  PetscBool    exact;          /* whether the last step left the residual normal to it */
   double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
   double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
   SamRounding  rounding;       /* of s/c, in the 2-norm, Pa */

@@ -8,8 +8,9 @@
 #include "newtonimpl.h"
 #include <math.h>
 
-/* A cell slips when q - EASE s/c is beyond its circle. */
+/* A cell slips when q - EASE s/c is beyond its circle, and q no nearer to its centre than NEAR of the bound. */
 #define EASE 0.25
+#define NEAR 0.5
 
 SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
                                           SamNewtonSpace *space)
@@ -32,7 +33,7 @@ SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double
                  bx = sx[i] + by * (double)ux[i] - motion_x, cy = sy[i] + by * (double)uy[i] - a1 - a2 * xi,
                  power = bx * ax + cy * ay;
     const double yx = ax - ease * bx, yy = ay - ease * cy, outside = yx * yx + yy * yy >= b * b ? 1 : 0,
-                 slips = outside * (power < 0 ? 1 : 0);
+                 near = ax * ax + ay * ay >= NEAR * NEAR * b * b ? 1 : 0, slips = outside * near * (power < 0 ? 1 : 0);
     const double scale = slips / sqrt(ax * ax + ay * ay + (1 - slips)), ex = scale * ax, ey = scale * ay,
                  part = ex * bx + ey * cy;
     const double h = in / (1 - inverse * part * scale), px = in * bx - part * ex, py = in * cy - part * ey;
