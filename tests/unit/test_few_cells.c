@@ -1,4 +1,4 @@
-/* Contacts of few cells, down to none: where equations have no unique solution, and where the bodies tilt out of touch. */
+/* Contacts of few cells, down to none: equations without a unique solution, bodies that tilt out of touch. */
 #include "fields.h"
 
 #include <petsam/normal.h>
@@ -114,7 +114,7 @@ static double LargestDisplacement(const Case *c)
 
 /* ---- the normal problem ---- */
 
-/* The approach is given and no moment holds the bodies: with one or two points they turn about these until they part. */
+/* The approach is given and no moment holds the bodies: with one or two points they turn until they part. */
 static void test_bodies_free_to_tilt_lose_touch(void **state)
 {
   const Point points[] = {{8, 11, 1e-3}, {3, 12, 0.95e-3}};

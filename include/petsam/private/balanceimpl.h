@@ -233,7 +233,8 @@ PETSC_EXTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double fi
 /*
   SamFrameProjectTangential - q := D(q + weight phi a), D the projection of each cell's shear onto the disc of radius
   bound, with the a for which the force-controlled loads are exact: the nearest admissible shear, a cell's distance
-  squared counting 1/weight (weight NULL: 1). `motion`, when not NULL, becomes a. `found` is false when there is none; q is then of no use.
+  squared counting 1/weight (weight NULL: 1). `motion`, when not NULL, becomes a. `found` is false when there is none; q
+  is then of no use.
   The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
   faster, it may differ from that by 1e-6 of the change. Collective.
 */

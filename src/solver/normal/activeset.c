@@ -327,9 +327,9 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 /* ---- the method ---- */
 
 /*
-  The trial differs from the pressure by rounding, so this is the pressure. What may be wrong are cells with pressures of
-  that size, which the trial lets part, and the motion, which A leaves open if few cells are in it. `better`: the error
-  has fallen.
+  The trial differs from the pressure by rounding, so this is the pressure. What may be wrong are cells with pressures
+  of that size, which the trial lets part, and the motion, which A leaves open if few cells are in it. `better`: the
+  error has fallen.
 */
 static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *better)
 {

@@ -39,8 +39,8 @@
 #define DESCENT 0.1
 /*
   The first trial's length. From then on the trial is to be LONGER than the best step, as steps go at most to the trial,
-  and changes by at most the root of FOLLOW in an iteration, after HALVINGS at most. Chosen by counting iterations; other values near these
-  change the counts by a few per cent.
+  and changes by at most the root of FOLLOW in an iteration, after HALVINGS at most. Chosen by counting iterations;
+  other values near these change the counts by a few per cent.
 */
 #define FIRST_LENGTH 0.85
 #define LONGER       1.2

@@ -36,8 +36,8 @@ typedef struct {
 } SamNewtonProducts;
 
 /*
-  Makes the step of length t: q += t (trial - q), s += by u - the motion a. Chooses stick and slip, adds to the sums, and returns the
-  largest slip in the tangent space.
+  Makes the step of length t: q += t (trial - q), s += by u - the motion a. Chooses stick and slip, adds to the sums,
+  and returns the largest slip in the tangent space.
 */
 PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
                                         SamNewtonSpace *space);
