@@ -13,11 +13,11 @@ typedef struct {
   Vec           h, p, bound, q;
 } Case;
 
-/* Cells of 1 mm, grid centre on the origin. */
-static Case NewCase(void)
+/* Cells of 1 mm. */
+static Case NewCaseAt(double x, double y)
 {
   const SamPair pair = NewPair(2e9, 0.3, 2e9, 0.3);
-  Case          c    = {.grid = NewGrid(NX, NY, NX * 1e-3, NY * 1e-3)};
+  Case          c    = {.grid = NewGridOn(PETSC_COMM_WORLD, NX, NY, NX * 1e-3, NY * 1e-3, x, y)};
 
   sam_call(SamElasticityCreate(c.grid, &pair, &c.elasticity));
   c.h     = NewField(c.grid, 1);
@@ -25,6 +25,12 @@ static Case NewCase(void)
   c.bound = NewField(c.grid, 1);
   c.q     = NewField(c.grid, 2);
   return c;
+}
+
+/* Its centre is the origin. */
+static Case NewCase(void)
+{
+  return NewCaseAt(0, 0);
 }
 
 static void DestroyCase(Case *c)
@@ -99,6 +105,12 @@ static void AssertPressed(const Case *c, const SamBalance *balance, double toler
   sam_call(VecRestoreArray(u, &g));
   sam_call(VecDestroy(&u));
   sam_assert_close(worst, 0, tolerance);
+}
+
+/* From 0 to 1. */
+static double Part(PetscInt seed, PetscInt component, PetscInt i)
+{
+  return 0.5 * (Random(seed, component, i, 0) + 1);
 }
 
 static double LargestDisplacement(const Case *c)
@@ -191,6 +203,50 @@ static void test_resultant_next_to_one_of_three_points(void **state)
     AssertPressed(&c, &b, 1e-8 * LargestDisplacement(&c));
   }
   DestroyCase(&c);
+}
+
+/* Points at random, with hardly any load and no moments, on all kinds of control. */
+static void test_points_at_random_carry_a_small_load(void **state)
+{
+  Case c = NewCaseAt(0.31e-3, -0.17e-3);
+
+  (void)state;
+  for (PetscInt seed = 1; seed <= 150; seed++) {
+    const double N = pow(10, -6 + 5 * Part(seed, 0, 1));
+    SamBalance   b = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {N, 0, 0}};
+    Point        points[6];
+
+    for (PetscInt k = 0; k < 6; k++)
+      points[k] = (Point){(PetscInt)(NX * Part(seed, 1, k)), (PetscInt)(NY * Part(seed, 2, k)),
+                          1e-3 * (1 - 0.1 * Part(seed, 3, k))};
+    SetPoints(&c, 6, points);
+    sam_assert(Press(&c, &b) == SAM_SOLVER_CONVERGED_RTOL);
+    AssertPressed(&c, &b, fmax(1e-8 * LargestDisplacement(&c), 1e-18)); /* rounding of heights of 1 mm */
+  }
+  DestroyCase(&c);
+}
+
+/* A sphere above a row of cells: two of them carry it, and leave open how far it turns about the row. */
+static void test_sphere_above_a_row_of_cells(void **state)
+{
+  const SamPair pair = NewPair(2, 0.3, 2, 0.3);
+  const double  R    = 0.5;
+
+  (void)state;
+  for (int k = 0; k < 12; k++) {
+    const double N = 1e-8 * pow(10, 0.3 * k);
+    Case         c = {.grid = NewGridOn(PETSC_COMM_WORLD, 20, 20, 1, 0.5, 0.00881 - 1.1e-3 * k, -0.0125)};
+    SamBalance   b = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {N, 0, 0}};
+
+    sam_call(SamElasticityCreate(c.grid, &pair, &c.elasticity));
+    c.h     = NewFrom(c.grid, Paraboloid, &R);
+    c.p     = NewField(c.grid, 1);
+    c.bound = NewField(c.grid, 1);
+    c.q     = NewField(c.grid, 2);
+    sam_assert(Press(&c, &b) == SAM_SOLVER_CONVERGED_RTOL);
+    AssertPressed(&c, &b, fmax(1e-8 * LargestDisplacement(&c), 1e-16)); /* rounding of heights of 0.3 m */
+    DestroyCase(&c);
+  }
 }
 
 /* ---- the tangential problem ---- */
@@ -303,15 +359,41 @@ static void test_shear_of_seven_cells(void **state)
   AssertAllLoadsAreCarried(7, points);
 }
 
+/* Cells at random, of random bounds, under a force along x or any load, up to the limit. */
+static void test_shear_of_cells_at_random(void **state)
+{
+  (void)state;
+  for (PetscInt seed = 1; seed <= 150; seed++) {
+    Case           c    = NewCaseAt(0.31e-3, -0.17e-3);
+    const PetscInt n    = 1 + seed % 6;
+    const double   some = seed % 2;
+    SamBalance     b    = {.kind  = SAM_BALANCE_TANGENTIAL,
+                           .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
+                           .load  = {1, some * Part(seed, 0, 1), some * 1e-3 * Part(seed, 0, 2)}};
+    PetscReal      limit;
+
+    for (PetscInt k = 0; k < n; k++)
+      AddAt(c.grid, 0, 5 + (PetscInt)(3 * Part(seed, 1, k)), 7 + (PetscInt)(3 * Part(seed, 2, k)),
+            pow(10, 3 + 3 * Part(seed, 3, k)), c.bound);
+    sam_call(SamBalanceSlideLimit(c.grid, &b, c.bound, &limit, NULL));
+    if (limit > 1e-6) { /* one cell does not lie on the line of any force */
+      for (int m = 0; m < 3; m++) b.load[m] *= limit * (seed % 3 ? 0.9 : 0.9999);
+      sam_assert(Shear(&c, &b).reason > 0);
+      AssertSheared(&c, &b);
+    }
+    DestroyCase(&c);
+  }
+}
+
 /* One cell carries a force through its centre; the torque about the origin is that force's to rounding only. */
 static void test_one_cell_carries_a_force_through_its_centre(void **state)
 {
-  Case c = NewCase();
+  Case c = NewCaseAt(0.31e-3, -0.17e-3);
 
   (void)state;
-  AddAt(c.grid, 0, 4, 3, 1e6, c.bound);
-  for (int k = 0; k < 8; k++) {
-    const double x = SamGridX(c.grid, 4), y = SamGridY(c.grid, 3), T = 1e6 * c.grid->dx * c.grid->dy, fx = cos(k),
+  for (int k = 0; k < 60; k++) {
+    const PetscInt i = (5 * k) % NX, j = (7 * k) % NY;
+    const double   x = SamGridX(c.grid, i), y = SamGridY(c.grid, j), T = 1e6 * c.grid->dx * c.grid->dy, fx = cos(k),
                  fy   = sin(k);
     SamBalance b      = {.kind  = SAM_BALANCE_TANGENTIAL,
                          .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
@@ -319,6 +401,8 @@ static void test_one_cell_carries_a_force_through_its_centre(void **state)
                beyond = b;
     PetscReal limit;
 
+    sam_call(VecSet(c.bound, 0));
+    AddAt(c.grid, 0, i, j, 1e6, c.bound);
     sam_call(SamBalanceSlideLimit(c.grid, &b, c.bound, &limit, NULL));
     sam_assert_close(limit, 1 / 0.7, 1e-9);
     sam_assert(Shear(&c, &b).reason > 0);
@@ -336,9 +420,12 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_three_points_around_the_middle_carry_bodies_free_to_tilt),
     cmocka_unit_test(test_two_points_leave_a_rotation_open_that_makes_no_overlap),
     cmocka_unit_test(test_resultant_next_to_one_of_three_points),
+    cmocka_unit_test(test_points_at_random_carry_a_small_load),
+    cmocka_unit_test(test_sphere_above_a_row_of_cells),
     cmocka_unit_test(test_shear_of_two_cells),
     cmocka_unit_test(test_shear_of_three_cells),
     cmocka_unit_test(test_shear_of_seven_cells),
+    cmocka_unit_test(test_shear_of_cells_at_random),
     cmocka_unit_test(test_one_cell_carries_a_force_through_its_centre),
   };
 

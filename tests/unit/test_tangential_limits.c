@@ -78,7 +78,7 @@ static void AssertFewProducts(PetscInt levels)
       sam_call(SamTangentialSolve(t, c.bound, NULL, &full, PETSC_FALSE, q));
       sam_call(SamSolverGetStatistics(t, NULL, NULL, &products, NULL));
       if (getenv("SAM_SHOW")) print_message("# load %d, %g of the limit: %d products\n", load, level[k], (int)products);
-      sam_assert(products <= 25);
+      sam_assert(products <= 20);
       AssertConditions(&c, NULL, &full, &given, q);
       sam_call(SamSolverDestroy(&t));
     }
