@@ -207,8 +207,6 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(c->normal, &limits.normal, NULL));
   PetscCall(SamSolverGetTolerances(c->tangential, &limits.tangential, NULL));
-  /* the shear was solved after the pressure, so the pressure does not know its last change */
-  if (SamContactIsCoupled(c)) limits.normal += c->coupling_rtol;
   limits.normal *= CHECK_MARGIN;
   limits.tangential *= CHECK_MARGIN;
   if (c->print_check)

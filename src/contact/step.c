@@ -1,44 +1,37 @@
 /*
   The solution of one load step.
 
-  Similar materials: the pressure does not depend on the shear, so one pass, the normal and then the tangential problem,
-  solves the step. Dissimilar materials: pressure displaces the surfaces tangentially, and shear displaces them
-  normally. The two problems are then solved in turn, each with the displacement by the other's traction, until neither
-  traction changes (Panagiotopoulos 1975, Ing.-Arch. 44, 421).
+  Similar materials: the pressure does not depend on the shear, so the normal and then the tangential problem solve the
+  step. Dissimilar materials: see coupling.c.
 */
-#include "contactimpl.h"
+#include "stepimpl.h"
 
-/* A step under way. */
-typedef struct {
-  SamContact   c;
-  SamSolution *s; /* the tried solution */
-  SamStep     *step;
-  PetscBool    coupled, same_pressure;
-  SamBalance   normal, tangential;                /* as prescribed */
-  double       rigid[3];                          /* guess of the tangential rigid displacements */
-  Vec          h;                                 /* separation plus u_z from q; coupled only */
-  Vec          previous_pressure, previous_shear; /* of the previous pass; coupled only */
-} Solve;
-
-static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step, Solve *w)
+static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step,
+                            SamSolve *w)
 {
   PetscFunctionBegin;
-  *w            = (Solve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
+  *w            = (SamSolve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
   w->coupled    = SamContactIsCoupled(c);
   w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
   if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(c->grid, 1, &w->lift));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
+  PetscCall(SamGridCreateVec(c->grid, 1, &w->pressure_product.field));
+  PetscCall(SamGridCreateVec(c->grid, 2, &w->shear_product.field));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->previous_pressure));
   PetscCall(SamGridCreateVec(c->grid, 2, &w->previous_shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode End(Solve *w)
+static PetscErrorCode End(SamSolve *w)
 {
   PetscFunctionBegin;
+  PetscCall(VecDestroy(&w->lift));
   PetscCall(VecDestroy(&w->h));
+  PetscCall(VecDestroy(&w->pressure_product.field));
+  PetscCall(VecDestroy(&w->shear_product.field));
   PetscCall(VecDestroy(&w->previous_pressure));
   PetscCall(VecDestroy(&w->previous_shear));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -60,7 +53,7 @@ static PetscErrorCode Count(SamSolver solver, PetscInt *iterations, PetscInt *ap
 /* ---- the normal problem ---- */
 
 /* The message for loads that no pressure balances, or for an approach that is too large, with the limit. */
-static PetscErrorCode DescribeImpossible(Solve *w, char message[], size_t size)
+static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t size)
 {
   const SamGrid grid = w->c->grid;
   PetscBool     possible;
@@ -84,7 +77,7 @@ static PetscErrorCode DescribeImpossible(Solve *w, char message[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode JudgeNormal(Solve *w)
+PetscErrorCode SamSolveJudgeNormal(SamSolve *w)
 {
   SamSolverReason reason;
   char            message[sizeof(w->step->message)];
@@ -103,7 +96,7 @@ static PetscErrorCode JudgeNormal(Solve *w)
 }
 
 /* Copies the pressure of the committed state, where nothing that it depends on has changed. */
-static PetscErrorCode TakePressure(Solve *w)
+static PetscErrorCode TakePressure(SamSolve *w)
 {
   const SamSolution *from = &w->c->committed.solution;
 
@@ -118,20 +111,18 @@ static PetscErrorCode TakePressure(Solve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The separation for the normal problem: the gap, plus the normal displacement by the shear. */
-static PetscErrorCode GetSeparation(Solve *w, PetscBool has_shear, Vec *h)
+/* The separation for the normal problem: the gap, plus the lift, which w->h holds. */
+static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
   PetscCall(SamProblemGetGap(w->c->problem, h));
-  if (!w->coupled || !has_shear) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamElasticityApplyTangentialToNormal(w->c->elasticity, w->s->shear, w->h));
+  if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecAXPY(w->h, 1, *h));
   *h = w->h;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `has_pressure`, `has_shear`: the tried solution holds a guess of the pressure; of the shear. */
-static PetscErrorCode SolveNormal(Solve *w, PetscBool has_pressure, PetscBool has_shear)
+PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has_shear)
 {
   SamBalance balance   = w->normal;
   Vec        predicted = NULL, h;
@@ -141,24 +132,26 @@ static PetscErrorCode SolveNormal(Solve *w, PetscBool has_pressure, PetscBool ha
     PetscCall(TakePressure(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(GetSeparation(w, has_shear, &h));
+  PetscCall(GetSeparation(w, &h));
   if (has_shear) {
     PetscCall(SamGridCreateVec(w->c->grid, 1, &predicted));
     PetscCall(SamVecCopyNonzero(w->s->pressure, predicted));
   }
-  PetscCall(SamNormalSolve(w->c->normal, h, &balance, has_pressure, w->s->pressure));
+  for (PetscInt k = 0; k < 3; k++)
+    if (balance.force[k]) balance.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]]; /* of the last pass */
+  PetscCall(SamNormalSolveKeeping(w->c->normal, h, &balance, has_pressure, w->s->pressure,
+                                  w->coupled ? &w->pressure_product : NULL));
   if (has_shear) PetscCall(SamFollowPressure(w->c->grid, predicted, w->s->pressure, w->s->shear));
   PetscCall(VecDestroy(&predicted));
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
   PetscCall(Count(w->c->normal, &w->step->normal_iterations, &w->step->normal_applies, &w->step->normal_preconditions));
-  PetscCall(JudgeNormal(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the tangential problem ---- */
 
 /* The message for gross slip: the tangential loads, and the limit of each in the same proportions. */
-static PetscErrorCode DescribeSliding(Solve *w, char message[], size_t size)
+static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
   PetscReal factor;
   PetscInt  loaded = 0;
@@ -183,7 +176,7 @@ static PetscErrorCode DescribeSliding(Solve *w, char message[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode JudgeTangential(Solve *w)
+PetscErrorCode SamSolveJudgeTangential(SamSolve *w)
 {
   SamSolverReason reason;
   char            message[sizeof(w->step->message)];
@@ -225,7 +218,7 @@ static PetscErrorCode AddStretch(SamGrid grid, const SamControl *control, Vec fi
 }
 
 /* w - S of the tangential problem: what moves the surfaces besides the shear, less the slip so far; NULL for zero. */
-static PetscErrorCode CreateOffset(Solve *w, Vec *offset)
+static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
   const SamContact c         = w->c;
   const PetscReal *e         = w->s->control.stretch;
@@ -254,7 +247,7 @@ static PetscErrorCode CreateOffset(Solve *w, Vec *offset)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveTangential(Solve *w, PetscBool has_shear)
+PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
 {
   SamBalance balance = w->tangential;
   Vec        offset;
@@ -263,18 +256,18 @@ static PetscErrorCode SolveTangential(Solve *w, PetscBool has_shear)
   PetscCall(CreateOffset(w, &offset));
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
-  PetscCall(SamTangentialSolve(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear));
+  PetscCall(SamTangentialSolveKeeping(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
+                                      w->coupled ? &w->shear_product : NULL));
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
   PetscCall(Count(w->c->tangential, &w->step->tangential_iterations, &w->step->tangential_applies,
                   &w->step->tangential_preconditions));
-  PetscCall(JudgeTangential(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The pressure is not right, so that no shear is sought: there is none, and displacements that are not given stay. */
-static PetscErrorCode SkipTangential(Solve *w)
+PetscErrorCode SamSolveSkipTangential(SamSolve *w)
 {
   SamBalance balance = w->tangential;
 
@@ -288,98 +281,35 @@ static PetscErrorCode SkipTangential(Solve *w)
 
 /* ---- both ---- */
 
-/*
-  The norm of a traction by which its changes are measured. Where a uniform traction displaces nothing, it is the norm
-  of what is left without the mean, which may be a small part: displacements, and so the check, depend on that part
-  alone.
-*/
-static PetscErrorCode ComputeSize(SamContact c, SamBalanceKind kind, Vec traction, PetscReal *size)
+static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
 {
-  const double least = 1e-7; /* of the norm: a smaller part is lost in the rounding of the difference of squares */
-  const double area = c->grid->dx * c->grid->dy, cells = (double)c->grid->nx * (double)c->grid->ny;
-  PetscReal    norm, loads[3];
-  double       rest;
-
   PetscFunctionBegin;
-  PetscCall(SamGridNorm(c->grid, traction, NORM_2, &norm));
-  *size = norm;
-  if (c->traits.mean) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamBalanceGetLoads(c->grid, kind, traction, loads));
-  rest = norm * norm;
-  for (PetscInt k = 0; k < (kind == SAM_BALANCE_NORMAL ? 1 : 2); k++)
-    rest -= loads[k] * loads[k] / (area * area * cells);
-  *size = PetscMax(rest > 0 ? sqrt(rest) : 0, least * norm);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
-static PetscErrorCode ComputeChange(SamContact c, SamBalanceKind kind, Vec now, Vec previous, PetscReal *change)
-{
-  PetscReal size = 0;
-
-  PetscFunctionBegin;
-  PetscCall(VecAYPX(previous, -1, now));
-  PetscCall(SamGridNorm(c->grid, previous, NORM_2, change));
-  PetscCall(ComputeSize(c, kind, now, &size));
-  *change = *change > 0 ? *change / size : 0;
-  PetscCall(VecCopy(now, previous));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Whether the passes end: the tractions no longer change, or there have been too many passes. */
-static PetscErrorCode IsLastPass(Solve *w, PetscInt pass, PetscBool *last)
-{
-  const SamContact c         = w->c;
-  PetscReal        change[2] = {0, 0};
-  char             message[sizeof(w->step->message)];
-
-  PetscFunctionBegin;
-  PetscCall(ComputeChange(c, SAM_BALANCE_NORMAL, w->s->pressure, w->previous_pressure, &change[0]));
-  PetscCall(ComputeChange(c, SAM_BALANCE_TANGENTIAL, w->s->shear, w->previous_shear, &change[1]));
-  if (c->coupling_monitor)
-    PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling change of p %.6e q %.6e\n", pass,
-                          (double)change[0], (double)change[1]));
-  *last = pass > 1 && PetscMax(change[0], change[1]) <= c->coupling_rtol ? PETSC_TRUE : PETSC_FALSE;
-  if (*last || pass < c->coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
-  *last = PETSC_TRUE;
-  PetscCall(PetscSNPrintf(
-    message, sizeof(message),
-    "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT " passes", pass));
-  PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
-  PetscCall(PetscStrncpy(w->step->setting, "coupling_max_it", sizeof(w->step->setting)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SolvePasses(Solve *w, const SamStepStart *start)
-{
-  PetscBool friction, last = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemHasFriction(w->c->problem, &friction));
-  for (PetscInt pass = 1; !last; pass++) {
-    const PetscBool has_pressure = pass > 1 || start->pressure ? PETSC_TRUE : PETSC_FALSE;
-    const PetscBool has_shear    = pass > 1 || start->shear ? PETSC_TRUE : PETSC_FALSE;
-
-    PetscCall(SolveNormal(w, has_pressure, has_shear));
-    PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
-    if (w->step->status == SAM_STATUS_CONVERGED)
-      PetscCall(SolveTangential(w, has_shear));
-    else
-      PetscCall(SkipTangential(w));
-    w->step->coupling_iterations = pass;
-    if (!w->coupled || !friction || w->step->status != SAM_STATUS_CONVERGED) break;
-    PetscCall(IsLastPass(w, pass, &last));
+  if (w->coupled) PetscCall(VecSet(w->h, 0));
+  PetscCall(SamSolveNormal(w, start->pressure, start->shear));
+  if (!w->same_pressure) PetscCall(SamSolveJudgeNormal(w));
+  PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
+  w->step->coupling_iterations = 1;
+  if (w->step->status != SAM_STATUS_CONVERGED) {
+    PetscCall(SamSolveSkipTangential(w));
+    PetscFunctionReturn(PETSC_SUCCESS);
   }
+  PetscCall(SamSolveTangential(w, start->shear));
+  PetscCall(SamSolveJudgeTangential(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamContactSolveStep(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step)
 {
-  Solve w;
+  SamSolve  w;
+  PetscBool friction;
 
   PetscFunctionBegin;
   PetscCall(Begin(c, start, same_pressure, step, &w));
-  PetscCall(SolvePasses(&w, start));
+  PetscCall(SamProblemHasFriction(c->problem, &friction));
+  if (w.coupled && friction)
+    PetscCall(SamSolveCoupled(&w, start));
+  else
+    PetscCall(SolveOnce(&w, start));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

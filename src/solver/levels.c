@@ -42,10 +42,65 @@ PetscErrorCode SamLevelSolveNested(SamSolver s, SamLevel *level, PetscInt depth,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool SamLevelHasProduct(const SamLevel *level)
+{
+  const SamProduct *p = level->product;
+
+  return (p && p->first[0] == 0 && p->first[1] == 0 && p->n[0] == level->grid->nx && p->n[1] == level->grid->ny)
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
+void SamLevelKeepProduct(SamLevel *level, double rounding)
+{
+  level->product->first[0] = level->product->first[1] = 0;
+  level->product->n[0]                                = level->grid->nx;
+  level->product->n[1]                                = level->grid->ny;
+  level->product->rounding                            = rounding;
+}
+
+void SamLevelForgetProduct(SamLevel *level)
+{
+  if (level->product) level->product->n[0] = level->product->n[1] = 0;
+}
+
+/* The product of a level in a window of it; known there if it is on all of the window. */
+static PetscErrorCode TakeProduct(SamWindow window, const SamProduct *whole, SamLevel *level, PetscInt components,
+                                  SamProduct *part)
+{
+  PetscInt  first[2], n[2];
+  PetscBool known = whole->n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SamWindowGetPlace(window, first, n));
+  for (PetscInt k = 0; k < 2; k++)
+    if (first[k] < whole->first[k] || first[k] + n[k] > whole->first[k] + whole->n[k]) known = PETSC_FALSE;
+  PetscCall(SamGridCreateVec(level->grid, components, &part->field));
+  level->product = part;
+  if (!known) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamWindowTake(window, whole->field, part->field));
+  SamLevelKeepProduct(level, whole->rounding);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PutProduct(SamWindow window, SamProduct *part, SamProduct *whole)
+{
+  PetscFunctionBegin;
+  PetscCall(SamWindowGetPlace(window, whole->first, whole->n));
+  whole->rounding = part->rounding;
+  if (part->n[0])
+    PetscCall(SamWindowPut(window, part->field, whole->field));
+  else
+    whole->n[0] = whole->n[1] = 0;
+  PetscCall(VecDestroy(&part->field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow window, SamElasticity part,
                                      PetscBool guess, SamLevelSolver solve)
 {
-  SamLevel level = {.elasticity = part, .balance = whole->balance, .rtol = whole->rtol, .finest = whole->finest};
+  SamLevel   level   = {.elasticity = part, .balance = whole->balance, .rtol = whole->rtol, .finest = whole->finest};
+  SamProduct product = {.rounding = 0};
 
   PetscFunctionBegin;
   PetscCall(SamWindowGetGrid(window, &level.grid));
@@ -53,7 +108,9 @@ PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow win
   for (PetscInt k = 0; k < SAM_GIVEN; k++)
     if (whole->given[k]) PetscCall(SamWindowTake(window, whole->given[k], level.given[k]));
   if (guess) PetscCall(SamWindowTake(window, whole->traction, level.traction));
+  if (whole->product) PetscCall(TakeProduct(window, whole->product, &level, s->kind->components, &product));
   PetscCall(solve(s, &level, guess));
+  if (whole->product) PetscCall(PutProduct(window, &product, whole->product));
   PetscCall(SamWindowPut(window, level.traction, whole->traction));
   whole->frame = level.frame;
   for (PetscInt k = 0; k < 3; k++) whole->rigid[k] = level.rigid[k];

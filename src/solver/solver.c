@@ -64,6 +64,7 @@ static PetscErrorCode DestroyType(SamSolver s)
   if (s->ops.destroy) PetscCall(s->ops.destroy(s));
   PetscCall(PetscMemzero(&s->ops, sizeof(s->ops)));
   s->data           = NULL;
+  s->keeps_product  = PETSC_FALSE;
   s->default_levels = 1;
   s->default_max_it = 1000;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -171,12 +172,20 @@ PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver s, PetscBool error)
 
 PetscInt SamSolverMaxIterations(SamSolver s)
 {
+  if (s->measures) return 0;
   return s->max_it ? s->max_it : s->default_max_it;
 }
 
 PetscInt SamSolverLevels(SamSolver s)
 {
   return s->levels ? s->levels : s->default_levels;
+}
+
+void SamSolverSetEffort(SamSolver s, PetscReal rtol, SamEffort effort)
+{
+  s->effort   = rtol;
+  s->glances  = effort == SAM_EFFORT_GLANCE ? PETSC_TRUE : PETSC_FALSE;
+  s->measures = effort == SAM_EFFORT_MEASURE ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *context)
@@ -228,19 +237,25 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamL
   s->limit                                      = PETSC_INFINITY;
   s->reason                                     = SAM_SOLVER_ITERATING;
   level.elasticity                              = s->elasticity;
-  level.rtol                                    = s->rtol;
+  level.rtol                                    = s->effort > 0 ? s->effort : s->rtol;
   level.finest                                  = PETSC_TRUE;
   PetscCall(SamElasticityGetGrid(s->elasticity, &level.grid));
+  if (!s->keeps_product) {
+    SamLevelForgetProduct(&level);
+    level.product = NULL;
+  }
   PetscCall(CheckFields(&level, kind));
   PetscCall(IsGivenFinite(&level, &finite));
   if (finite) {
     PetscCall(kind->solve(s, &level, guess));
   } else {
     PetscCall(SamVecZero(level.traction));
+    SamLevelForgetProduct(&level);
     s->reason = SAM_SOLVER_DIVERGED_NAN;
   }
   PetscCall(PetscLogEventEnd(SamEvents[kind->event], 0, 0, 0, 0));
   PetscCheck(s->reason, s->comm, PETSC_ERR_PLIB, "Method %s set no reason", s->type);
+  if (s->measures) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolverViewFromOptions(s));
   PetscCheck(s->reason > 0 || !s->error_if_not_converged, s->comm, PETSC_ERR_NOT_CONVERGED,
              "The %s solve did not converge due to %s", kind->name, SamSolverReasonName(s->reason));

@@ -132,6 +132,13 @@ static inline double SamLarger(double most, double value)
   return isnan(value) ? INFINITY : value;
 }
 
+/*
+  SamSolveSymmetric - x = pseudo-inverse of the symmetric, positive semi-definite A of order n <= SAM_SYMMETRIC_MAX, row
+  after row, times b. Eigenvalues up to `least` times the largest count as zero. A is overwritten. Not collective.
+*/
+#define SAM_SYMMETRIC_MAX 8
+PETSC_EXTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[]);
+
 /* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */

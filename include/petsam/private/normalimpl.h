@@ -14,6 +14,13 @@ enum {
   SAM_NORMAL_SEPARATION /* h, m */
 };
 
+/*
+  SamNormalSolveKeeping - SamNormalSolve() that knows the product with the guess, where there is one, and leaves that
+  with the result; product NULL: none is kept. The balance then holds the rigid displacements of the guess. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
+                                                  SamProduct *product);
+
 PETSC_EXTERN PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver);
 PETSC_EXTERN PetscErrorCode SamNormalCreate_PolonskyKeer(SamSolver solver);
 

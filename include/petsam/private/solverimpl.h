@@ -26,6 +26,16 @@
 #define SAM_MONITORS 5 /* most of one solver */
 #define SAM_GIVEN    2 /* most given fields of a kind of problem */
 
+/*
+  SamProduct - the operator's product with a traction, kept from one solve to the next: a solve that starts from that
+  traction needs none to begin with. Methods that can use and keep it set solver->keeps_product.
+*/
+typedef struct {
+  Vec      field;          /* S p or C q, m */
+  PetscInt first[2], n[2]; /* the rectangle of cells where it is right; n = 0: nowhere */
+  double   rounding;       /* of it, as the method counts it */
+} SamProduct;
+
 /* The problem on one grid, as a method meets it: one of the nested grids, the whole finest grid or a window of it. */
 typedef struct {
   SamElasticity elasticity;
@@ -34,6 +44,7 @@ typedef struct {
   SamBalance   *balance;          /* what is controlled; the kind writes the results into it */
   Vec           given[SAM_GIVEN]; /* the given fields, as the kind's header numbers them; NULL: zero */
   Vec           traction;         /* the unknown: start and result */
+  SamProduct   *product;          /* NULL: not to be kept */
   PetscReal     rtol;
   PetscBool     finest;   /* only work on the finest grid is counted and shown to monitors */
   double        rigid[3]; /* start and result: rigid displacement as a combination of the phi, fixed part included */
@@ -86,8 +97,9 @@ struct _n_SamSolver {
     PetscErrorCode (*view)(SamSolver solver, PetscViewer viewer);
     PetscErrorCode (*destroy)(SamSolver solver); /* frees `data` */
   } ops;
-  void    *data; /* the type's own */
-  PetscInt default_levels, default_max_it;
+  void     *data; /* the type's own */
+  PetscInt  default_levels, default_max_it;
+  PetscBool keeps_product;
   /* what the user set; 0 stands for the type's default */
   char             type[64], prefix[SAM_PREFIX];
   PetscReal        rtol;
@@ -96,6 +108,10 @@ struct _n_SamSolver {
   PetscInt         monitors;
   SamSolverMonitor monitor[SAM_MONITORS];
   void            *monitor_context[SAM_MONITORS];
+  /* what the caller of the next solves wants */
+  PetscReal effort;   /* relative error that is enough; 0: the user's rtol */
+  PetscBool glances;  /* the outside of a window is not checked by a product */
+  PetscBool measures; /* only the error of the start, without an iteration */
   /* of the last solve, on the finest grid */
   SamSolverReason reason;
   PetscReal       error;
@@ -132,6 +148,20 @@ PETSC_EXTERN PetscErrorCode SamLevelSolveNested(SamSolver solver, SamLevel *leve
 typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, PetscBool guess);
 PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
                                                   SamElasticity part, PetscBool guess, SamLevelSolver solve);
+
+/*
+  SamEffort - what the next solves are for, when the problem is part of another one: all of it; a solution that need not
+  be checked outside of its window by a product, as later ones will be; or only the error of the start.
+*/
+typedef enum { SAM_EFFORT_FULL, SAM_EFFORT_GLANCE, SAM_EFFORT_MEASURE } SamEffort;
+/* SamSolverSetEffort - that, and the relative error that is enough (0: the user's rtol). Not collective. */
+PETSC_EXTERN void SamSolverSetEffort(SamSolver solver, PetscReal rtol, SamEffort effort);
+/* SamLevelHasProduct - whether the product with the level's traction is known everywhere. Not collective. */
+PETSC_EXTERN PetscBool SamLevelHasProduct(const SamLevel *level);
+/* SamLevelKeepProduct - says that it is, with this rounding, and everywhere. Not collective. */
+PETSC_EXTERN void SamLevelKeepProduct(SamLevel *level, double rounding);
+/* SamLevelForgetProduct - says that it is not known. Not collective. */
+PETSC_EXTERN void SamLevelForgetProduct(SamLevel *level);
 
 /* SamLevelGetRigid - writes a level's rigid displacement into the force-controlled components of a balance. */
 PETSC_EXTERN void SamLevelGetRigid(const SamLevel *level, SamBalance *balance);

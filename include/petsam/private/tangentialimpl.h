@@ -2,7 +2,9 @@
   The inside of SamTangential, for methods of the tangential problem; see solverimpl.h for how to write one.
 
   A method starts from a shear in level->traction that is admissible: within the discs, and in equilibrium; and from the
-  rigid displacement in level->rigid. That some admissible shear carries the loads has been checked.
+  rigid displacement in level->rigid. That some admissible shear carries the loads has been checked. With the product of
+  the start at hand (SamLevelHasProduct()) neither holds: the start may lie outside of the discs, and the method sets
+  NO_EQUILIBRIUM when no admissible shear is found.
 */
 #ifndef PETSAM_TANGENTIALIMPL_H
 #define PETSAM_TANGENTIALIMPL_H
@@ -79,8 +81,13 @@ static inline SamRow SamStickSlipRow(const SamStickSlip *state, PetscInt j)
 }
 /* SamStickSlipComputeSlip - s = C q + offset - motion, in double precision. Collective. */
 PETSC_EXTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *state);
-/* SamStickSlipStart - the same for the start, with a motion fitted to it and the error measured. Collective. */
+/*
+  SamStickSlipStart - the same for the start, by its product if that is at hand, with a motion fitted to it and the
+  error measured. Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamStickSlipStart(SamStickSlip *state);
+/* SamStickSlipKeepProduct - leaves the product in s with the level, with its rounding. Not collective. */
+PETSC_EXTERN PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *state, double rounding);
 /*
   SamStickSlipMeasure - the residual of the projection equation, with the motion that makes it smallest: s and motion
   are changed by a fit on the tangent space of the constraints (both directions where q - s/c lies within the disc,
@@ -89,6 +96,13 @@ PETSC_EXTERN PetscErrorCode SamStickSlipStart(SamStickSlip *state);
 PETSC_EXTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *state);
 /* SamStickSlipSetError - error and scale from this rank's squares. Collective. */
 PETSC_EXTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *state, const SamTotal squares[SAM_SQUARES]);
+
+/*
+  SamTangentialSolveKeeping - SamTangentialSolve() that knows the product with the guess, where there is one, and leaves
+  that with the result; product NULL: none is kept. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Vec offset,
+                                                      SamBalance *balance, PetscBool guess, Vec q, SamProduct *product);
 
 PETSC_EXTERN PetscErrorCode SamTangentialCreate_Newton(SamSolver solver);
 PETSC_EXTERN PetscErrorCode SamTangentialCreate_Gradient(SamSolver solver);

@@ -96,61 +96,16 @@ void SamFrameGetLoads(const SamFrame *f, const double sums[3], PetscReal loads[3
   }
 }
 
-/* One Jacobi rotation that removes entry (i, j) of a symmetric matrix of order n; V collects the rotations. */
-static void Rotate(PetscInt n, double A[3][3], double V[3][3], PetscInt i, PetscInt j)
-{
-  double theta, t, c, s;
-
-  if (A[i][j] == 0) return;
-  theta = (A[j][j] - A[i][i]) / (2 * A[i][j]);
-  t     = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1));
-  c     = 1 / sqrt(t * t + 1);
-  s     = t * c;
-  for (PetscInt k = 0; k < n; k++) {
-    const double x = A[k][i], y = A[k][j];
-
-    A[k][i] = c * x - s * y;
-    A[k][j] = s * x + c * y;
-  }
-  for (PetscInt k = 0; k < n; k++) {
-    const double x = A[i][k], y = A[j][k], vx = V[k][i], vy = V[k][j];
-
-    A[i][k] = c * x - s * y;
-    A[j][k] = s * x + c * y;
-    V[k][i] = c * vx - s * vy;
-    V[k][j] = s * vx + c * vy;
-  }
-}
-
-/* x = pseudo-inverse of the symmetric A of order n times b. */
-static void SolveSymmetric(PetscInt n, double A[3][3], const double b[3], double x[3])
-{
-  double V[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, largest = 0;
-
-  for (PetscInt sweep = 0; sweep < 12; sweep++)
-    for (PetscInt i = 0; i < n; i++)
-      for (PetscInt j = i + 1; j < n; j++) Rotate(n, A, V, i, j);
-  for (PetscInt k = 0; k < n; k++) {
-    largest = PetscMax(largest, A[k][k]);
-    x[k]    = 0;
-  }
-  for (PetscInt k = 0; k < n; k++) {
-    double part = 0;
-
-    if (A[k][k] <= 1e-13 * largest) continue;
-    for (PetscInt i = 0; i < n; i++) part += V[i][k] * b[i];
-    for (PetscInt i = 0; i < n; i++) x[i] += V[i][k] * part / A[k][k];
-  }
-}
-
 /* Rounding of an entry of a Gram matrix, relative to the largest. */
 #define DIAGONAL_ROUNDING 1e-14
+/* Its eigenvalues below this part of the largest are rounding. */
+#define SINGULAR 1e-13
 
 double SamFrameSolveSeen(const SamFrame *f, const double gram[SAM_GRAM], const double sums[3], double a[3],
                          double unseen[3])
 {
   const double G[3][3] = {{gram[0], gram[1], gram[2]}, {gram[1], gram[3], gram[4]}, {gram[2], gram[4], gram[5]}};
-  double       A[3][3], rest[3][3], b[3], x[3], unit[3], most = 0, all = 0, left = 0;
+  double       A[3][3], scaled[9], b[3], x[3], unit[3], most = 0, all = 0, left = 0;
 
   for (PetscInt k = 0; k < f->count; k++) {
     b[k] = 0;
@@ -167,14 +122,14 @@ double SamFrameSolveSeen(const SamFrame *f, const double gram[SAM_GRAM], const d
     unit[k] = 1 / sqrt(A[k][k] > DIAGONAL_ROUNDING * most ? A[k][k] : (most > 0 ? most : 1));
   for (PetscInt k = 0; k < f->count; k++) {
     b[k] *= unit[k];
-    for (PetscInt m = 0; m < f->count; m++) rest[k][m] = A[k][m] *= unit[k] * unit[m];
+    for (PetscInt m = 0; m < f->count; m++) scaled[k * f->count + m] = A[k][m] *= unit[k] * unit[m];
   }
-  SolveSymmetric(f->count, A, b, x);
+  SamSolveSymmetric(f->count, scaled, b, SINGULAR, x);
   for (PetscInt i = 0; i < 3; i++) a[i] = unseen[i] = 0;
   for (PetscInt k = 0; k < f->count; k++) {
     double r = b[k];
 
-    for (PetscInt m = 0; m < f->count; m++) r -= rest[k][m] * x[m];
+    for (PetscInt m = 0; m < f->count; m++) r -= A[k][m] * x[m];
     all += b[k] * b[k];
     left += r * r;
     for (PetscInt i = 0; i < 3; i++) {

@@ -394,6 +394,17 @@ static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool downhill, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A start that is known by its product comes with its motion, which A may leave open. */
+static PetscErrorCode StartMotion(Work *w)
+{
+  SamFrame given;
+
+  PetscFunctionBegin;
+  PetscCall(SamFrameSetGiven(&given, w->level->grid, w->level->balance));
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] = SamLevelHasProduct(w->level) ? given.fixed[c] : w->frame->fixed[c];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level)
 {
   Work            w;
@@ -404,8 +415,9 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
 
   PetscFunctionBegin;
   PetscCall(CreateWork(solver, level, &w));
-  for (PetscInt c = 0; c < 3; c++) w.motion[c] = w.frame->fixed[c];
-  PetscCall(SamActiveSetRefresh(&w));
+  PetscCall(StartMotion(&w));
+  PetscCall(SamActiveSetStart(&w));
+  SamLevelForgetProduct(level);
   best = w.error;
   PetscCall(GetReason(&w, stagnant, downhill, found, &reason));
   while (!reason) {
@@ -418,6 +430,7 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
     best     = PetscMin(best, w.error);
     PetscCall(GetReason(&w, stagnant, downhill, found, &reason));
   }
+  if (isfinite(w.error)) PetscCall(SamActiveSetKeepProduct(&w));
   /* the steps keep equilibrium to the rounding of single precision only */
   if (found) PetscCall(SamFrameProjectNormalOnContact(w.frame, w.p, &found));
   solver->reason = reason;
@@ -431,6 +444,7 @@ PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver)
 {
   PetscFunctionBegin;
   solver->ops.solve      = SamNormalSolve_ActiveSet;
+  solver->keeps_product  = PETSC_TRUE;
   solver->default_levels = PETSC_MAX_INT;
   solver->default_max_it = 1000;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -12,6 +12,8 @@
 #define PATCH 6.0
 /* The part of the tolerance that rounding of g may be at the end. */
 #define DOUBT 0.03
+/* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
+#define PROJECTION_ROUNDING 1e-9
 /* g is computed anew at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3
 
@@ -74,16 +76,12 @@ static PetscErrorCode Apply(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g = S p + h - motion, and the largest displacement. */
-static PetscErrorCode ComputeGap(Work *w)
+/* g, which holds S p, becomes S p + h - motion; and the largest displacement. */
+static PetscErrorCode FinishGap(Work *w)
 {
   double max = 0;
 
   PetscFunctionBegin;
-  if (IsSingleEnough(w))
-    PetscCall(ApplySingle(w));
-  else
-    PetscCall(Apply(w));
   for (PetscInt j = 0; j < w->rows; j++) max = SamLarger(max, SamActiveSetGapRow(w, SamActiveSetRow(w, j)));
   for (PetscInt k = 0; k < w->rows * w->stretches; k++) w->open[k] = -INFINITY;
   PetscCall(SamMax(w->level->grid->comm, 1, &max));
@@ -182,9 +180,51 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
 PetscErrorCode SamActiveSetRefresh(Work *w)
 {
   PetscFunctionBegin;
-  PetscCall(ComputeGap(w));
+  if (IsSingleEnough(w))
+    PetscCall(ApplySingle(w));
+  else
+    PetscCall(Apply(w));
+  PetscCall(FinishGap(w));
   w->rounding.bound = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
   PetscCall(SamActiveSetChoose(w, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamActiveSetStart(Work *w)
+{
+  const double *u;
+
+  PetscFunctionBegin;
+  if (!SamLevelHasProduct(w->level)) {
+    PetscCall(SamActiveSetRefresh(w));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(VecGetArrayRead(w->level->product->field, &u));
+  PetscCall(PetscArraycpy(w->g, u, w->cells));
+  PetscCall(VecRestoreArrayRead(w->level->product->field, &u));
+  w->rounding.bound = w->level->product->rounding;
+  PetscCall(FinishGap(w));
+  PetscCall(SamActiveSetChoose(w, NULL));
+  if (SamActiveSetIsStale(w)) PetscCall(SamActiveSetRefresh(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamActiveSetKeepProduct(Work *w)
+{
+  double *u;
+
+  PetscFunctionBegin;
+  if (!w->level->product) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayWrite(w->level->product->field, &u));
+  for (PetscInt j = 0; j < w->rows; j++) {
+    const SamRow row = SamActiveSetRow(w, j);
+
+    for (PetscInt i = 0; i < row.count; i++)
+      u[row.first + i] =
+        w->g[row.first + i] - w->h[row.first + i] + SamFrameNormal(w->motion, row.xi0 + (double)i * row.dxi, row.eta);
+  }
+  PetscCall(VecRestoreArrayWrite(w->level->product->field, &u));
+  SamLevelKeepProduct(w->level, w->rounding.bound + PROJECTION_ROUNDING * w->displacement);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -110,6 +110,31 @@ static PetscErrorCode SolveFromPressure(SamSolver s, SamLevel *level, PetscBool 
 }
 
 /*
+  What is asked of a rough solution of the finest grid, as it costs no product: whether the contact, which becomes
+  first, size, keeps clear of the window's border, where that is not the grid's.
+*/
+static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt first[2], PetscInt size[2],
+                               PetscBool *inside)
+{
+  const PetscInt all[2] = {level->grid->nx, level->grid->ny};
+  PetscInt       start[2], n[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamWindowGetPlace(window, start, n));
+  PetscCall(SamGridGetSupport(level->grid, level->traction, first, size));
+  *inside = PETSC_TRUE;
+  for (PetscInt k = 0; k < 2; k++) {
+    const PetscBool low  = start[k] > 0 && first[k] <= start[k] ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool high = start[k] + n[k] < all[k] && first[k] + size[k] >= start[k] + n[k] ? PETSC_TRUE : PETSC_FALSE;
+
+    first[k] -= low; /* a window that covers these cells as well is a larger one */
+    size[k] += low + high;
+    if (low || high) *inside = PETSC_FALSE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
   From the pressure that the level has, in a window about the contact as long as that is small. Coarse grids need not be
   exact there. On the finest grid the cells outside of the window are checked in the end, and the window is widened
   until none of them touches.
@@ -129,7 +154,10 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
     PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveFromPressure));
     if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
     done = (!level->finest || s->reason < 0) ? PETSC_TRUE : PETSC_FALSE;
-    if (!done) PetscCall(SamNormalLookOutside(s, level, window, first, size, &done));
+    if (!done && s->glances)
+      PetscCall(IsInside(level, window, first, size, &done));
+    else if (!done)
+      PetscCall(SamNormalLookOutside(s, level, window, first, size, &done));
     if (done) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SolveFromPressure(s, level, PETSC_TRUE));
@@ -232,6 +260,7 @@ static PetscErrorCode SetSeparated(SamSolver s, SamLevel *level, const PetscReal
 
   PetscFunctionBegin;
   PetscCall(VecSet(level->traction, 0));
+  SamLevelForgetProduct(level);
   for (PetscInt k = 0; k < 3; k++) {
     b->rigid[k] = rigid[k];
     b->load[k]  = 0;
@@ -279,6 +308,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
   PetscCall(CanHold(s, level, &can));
   if (!possible || !can) {
     PetscCall(VecSet(level->traction, 0));
+    SamLevelForgetProduct(level);
     s->reason = SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
   } else if (separated) {
     PetscCall(SetSeparated(s, level, rigid));
@@ -331,13 +361,22 @@ PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p)
+PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
+                                     SamProduct *product)
 {
-  const SamLevel problem = {.balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h}, .traction = p};
+  const SamLevel problem = {
+    .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h}, .traction = p, .product = product};
 
   PetscFunctionBegin;
   PetscCheck(!balance->force[0] || balance->load[0] >= 0, normal->comm, SAM_ERR_USER,
              "load_n %g: expected a number >= 0", (double)balance->load[0]);
   PetscCall(SamSolverSolve(normal, &kind, &problem, guess));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p)
+{
+  PetscFunctionBegin;
+  PetscCall(SamNormalSolveKeeping(normal, h, balance, guess, p, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -153,6 +153,20 @@ static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewton
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where there is no contact, s is C q alone. It is only wanted there if the product is kept. */
+static void AdvanceOutside(Work *w, double by)
+{
+  const SamStickSlip *u = &w->base;
+
+  for (PetscInt c = 0; c < 2 && by != 0; c++)
+    for (PetscInt j = 0; j < u->rows; j++) {
+      const ptrdiff_t row = c * (ptrdiff_t)u->cells + (ptrdiff_t)j * u->nx;
+
+      for (PetscInt i = 0; i < u->nx; i++)
+        if (i < u->first[j] || i >= u->last[j]) u->s[row + i] += by * (double)w->u[row + i];
+    }
+}
+
 /*
   Step 1, after a step of length t: the sets, the Gram matrix of the tangent space, the unit, the motion that fits best,
   the residual and the error.
@@ -170,6 +184,7 @@ static PetscErrorCode Advance(Work *w, double t)
     SamFrameSolve(u->frame, w->gram, space.slip, a);
     for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
   }
+  if (u->level->product) AdvanceOutside(w, t * w->unit);
   PetscCall(SamMax(u->level->grid->comm, 1, &most));
   w->unit = PetscMax(most, LEAST_UNIT * u->self * u->scale);
   if (w->unit == 0) w->unit = 1;
@@ -281,21 +296,24 @@ static PetscBool IsDownhill(const Work *w)
   return (IsRounding(w) ? w->along > 0 : w->slope < 0) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: one is. */
-static PetscErrorCode Try(Work *w, PetscBool *downhill)
+/*
+  Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: one is. `found`: there is
+  an admissible shear near.
+*/
+static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
 {
   SamStickSlip *u     = &w->base;
   double        alpha = w->alpha;
-  PetscBool     found = PETSC_TRUE;
 
   PetscFunctionBegin;
   *downhill = PETSC_FALSE;
-  for (PetscInt halving = 0; halving <= HALVINGS && found && !*downhill; halving++, alpha *= 0.5) {
+  *found    = PETSC_TRUE;
+  for (PetscInt halving = 0; halving <= HALVINGS && *found && !*downhill; halving++, alpha *= 0.5) {
     for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), alpha);
-    PetscCall(Project(w, NULL, NULL, &found));
-    *downhill = (found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
+    PetscCall(Project(w, NULL, NULL, found));
+    *downhill = (*found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
     if (*downhill) w->alpha = alpha;
-    if (w->along <= 0) break;
+    if (w->along <= 0 || w->whole) break;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -319,10 +337,11 @@ static PetscErrorCode Step(Work *w, double *best)
     SamAddAll(2, totals, row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
-  *best = w->along / (sums[0] + w->bend);
-  least = -w->slope / sums[0];
-  t     = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
-  t     = PetscMin(1, t);
+  *best    = w->along / (sums[0] + w->bend);
+  least    = -w->slope / sums[0];
+  t        = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
+  t        = w->whole ? 1 : PetscMin(1, t);
+  w->whole = PETSC_FALSE;
   SamRoundingAdd(&w->rounding, SAM_SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self);
   PetscCall(Advance(w, t));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -385,12 +404,12 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscFunctionBegin;
   if (!gradient) {
     PetscCall(NewDirection(w));
-    PetscCall(Try(w, downhill));
-    gradient = *downhill ? PETSC_FALSE : PETSC_TRUE;
+    PetscCall(Try(w, downhill, found));
+    gradient = *downhill || w->whole ? PETSC_FALSE : PETSC_TRUE;
   }
   if (gradient) PetscCall(TryGradient(w, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!IsDownhill(w)) { /* the projected gradient is, unless it is rounding */
+  if (!IsDownhill(w) && !w->whole) { /* the projected gradient is, unless it is rounding */
     PetscCall(MoveOnly(w, motion, downhill));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -418,6 +437,27 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  The start, from its product if that is at hand; then the shear may lie outside of the discs. `found` is false when no
+  admissible one is found.
+*/
+static PetscErrorCode Start(Work *w, PetscBool *found)
+{
+  SamLevel *level = w->base.level;
+
+  PetscFunctionBegin;
+  w->whole = SamLevelHasProduct(level);
+  if (w->whole) w->rounding.bound = level->product->rounding;
+  PetscCall(SamStickSlipStart(&w->base));
+  SamLevelForgetProduct(level);
+  PetscCall(Advance(w, 0));
+  PetscCall(Refresh(w));
+  if (!w->whole || Error(w) > level->rtol) PetscFunctionReturn(PETSC_SUCCESS);
+  w->whole = PETSC_FALSE;
+  PetscCall(Finish(w, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *level)
 {
   Work            w = {.alpha = FIRST_LENGTH};
@@ -425,21 +465,21 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   SamSolverReason reason;
   double          best;
   PetscInt        stagnant = 0;
+  PetscBool       found    = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(CreateWork(solver, level, &w));
-  PetscCall(SamStickSlipStart(u));
-  PetscCall(Advance(&w, 0));
+  PetscCall(Start(&w, &found));
   best   = u->error;
-  reason = Reason(&w, stagnant);
+  reason = found ? Reason(&w, stagnant) : SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
   while (!reason) {
-    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE;
-    PetscBool       downhill = PETSC_TRUE, found = PETSC_TRUE;
+    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE, whole = w.whole;
+    PetscBool       downhill = PETSC_TRUE;
 
     PetscCall(Iterate(&w, gradient, &downhill, &found));
     if (downhill && Error(&w) <= level->rtol) PetscCall(Finish(&w, &found));
-    if (!downhill || !found) {
-      reason = SAM_SOLVER_DIVERGED_STAGNATED; /* that the loads can be carried has been checked before */
+    if (!downhill || !found) { /* but for a start that was not admissible, the loads can be carried */
+      reason = whole ? SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM : SAM_SOLVER_DIVERGED_STAGNATED;
       break;
     }
     stagnant = u->error < 0.9 * best ? 0 : stagnant + 1;
@@ -449,6 +489,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   solver->reason = reason;
   solver->error  = Error(&w);
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = u->motion[c];
+  if (level->product && isfinite(u->error)) PetscCall(SamStickSlipKeepProduct(u, w.rounding.bound));
   PetscCall(DestroyWork(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -457,6 +498,7 @@ PetscErrorCode SamTangentialCreate_Newton(SamSolver solver)
 {
   PetscFunctionBegin;
   solver->ops.solve      = SamTangentialSolve_Newton;
+  solver->keeps_product  = PETSC_TRUE;
   solver->default_levels = PETSC_MAX_INT;
   solver->default_max_it = 2000;
   PetscFunctionReturn(PETSC_SUCCESS);

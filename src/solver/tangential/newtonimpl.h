@@ -19,6 +19,7 @@ typedef struct {
   double       along, bend;    /* r.P step; P step.L P step */
   double       size;           /* |step|^2 */
   double       alpha;          /* length of the trial */
+  PetscBool    whole;          /* the next step has length 1, as the shear is not admissible */
   double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
   double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
   SamRounding  rounding;       /* of s/c, in the 2-norm, Pa */

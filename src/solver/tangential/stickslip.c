@@ -7,14 +7,30 @@
 /* The error of a start above which another fit of the motion is tried. */
 #define POOR_START 0.1
 
-/* The columns between which each row has contact. */
+/* Widens a row's columns by those in which it has shear. */
+static void IncludeShear(const SamStickSlip *w, PetscInt j, PetscInt *first, PetscInt *last)
+{
+  for (PetscInt c = 0; c < 2; c++) {
+    const double *q = w->q + c * (ptrdiff_t)w->cells + (ptrdiff_t)j * w->nx;
+
+    for (PetscInt i = 0; i < *first; i++)
+      if (q[i] != 0) *first = i;
+    for (PetscInt i = w->nx - 1; i >= *last; i--)
+      if (q[i] != 0) *last = i + 1;
+  }
+}
+
+/* The columns between which each row has contact, or a start that is not admissible has shear. */
 static PetscErrorCode FindRows(SamStickSlip *w)
 {
   PetscInt *first, *last;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(w->rows, &first, w->rows, &last));
-  for (PetscInt j = 0; j < w->rows; j++) SamBoundRange(w->nx, w->bound + (ptrdiff_t)j * w->nx, &first[j], &last[j]);
+  for (PetscInt j = 0; j < w->rows; j++) {
+    SamBoundRange(w->nx, w->bound + (ptrdiff_t)j * w->nx, &first[j], &last[j]);
+    if (SamLevelHasProduct(w->level)) IncludeShear(w, j, &first[j], &last[j]);
+  }
   w->first = first;
   w->last  = last;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -57,26 +73,45 @@ PetscErrorCode SamStickSlipDestroy(SamStickSlip *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
+/* Adds `times` the offset less the motion, where there is contact. */
+static void AddGiven(const SamStickSlip *w, double s[], double times)
 {
   const SamFrame *f = w->frame;
 
-  PetscFunctionBegin;
-  PetscCall(VecRestoreArray(w->level->traction, &w->q));
-  PetscCall(VecRestoreArray(w->vs, &w->s));
-  PetscCall(SamLevelApply(w->solver, w->level, w->level->traction, w->vs));
-  PetscCall(VecGetArray(w->level->traction, &w->q));
-  PetscCall(VecGetArray(w->vs, &w->s));
   for (PetscInt j = 0; j < w->rows; j++) {
     const double eta = SamFrameEta(f, j);
 
     for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
 
-      w->s[k] += (w->offset ? w->offset[k] : 0) - SamFrameX(w->motion, eta);
-      w->s[l] += (w->offset ? w->offset[l] : 0) - SamFrameY(w->motion, f->xi0 + (double)i * f->dxi);
+      s[k] += times * ((w->offset ? w->offset[k] : 0) - SamFrameX(w->motion, eta));
+      s[l] += times * ((w->offset ? w->offset[l] : 0) - SamFrameY(w->motion, f->xi0 + (double)i * f->dxi));
     }
   }
+}
+
+PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArray(w->level->traction, &w->q));
+  PetscCall(VecRestoreArray(w->vs, &w->s));
+  PetscCall(SamLevelApply(w->solver, w->level, w->level->traction, w->vs));
+  PetscCall(VecGetArray(w->level->traction, &w->q));
+  PetscCall(VecGetArray(w->vs, &w->s));
+  AddGiven(w, w->s, 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *w, double rounding)
+{
+  double *u;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayWrite(w->level->product->field, &u));
+  PetscCall(PetscArraycpy(u, w->s, 2 * w->cells));
+  AddGiven(w, u, -1);
+  PetscCall(VecRestoreArrayWrite(w->level->product->field, &u));
+  SamLevelKeepProduct(w->level, rounding);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -188,7 +223,14 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   double motion[3], back[3], error;
 
   PetscFunctionBegin;
-  PetscCall(SamStickSlipComputeSlip(w));
+  if (SamLevelHasProduct(w->level)) {
+    PetscCall(VecRestoreArray(w->vs, &w->s));
+    PetscCall(VecCopy(w->level->product->field, w->vs));
+    PetscCall(VecGetArray(w->vs, &w->s));
+    AddGiven(w, w->s, 1);
+  } else {
+    PetscCall(SamStickSlipComputeSlip(w));
+  }
   PetscCall(MeasureStart(w));
   if (w->error <= POOR_START || !w->frame->count) PetscFunctionReturn(PETSC_SUCCESS);
   /* is the motion better fitted where cells on their circles may slip along them, and the others stick? */

@@ -185,6 +185,7 @@ static PetscErrorCode SolveFree(SamSolver s, SamLevel *level)
 
   PetscFunctionBegin;
   PetscCall(SamVecZero(level->traction));
+  SamLevelForgetProduct(level);
   for (PetscInt k = 0; k < 3; k++) {
     if (b->force[k] && b->load[k] != 0) loaded = PETSC_TRUE;
     if (b->force[k])
@@ -203,18 +204,23 @@ static PetscErrorCode SolveFree(SamSolver s, SamLevel *level)
 */
 static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
 {
-  PetscBool possible, reached = PETSC_FALSE;
+  PetscBool possible = PETSC_TRUE, reached = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (!guess) PetscCall(SamVecZero(level->traction));
-  PetscCall(MakeAdmissible(level, &possible));
+  if (!guess) SamLevelForgetProduct(level);
+  if (!SamLevelHasProduct(level)) PetscCall(MakeAdmissible(level, &possible)); /* else it would no longer belong to q */
+  if (possible) {
+    PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), guess));
+    possible = s->reason != SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
+  }
   if (!possible) {
+    SamLevelForgetProduct(level);
     PetscCall(SamVecZero(level->traction));
     PetscCall(ComputeLimit(s, level, &reached)); /* independent of the projection, which may fail otherwise */
     s->reason = reached ? SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM : SAM_SOLVER_DIVERGED_STAGNATED;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), guess));
   PetscCall(CheckLimit(s, level));
   if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) PetscFunctionReturn(PETSC_SUCCESS);
   SamLevelGetRigid(level, level->balance);
@@ -287,14 +293,24 @@ PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tang
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance, PetscBool guess,
-                                  Vec q)
+PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
+                                         PetscBool guess, Vec q, SamProduct *product)
 {
-  const SamLevel problem = {
-    .balance = balance, .given = {[SAM_TANGENTIAL_BOUND] = bound, [SAM_TANGENTIAL_OFFSET] = offset}, .traction = q};
+  const SamLevel problem = {.balance  = balance,
+                            .given    = {[SAM_TANGENTIAL_BOUND] = bound, [SAM_TANGENTIAL_OFFSET] = offset},
+                            .traction = q,
+                            .product  = product};
 
   PetscFunctionBegin;
   PetscCall(SamSolverSolve(tangential, &kind, &problem, guess));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance, PetscBool guess,
+                                  Vec q)
+{
+  PetscFunctionBegin;
+  PetscCall(SamTangentialSolveKeeping(tangential, bound, offset, balance, guess, q, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

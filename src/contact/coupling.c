@@ -1,0 +1,209 @@
+/*
+  The coupling of the normal and the tangential problem of dissimilar bodies: pressure displaces the surfaces
+  tangentially, and shear displaces them normally.
+
+  Algorithm; unknown is the lift d, the normal displacement by the shear. A pass:
+    1. The normal problem with the separation h + d gives p.
+    2. The tangential problem with the bound mu p and the displacement by p gives q.
+    3. The lift by q should be d. If it is, up to the error of the normal problem with it, the step is solved: then both
+       problems are, with one and the same p and q.
+    4. Else Anderson's method makes the next d of this and the last passes (mixing.c).
+  Plain passes (Panagiotopoulos 1975, Ing.-Arch. 44, 421) would shrink the error by friction times Dundurs' beta a pass,
+  and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
+  imaginary eigenvalues, for which Anderson's method is made.
+
+  Each pass is solved only a little better than the last error asks for, and starts from the tractions of the last one
+  and their products.
+
+  Gross slip is decided by the coupled problem: where the bound cannot carry the loads, the shear is that of sliding,
+  and the passes go on. If they end there, all slides, and the limit is that of the pressure then.
+*/
+#include "stepimpl.h"
+#include <math.h>
+
+/* The error that the first pass is solved to, and with a guess of p and q. */
+#define FIRST 1e-2
+#define GUESS 1e-3
+/* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
+#define NORMAL_PART      0.1
+#define NORMAL_FINAL     0.3
+#define NORMAL_ENOUGH    0.7 /* the check's scale is the whole displacement, which may be smaller than that by p */
+#define TANGENTIAL_FINAL 0.5
+
+typedef struct {
+  SamSolve *s;
+  SamMixing mixing;
+  Vec       lift;    /* by the shear of this pass */
+  PetscReal error;   /* of the normal problem with it */
+  PetscReal rtol[2]; /* of the normal and the tangential problem, as the user wants them */
+  PetscBool looks;   /* contact may be where it has not been looked for */
+  PetscBool slides;  /* the bound of this pass cannot carry the loads */
+} Passes;
+
+static PetscErrorCode Create(SamSolve *s, const SamStepStart *start, Passes *p)
+{
+  PetscFunctionBegin;
+  *p = (Passes){.s = s, .looks = PETSC_TRUE, .error = start->shear ? GUESS : FIRST};
+  PetscCall(SamMixingCreate(s->c->grid, &p->mixing));
+  PetscCall(SamGridCreateVec(s->c->grid, 1, &p->lift));
+  PetscCall(SamSolverGetTolerances(s->c->normal, &p->rtol[0], NULL));
+  PetscCall(SamSolverGetTolerances(s->c->tangential, &p->rtol[1], NULL));
+  if (start->shear) PetscCall(SamElasticityApplyTangentialToNormal(s->c->elasticity, s->s->shear, s->lift));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(Passes *p)
+{
+  PetscFunctionBegin;
+  SamSolverSetEffort(p->s->c->normal, 0, SAM_EFFORT_FULL);
+  SamSolverSetEffort(p->s->c->tangential, 0, SAM_EFFORT_FULL);
+  PetscCall(SamMixingDestroy(&p->mixing));
+  PetscCall(VecDestroy(&p->lift));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The shear of sliding everywhere: along the motion at the limit of the loads. */
+static PetscErrorCode Slide(Passes *p)
+{
+  const SamGrid grid = p->s->c->grid;
+  PetscReal     limit, motion[3];
+  const double *b;
+  double       *q;
+
+  PetscFunctionBegin;
+  p->slides = PETSC_TRUE;
+  PetscCall(SamBalanceSlideLimit(grid, &p->s->tangential, p->s->s->bound, &limit, motion));
+  PetscCall(VecGetArrayRead(p->s->s->bound, &b));
+  PetscCall(VecGetArray(p->s->s->shear, &q));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscInt k = j * grid->nx + i;
+      const double   x = motion[0] - SamGridY(grid, grid->row_start + j) * motion[2],
+                   y = motion[1] + SamGridX(grid, i) * motion[2], n = hypot(x, y), s = n > 0 && b[k] > 0 ? b[k] / n : 0;
+
+      q[k]               = s > 0 ? s * x : 0; /* and not -0 */
+      q[k + grid->cells] = s > 0 ? s * y : 0;
+    }
+  PetscCall(VecRestoreArray(p->s->s->shear, &q));
+  PetscCall(VecRestoreArrayRead(p->s->s->bound, &b));
+  p->s->shear_product.n[0] = p->s->shear_product.n[1] = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Steps 1 and 2. `first`: what the start has a guess of; later passes start from the last one. */
+static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
+{
+  SamSolve       *s            = p->s;
+  const PetscBool has_pressure = pass > 1 || start->pressure ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool has_shear    = pass > 1 || start->shear ? PETSC_TRUE : PETSC_FALSE;
+  SamSolverReason reason;
+  PetscReal       limit;
+  const PetscReal error = PetscMin(p->error, FIRST);
+
+  PetscFunctionBegin;
+  SamSolverSetEffort(s->c->normal, PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
+                     p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_GLANCE);
+  SamSolverSetEffort(s->c->tangential, PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error),
+                     SAM_EFFORT_FULL);
+  PetscCall(VecCopy(s->lift, s->h));
+  PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(SamSolveJudgeNormal(s));
+  PetscCall(SamProblemComputeBound(s->c->problem, s->s->control.friction_scale, s->s->pressure, s->s->bound));
+  p->slides = PETSC_FALSE;
+  if (s->step->status != SAM_STATUS_CONVERGED) {
+    PetscCall(SamSolveSkipTangential(s));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamSolveTangential(s, has_shear));
+  PetscCall(SamSolverGetReason(s->c->tangential, &reason));
+  PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
+  if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0)
+    PetscCall(Slide(p));
+  else
+    PetscCall(SamSolveJudgeTangential(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Step 3. `solved`: the pressure solves the normal problem with the lift by the shear, and the shear is good enough. */
+static PetscErrorCode Measure(Passes *p, PetscBool *solved)
+{
+  SamSolve       *s      = p->s;
+  const PetscReal before = p->error;
+  SamSolverReason reason;
+  PetscReal       error;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityApplyTangentialToNormal(s->c->elasticity, s->s->shear, p->lift));
+  PetscCall(VecCopy(p->lift, s->h));
+  SamSolverSetEffort(s->c->normal, NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
+  PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
+  PetscCall(SamSolverGetReason(s->c->normal, &reason));
+  if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudgeNormal(s));
+  PetscCall(SamSolverGetStatistics(s->c->normal, &p->error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(s->c->tangential, &error, NULL, NULL, NULL));
+  p->looks = p->error > before ? PETSC_TRUE : PETSC_FALSE;
+  *solved  = (reason > 0 && (p->slides || error <= p->rtol[1])) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
+static PetscErrorCode ComputeChange(SamContact c, Vec now, Vec previous, PetscReal *change)
+{
+  PetscReal size;
+
+  PetscFunctionBegin;
+  PetscCall(VecAYPX(previous, -1, now));
+  PetscCall(SamGridNorm(c->grid, previous, NORM_2, change));
+  PetscCall(SamGridNorm(c->grid, now, NORM_2, &size));
+  *change = *change > 0 ? *change / size : 0;
+  PetscCall(VecCopy(now, previous));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the passes end: solved, or there have been too many. */
+static PetscErrorCode IsLast(Passes *p, PetscInt pass, PetscBool solved, PetscBool *last)
+{
+  SamSolve        *s         = p->s;
+  const SamContact c         = s->c;
+  PetscReal        change[2] = {0, 0};
+  char             message[sizeof(s->step->message)];
+
+  PetscFunctionBegin;
+  PetscCall(ComputeChange(c, s->s->pressure, s->previous_pressure, &change[0]));
+  PetscCall(ComputeChange(c, s->s->shear, s->previous_shear, &change[1]));
+  if (c->coupling_monitor)
+    PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n", pass,
+                          (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
+  *last = solved && (pass == 1 || PetscMax(change[0], change[1]) <= c->coupling_rtol) ? PETSC_TRUE : PETSC_FALSE;
+  if (*last && p->slides) PetscCall(SamSolveJudgeTangential(s));
+  if (*last || pass < c->coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
+  *last = PETSC_TRUE;
+  PetscCall(PetscSNPrintf(
+    message, sizeof(message),
+    "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT " passes", pass));
+  PetscCall(SamStepFail(s->step, SAM_STATUS_NOT_CONVERGED, message));
+  PetscCall(PetscStrncpy(s->step->setting, "coupling_max_it", sizeof(s->step->setting)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveCoupled(SamSolve *s, const SamStepStart *start)
+{
+  Passes    p;
+  PetscBool last = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(Create(s, start, &p));
+  for (PetscInt pass = 1; !last; pass++) {
+    PetscBool solved = PETSC_FALSE;
+
+    PetscCall(Pass(&p, pass, start));
+    s->step->coupling_iterations = pass;
+    if (s->step->status != SAM_STATUS_CONVERGED) break;
+    PetscCall(Measure(&p, &solved));
+    if (s->step->status != SAM_STATUS_CONVERGED) break;
+    PetscCall(IsLast(&p, pass, solved, &last));
+    if (!last) PetscCall(SamMixingNext(&p.mixing, s->s->pressure, p.lift, s->lift));
+  }
+  PetscCall(Destroy(&p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,59 @@
+/* The inside of a step: what its solution and the coupling of its two problems share. */
+#ifndef PETSAM_STEPIMPL_H
+#define PETSAM_STEPIMPL_H
+
+#include "contactimpl.h"
+#include <petsam/private/normalimpl.h>
+#include <petsam/private/tangentialimpl.h>
+
+/* A step under way. */
+typedef struct {
+  SamContact   c;
+  SamSolution *s; /* the tried solution */
+  SamStep     *step;
+  PetscBool    coupled, same_pressure;
+  SamBalance   normal, tangential; /* as prescribed */
+  double       rigid[3];           /* guess of the tangential rigid displacements */
+  /* coupled only */
+  Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
+  Vec        h;                                 /* separation plus lift */
+  SamProduct pressure_product, shear_product;   /* S p and C q of the tried solution */
+  Vec        previous_pressure, previous_shear; /* of the previous pass */
+} SamSolve;
+
+/*
+  SamSolveNormal - the normal problem of the step. `has_pressure`: the tried solution holds a guess; `has_shear`: of the
+  shear too, which then follows the pressure. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
+/* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
+/* SamSolveJudge... - puts down in the step whether that failed. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveJudgeNormal(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveJudgeTangential(SamSolve *solve);
+/* SamSolveSkipTangential - no shear, as the pressure is not right. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
+
+/* SamSolveCoupled - both problems of dissimilar bodies with friction (coupling.c). Collective. */
+PETSC_INTERN PetscErrorCode SamSolveCoupled(SamSolve *solve, const SamStepStart *start);
+
+/*
+  SamMixing - Anderson's acceleration of a fixed-point iteration on fields: from the last arguments and results it makes
+  the next argument (mixing.c).
+*/
+#define SAM_MIXING_DEPTH 6
+typedef struct {
+  SamGrid  grid;
+  PetscInt count, newest;
+  Vec      result[SAM_MIXING_DEPTH], change[SAM_MIXING_DEPTH]; /* change: result - argument, where it counts */
+  double   products[SAM_MIXING_DEPTH][SAM_MIXING_DEPTH];       /* of the changes */
+} SamMixing;
+PETSC_INTERN PetscErrorCode SamMixingCreate(SamGrid grid, SamMixing *mixing);
+PETSC_INTERN PetscErrorCode SamMixingDestroy(SamMixing *mixing);
+/*
+  SamMixingNext - takes an argument and its result, fields of one component, and replaces the argument by the next one.
+  Their difference counts where `weight` is positive. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamMixingNext(SamMixing *mixing, Vec weight, Vec result, Vec argument);
+
+#endif
