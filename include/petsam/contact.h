@@ -79,7 +79,7 @@ typedef struct {
   PetscReal  load[SAM_COMPONENTS];     /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS];    /* m, rad: given or found */
   PetscReal  contact_area, stick_area; /* m2 */
-  PetscReal  dissipated_energy;        /* J, frictional work of the step */
+  PetscReal  dissipated_energy;        /* J, frictional work of the step: slip times the mean bound of the step */
   SamCheck   check;
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
@@ -129,10 +129,10 @@ PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const
 PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 /*
   SamContactSetCoupling - `full`: normal-tangential coupling of dissimilar materials is taken into account (default:
-  true; option -coupling). The normal and the tangential problem are then solved in turn, a pass each, until p and q
-  change by at most `rtol`, relative to their norms, from pass to pass (1e-6; -coupling_rtol), in at most `max_it`
-  passes (100; -coupling_max_it). PETSC_DEFAULT keeps a number. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
-  number that is not positive.
+  true; option -coupling). The normal and the tangential problem are then solved in turn, a pass each, until one p and
+  one q solve both, each to its own tolerance, and neither has changed by more than `rtol` of its norm in the last pass
+  (1e-6; -coupling_rtol); in at most `max_it` passes (100; -coupling_max_it). PETSC_DEFAULT keeps a number. Not
+  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a number that is not positive.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetCoupling(SamContact contact, PetscBool full, PetscReal rtol, PetscInt max_it);
 /* SamContactGetCoupling - whether coupling is taken into account. Not collective. */

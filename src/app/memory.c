@@ -4,12 +4,12 @@
 /*
   Bytes per cell at the peak, shared memory counted once, without the program and its libraries. Measured at 1024 cells
   a side, for contact on half of the grid and on all of it; up to 15 less from 2048 cells on:
-    one step        without friction 72 and 82, with friction 165 and 214, coupled 216 and 283
-    several steps   without friction 255 and 270, with friction 335 and 358, coupled 362 and 401
+    one step        without friction 72 and 82, with friction 165 and 214, coupled 362 and 424
+    several steps   without friction 255 and 270, with friction 335 and 358, coupled 490 and 538
   Several steps need a second state to go back to.
 */
-static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 260}},
-                                               {{265, 365}, {350, 390}}}; /* [several steps][friction][coupled] */
+static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
+                                               {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
 #define BYTES_PROGRAM 50e6 /* the program and its libraries, on each rank */
 
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)

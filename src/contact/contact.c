@@ -156,7 +156,11 @@ PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
 
 /* ---- a step ---- */
 
-/* Areas of contact and of stick, and the frictional work of this step, -sum q.(s - s_before) dA. */
+/*
+  Areas of contact and of stick, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
+  while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
+  steps second order. Before the first step there is no bound; its pressure counts as there before its slip.
+*/
 static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
 {
   const SamSolution *s     = &c->tried.solution;
@@ -164,13 +168,15 @@ static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
   const double       area      = c->grid->dx * c->grid->dy;
   SamTotal           totals[3] = {{0, 0}};
   double             sums[3];
-  const double      *p, *b, *q;
+  const double      *p, *b, *b_before, *q;
   SamIncrement       increment;
+  const Vec          before = c->steps ? c->committed.solution.bound : s->bound;
 
   PetscFunctionBegin;
   PetscCall(SamIncrementCreate(c->grid, c->steps ? &c->committed.solution : NULL, s, &increment));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(before, &b_before));
   PetscCall(VecGetArrayRead(s->shear, &q));
   for (PetscInt j = 0; j < c->grid->rows; j++) {
     const ptrdiff_t first  = (ptrdiff_t)j * nx;
@@ -184,11 +190,13 @@ static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
       if (state == SAM_STATE_OPEN) continue;
       row[0] += 1;
       row[1] += state == SAM_STATE_STICK ? 1 : 0;
-      row[2] -= q[k] * increment.row[0][i] + q[l] * increment.row[1][i];
+      row[2] -= (q[k] * increment.row[0][i] + q[l] * increment.row[1][i]) *
+                (state == SAM_STATE_SLIP && b[k] > 0 ? 0.5 * (b_before[k] + b[k]) / b[k] : 1);
     }
     SamAddAll(3, totals, row);
   }
   PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(before, &b_before));
   PetscCall(VecRestoreArrayRead(s->bound, &b));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
   PetscCall(SamIncrementDestroy(&increment));

@@ -12,8 +12,9 @@
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
 
-  Each pass is solved only a little better than the last error asks for, and starts from the tractions of the last one
-  and their products.
+  Each pass is solved only a little better than the last error asks for. The pressure starts from that of the last pass
+  and its product; so does the shear, once it is near: before, nested grids find the slip zones of the new pressure
+  faster.
 
   Gross slip is decided by the coupled problem: where the bound cannot carry the loads, the shear is that of sliding,
   and the passes go on. If they end there, all slides, and the limit is that of the pressure then.
@@ -24,6 +25,8 @@
 /* The error that the first pass is solved to, and with a guess of p and q. */
 #define FIRST 1e-2
 #define GUESS 1e-3
+/* The error up to which a pass starts from the last shear. */
+#define NEAR 1e-4
 /* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
 #define NORMAL_PART      0.1
 #define NORMAL_FINAL     0.3
@@ -95,7 +98,8 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
 {
   SamSolve       *s            = p->s;
   const PetscBool has_pressure = pass > 1 || start->pressure ? PETSC_TRUE : PETSC_FALSE;
-  const PetscBool has_shear    = pass > 1 || start->shear ? PETSC_TRUE : PETSC_FALSE;
+  /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
+  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR ? PETSC_TRUE : PETSC_FALSE) : start->shear;
   SamSolverReason reason;
   PetscReal       limit;
   const PetscReal error = PetscMin(p->error, FIRST);

@@ -315,6 +315,35 @@ static void test_coupling_can_be_left_out(void **state)
   DestroyCase(&c);
 }
 
+/* The work of friction while force and shear grow together, in this many steps. */
+static double WorkIn(int steps)
+{
+  Case       c     = NewCase(Steel(), 64, 1.4, MU, "");
+  SamControl start = Loads(&c, 0.5, 0, 0, 0); /* without shear, so that there is a bound before the first slip */
+  double     work  = 0;
+
+  (void)Solve(&c, &start);
+  for (int n = 1; n <= steps; n++) {
+    const double     part = (double)n / steps;
+    const SamControl next = Loads(&c, 0.5 + 0.5 * part, 0.6 * part, 0, 0);
+
+    work += Solve(&c, &next).dissipated_energy;
+  }
+  DestroyCase(&c);
+  return work;
+}
+
+/* With the bound at the end of a step instead of the mean one it would be first order: a quarter in place of 1/16. */
+static void test_dissipation_under_changing_pressure_is_of_second_order(void **state)
+{
+  const double exact = WorkIn(48), coarse = fabs(WorkIn(2) - exact), fine = fabs(WorkIn(8) - exact);
+
+  (void)state;
+  if (getenv("SAM_SHOW")) print_message("# %g: %g %g\n", exact, coarse, fine);
+  sam_assert(coarse > 0.01 * exact);
+  sam_assert(fine < 0.1 * coarse);
+}
+
 /* The passes end when both problems are solved, or at the largest number of passes, with a status. */
 static void test_too_few_passes_are_a_status(void **state)
 {
@@ -348,6 +377,21 @@ static void test_coupling_of_large_friction_converges(void **state)
     AssertGood(&step);
     sam_assert(step.check.normal <= 1.05e-8);
     sam_assert(step.normal_applies + step.tangential_applies <= 160);
+    DestroyCase(&c);
+  }
+}
+
+/* Cells that lose contact from pass to pass must not keep their shear. */
+static void test_coupling_without_load_converges(void **state)
+{
+  (void)state;
+  for (int n = 64; n <= 128; n *= 2) {
+    Case             c       = NewCase(NewPair(210e9, 0, INFINITY, 0), n, 1.86, 1, "");
+    const SamControl control = Loads(&c, 1, 0, 0, 0);
+    const SamStep    step    = Try(&c, &control);
+
+    AssertGood(&step);
+    sam_assert(step.coupling_iterations <= 25);
     DestroyCase(&c);
   }
 }
@@ -408,8 +452,10 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_dissimilar_bodies_without_friction_need_one_pass),
     cmocka_unit_test(test_exchanged_bodies_have_the_same_pressure_and_opposite_shear),
     cmocka_unit_test(test_coupling_can_be_left_out),
+    cmocka_unit_test(test_dissipation_under_changing_pressure_is_of_second_order),
     cmocka_unit_test(test_too_few_passes_are_a_status),
     cmocka_unit_test(test_coupling_of_large_friction_converges),
+    cmocka_unit_test(test_coupling_without_load_converges),
     cmocka_unit_test(test_gross_slip_of_dissimilar_bodies_is_decided_with_their_own_pressure),
   };
 

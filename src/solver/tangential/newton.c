@@ -153,20 +153,6 @@ static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewton
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where there is no contact, s is C q alone. It is only wanted there if the product is kept. */
-static void AdvanceOutside(Work *w, double by)
-{
-  const SamStickSlip *u = &w->base;
-
-  for (PetscInt c = 0; c < 2 && by != 0; c++)
-    for (PetscInt j = 0; j < u->rows; j++) {
-      const ptrdiff_t row = c * (ptrdiff_t)u->cells + (ptrdiff_t)j * u->nx;
-
-      for (PetscInt i = 0; i < u->nx; i++)
-        if (i < u->first[j] || i >= u->last[j]) u->s[row + i] += by * (double)w->u[row + i];
-    }
-}
-
 /*
   Step 1, after a step of length t: the sets, the Gram matrix of the tangent space, the unit, the motion that fits best,
   the residual and the error.
@@ -184,7 +170,7 @@ static PetscErrorCode Advance(Work *w, double t)
     SamFrameSolve(u->frame, w->gram, space.slip, a);
     for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
   }
-  if (u->level->product) AdvanceOutside(w, t * w->unit);
+  for (PetscInt j = 0; u->level->product && t > 0 && j < u->rows; j++) SamNewtonOutsideRow(w, j, t * w->unit);
   PetscCall(SamMax(u->level->grid->comm, 1, &most));
   w->unit = PetscMax(most, LEAST_UNIT * u->self * u->scale);
   if (w->unit == 0) w->unit = 1;
@@ -297,8 +283,8 @@ static PetscBool IsDownhill(const Work *w)
 }
 
 /*
-  Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: one is. `found`: there is
-  an admissible shear near.
+  Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: one is. `found`:
+  there is an admissible shear near.
 */
 static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
 {

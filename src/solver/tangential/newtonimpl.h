@@ -42,6 +42,8 @@ typedef struct {
 */
 PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
                                         SamNewtonSpace *space);
+/* s += by u in the cells of row j beside the contact, where s is C q alone; for products that are kept. */
+PETSC_INTERN void SamNewtonOutsideRow(const SamNewton *w, PetscInt j, double by);
 /* Subtracts the motion a from s; r = -P s, in units, and z = w r; adds to the squares of the error. */
 PETSC_INTERN void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],
                                        double squares[SAM_SQUARES]);

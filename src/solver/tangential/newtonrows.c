@@ -59,6 +59,18 @@ SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double
   return most;
 }
 
+void SamNewtonOutsideRow(const SamNewton *w, PetscInt j, double by)
+{
+  const SamStickSlip *u = &w->base;
+
+  for (PetscInt c = 0; c < 2; c++) {
+    const ptrdiff_t row = c * (ptrdiff_t)u->cells + (ptrdiff_t)j * u->nx;
+
+    for (PetscInt i = 0; i < u->nx; i++)
+      if (i < u->first[j] || i >= u->last[j]) u->s[row + i] += by * (double)w->u[row + i];
+  }
+}
+
 SAM_VECTORIZED void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],
                                          double squares[SAM_SQUARES])
 {
