@@ -1,5 +1,10 @@
 /* The load program: made of options and a file, asked for its steps. */
 #include "historyimpl.h"
+#include <float.h>
+#include <math.h>
+
+/* Times nearer than this part of their size are refused: they may be the same number. */
+#define TIME_ROUNDING (4 * DBL_EPSILON)
 
 #define FRICTION "friction_scale"
 
@@ -101,37 +106,6 @@ static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history)
-{
-  SamHistory h;
-  char       file[PETSC_MAX_PATH_LEN] = "";
-  PetscBool  has_file;
-
-  PetscFunctionBegin;
-  PetscCall(PetscNew(&h));
-  *history      = h;
-  h->rows       = 1;
-  h->increments = 1;
-  PetscCall(SamControlInitialize(&h->constant));
-  PetscCall(SamOptionsHeading(from, "Loads and displacements"));
-  PetscCall(ReadFileName(from, file, sizeof(file), &has_file));
-  PetscCall(
-    SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
-  if (has_file) {
-    PetscCall(SamTableRead(from->comm, file, &h->table));
-    h->rows = h->table.rows;
-  }
-  h->time     = SamTableFind(&h->table, "time");
-  h->friction = SamTableFind(&h->table, FRICTION);
-  PetscCheck(h->increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
-             "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
-             " rows is more steps than can be counted (%" PetscInt_FMT ")",
-             SamOptionsPrefix(from), h->increments, h->rows, PETSC_MAX_INT);
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, from, file, c));
-  if (has_file) PetscCall(CheckRows(h, from->comm, file));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamHistoryDestroy(SamHistory *history)
 {
   PetscFunctionBegin;
@@ -174,6 +148,64 @@ static double TimeOfRow(SamHistory h, PetscInt r)
   if (r >= 0) return Entry(h, h->time, r);
   if (Entry(h, h->time, 0) > 0) return 0;
   return Entry(h, h->time, 0) - (h->table.rows > 1 ? Entry(h, h->time, 1) - Entry(h, h->time, 0) : 1);
+}
+
+/*
+  Checks that each row's change can be divided into its steps: that it is a number, and that the times of the steps
+  differ.
+*/
+static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[])
+{
+  const SamTable *t = &h->table;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < t->rows; r++) {
+    const double now = TimeOfRow(h, r), before = TimeOfRow(h, r - 1), each = (now - before) / (double)h->increments;
+
+    for (PetscInt c = 0; c < t->columns; c++)
+      PetscCheck(isfinite(Entry(h, c, r) - (c == h->time ? before
+                                            : r > 0      ? Entry(h, c, r - 1)
+                                                         : 0)),
+                 comm, SAM_ERR_USER, "%s, line %" PetscInt_FMT ": %s %g: its change since the row before is too large",
+                 file, t->line[r], t->name[c], Entry(h, c, r));
+    PetscCheck(each >= TIME_ROUNDING * PetscMax(fabs(now), fabs(before)) && each > 0, comm, SAM_ERR_USER,
+               "%s, line %" PetscInt_FMT ": time %.17g: too near to %.17g, that of the row before, for -steps "
+               "%" PetscInt_FMT ": its steps would have the same time",
+               file, t->line[r], now, before, h->increments);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history)
+{
+  SamHistory h;
+  char       file[PETSC_MAX_PATH_LEN] = "";
+  PetscBool  has_file;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&h));
+  *history      = h;
+  h->rows       = 1;
+  h->increments = 1;
+  PetscCall(SamControlInitialize(&h->constant));
+  PetscCall(SamOptionsHeading(from, "Loads and displacements"));
+  PetscCall(ReadFileName(from, file, sizeof(file), &has_file));
+  PetscCall(
+    SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
+  if (has_file) {
+    PetscCall(SamTableRead(from->comm, file, &h->table));
+    h->rows = h->table.rows;
+  }
+  h->time     = SamTableFind(&h->table, "time");
+  h->friction = SamTableFind(&h->table, FRICTION);
+  PetscCheck(h->increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
+             "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
+             " rows is more steps than can be counted (%" PetscInt_FMT ")",
+             SamOptionsPrefix(from), h->increments, h->rows, PETSC_MAX_INT);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, from, file, c));
+  if (has_file) PetscCall(CheckRows(h, from->comm, file));
+  if (has_file) PetscCall(CheckChanges(h, from->comm, file));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static double ValueOfRow(SamHistory h, PetscInt c, PetscInt r)

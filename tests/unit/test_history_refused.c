@@ -128,6 +128,20 @@ static void test_times_that_do_not_increase_are_refused(void **state)
   AssertMalformed("time,load_tx\n0,2\n-0.0,3\n", 3, "time");
 }
 
+static void test_times_of_steps_that_no_number_can_tell_apart_are_refused(void **state)
+{
+  (void)state;
+  Write("time,load_tx\n1e17,1\n100000000000000064,2\n");
+  AssertRefused("-history test_history.csv -load_n 1 -steps 100", SAM_ERR_USER,
+                "test_history.csv, line 3:", "-steps 100");
+  Write("time,load_tx\n-1.7e308,1\n1.7e308,2\n");
+  AssertRefused("-history test_history.csv -load_n 1", SAM_ERR_USER, "test_history.csv, line ", "time");
+  Write("time,load_tx\n1e-320,1\n1.1e-320,2\n");
+  AssertRefused("-history test_history.csv -load_n 1 -steps 10000", SAM_ERR_USER, "test_history.csv, line ", "time");
+  Write("time,load_tx\n1,-1.7e308\n2,1.7e308\n");
+  AssertRefused("-history test_history.csv -load_n 1", SAM_ERR_USER, "test_history.csv, line 3:", "load_tx");
+}
+
 static void test_negative_normal_forces_are_refused(void **state)
 {
   (void)state;
@@ -282,6 +296,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_numbers_that_are_not_finite_are_refused),
     cmocka_unit_test(test_empty_fields_are_refused),
     cmocka_unit_test(test_times_that_do_not_increase_are_refused),
+    cmocka_unit_test(test_times_of_steps_that_no_number_can_tell_apart_are_refused),
     cmocka_unit_test(test_negative_normal_forces_are_refused),
     cmocka_unit_test(test_negative_friction_scales_are_refused),
     cmocka_unit_test(test_both_columns_of_a_pair_are_refused),
