@@ -37,8 +37,7 @@ struct _n_SamFile {
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_CHECKED, SAM_FILE_READ, SAM_FILE_APPEND } SamFileMode;
 /*
   SamFileOpen - opens a file to READ or to APPEND, or CREATEs it, replacing one of that name; CREATE_CHECKED: in the
-  format that has checksums of HDF5's metadata. A file that is written is locked: a second run is refused. `option` is
-  not copied. Collective. Errors: SAM_ERR_FILE.
+  format that has checksums of HDF5's metadata. A file that is written is locked: a second run is refused. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
