@@ -83,8 +83,7 @@ PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filena
 {
   PetscFunctionBegin;
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
-  PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename,
-             error == EWOULDBLOCK ? "another run is writing it" : strerror(error));
+  PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, strerror(error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -118,21 +117,6 @@ static int ReserveInFile(const char filename[], off_t bytes)
   return close(file) && !error ? errno : error;
 }
 
-/*
-  Locks a file for as long as it stays open, so that no second run writes it; across nodes where the file system allows
-  that. The lock lies beyond all data, where MPI-IO has no locks of its own. Systems without such locks go without.
-*/
-#define LOCK_AT ((off_t)1 << 60)
-static int Lock(int file)
-{
-#if defined(F_OFD_SETLK)
-  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = LOCK_AT, .l_len = 1};
-
-  if (fcntl(file, F_OFD_SETLK, &lock) && (errno == EAGAIN || errno == EACCES)) return EWOULDBLOCK;
-#endif
-  return 0;
-}
-
 /* Whether a file of the name can be written. Does not change an existing file, and removes one that it has created. */
 static int Probe(const char filename[])
 {
@@ -144,8 +128,7 @@ static int Probe(const char filename[])
   if (exists && !S_ISREG(status.st_mode)) return EINVAL; /* a pipe would wait for its reader */
   file = open(filename, O_WRONLY | O_CREAT, 0666);
   if (file < 0) return errno;
-  error = Lock(file);
-  if (!error) error = Reserve(file, SAM_FILE_METADATA, PETSC_FALSE);
+  error = Reserve(file, SAM_FILE_METADATA, PETSC_FALSE);
   if (close(file) && !error) error = errno;
   if (!named && unlink(filename) && !error) error = errno;
   return error;
@@ -242,7 +225,6 @@ static PetscErrorCode Allocate(SamGrid grid, SamEvent event, const char option[]
   f->event  = event;
   f->option = option;
   f->id = f->transfer = -1;
-  f->lock             = -1;
   PetscCallMPI(MPI_Comm_rank(grid->comm, &f->rank));
   PetscCall(PetscStrallocpy(filename, &f->filename));
   *file = f;
@@ -252,7 +234,6 @@ static PetscErrorCode Allocate(SamGrid grid, SamEvent event, const char option[]
 static PetscErrorCode Free(SamFile *file)
 {
   PetscFunctionBegin;
-  if ((*file)->lock >= 0) (void)close((*file)->lock);
   PetscCall(SamGridDestroy(&(*file)->grid));
   PetscCall(PetscFree((*file)->filename));
   PetscCall(PetscFree(*file));
@@ -285,27 +266,12 @@ static PetscErrorCode Examine(SamFile f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Locks a file that is to be written; it stays locked until it is destroyed. */
-static PetscErrorCode LockFile(SamFile f)
-{
-  int error = 0;
-
-  PetscFunctionBegin;
-  if (f->rank == 0) {
-    f->lock = open(f->filename, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    error   = f->lock < 0 ? errno : Lock(f->lock);
-  }
-  PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
 {
   hid_t access;
 
   PetscFunctionBegin;
   if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND) PetscCall(Examine(f));
-  if (f->writing) PetscCall(LockFile(f));
   PetscCall(SamFileBegin(f));
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
   (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));

@@ -24,7 +24,6 @@ struct _n_SamFile {
   /* what it owns; identifiers are negative where nothing is open */
   PetscMPIInt rank;
   hid_t       id, transfer; /* the file; property list for collective transfer */
-  int         lock;         /* descriptor on rank 0 that keeps a file locked that is written; -1: none */
   /* status */
   PetscBool   failed;      /* on this rank; on all after SamFileEnd() or SamFileAgree() */
   char        reason[256]; /* of the first failure */
@@ -37,7 +36,7 @@ struct _n_SamFile {
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_CHECKED, SAM_FILE_READ, SAM_FILE_APPEND } SamFileMode;
 /*
   SamFileOpen - opens a file to READ or to APPEND, or CREATEs it, replacing one of that name; CREATE_CHECKED: in the
-  format that has checksums of HDF5's metadata. A file that is written is locked: a second run is refused. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  format that has checksums of HDF5's metadata. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);

@@ -113,29 +113,6 @@ def test_full_disk_ends_the_run(launcher, small_disk, ranks):
     assert_intact(small_disk / "out" / "out.h5", steps)
 
 
-# ---- no right of its own
-
-
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_second_run_with_the_same_results_is_refused(launcher, folder, ranks):
-    first = start(launcher, folder, 1)
-    wait_for(first, 4)
-    code, steps, complaint = ended(start(launcher, folder, ranks, dict(grid_n=12)))
-    assert code == 3 and steps == 0
-    assert len(complaint) == 1 and "out/out.h5" in complaint[0] and "another run is writing it" in complaint[0]
-    wait_for(first, 8)
-    first.kill()
-    first.wait()
-    with h5py.File(folder / "out" / "out.h5") as f:
-        assert f["pressure"].shape[1:] == (SPHERE["grid_n"],) * 2
-    assert_intact(folder / "out" / "out.h5", 4)
-    # a run that was killed keeps nobody out
-    third = start(launcher, folder, ranks)
-    wait_for(third, 2)
-    third.terminate()
-    third.communicate(timeout=60)
-
-
 # ---- no folder
 
 
