@@ -17,7 +17,7 @@ static void MPIAPI AddTotals(void *in, void *inout, int *n, MPI_Datatype *type)
   (void)type;
   for (int k = 0; k < *n; k++) {
     SamAdd(&b[k], a[k].sum);
-    b[k].rest += a[k].rest;
+    b[k].last += SamAddExactly(&b[k].rest, a[k].rest) + a[k].last;
   }
 }
 
@@ -30,7 +30,7 @@ PetscErrorCode SamInitialize(void)
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(PETSC_SUCCESS);
   initialized = PETSC_TRUE;
-  PetscCallMPI(MPI_Type_contiguous(2, MPI_DOUBLE, &total_type));
+  PetscCallMPI(MPI_Type_contiguous(3, MPI_DOUBLE, &total_type));
   PetscCallMPI(MPI_Type_commit(&total_type));
   PetscCallMPI(MPI_Op_create(AddTotals, 1, &add_totals));
   fftw_mpi_init();
@@ -66,7 +66,11 @@ PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], 
   PetscFunctionBegin;
   PetscCheck(n <= SAM_TOTALS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "At most %d totals", SAM_TOTALS);
   PetscCallMPI(MPI_Allreduce(totals, all, (PetscMPIInt)n, total_type, add_totals, comm));
-  for (PetscInt k = 0; k < n; k++) sums[k] = all[k].sum + all[k].rest;
+  for (PetscInt k = 0; k < n; k++) { /* sum and rest may cancel: first without loss */
+    const double lacks = SamAddExactly(&all[k].sum, all[k].rest);
+
+    sums[k] = all[k].sum + (lacks + all[k].last);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

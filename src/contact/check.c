@@ -173,7 +173,7 @@ static PetscErrorCode CreateBound(SamProblem problem, const SamSolution *s, Vec 
 static PetscErrorCode SumTangential(SamGrid grid, PetscReal self, const SamIncrement *increment, const double bound[],
                                     const double q[], SamCheck *check)
 {
-  SamTotal totals[4] = {{0, 0}};
+  SamTotal totals[4] = {{0}};
   double   sums[4], max[2] = {0, 0};
 
   PetscFunctionBegin;

@@ -166,7 +166,7 @@ static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
   const SamSolution *s     = &c->tried.solution;
   const PetscInt     cells = c->grid->cells, nx = c->grid->nx;
   const double       area      = c->grid->dx * c->grid->dy;
-  SamTotal           totals[3] = {{0, 0}};
+  SamTotal           totals[3] = {{0}};
   double             sums[3];
   const double      *p, *b, *b_before, *q;
   SamIncrement       increment;

@@ -38,7 +38,7 @@ PetscErrorCode SamMixingDestroy(SamMixing *m)
 static PetscErrorCode Add(SamMixing *m, Vec weight, Vec result, Vec argument)
 {
   const PetscInt k = m->count < DEPTH ? m->count : (m->newest + 1) % DEPTH, cells = m->grid->cells, nx = m->grid->nx;
-  SamTotal       totals[DEPTH] = {{0, 0}};
+  SamTotal       totals[DEPTH] = {{0}};
   double         sums[DEPTH], *change;
   const double  *w, *x, *g, *other;
 

@@ -221,7 +221,7 @@ SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict x, double s
 
 PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm)
 {
-  SamTotal      totals[2] = {{0, 0}};
+  SamTotal      totals[2] = {{0}};
   double        sums[2];
   const double *x;
   PetscInt      n;

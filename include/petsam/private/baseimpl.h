@@ -102,20 +102,27 @@ PETSC_EXTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_EXTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
 
 /*
-  SamTotal - a sum with twice the digits of a double. A row of the grid always lies on one rank, so the sum over a row
-  does not depend on the number of ranks. With the sums of the rows added like this, neither does the total: results are
-  the same on any number of ranks. Source: Knuth's exact addition; Hida, Li and Bailey 2001.
+  SamTotal - a sum with three times the digits of a double. A row of the grid always lies on one rank, so the sum over a
+  row does not depend on the number of ranks. With the sums of the rows added like this, neither does the total, even if
+  it nearly vanishes: results are the same on any number of ranks. Source: Knuth's exact addition; Hida, Li and Bailey
+  2001.
 */
 typedef struct {
-  double sum, rest;
+  double sum, rest, last;
 } SamTotal;
+
+/* Adds a value and returns what the rounded sum lacks. */
+static inline double SamAddExactly(double *sum, double value)
+{
+  const double before = *sum, after = before + value, part = after - before;
+
+  *sum = after;
+  return (before - (after - part)) + (value - part);
+}
 
 static inline void SamAdd(SamTotal *total, double value)
 {
-  const double sum = total->sum + value, part = sum - total->sum;
-
-  total->rest += (total->sum - (sum - part)) + (value - part);
-  total->sum = sum;
+  total->last += SamAddExactly(&total->rest, SamAddExactly(&total->sum, value));
 }
 static inline void SamAddAll(PetscInt n, SamTotal totals[], const double values[])
 {

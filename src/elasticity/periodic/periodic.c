@@ -375,7 +375,7 @@ static void SumWaves(SamElasticity e, const Symbol *s, PetscInt m, double sums[3
 static PetscErrorCode ComputeSelfInfluence(SamElasticity e, Periodic *data)
 {
   const Symbol s         = SymbolOf(e, 1, 1);
-  SamTotal     totals[3] = {{0, 0}};
+  SamTotal     totals[3] = {{0}};
   double       sums[3];
   PetscMPIInt  rank, ranks;
 

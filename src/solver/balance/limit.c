@@ -30,7 +30,7 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
 {
   const SamBalance none = {.kind = kind};
   SamFrame         f;
-  SamTotal         totals[3] = {{0, 0}};
+  SamTotal         totals[3] = {{0}};
   double           sums[3];
   const double    *t;
 
@@ -117,7 +117,7 @@ static void AddTolerance(const double a[3], double smoothing, double all, Power 
 static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], const double a[3], double smoothing,
                                     Power *power)
 {
-  SamTotal totals[sizeof(Power) / sizeof(double)] = {{0, 0}};
+  SamTotal totals[sizeof(Power) / sizeof(double)] = {{0}};
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < f->grid->rows; j++) {

@@ -79,7 +79,7 @@ typedef struct {
 /* The dual, its gradient and what goes with them at a. */
 static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void *context, Iterate *at)
 {
-  SamTotal totals[SAM_DUAL] = {{0, 0}};
+  SamTotal totals[SAM_DUAL] = {{0}};
   double   load             = 0;
 
   PetscFunctionBegin;

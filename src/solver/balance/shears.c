@@ -167,7 +167,7 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
   *found = PETSC_FALSE;
   for (PetscInt i = 0; motion && i < 3; i++) motion[i] = 0;
   for (PetscInt time = nearest ? 1 : 0; time < 2 && !*found; time++) {
-    SamTotal totals[SAM_DUAL] = {{0, 0}};
+    SamTotal totals[SAM_DUAL] = {{0}};
     double   a[3]             = {0, 0, 0};
 
     if (f->count)

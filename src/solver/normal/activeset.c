@@ -163,7 +163,7 @@ enum { Z_PHI = 0, U_PHI = 3, Z_R = 6, Z_U = 7, S_R = 8 };
 
 static PetscErrorCode ComputeProducts(Work *w, double sums[PRODUCTS])
 {
-  SamTotal totals[PRODUCTS] = {{0, 0}};
+  SamTotal totals[PRODUCTS] = {{0}};
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -215,7 +215,7 @@ static PetscErrorCode Try(Work *w, double alpha, PetscBool nearest, double motio
                               .nearest = nearest,
                               .made    = w->s,
                               .scale   = 1 / pressure};
-  SamTotal        total    = {0, 0};
+  SamTotal        total    = {0};
   SamRow          row;
   double          most[2];
 
@@ -280,7 +280,7 @@ static void SetLength(Work *w, double t, SamTotal contact[])
 /* s.u */
 static PetscErrorCode ComputeCurvature(Work *w)
 {
-  SamTotal total = {0, 0};
+  SamTotal total = {0};
   SamRow   row;
 
   PetscFunctionBegin;
@@ -333,7 +333,7 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 */
 static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *better)
 {
-  SamTotal ignored[SAM_GAP_TOTALS] = {{0, 0}};
+  SamTotal ignored[SAM_GAP_TOTALS] = {{0}};
 
   PetscFunctionBegin;
   SetLength(w, 1, ignored);
@@ -346,7 +346,7 @@ static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *bett
 /* One iteration. `downhill`: there was a way down, for the energy or the error. `found`: an admissible pressure was. */
 static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, PetscBool *found)
 {
-  SamTotal contact[SAM_GAP_TOTALS] = {{0, 0}}, ignored[SAM_GAP_TOTALS] = {{0, 0}};
+  SamTotal contact[SAM_GAP_TOTALS] = {{0}}, ignored[SAM_GAP_TOTALS] = {{0}};
   double   best = 0, motion[3];
 
   PetscFunctionBegin;

@@ -139,7 +139,7 @@ static SamGapSums ChooseRow(Work *w, PetscInt j, double ease, const double motio
 /* Chooses A by the gap that `motion` has moved back, and adds to it what fits it to A. */
 static PetscErrorCode Choose(Work *w, double ease, double motion[3])
 {
-  SamTotal totals[SAM_GAP_TOTALS] = {{0, 0}};
+  SamTotal totals[SAM_GAP_TOTALS] = {{0}};
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++)

@@ -277,7 +277,7 @@ static PetscErrorCode SetSeparated(SamSolver s, SamLevel *level, const PetscReal
 static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can)
 {
   const SamGrid       grid  = level->grid;
-  SamTotal            total = {0, 0};
+  SamTotal            total = {0};
   SamElasticityTraits traits;
   double              sum;
   const double       *h;

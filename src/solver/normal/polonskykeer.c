@@ -30,7 +30,7 @@ static PetscErrorCode FitOnContact(const Work *w, const double p[], const double
 {
   const SamFrame *f                    = &w->level->frame;
   const PetscInt  nx                   = w->level->grid->nx;
-  SamTotal        totals[3 + SAM_GRAM] = {{0, 0}};
+  SamTotal        totals[3 + SAM_GRAM] = {{0}};
   double          sums[3 + SAM_GRAM];
 
   PetscFunctionBegin;
@@ -60,7 +60,7 @@ static PetscErrorCode ComputeGap(Work *w)
 {
   const SamFrame *f     = &w->level->frame;
   const PetscInt  nx    = w->level->grid->nx;
-  SamTotal        total = {0, 0};
+  SamTotal        total = {0};
   double          a[3] = {0, 0, 0}, max[2] = {0, 0};
   const double   *p, *h;
   double         *g;
@@ -111,7 +111,7 @@ static PetscErrorCode StepLength(const Work *w, const double p[], const double g
 {
   const SamFrame *f         = &w->level->frame;
   const PetscInt  nx        = w->level->grid->nx;
-  SamTotal        totals[2] = {{0, 0}};
+  SamTotal        totals[2] = {{0}};
   double          a[3]      = {0, 0, 0}, sums[2];
 
   PetscFunctionBegin;

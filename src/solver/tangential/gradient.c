@@ -22,7 +22,7 @@
 static PetscErrorCode ComputeEnergy(const SamStickSlip *w, double *energy)
 {
   const SamFrame *f     = w->frame;
-  SamTotal        total = {0, 0};
+  SamTotal        total = {0};
   double          a[3];
 
   PetscFunctionBegin;
@@ -46,7 +46,7 @@ static PetscErrorCode ComputeEnergy(const SamStickSlip *w, double *energy)
 /* Products of the change of q from y with that of s from sy, and with itself: curvature and size of a step. */
 static PetscErrorCode ComputeBend(const SamStickSlip *w, const double y[], const double sy[], double sums[2])
 {
-  SamTotal totals[2] = {{0, 0}};
+  SamTotal totals[2] = {{0}};
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {

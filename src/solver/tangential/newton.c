@@ -137,7 +137,7 @@ static PetscErrorCode ClearMargins(const Work *w)
 static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewtonSpace *space, double *most)
 {
   SamStickSlip *u                 = &w->base;
-  SamTotal      totals[SPACE_MAX] = {{0, 0}};
+  SamTotal      totals[SPACE_MAX] = {{0}};
 
   PetscFunctionBegin;
   *most = 0;
@@ -160,7 +160,7 @@ static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewton
 static PetscErrorCode Advance(Work *w, double t)
 {
   SamStickSlip  *u                    = &w->base;
-  SamTotal       squares[SAM_SQUARES] = {{0, 0}};
+  SamTotal       squares[SAM_SQUARES] = {{0}};
   SamNewtonSpace space;
   double         most = 0, a[3] = {0, 0, 0};
 
@@ -195,7 +195,7 @@ static double Dot(const double a[3], const double b[3])
 static PetscErrorCode NewDirection(Work *w)
 {
   SamStickSlip     *u                                                  = &w->base;
-  SamTotal          totals[sizeof(SamNewtonProducts) / sizeof(double)] = {{0, 0}};
+  SamTotal          totals[sizeof(SamNewtonProducts) / sizeof(double)] = {{0}};
   SamNewtonProducts sums;
   double            a[3], a_step[3], zv, ev, beta = 0;
 
@@ -227,7 +227,7 @@ static PetscErrorCode NewDirection(Work *w)
 static PetscErrorCode Project(Work *w, const float weight[], double motion[3], PetscBool *found)
 {
   SamStickSlip *u         = &w->base;
-  SamTotal      totals[4] = {{0, 0}};
+  SamTotal      totals[4] = {{0}};
   double        sums[4];
 
   PetscFunctionBegin;
@@ -311,7 +311,7 @@ static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
 static PetscErrorCode Step(Work *w, double *best)
 {
   SamStickSlip *u         = &w->base;
-  SamTotal      totals[2] = {{0, 0}};
+  SamTotal      totals[2] = {{0}};
   double        sums[2], least, t;
 
   PetscFunctionBegin;

@@ -187,7 +187,7 @@ static void AddMotion(SamStickSlip *w, const double a[3])
 /* Fits the motion: least squares of s over the tangent space of q - inverse s. */
 static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
 {
-  SamTotal totals[3 + SAM_GRAM] = {{0, 0}};
+  SamTotal totals[3 + SAM_GRAM] = {{0}};
   double   sums[3 + SAM_GRAM], a[3];
 
   PetscFunctionBegin;
@@ -275,7 +275,7 @@ PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_
 
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
-  SamTotal squares[SAM_SQUARES] = {{0, 0}};
+  SamTotal squares[SAM_SQUARES] = {{0}};
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, 1 / w->self));
