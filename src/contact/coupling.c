@@ -65,17 +65,16 @@ static PetscErrorCode Destroy(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear of sliding everywhere: along the motion at the limit of the loads. */
+/* The shear of sliding everywhere: along the motion at the limit of the loads, which the solver has found. */
 static PetscErrorCode Slide(Passes *p)
 {
-  const SamGrid grid = p->s->c->grid;
-  PetscReal     limit, motion[3];
-  const double *b;
-  double       *q;
+  const SamGrid    grid   = p->s->c->grid;
+  const PetscReal *motion = p->s->c->tangential->motion;
+  const double    *b;
+  double          *q;
 
   PetscFunctionBegin;
   p->slides = PETSC_TRUE;
-  PetscCall(SamBalanceSlideLimit(grid, &p->s->tangential, p->s->s->bound, &limit, motion));
   PetscCall(VecGetArrayRead(p->s->s->bound, &b));
   PetscCall(VecGetArray(p->s->s->shear, &q));
   for (PetscInt j = 0; j < grid->rows; j++)
@@ -93,7 +92,7 @@ static PetscErrorCode Slide(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Steps 1 and 2. `first`: what the start has a guess of; later passes start from the last one. */
+/* Steps 1 and 2. The first pass starts from what the start has a guess of, later ones from the last one. */
 static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
 {
   SamSolve       *s            = p->s;

@@ -64,6 +64,12 @@ static inline SamRow SamFrameRow(const SamFrame *f, PetscInt j, PetscInt from, P
                   .eta    = SamFrameEta(f, j)};
 }
 
+/* The product of two combinations of the phi, entry by entry. */
+static inline double SamFrameDot(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* The normal rigid displacement a at (xi, eta), and the two components of the tangential one. */
 static inline double SamFrameNormal(const double a[3], double xi, double eta)
 {

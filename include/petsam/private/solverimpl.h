@@ -116,7 +116,8 @@ struct _n_SamSolver {
   SamSolverReason reason;
   PetscReal       error;
   PetscInt        iterations, applies, preconditions;
-  PetscReal       limit; /* tangential: factor on the loads at which sliding begins; infinite: not looked for */
+  PetscReal       limit;     /* tangential: factor on the loads at which sliding begins; infinite: not looked for */
+  PetscReal       motion[3]; /* tangential: of sliding then, d_x, d_y, r_z */
 };
 
 /* ---- for kinds ---- */

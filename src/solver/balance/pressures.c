@@ -140,24 +140,40 @@ static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
   for (PetscInt k = 0; k < f->grid->cells; k++) p[k] = PetscMax(0, p[k] - (double)cells->made[k] / cells->scale);
 }
 
+/* Makes the rows that cells without a mask or a step of their own stand on: of ones, and of zeros. */
+static PetscErrorCode CreateRows(const SamFrame *f, Cells *cells, float **zeros)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(f->grid->nx, &cells->row));
+  PetscCall(PetscCalloc1(f->grid->nx, zeros));
+  for (PetscInt i = 0; i < f->grid->nx; i++) cells->row[i] = 1;
+  if (cells->by == 0) cells->step = *zeros;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyRows(Cells *cells, float **zeros)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(cells->row));
+  PetscCall(PetscFree(*zeros));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   The projection of the field p + by step. A step that nearly carries the loads takes two passes: one to find the step
   of Newton's method for a, and one that applies it and checks whether that was enough.
 */
 static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], PetscBool *found)
 {
-  const PetscInt nx     = f->grid->nx;
-  double        *before = NULL;
-  float         *zeros, *scratch; /* a row of no step, and of changes that are not wanted */
-  PetscBool      near = PETSC_TRUE;
+  double   *before = NULL;
+  float    *zeros, *scratch; /* a row of no step, and of changes that are not wanted */
+  PetscBool near = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(nx, &cells.row));
-  PetscCall(PetscCalloc2(nx, &zeros, nx, &scratch));
-  for (PetscInt i = 0; i < nx; i++) cells.row[i] = 1;
+  PetscCall(CreateRows(f, &cells, &zeros));
+  PetscCall(PetscCalloc1(f->grid->nx, &scratch));
   cells.field = p;
-  if (cells.by == 0) cells.step = zeros;
-  *found = PETSC_FALSE;
+  *found      = PETSC_FALSE;
   /* where pressures are far above the load, it is lost in their rounding; projected again, they are of its size */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
     const PetscBool once             = (cells.quick && time == 0) ? PETSC_TRUE : PETSC_FALSE;
@@ -182,8 +198,8 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
   if (!*found && cells.made) TakeBack(f, &cells, p);
   PetscCall(PetscFree(before));
-  PetscCall(PetscFree(cells.row));
-  PetscCall(PetscFree2(zeros, scratch));
+  PetscCall(PetscFree(scratch));
+  PetscCall(DestroyRows(&cells, &zeros));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -226,12 +242,8 @@ PetscErrorCode SamFrameClear(const SamFrame *f, const double field[], double a[3
   float *zeros;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(f->grid->nx, &cells.row));
-  PetscCall(PetscCalloc1(f->grid->nx, &zeros));
-  for (PetscInt i = 0; i < f->grid->nx; i++) cells.row[i] = 1;
-  cells.step = zeros;
+  PetscCall(CreateRows(f, &cells, &zeros));
   PetscCall(SamDualVanish(f, PassNormal, &cells, a, clear));
-  PetscCall(PetscFree(cells.row));
-  PetscCall(PetscFree(zeros));
+  PetscCall(DestroyRows(&cells, &zeros));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -48,11 +48,6 @@ static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
   return load > 0 ? size / load : 0;
 }
 
-static double Dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /*
   The Newton step for an error of equilibrium; returns the slope of the dual along it, down being positive. Where the
   Hessian does not see most of the error, as no or too few cells are within their bounds, the step goes along what it
@@ -65,7 +60,7 @@ static double NewtonStep(const SamFrame *f, const SamDual *dual, const double er
 
   if (!(part <= UNSEEN))
     for (PetscInt i = 0; i < 3; i++) step[i] = unseen[i];
-  return Dot(error, step);
+  return SamFrameDot(error, step);
 }
 
 /* An iterate of Newton's method. */
@@ -85,7 +80,7 @@ static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void
   PetscFunctionBegin;
   pass(f, context, at->a, totals);
   PetscCall(SamSumTotals(f->grid->comm, SAM_DUAL, totals, (double *)&at->dual));
-  for (PetscInt k = 0; k < f->count; k++) load += Dot(at->a, f->basis[k]) * f->target[k];
+  for (PetscInt k = 0; k < f->count; k++) load += SamFrameDot(at->a, f->basis[k]) * f->target[k];
   at->dual.value -= load;
   at->size     = Imbalance(f, &at->dual, at->error);
   at->rounding = VALUE_ROUNDING * (fabs(at->dual.value) + 2 * fabs(load));
@@ -93,10 +88,10 @@ static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void
 }
 
 /*
-  A step from `now` to `next`. The value falls by at least a part
-  of what the slope promises, and the slope at the end is no longer most of that at the beginning. The Newton step
-  itself fulfils both near the minimum. Far from it, where the bounds of most cells hold, the dual is nearly linear and
-  a step may be too short by orders of magnitude, so the search goes outward as well.
+  A step from `now` to `next`. The value falls by at least a part of what the slope promises, and the slope at the end
+  is no longer most of that at the beginning. The Newton step itself fulfils both near the minimum. Far from it, where
+  the bounds of most cells hold, the dual is nearly linear and a step may be too short by orders of magnitude, so the
+  search goes outward as well.
 */
 static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void *context, const Iterate *now,
                                  Iterate *next)
@@ -111,7 +106,7 @@ static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void
 
     for (PetscInt i = 0; i < 3; i++) next->a[i] = now->a[i] + t * step[i];
     PetscCall(EvaluateAt(f, pass, context, next));
-    end = Dot(next->error, step);
+    end = SamFrameDot(next->error, step);
     if (now->size <= SAM_BALANCED_ENOUGH) break;                   /* all is rounding */
     fell = t * slope <= now->rounding ? end >= -MUCH_SLOPE * slope /* the value cannot tell */
                                       : next->dual.value <= now->dual.value - ENOUGH_FALL * t * slope;

@@ -191,8 +191,7 @@ static PetscErrorCode NewDirection(Work *w)
   PetscCall(SamLevelPreconditionSingle(w->solver, w->level, w->self, w->z, w->z));
   PetscCall(ComputeProducts(w, sums));
   SamFrameSolve(w->frame, w->gram, sums + Z_PHI, a);
-  if (w->curvature > 0)
-    beta = -(sums[Z_U] - (a[0] * sums[U_PHI] + a[1] * sums[U_PHI + 1] + a[2] * sums[U_PHI + 2])) / w->curvature;
+  if (w->curvature > 0) beta = -(sums[Z_U] - SamFrameDot(a, sums + U_PHI)) / w->curvature;
   if (!(beta > 0) || sums[Z_R] + beta * sums[S_R] < DESCENT * sums[Z_R]) beta = 0;
   for (PetscInt j = 0; j < w->rows; j++)
     for (PetscInt end = 0; NextBusy(w, j, &end, &row);) SamActiveSetDirectionRow(w, row, a, (float)beta);

@@ -65,9 +65,8 @@
 
 typedef SamNewton Work;
 
-#define SPACE     ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
-#define SPACE_MAX (sizeof(SamNewtonSpace) / sizeof(double))
-#define PRODUCTS  ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
+#define SPACE    ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
+#define PRODUCTS ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
 
 /* The root of the number of cells in contact. */
 static PetscErrorCode FindReach(Work *w)
@@ -136,8 +135,8 @@ static PetscErrorCode ClearMargins(const Work *w)
 /* Makes a step of length t and subtracts the motion a, chooses the sets, and sums up over their tangent space. */
 static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewtonSpace *space, double *most)
 {
-  SamStickSlip *u                 = &w->base;
-  SamTotal      totals[SPACE_MAX] = {{0}};
+  SamStickSlip *u             = &w->base;
+  SamTotal      totals[SPACE] = {{0}};
 
   PetscFunctionBegin;
   *most = 0;
@@ -186,16 +185,11 @@ static PetscErrorCode Advance(Work *w, double t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static double Dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Step 2: z = P M r + beta P step, conjugate to the last step. */
 static PetscErrorCode NewDirection(Work *w)
 {
-  SamStickSlip     *u                                                  = &w->base;
-  SamTotal          totals[sizeof(SamNewtonProducts) / sizeof(double)] = {{0}};
+  SamStickSlip     *u                = &w->base;
+  SamTotal          totals[PRODUCTS] = {{0}};
   SamNewtonProducts sums;
   double            a[3], a_step[3], zv, ev, beta = 0;
 
@@ -211,8 +205,8 @@ static PetscErrorCode NewDirection(Work *w)
   /* both are made orthogonal to the phi: sum phi'(z - h P phi a) = 0 */
   SamFrameSolve(u->frame, w->gram, sums.z, a);
   SamFrameSolve(u->frame, w->gram, sums.e, a_step);
-  zv = sums.zv - Dot(a, sums.v);
-  ev = sums.ev - Dot(a_step, sums.v);
+  zv = sums.zv - SamFrameDot(a, sums.v);
+  ev = sums.ev - SamFrameDot(a_step, sums.v);
   if (ev > 0) beta = -zv / ev;
   if (!(beta > 0) || sums.zr + beta * sums.er < DESCENT * sums.zr) beta = 0;
   for (PetscInt c = 0; c < 3; c++) a[c] += beta * a_step[c];

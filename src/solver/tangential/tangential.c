@@ -138,7 +138,8 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 static PetscErrorCode ComputeLimit(SamSolver s, const SamLevel *level, PetscBool *reached)
 {
   PetscFunctionBegin;
-  PetscCall(SamBalanceSlideLimit(level->grid, level->balance, level->given[SAM_TANGENTIAL_BOUND], &s->limit, NULL));
+  PetscCall(
+    SamBalanceSlideLimit(level->grid, level->balance, level->given[SAM_TANGENTIAL_BOUND], &s->limit, s->motion));
   *reached = s->limit <= 1 + LIMIT_ROUNDING ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
