@@ -12,26 +12,36 @@ typedef struct {
 } SamNote;
 
 /*
-  SamCheckpointWrite - writes the committed state of a contact, the parameters that define it, and a program's n notes
-  to an HDF5 file, all ranks together. The file is written as name.tmp, flushed to the disk, and renamed; the previous
-  checkpoint becomes name.1. So once there is a checkpoint, there always is one that can be read, whatever ends the run.
-  Collective. Errors: SAM_ERR_FILE; earlier checkpoints are kept then.
+  SamCheckpoint - the files in which a run keeps its checkpoints: name, name.1 for the one before, and name.tmp for one
+  that is being written. Other runs are kept from them, also on other nodes where the file system has locks.
 */
-PETSC_EXTERN PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact,
+typedef struct _n_SamCheckpoint *SamCheckpoint;
+/*
+  SamCheckpointCreate - takes hold of the files. Collective. Errors: SAM_ERR_FILE for one that cannot be written, is
+  there and is not a checkpoint, or is kept by another run; the handle is NULL then.
+  SamCheckpointDestroy - gives them up, frees the object and sets the handle to NULL. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamCheckpointCreate(SamGrid grid, const char filename[], SamCheckpoint *checkpoint);
+PETSC_EXTERN PetscErrorCode SamCheckpointDestroy(SamCheckpoint *checkpoint);
+/* SamCheckpointNames - the two other names; the caller frees them with PetscFree(). Not collective. */
+PETSC_EXTERN PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **temporary);
+/*
+  SamCheckpointWrite - writes the committed state of a contact, the parameters that define it, and a program's n notes
+  to an HDF5 file, all ranks together. The file is written as name.tmp, sealed with a checksum, flushed to the disk, and
+  renamed; the previous checkpoint becomes name.1. So once there is a checkpoint, there always is one that can be read,
+  whatever ends the run. Collective. Errors: SAM_ERR_FILE; earlier checkpoints are kept then.
+*/
+PETSC_EXTERN PetscErrorCode SamCheckpointWrite(SamCheckpoint checkpoint, SamContact contact,
                                                const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 /*
   SamCheckpointRead - gives a contact the state in a file, to the last bit, on any number of ranks, and reads the notes.
   When the problem's gap is not the one the checkpoint was written with, the next step solves the pressure again and
   keeps the slip. Collective. Errors: SAM_ERR_USER for a checkpoint of another version or with another value of a fixed
-  parameter, which the message names; SAM_ERR_FILE for a file that is missing or damaged (checksums are compared). The
+  parameter, which the message names; SAM_ERR_FILE for a file that is missing or damaged (its checksum is compared). The
   message then names the checkpoint before it, name.1, if that can be read.
 */
 PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact,
                                               const SamParameters *parameters, PetscInt n, const SamNote notes[]);
-/*
-  SamCheckpointCheckName - fails early if a checkpoint of that name cannot be written. Collective. Errors: SAM_ERR_FILE.
-*/
-PETSC_EXTERN PetscErrorCode SamCheckpointCheckName(SamGrid grid, const char filename[]);
 /* SamCheckpointChecksum - a checksum of a field's values by cell, the same on any number of ranks. Collective. */
 PETSC_EXTERN PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 

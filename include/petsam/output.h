@@ -52,12 +52,18 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 
 /*
-  SamOutputCreate - creates the file with the coordinates of the grid and no step yet; replaces a file of that name. All
-  ranks write together through MPI-IO. Collective. Errors: SAM_ERR_FILE when the file cannot be created; one that exists
-  and cannot be written to is left unchanged.
+  SamOutputCreate - creates the file with the coordinates of the grid and no step yet; replaces older results of that
+  name. All ranks write together through MPI-IO. Until it is destroyed, no other run gets the file, but others may read
+  it. Collective. Errors: SAM_ERR_FILE when the file cannot be created, is being written by another run, or is there and
+  is not a results file of petsam; it is left unchanged then.
 */
 PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                             SamOutput *output);
+/*
+  SamOutputNames - the names of the XDMF file beside results and of the file in which SamOutputContinue() writes them
+  again; the caller frees them with PetscFree(). Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamOutputNames(const char filename[], char **xdmf, char **temporary);
 /*
   SamOutputContinue - opens the results of a stopped run, to append to its first `steps` load steps, whose times (s) are
   given. A file that holds exactly these steps and was closed properly is used as it is. Otherwise, as it may end in the
@@ -80,7 +86,8 @@ PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
 /*
   SamOutputWriteStep - appends the numbers of a step to /history and, when `contact` is not NULL, its time and the
   fields of the contact's solution (SamContactGetSolution()). Then flushes: the file is complete up to here, whatever
-  happens later. Collective. Errors: SAM_ERR_FILE. When there is no space for the step, nothing is written and the file
+  happens later. Collective. Errors: SAM_ERR_FILE, also when another program has replaced the file, or changed its
+  size, since the last step. When there is no space for the step, nothing is written and the file
   can be closed. When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and
   the program should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
 */
@@ -95,6 +102,8 @@ PETSC_EXTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal tim
   last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
+/* SamOutputHasReplaced - whether the file has replaced older results. Not collective. */
+PETSC_EXTERN PetscErrorCode SamOutputHasReplaced(SamOutput output, PetscBool *replaced);
 /* SamOutputGetXdmf - the name of the XDMF file beside the results, NULL without one; borrowed. Not collective. */
 PETSC_EXTERN PetscErrorCode SamOutputGetXdmf(SamOutput output, const char **filename);
 /*

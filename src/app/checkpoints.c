@@ -10,10 +10,11 @@
 
 struct _n_SamCheckpoints {
   /* what the user set */
-  MPI_Comm comm;
-  char     filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
-  PetscInt every;                                                     /* load steps, 0: never */
-  double   limit;                                                     /* seconds, 0: none */
+  MPI_Comm      comm;
+  char          filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
+  PetscInt      every;                                                     /* load steps, 0: never */
+  double        limit;                                                     /* seconds, 0: none */
+  SamCheckpoint files;                                                     /* NULL: none */
   /* status */
   double   start, step_start; /* MPI_Wtime() at the start of the run, and of this step */
   double   recent[RECENT];    /* seconds of the last steps */
@@ -108,6 +109,7 @@ PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckp
 PetscErrorCode SamCheckpointsDestroy(SamCheckpoints *checkpoints)
 {
   PetscFunctionBegin;
+  if (*checkpoints) PetscCall(SamCheckpointDestroy(&(*checkpoints)->files));
   PetscCall(PetscFree(*checkpoints));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -133,7 +135,7 @@ PetscErrorCode SamCheckpointsBegin(SamCheckpoints cp, SamGrid grid)
 {
   PetscFunctionBegin;
   cp->step_start = MPI_Wtime();
-  if (cp->filename[0]) PetscCall(SamCheckpointCheckName(grid, cp->filename));
+  if (cp->filename[0]) PetscCall(SamCheckpointCreate(grid, cp->filename, &cp->files));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,7 +183,7 @@ static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamPara
 
   PetscFunctionBegin;
   PetscCall(ChecksumColumns(progress->history, progress->steps, columns));
-  PetscCall(SamCheckpointWrite(cp->filename, contact, parameters, 2, note));
+  PetscCall(SamCheckpointWrite(cp->files, contact, parameters, 2, note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
   cp->last    = progress->steps;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,70 +1,5 @@
 /* The run: reads all options, makes the objects, solves the load steps, writes results and checkpoints. */
 #include "runimpl.h"
-#include <string.h>
-#include <sys/stat.h>
-
-/* ---- files ---- */
-
-/* Whether two names are those of the same file; files that do not exist yet are compared by name. */
-static PetscBool SameFile(const char a[], const char b[])
-{
-  struct stat one, other;
-
-  if (!strcmp(a, b)) return PETSC_TRUE;
-  return (!stat(a, &one) && !stat(b, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino) ? PETSC_TRUE
-                                                                                                          : PETSC_FALSE;
-}
-
-/* PETSc reads these files before anything else, and does not keep the option. */
-static PetscErrorCode RefuseOverwritingOptions(const char option[], const char filename[])
-{
-  char **args;
-  int    count;
-
-  PetscFunctionBegin;
-  PetscCall(PetscGetArgs(&count, &args));
-  for (int k = 1; k + 1 < count; k++)
-    PetscCheck(strcmp(args[k], "-options_file") || !SameFile(args[k + 1], filename), PETSC_COMM_WORLD, SAM_ERR_USER,
-               "-%s %s: would overwrite the file of -options_file", option, filename);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Refuses an output file that would overwrite an input file. With `restart` the file of -restart counts as an input,
-  too: results must not overwrite it, but a new checkpoint may.
-*/
-static PetscErrorCode RefuseOverwriting(const char option[], const char filename[], PetscBool restart)
-{
-  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-friction_file",
-                                       "-load_history", "-restart",        NULL};
-  static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-friction_file", "-history", "-restart"};
-
-  PetscFunctionBegin;
-  PetscCall(RefuseOverwritingOptions(option, filename));
-  for (PetscInt k = 0; inputs[k]; k++) {
-    char      name[PETSC_MAX_PATH_LEN];
-    PetscBool set;
-
-    if (!restart && !strcmp(inputs[k], "-restart")) continue;
-    PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
-    PetscCheck(!set || !SameFile(name, filename), PETSC_COMM_WORLD, SAM_ERR_USER,
-               "-%s %s: would overwrite the file of %s", option, filename, names[k]);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CheckFiles(const SamRun *run)
-{
-  const char *checkpoint, *restart;
-
-  PetscFunctionBegin;
-  PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
-  if (run->has_output) PetscCall(RefuseOverwriting("output", run->filename, PETSC_TRUE));
-  if (checkpoint) PetscCall(RefuseOverwriting("checkpoint", checkpoint, PETSC_FALSE));
-  PetscCheck(!checkpoint || !run->has_output || !SameFile(checkpoint, run->filename), PETSC_COMM_WORLD, SAM_ERR_USER,
-             "-checkpoint %s: is also the file of -output", checkpoint);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* ---- set-up ---- */
 
@@ -135,7 +70,7 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamRunSetUp(SamRun *run)
+PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments)
 {
   const SamOptions from = {PETSC_COMM_WORLD, NULL};
   PetscBool        help;
@@ -144,7 +79,7 @@ PetscErrorCode SamRunSetUp(SamRun *run)
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(ReadOptions(run, &from));
-  PetscCall(CheckFiles(run));
+  PetscCall(SamRunCheckFiles(run, from.comm, arguments));
   PetscCall(SamRunRefuseTooLarge(run->grid, &run->needs, &from));
   PetscCall(SamProblemGetGap(run->problem, &gap));
   if (!help) PetscCall(SamGapFill(run->gap, run->grid, gap));
@@ -205,10 +140,12 @@ static PetscErrorCode ContinueResults(SamRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Restores the state of a stopped run, if there is one, prints the banner, and opens the results. */
+/* Restores the state of a stopped run, if there is one, opens the results, and prints the banner. */
 static PetscErrorCode Begin(SamRun *run)
 {
   const char *checkpoint, *restart;
+  char        results[PETSC_MAX_PATH_LEN + 32];
+  PetscBool   replaced = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
@@ -217,12 +154,14 @@ static PetscErrorCode Begin(SamRun *run)
     PetscCall(SamReportSetRestart(run->report, restart, run->point.steps));
   }
   PetscCall(SamCheckpointsBegin(run->checkpoints, run->grid));
-  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->needs), run->needs.steps,
-                            run->has_output ? run->filename : NULL));
   if (run->has_output && restart)
     PetscCall(ContinueResults(run));
   else if (run->has_output)
     PetscCall(CreateResults(run));
+  if (run->output) PetscCall(SamOutputHasReplaced(run->output, &replaced));
+  PetscCall(PetscSNPrintf(results, sizeof(results), "%s%s", run->filename, replaced ? ", replacing those there" : ""));
+  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->needs), run->needs.steps,
+                            run->has_output ? results : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -4,6 +4,7 @@
 
 #include <petsam.h>
 #include <petsam/private/baseimpl.h>
+#include "arguments.h"
 #include "checkpoints.h"
 #include "report.h"
 
@@ -36,7 +37,12 @@ typedef struct {
 } SamRun;
 
 /* SamRunSetUp - reads all options and input files and makes all objects; writes nothing. Collective. */
-PETSC_INTERN PetscErrorCode SamRunSetUp(SamRun *run);
+PETSC_INTERN PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments);
+/*
+  SamRunCheckFiles - refuses names by which the run would replace a file that it reads, or one file of its own by
+  another, and viewers of PETSc that cannot be opened. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamRunCheckFiles(const SamRun *run, MPI_Comm comm, const SamArguments *arguments);
 /* SamRunSolve - banner, restart, all load steps with their results and checkpoints, closing table. Collective. */
 PETSC_INTERN PetscErrorCode SamRunSolve(SamRun *run);
 /* SamRunTearDown - destroys all objects, also after an error. Collective. */

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 /* The error that rank 0 found, which all ranks raise; code 0: none. */
 typedef struct {
@@ -106,15 +107,19 @@ static PetscErrorCode Grow(SamTable *t, PetscInt *room)
 
 static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
 {
-  FILE    *stream = fopen(file, "r");
-  char    *buffer = NULL;
-  size_t   size   = 0;
-  ssize_t  length;
-  PetscInt line = 0, room = 0;
+  struct stat status;
+  FILE       *stream;
+  char       *buffer = NULL;
+  size_t      size   = 0;
+  ssize_t     length;
+  PetscInt    line = 0, room = 0;
 
   PetscFunctionBegin;
+  errno  = 0; /* a pipe, or a device, could keep the run waiting */
+  stream = stat(file, &status) || !S_ISREG(status.st_mode) ? NULL : fopen(file, "r");
   if (!stream) {
-    PetscCall(Judge(verdict, SAM_ERR_FILE, "-history %s: cannot be read: %s", file, strerror(errno)));
+    PetscCall(Judge(verdict, SAM_ERR_FILE, "-history %s: cannot be read: %s", file,
+                    errno ? strerror(errno) : "it is not a file"));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   errno = 0;

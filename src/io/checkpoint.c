@@ -1,14 +1,16 @@
 /*
   The state of a contact in a file: SamContactState, the parameters that define the contact, and a program's notes.
 
-  The fields are datasets of shape (components, ny, nx), each with a checksum that does not depend on the number of
-  ranks. All else is stored as attributes of the root group; HDF5 keeps checksums of these in the format used here.
+  The fields are datasets of shape (components, ny, nx). All else is stored as attributes of the root group. The whole
+  file is sealed with a checksum (seal.c).
 */
 #include "ioimpl.h"
 #include <petsam/checkpoint.h>
 #include <string.h>
+#include <unistd.h>
 
-#define FORMAT  2  /* version of a checkpoint's contents */
+#define OPTION "checkpoint"
+
 #define NUMBERS 29 /* numbers of a solution: control, loads, rigid displacements */
 
 /* The fields and their names in the file. Those one step back are missing before the second step. */
@@ -30,6 +32,12 @@ static Vec *FieldOf(SamContactState *state, PetscInt k)
 {
   return (Vec *)((char *)state + kept[k].offset);
 }
+
+struct _n_SamCheckpoint {
+  SamGrid grid;
+  char   *filename, *before, *temporary;
+  SamHold hold; /* of the temporary file */
+};
 
 /* ---- checksums ---- */
 
@@ -129,14 +137,11 @@ static PetscErrorCode WriteField(SamFile f, const char name[], PetscInt componen
   const hid_t   space   = SamFileNote(f, H5Screate_simple(3, size, NULL)),
               creation  = SamFileNote(f, H5Pcreate(H5P_DATASET_CREATE));
   const PetscScalar *values;
-  uint64_t           checksum;
   hid_t              dataset;
 
   PetscFunctionBegin;
   (void)SamFileNote(f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
   dataset = SamFileNote(f, H5Dcreate2(f->id, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  PetscCall(SamCheckpointChecksum(f->grid, field, &checksum));
-  SamFileWriteAttribute(f, dataset, "checksum", H5T_STD_U64LE, H5T_NATIVE_UINT64, 1, &checksum);
   PetscCall(VecGetArrayRead(field, &values));
   for (PetscInt c = 0; c < components; c++)
     SamFileWriteLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
@@ -151,7 +156,6 @@ static PetscErrorCode ReadField(SamFile f, const char name[], PetscInt component
 {
   const hid_t  dataset = SamFileNote(f, H5Dopen2(f->id, name, H5P_DEFAULT));
   PetscScalar *values;
-  uint64_t     written = 0, read = 0;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(f->grid, components, field));
@@ -159,14 +163,7 @@ static PetscErrorCode ReadField(SamFile f, const char name[], PetscInt component
   for (PetscInt c = 0; c < components; c++)
     SamFileReadLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
   PetscCall(VecRestoreArray(*field, &values));
-  SamFileReadAttribute(f, dataset, "checksum", H5T_NATIVE_UINT64, 1, &written);
   if (dataset >= 0) (void)SamFileNote(f, H5Dclose(dataset));
-  PetscCall(SamFileAgree(f));
-  PetscCall(SamCheckpointChecksum(f->grid, *field, &read));
-  if (!f->failed && read != written) {
-    (void)SamFileNote(f, -1);
-    (void)snprintf(f->reason, sizeof(f->reason), "it is damaged: the checksum of %s is wrong", name);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -203,14 +200,12 @@ typedef struct {
 
 static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, const Rest *rest)
 {
-  const int64_t format = FORMAT;
-  off_t         bytes  = 0;
+  off_t bytes = 0;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KEPT; k++) bytes += (off_t)sizeof(double) * kept[k].components * f->grid->nx * f->grid->ny;
   PetscCall(SamFileReserve(f, bytes));
   PetscCall(SamFileBegin(f));
-  SamFileWriteAttribute(f, f->id, "checkpoint_format", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &format);
   SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
   SamParametersWrite(f, rest->parameters);
   SamFileWriteAttribute(f, f->id, "gap_checksum", H5T_STD_U64LE, H5T_NATIVE_UINT64, 1, &gap);
@@ -225,43 +220,96 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointWrite(const char filename[], SamContact contact, const SamParameters *parameters,
-                                  PetscInt n, const SamNote notes[])
+/* Writes and seals the file, which has no name of its own yet. */
+static PetscErrorCode WriteFile(SamCheckpoint cp, SamContactState *state, uint64_t gap, const Rest *rest)
 {
-  const Rest      rest = {parameters, n, notes};
-  SamContactState state;
-  SamGrid         grid;
-  SamFile         f;
-  uint64_t        gap;
-  char            temporary[PETSC_MAX_PATH_LEN + 8], before[PETSC_MAX_PATH_LEN + 8];
-  PetscErrorCode  ierr;
+  SamFile        f;
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(SamInitialize());
-  PetscCall(SamContactGetGrid(contact, &grid));
-  PetscCall(SamContactGetState(contact, &state));
-  PetscCall(GapChecksum(contact, &gap));
-  PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", filename));
-  PetscCall(PetscSNPrintf(before, sizeof(before), "%s.1", filename));
-  PetscCall(SamFileCheckName(grid, "checkpoint", temporary));
-  PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "checkpoint", temporary, SAM_FILE_CREATE_CHECKED, &f));
-  ierr = WriteAll(f, &state, gap, &rest);
-  if (ierr && !f->rank) (void)remove(temporary);
+  PetscCall(SamFileOpen(cp->grid, SAM_EVENT_CHECKPOINT, OPTION, cp->temporary, SAM_FILE_CREATE_SEALED, &f));
+  ierr = WriteAll(f, state, gap, rest);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
   PetscCall(SamFileDestroy(&f, PETSC_TRUE));
-  PetscCall(SamFileReplace(grid, "checkpoint", temporary, filename, before));
+  PetscCall(SamSealWrite(cp->grid, OPTION, cp->temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointCheckName(SamGrid grid, const char filename[])
+PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamParameters *parameters, PetscInt n,
+                                  const SamNote notes[])
 {
-  char temporary[PETSC_MAX_PATH_LEN + 8];
+  const Rest      rest = {parameters, n, notes};
+  SamContactState state;
+  uint64_t        gap;
+  PetscErrorCode  ierr;
 
   PetscFunctionBegin;
-  PetscCall(SamFileCheckName(grid, "checkpoint", filename));
-  PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", filename));
-  PetscCall(SamFileCheckName(grid, "checkpoint", temporary));
+  PetscCall(SamContactGetState(contact, &state));
+  PetscCall(GapChecksum(contact, &gap));
+  ierr = WriteFile(cp, &state, gap, &rest);
+  if (ierr && cp->hold.file >= 0) (void)!ftruncate(cp->hold.file, 0); /* gives back the space */
+  PetscCall(ierr);
+  PetscCall(SamFileReplace(cp->grid, OPTION, cp->temporary, cp->filename, cp->before));
+  PetscCall(SamHoldTakeNext(cp->grid, OPTION, cp->temporary, &cp->hold));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes hold of the temporary file. A run that has just renamed its own still holds the checkpoint itself. */
+static PetscErrorCode TakeNames(SamCheckpoint cp)
+{
+  PetscFunctionBegin;
+  PetscCall(SamHoldTake(cp->grid, OPTION, cp->temporary, SAM_FILE_TEMPORARY, &cp->hold));
+  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->filename, SAM_FILE_CHECKPOINT));
+  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->before, SAM_FILE_CHECKPOINT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointCreate(SamGrid grid, const char filename[], SamCheckpoint *checkpoint)
+{
+  SamCheckpoint  cp;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(PetscNew(&cp));
+  PetscCall(SamGridReference(grid));
+  cp->grid      = grid;
+  cp->hold.file = -1;
+  PetscCall(PetscStrallocpy(filename, &cp->filename));
+  PetscCall(SamCheckpointNames(filename, &cp->before, &cp->temporary));
+  ierr = TakeNames(cp);
+  if (ierr) (void)SamCheckpointDestroy(&cp);
+  *checkpoint = cp;
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointDestroy(SamCheckpoint *checkpoint)
+{
+  SamCheckpoint cp = *checkpoint;
+
+  PetscFunctionBegin;
+  *checkpoint = NULL;
+  if (!cp) PetscFunctionReturn(PETSC_SUCCESS);
+  SamHoldRelease(cp->temporary, &cp->hold);
+  PetscCall(SamGridDestroy(&cp->grid));
+  PetscCall(PetscFree(cp->filename));
+  PetscCall(PetscFree(cp->before));
+  PetscCall(PetscFree(cp->temporary));
+  PetscCall(PetscFree(cp));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **temporary)
+{
+  const size_t size = strlen(filename) + sizeof(".tmp");
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(size, before));
+  PetscCall(PetscMalloc1(size, temporary));
+  (void)snprintf(*before, size, "%s.1", filename);
+  (void)snprintf(*temporary, size, "%s.tmp", filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -297,19 +345,12 @@ static PetscErrorCode ReadFields(SamFile f, SamContactState *state)
 
 static PetscErrorCode ReadAll(SamFile f, const Rest *rest, SamContactState *state, uint64_t *gap)
 {
-  int64_t   format       = 0;
-  char      message[256] = "it was written by another version of petsam";
+  char      message[256] = "";
   PetscBool good         = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamFileBegin(f));
-  if (H5Aexists(f->id, "checkpoint_format") > 0)
-    SamFileReadAttribute(f, f->id, "checkpoint_format", H5T_NATIVE_INT64, 1, &format);
-  else {
-    (void)SamFileNote(f, -1);
-    (void)snprintf(f->reason, sizeof(f->reason), "it is not a checkpoint");
-  }
-  if (!f->failed && format == FORMAT) PetscCall(IsUsable(f, rest->parameters, message, sizeof(message), &good));
+  PetscCall(IsUsable(f, rest->parameters, message, sizeof(message), &good));
   if (!f->failed && good) {
     SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, gap);
     for (PetscInt k = 0; k < rest->n; k++)
@@ -332,6 +373,7 @@ static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(state, sizeof(*state)));
+  PetscCall(SamSealCheck(grid, "restart", filename));
   PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
   ierr = ReadAll(f, rest, state, gap);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
@@ -357,15 +399,17 @@ static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *re
 {
   SamContactState state;
   uint64_t        gap;
-  char            before[PETSC_MAX_PATH_LEN + 8], ignored[1024];
+  char            ignored[1024], *before, *temporary;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(before, sizeof(before), "%s.1", filename));
+  PetscCall(SamCheckpointNames(filename, &before, &temporary));
   PetscCall(PetscPushErrorHandler(Keep, ignored));
   if (!ReadFile(grid, before, rest, &state, &gap))
     (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
   PetscCall(PetscPopErrorHandler());
   PetscCall(DestroyFields(&state));
+  PetscCall(PetscFree(before));
+  PetscCall(PetscFree(temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -234,27 +234,39 @@ static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Copies the wanted steps to a new file, which replaces the old one. */
-static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const Wanted *wanted, hsize_t keep)
+/* Copies the wanted steps to a new file. */
+static PetscErrorCode WriteCopy(SamOutput from, const SamOutputSettings *set, const Wanted *wanted, hsize_t keep,
+                                const char temporary[])
 {
   SamOutputSettings plain = *set;
   SamOutput         to;
-  char              temporary[PETSC_MAX_PATH_LEN + 16];
   PetscErrorCode    ierr;
 
   PetscFunctionBegin;
   plain.xdmf           = PETSC_FALSE;
   plain.friction_scale = set->friction_scale || HasOptional(from) ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(PetscSNPrintf(temporary, sizeof(temporary), "%s.tmp", from->f->filename));
-  PetscCall(SamOutputCreate(from->f->grid, temporary, &plain, &to));
+  PetscCall(SamOutputCreateAs(from->f->grid, temporary, SAM_FILE_TEMPORARY, &plain, &to));
   ierr = CopyAll(from, wanted, keep, to);
-  if (ierr) {
-    (void)SamOutputDestroy(&to);
-    if (!from->f->rank) (void)remove(temporary);
-  }
+  if (ierr) (void)SamOutputDestroy(&to);
   PetscCall(ierr);
+  to->hold.use = SAM_FILE_RESULTS; /* it is complete, and gets its name now */
   PetscCall(SamOutputDestroy(&to));
-  PetscCall(SamFileReplace(from->f->grid, "output", temporary, from->f->filename, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Copies the wanted steps to a new file, which replaces the old one. */
+static PetscErrorCode Rewrite(SamOutput from, const SamOutputSettings *set, const Wanted *wanted, hsize_t keep)
+{
+  char          *xdmf, *temporary;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamOutputNames(from->f->filename, &xdmf, &temporary));
+  ierr = WriteCopy(from, set, wanted, keep, temporary);
+  if (!ierr) ierr = SamFileReplace(from->f->grid, "output", temporary, from->f->filename, NULL);
+  PetscCall(PetscFree(xdmf));
+  PetscCall(PetscFree(temporary));
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -286,6 +298,29 @@ static PetscErrorCode MarkOpen(SamOutput o)
   (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
   (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Opens the file, or first writes it again; `hold` is of the file that is there at the end. */
+static PetscErrorCode OpenOrRewrite(SamGrid grid, const char filename[], const SamOutputSettings *set,
+                                    const Wanted *wanted, SamHold *hold, SamOutput *output)
+{
+  Found          found;
+  PetscErrorCode ierr = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamHoldTake(grid, "output", filename, SAM_FILE_OLD_RESULTS, hold));
+  PetscCall(Open(grid, filename, SAM_FILE_READ, set, wanted, output, &found));
+  if (!found.whole) ierr = Rewrite(*output, set, wanted, found.keep);
+  PetscCall(SamOutputDestroy(output));
+  PetscCall(ierr);
+  if (!found.whole) PetscCall(SamHoldTakeNext(grid, "output", filename, hold));
+  PetscCall(Open(grid, filename, SAM_FILE_APPEND, set, wanted, output, &found));
+  PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program",
+             filename);
+  (*output)->steps = found.steps;
+  (*output)->saved = found.saved;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -294,21 +329,16 @@ PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamO
                                  SamOutput *output)
 {
   const Wanted   wanted = {parameters, (hsize_t)steps, times};
-  Found          found;
-  PetscErrorCode ierr = 0;
+  SamHold        hold   = {.file = -1};
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
   *output = NULL;
   PetscCall(SamInitialize());
-  PetscCall(Open(grid, filename, SAM_FILE_READ, set, &wanted, output, &found));
-  if (!found.whole) ierr = Rewrite(*output, set, &wanted, found.keep);
-  PetscCall(SamOutputDestroy(output));
+  ierr = OpenOrRewrite(grid, filename, set, &wanted, &hold, output);
+  if (ierr) SamHoldRelease(filename, &hold);
   PetscCall(ierr);
-  PetscCall(Open(grid, filename, SAM_FILE_APPEND, set, &wanted, output, &found));
-  PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program",
-             filename);
-  (*output)->steps = found.steps;
-  (*output)->saved = found.saved;
+  (*output)->hold = hold;
   PetscCall(MarkOpen(*output));
   if (set->xdmf) PetscCall(RewriteXdmf(*output));
   PetscFunctionReturn(PETSC_SUCCESS);

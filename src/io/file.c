@@ -2,15 +2,13 @@
   An HDF5 file that all ranks write or read together through MPI-IO.
 
   Open MPI's collective writes, and HDF5 when it flushes its metadata, may hang for ever if writing fails on one rank
-  only. So rank 0 looks for the likely failures before MPI-IO meets them: a name that cannot be written, and, by
-  allocating the space first, a full disk or quota. The file is then still consistent and can be closed.
+  only. So rank 0 looks for the likely failures before MPI-IO meets them (disk.c). The file is then still consistent and
+  can be closed.
 */
 #include "ioimpl.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 /* ---- errors ---- */
@@ -79,139 +77,6 @@ hid_t SamFileNote(SamFile f, hid_t result)
   return result;
 }
 
-PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error)
-{
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
-  PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, strerror(error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- before HDF5 uses the file, on rank 0; these return an errno or 0 ---- */
-
-/* Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer, else it is as before. */
-static int Reserve(int file, off_t bytes, PetscBool keep)
-{
-  struct stat    status;
-  struct statvfs space;
-  int            error = EOPNOTSUPP;
-
-  if (fstat(file, &status)) return errno;
-#if defined(__linux__)
-  error = fallocate(file, 0, status.st_size, bytes) ? errno : 0;
-  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* after an error, a part may be allocated */
-#endif
-  if (error != EOPNOTSUPP && error != ENOSYS) return error;
-  if (fstatvfs(file, &space)) return errno;
-  if ((double)space.f_bavail * (double)space.f_frsize < (double)bytes) return ENOSPC;
-  return keep && ftruncate(file, status.st_size + bytes) ? errno : 0;
-}
-
-static int ReserveInFile(const char filename[], off_t bytes)
-{
-  const int file = open(filename, O_WRONLY);
-  int       error;
-
-  if (file < 0) return errno;
-  error = Reserve(file, bytes, PETSC_TRUE);
-  return close(file) && !error ? errno : error;
-}
-
-/* Whether a file of the name can be written. Does not change an existing file, and removes one that it has created. */
-static int Probe(const char filename[])
-{
-  struct stat status, link;
-  const int   exists = !stat(filename, &status), named = !lstat(filename, &link); /* a link may be dangling */
-  int         file, error;
-
-  if (exists && S_ISDIR(status.st_mode)) return EISDIR;
-  if (exists && !S_ISREG(status.st_mode)) return EINVAL; /* a pipe would wait for its reader */
-  file = open(filename, O_WRONLY | O_CREAT, 0666);
-  if (file < 0) return errno;
-  error = Reserve(file, SAM_FILE_METADATA, PETSC_FALSE);
-  if (close(file) && !error) error = errno;
-  if (!named && unlink(filename) && !error) error = errno;
-  return error;
-}
-
-PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[])
-{
-  PetscMPIInt rank;
-  int         error = 0;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
-  if (rank == 0) error = Probe(filename);
-  PetscCall(SamFileRaise(grid, option, filename, error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
-{
-  int error = 0;
-
-  PetscFunctionBegin;
-  if (f->rank == 0) error = ReserveInFile(f->filename, SAM_FILE_METADATA + bytes);
-  PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- the disk, on rank 0 ---- */
-
-/* Flushes a file, or a folder's list of names, to the disk. Returns an errno or 0. */
-static int Sync(const char name[], int flags)
-{
-  const int file = open(name, flags);
-  int       error;
-
-  if (file < 0) return errno;
-  error = fsync(file) && errno != EINVAL && errno != EROFS ? errno : 0; /* some systems cannot flush folders */
-  return close(file) && !error ? errno : error;
-}
-
-static int SyncFolderOf(const char filename[])
-{
-  const char *slash = strrchr(filename, '/');
-  char        folder[PETSC_MAX_PATH_LEN];
-
-  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
-                 slash ? filename : ".");
-  return Sync(folder, O_RDONLY | O_DIRECTORY);
-}
-
-/*
-  Gives a file the second name `kept`, replacing a file of that name; if there is no file, does nothing. Where the file
-  system has no hard links, the file is renamed and loses its first name.
-*/
-static int KeepAs(const char filename[], const char kept[])
-{
-  char temporary[PETSC_MAX_PATH_LEN + 16];
-
-  if (access(filename, F_OK)) return 0;
-  (void)snprintf(temporary, sizeof(temporary), "%s.tmp", kept);
-  (void)unlink(temporary);
-  if (!link(filename, temporary)) return rename(temporary, kept) ? errno : 0;
-  return rename(filename, kept) ? errno : 0;
-}
-
-PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[], const char filename[],
-                              const char kept[])
-{
-  PetscMPIInt rank;
-  int         error = 0;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
-  if (rank == 0) {
-    error = Sync(temporary, O_RDONLY);
-    if (!error && kept) error = KeepAs(filename, kept);
-    if (!error && rename(temporary, filename)) error = errno;
-    if (!error) error = SyncFolderOf(filename);
-  }
-  PetscCall(SamFileRaise(grid, option, filename, error));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the file ---- */
 
 static PetscErrorCode Allocate(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFile *file)
@@ -268,7 +133,7 @@ static PetscErrorCode Examine(SamFile f)
 
 static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
 {
-  hid_t access;
+  hid_t access, creation;
 
   PetscFunctionBegin;
   if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND) PetscCall(Examine(f));
@@ -276,16 +141,17 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
   (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));
   (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
-  /* the newest format has checksums of the metadata */
-  if (mode == SAM_FILE_CREATE_CHECKED)
-    (void)SamFileNote(f, H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST));
+  creation = SamFileNote(f, H5Pcreate(H5P_FILE_CREATE));
+  if (mode == SAM_FILE_CREATE_SEALED) (void)SamFileNote(f, H5Pset_userblock(creation, SAM_SEAL));
   f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
   (void)SamFileNote(f, H5Pset_dxpl_mpio(f->transfer, H5FD_MPIO_COLLECTIVE));
   if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND)
     f->id = SamFileNote(f, H5Fopen(f->filename, f->writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access));
   else
-    f->id = SamFileNote(f, H5Fcreate(f->filename, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+    f->id = SamFileNote(f, H5Fcreate(f->filename, H5F_ACC_TRUNC, creation, access));
   (void)SamFileNote(f, H5Pclose(access));
+  (void)SamFileNote(f, H5Pclose(creation));
+  SamFileRemoveLeftOvers(f);
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -33,10 +33,10 @@ struct _n_SamFile {
 
 #define SAM_FILE_METADATA (1 << 20) /* bytes, more than HDF5's metadata take at creation or in a step */
 
-typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_CHECKED, SAM_FILE_READ, SAM_FILE_APPEND } SamFileMode;
+typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ, SAM_FILE_APPEND } SamFileMode;
 /*
-  SamFileOpen - opens a file to READ or to APPEND, or CREATEs it, replacing one of that name; CREATE_CHECKED: in the
-  format that has checksums of HDF5's metadata. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  SamFileOpen - opens a file to READ or to APPEND, or CREATEs it, replacing one of that name; CREATE_SEALED: with room
+  for a seal. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
@@ -56,11 +56,19 @@ PETSC_INTERN PetscErrorCode SamFileAgree(SamFile file);
 /* SamFileNote - returns `result`, that of an HDF5 call, and notes a failure with HDF5's reason. Not collective. */
 PETSC_INTERN hid_t SamFileNote(SamFile file, hid_t result);
 
+/* What a file is written for. Old results must be there; a temporary file becomes one of the others by its name. */
+typedef enum {
+  SAM_FILE_RESULTS,
+  SAM_FILE_OLD_RESULTS,
+  SAM_FILE_CHECKPOINT,
+  SAM_FILE_XDMF,
+  SAM_FILE_TEMPORARY
+} SamFileUse;
 /*
-  SamFileCheckName - fails early if a file of that name cannot be written; changes nothing on the disk. Collective.
-  Errors: SAM_ERR_FILE.
+  SamFileCheckName - fails early if a file of that name cannot be written, is being written by another run, or is there
+  and not what petsam writes for that use. Changes nothing on the disk. Collective. Errors: SAM_ERR_FILE.
 */
-PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[]);
+PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use);
 /*
   SamFileReserve - allocates disk space for so many bytes and HDF5's metadata: the file becomes longer, and HDF5 cuts
   off the unused part when it flushes. Collective. Errors: SAM_ERR_FILE.
@@ -68,13 +76,58 @@ PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], 
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
 /*
   SamFileReplace - flushes the finished file `temporary` to the disk and renames it to `filename`. A file of that name
-  is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of the name, if there
-  was one. Collective. Errors: SAM_ERR_FILE.
+  is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these names,
+  if there was one. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
                                            const char filename[], const char kept[]);
-/* SamFileRaise - raises SAM_ERR_FILE for the errno of rank 0; does nothing if that is 0. Collective. */
+/* SamFileRemoveLeftOvers - what MPI-IO has put beside an open file, and would leave after a kill. */
+PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
+/*
+  SamFileRaise - raises SAM_ERR_FILE for rank 0's result of a function of disk.c; does nothing if that is 0.
+  Collective.
+*/
 PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
+
+/*
+  SamHold - keeps a file that a run writes from other runs, and notices what other programs do to it. Held by rank 0;
+  ends with the process. Other programs can read the file.
+*/
+typedef struct {
+  int        file; /* descriptor, negative: not held */
+  SamFileUse use;
+  PetscBool  created; /* was not there before */
+  off_t      before;  /* size when it was taken */
+  off_t      size;    /* when it was noted */
+} SamHold;
+/*
+  SamHoldTake - takes hold of a file, which is created if it is not there. Errors as SamFileCheckName().
+  SamHoldTakeNext - of the next file of a name whose file has been renamed.
+  SamHoldCheck - raises an error if the file has been removed, replaced, or has not the size that was noted.
+  SamHoldHadContent - whether there was something in the file before it was taken.
+  These are collective. Errors: SAM_ERR_FILE.
+  SamHoldNoteSize - notes the size.
+  SamHoldRelease - gives up the file; removes it if it is temporary, or was created here and is still empty.
+*/
+PETSC_INTERN PetscErrorCode SamHoldTake(SamGrid grid, const char option[], const char filename[], SamFileUse use,
+                                        SamHold *hold);
+PETSC_INTERN PetscErrorCode SamHoldTakeNext(SamGrid grid, const char option[], const char filename[], SamHold *hold);
+PETSC_INTERN PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold);
+PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold, PetscBool *had);
+PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
+PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
+
+#define SAM_CHECKPOINT_FORMAT 3   /* version of a checkpoint's contents */
+#define SAM_SEAL              512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
+/*
+  SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
+  SamSealCheck - compares it. Nothing of the file is interpreted before.
+  Both are collective. Errors: SAM_ERR_FILE.
+  SamSealIsOne - whether the first bytes of a file are a seal. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSealWrite(SamGrid grid, const char option[], const char filename[]);
+PETSC_INTERN PetscErrorCode SamSealCheck(SamGrid grid, const char option[], const char filename[]);
+PETSC_INTERN PetscBool      SamSealIsOne(const char head[], size_t size);
 
 /*
   Attributes, and layers of datasets; all note their failures and are collective. `stored` is the type in the file,
@@ -140,6 +193,8 @@ struct _n_SamOutput {
   /* what it owns; identifiers are negative where nothing is open */
   hid_t        vtk_steps; /* attribute: number of steps that VTK sees */
   hid_t        closed;    /* attribute: whether the file was closed properly */
+  SamHold      hold;      /* of a file that is written */
+  PetscBool    replaced;  /* there were older results */
   SamXdmf      xdmf;      /* NULL: none */
   hid_t        time, fields[SAM_OUTPUT_MOST], columns[SAM_OUTPUT_MOST];
   signed char *states; /* of this rank's cells */
@@ -181,6 +236,12 @@ PETSC_INTERN void    SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t 
 /* SamOutputAllocate - an object that takes over an open file; no dataset is open yet. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output);
 /*
+  SamOutputCreateAs - SamOutputCreate() for that use of the file: results, or a temporary file. Collective.
+  Errors: SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[], SamFileUse use,
+                                              const SamOutputSettings *set, SamOutput *output);
+/*
   SamOutputAppend - appends the numbers of a step (NULL: none) and its fields (`values` NULL: none), and flushes the
   file unless `copying`. `values` returns this rank's values of field f, doubles or bytes; it is called with `context`.
   Collective. Errors: SAM_ERR_FILE.
@@ -190,12 +251,15 @@ PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const SamStep *ste
                                             SamOutputValues values, void *context);
 
 /*
-  SamXdmfCreate - creates an XDMF file without a step for results of that name; replaces one that is there.
+  SamXdmfCreate - creates an XDMF file without a step for results of that name; replaces one that petsam has written.
   SamXdmfAddStep - appends the step of that index in the results. After an error the file still has the earlier steps.
   Both are collective. Errors: SAM_ERR_FILE.
 */
+extern const char           SamXdmfHead[]; /* the first bytes of the file */
 PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);
+/* SamXdmfMakeName - results.h5 -> results.xdmf; the caller frees it. Not collective. */
+PETSC_INTERN PetscErrorCode SamXdmfMakeName(const char results[], char **name);
 PETSC_INTERN const char    *SamXdmfGetName(SamXdmf xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfDestroy(SamXdmf *xdmf);
 

@@ -72,6 +72,7 @@ PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, Sam
   o->f    = file;
   o->set  = *set;
   o->time = o->vtk_steps = o->closed = -1;
+  o->hold.file                       = -1;
   o->saved_time                      = PETSC_NINFINITY;
   for (PetscInt f = 0; f < SAM_OUTPUT_MOST; f++) o->fields[f] = -1;
   for (PetscInt c = 0; c < SAM_OUTPUT_MOST; c++) o->columns[c] = -1;
@@ -87,30 +88,52 @@ static PetscErrorCode CreateDatasets(SamOutput o)
   PetscCall(SamOutputCreateLayout(o));
   (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
+/* Creates the files; what was opened before an error is closed by the caller. */
+static PetscErrorCode CreateFiles(SamGrid grid, const char filename[], SamFileUse use, const SamOutputSettings *set,
+                                  SamHold *hold, SamXdmf *xdmf, SamFile *file)
 {
-  SamFile        file;
+  PetscFunctionBegin;
+  PetscCall(SamHoldTake(grid, "output", filename, use, hold));
+  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, xdmf)); /* first: if it fails, old results are kept */
+  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, file));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[], SamFileUse use, const SamOutputSettings *set,
+                                 SamOutput *output)
+{
+  SamFile        file = NULL;
   SamXdmf        xdmf = NULL;
+  SamHold        hold = {.file = -1};
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   *output = NULL;
   PetscCall(SamInitialize());
-  PetscCall(SamFileCheckName(grid, "output", filename));
-  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, &xdmf)); /* first: if it fails, old results are kept */
-  ierr = SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &file);
+  ierr = CreateFiles(grid, filename, use, set, &hold, &xdmf, &file);
   if (ierr) {
     PetscCall(SamXdmfDestroy(&xdmf));
+    SamHoldRelease(filename, &hold);
     PetscCall(ierr);
   }
   PetscCall(SamOutputAllocate(file, set, output));
   (*output)->xdmf = xdmf;
-  ierr            = CreateDatasets(*output);
+  (*output)->hold = hold;
+  PetscCall(SamHoldHadContent(grid, &hold, &(*output)->replaced));
+  ierr = CreateDatasets(*output);
   if (ierr) (void)SamOutputDestroy(output);
   PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
+{
+  PetscFunctionBegin;
+  PetscCall(SamOutputCreateAs(grid, filename, SAM_FILE_RESULTS, set, output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -125,12 +148,14 @@ static void MarkClosed(SamOutput o)
 
 PetscErrorCode SamOutputDestroy(SamOutput *output)
 {
-  SamOutput      o = *output;
-  PetscErrorCode ierr;
+  SamOutput      o       = *output;
+  PetscErrorCode changed = 0, ierr;
 
   PetscFunctionBegin;
   *output = NULL;
   if (!o) PetscFunctionReturn(PETSC_SUCCESS);
+  if (o->f->writing && !o->broken && !o->unchanged && !o->copying)
+    changed = SamHoldCheck(o->f->grid, "output", o->f->filename, &o->hold);
   o->f->failed = PETSC_FALSE; /* earlier failures have been raised */
   PetscCall(SamFileBegin(o->f));
   if (!o->broken) {
@@ -139,12 +164,32 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
     SamFileClose(o->f);
   }
   ierr = SamFileEnd(o->f);
+  SamHoldRelease(o->f->filename, &o->hold);
   PetscCall(SamXdmfDestroy(&o->xdmf));
   PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
   PetscCall(VecDestroy(&o->work));
   PetscCall(PetscFree(o->states));
   PetscCall(PetscFree(o));
+  PetscCall(changed);
   PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputHasReplaced(SamOutput o, PetscBool *replaced)
+{
+  PetscFunctionBegin;
+  *replaced = o->replaced;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputNames(const char filename[], char **xdmf, char **temporary)
+{
+  const size_t size = strlen(filename) + sizeof(".tmp");
+
+  PetscFunctionBegin;
+  PetscCall(SamXdmfMakeName(filename, xdmf));
+  PetscCall(PetscMalloc1(size, temporary));
+  (void)snprintf(*temporary, size, "%s.tmp", filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -163,6 +208,7 @@ PetscErrorCode SamOutputSetReals(SamOutput o, const char name[], PetscInt count,
   PetscCall(SamFileBegin(o->f));
   SamFileWriteAttribute(o->f, o->f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, values);
   PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -172,6 +218,7 @@ PetscErrorCode SamOutputSetParameters(SamOutput o, const SamParameters *paramete
   PetscCall(SamFileBegin(o->f));
   SamParametersWrite(o->f, parameters);
   PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,6 +228,7 @@ PetscErrorCode SamOutputSetText(SamOutput o, const char name[], const char text[
   PetscCall(SamFileBegin(o->f));
   SamFileWriteTextAttribute(o->f, o->f->id, name, text);
   PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -278,6 +326,7 @@ PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time,
   PetscFunctionBegin;
   PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename,
              o->f->reason);
+  if (!o->copying) PetscCall(SamHoldCheck(o->f->grid, "output", o->f->filename, &o->hold));
   if (!o->copying) PetscCall(SamFileReserve(o->f, values ? SamOutputFieldBytes(o) : 0));
   PetscCall(SamFileBegin(o->f));
   if (step) AppendHistory(o, step);
@@ -295,6 +344,7 @@ PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time,
   ierr = SamFileEnd(o->f);
   if (ierr) o->broken = PETSC_TRUE;
   PetscCall(ierr);
+  SamHoldNoteSize(&o->hold);
   if (values && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

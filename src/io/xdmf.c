@@ -11,6 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
+const char SamXdmfHead[] = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid Name=\"steps\" "
+                           "GridType=\"Collection\" CollectionType=\"Temporal\">\n";
 static const char tail[] = "    </Grid>\n  </Domain>\n</Xdmf>\n";
 
 struct _n_SamXdmf {
@@ -37,8 +39,7 @@ static PetscErrorCode CopyAsXML(const char text[], char **copy)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* results.h5 -> results.xdmf */
-static PetscErrorCode MakeName(const char results[], char **name)
+PetscErrorCode SamXdmfMakeName(const char results[], char **name)
 {
   static const char *const endings[] = {".h5", ".hdf5", ".hdf", ".vtkhdf", NULL};
   size_t                   length    = strlen(results);
@@ -142,14 +143,12 @@ static int WriteAt(int file, const char text[], size_t length, off_t where)
 
 static int Begin(SamXdmf x)
 {
-  static const char head[] = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid Name=\"steps\" "
-                             "GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  int               error;
+  int error;
 
   x->file = open(x->filename, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   if (x->file < 0) return errno;
-  x->end = (off_t)strlen(head);
-  error  = WriteAt(x->file, head, strlen(head), 0);
+  x->end = (off_t)strlen(SamXdmfHead);
+  error  = WriteAt(x->file, SamXdmfHead, strlen(SamXdmfHead), 0);
   return error ? error : WriteAt(x->file, tail, strlen(tail), x->end);
 }
 
@@ -184,8 +183,9 @@ PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf)
   PetscCall(SamGridReference(grid));
   x->grid = grid;
   x->file = -1;
-  PetscCall(MakeName(results, &x->filename));
+  PetscCall(SamXdmfMakeName(results, &x->filename));
   PetscCall(CopyAsXML(slash ? slash + 1 : results, &x->results));
+  PetscCall(SamFileCheckName(grid, "output", x->filename, SAM_FILE_XDMF));
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
   if (!rank) error = Begin(x);
   PetscCall(SamFileRaise(grid, "output", x->filename, error));

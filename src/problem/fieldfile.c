@@ -16,6 +16,7 @@
 typedef enum {
   GOOD,
   UNREADABLE,
+  NO_FILE,
   NOT_HDF5,
   DAMAGED,
   NO_DATASET,
@@ -110,6 +111,7 @@ static Verdict Judge(const SamFieldFile *source, SamGrid grid)
 
   if (stat(source->file, &status) || access(source->file, R_OK)) return (Verdict){UNREADABLE, {errno, 0}};
   if (S_ISDIR(status.st_mode)) return (Verdict){UNREADABLE, {EISDIR, 0}};
+  if (!S_ISREG(status.st_mode)) return (Verdict){NO_FILE, {0, 0}}; /* a pipe would wait for its writer */
   if (H5Fis_hdf5(source->file) <= 0) return (Verdict){NOT_HDF5, {0, 0}};
   file = H5Fopen(source->file, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) return (Verdict){DAMAGED, {0, 0}};
@@ -136,6 +138,9 @@ static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verd
   case UNREADABLE:
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: cannot be read: %s", source->prefix, source->file_option, file,
             strerror((int)detail[0]));
+  case NO_FILE:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: cannot be read: it is not a file", source->prefix, source->file_option,
+            file);
   case NOT_HDF5:
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: is not an HDF5 file", source->prefix, source->file_option, file);
   case NO_DATASET:

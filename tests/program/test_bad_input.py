@@ -1,5 +1,7 @@
 """Every mistake is answered by exit code 2 or 3 and a line that names it, and nothing is written over."""
 
+import os
+
 import h5py
 import numpy as np
 import pytest
@@ -263,6 +265,63 @@ CASES = [
     case("options file without dashes", {}, "-options_file", "text.h5", says="text.h5"),
     case("options file without a name", {}, "-options_file"),
     case("options file with two options a line", {}, "-options_file", "crowded.opts", says="crowded.opts, line 2"),
+    case("options file is a pipe", {}, "-options_file", "pipe", says="-options_file pipe", code=3),
+    case("options file names itself", {}, "-options_file", "self.opts", says=["self.opts", "without end"]),
+    case("options file names a missing one", {}, "-options_file", "lost.opts", says="nowhere.opts", code=3),
+    case("options file starts a program", {}, "-options_file", "python.opts", says=["python.opts, line 1", "-python"]),
+    case("options file is wrong YAML", {}, "-options_file", "wrong.yaml", says="YAML"),
+    case("history is a pipe", {}, "-history", "pipe", says="-history pipe", code=3),
+    case("gap is a pipe", dict(gap_type="file"), "-gap_file", "pipe", says="-gap_file pipe", code=3),
+    case("restart from a pipe", {}, "-restart", "pipe", says="-restart pipe", code=3),
+    case("output is a pipe", {}, "-output", "pipe", says="-output pipe", code=3),
+    case("output is another's file", {}, "-output", "text.h5", says="-output text.h5", code=3),
+    case("checkpoint is the output", {}, "-checkpoint", "results.h5", says=["-checkpoint", "-output"]),
+    case("checkpoint is the output's second file", {}, "-checkpoint", "results.xdmf", says=["-checkpoint", "-output"]),
+    case(
+        "checkpoint's second file is the gap",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "copy.h5.1",
+        "-checkpoint",
+        "folder/../copy.h5",
+        says=["-checkpoint", "-gap_file"],
+    ),
+    # PETSc's own options
+    *[
+        case(f"{option} refused", {}, option, *value, says=option)
+        for option, *value in (
+            ("-python",),
+            ("-dll_append", "libm.so"),
+            ("-start_in_debugger",),
+            ("-on_error_attach_debugger",),
+            ("-stop_for_debugger",),
+            ("-prefix_push", "a_"),
+            ("-prefix_pop",),
+            ("-fp_trap",),
+            ("-FP_trap",),
+            ("-log_trace", "good.h5"),
+            ("-info", ":good.h5"),
+            ("-malloc_view", "good.h5"),
+            ("-citations", "good.h5"),
+            ("-options_file_yaml", "wrong.yaml"),
+            ("-log_view", "foo"),
+            ("-normal_view", "draw"),
+            ("-options_view", "ascii:a:b"),
+        )
+    ],
+    case("viewer in no directory", {}, "-normal_view", "ascii:nowhere/a", says="-normal_view nowhere/a", code=3),
+    case("log in no directory", {}, "-log_view", ":nowhere/a", says="-log_view nowhere/a", code=3),
+    case("log is the output", {}, "-log_view", ":./results.h5", says=["-log_view", "-output"]),
+    case("log is the output's second file", {}, "-log_view", ":results.xdmf", says=["-log_view", "-output"]),
+    case(
+        "view is the gap",
+        dict(FILE, grid_n=8),
+        "-gap_file",
+        "good.h5",
+        "-tangential_view",
+        ":link.h5",
+        says=["-tangential_view", "-gap_file"],
+    ),
     # solvers
     case("normal type unknown", dict(normal_type="foo"), says=["-normal_type", "foo", "activeset"]),
     case("tangential type unknown", dict(tangential_type="foo"), says=["-tangential_type", "foo", "newton"]),
@@ -300,6 +359,12 @@ def folder(tmp_path):
         f["height"] = np.zeros((6, 7))
     (tmp_path / "cut.h5").write_bytes((tmp_path / "good.h5").read_bytes()[:600])
     (tmp_path / "link.h5").symlink_to("good.h5")
+    (tmp_path / "copy.h5.1").write_bytes((tmp_path / "good.h5").read_bytes())
+    (tmp_path / "self.opts").write_text("-options_file self.opts\n")
+    (tmp_path / "lost.opts").write_text("-options_file nowhere.opts\n")
+    (tmp_path / "python.opts").write_text("-python\n")
+    (tmp_path / "wrong.yaml").write_text("grid_n: [1\n - x")
+    os.mkfifo(tmp_path / "pipe")
     return tmp_path
 
 
@@ -336,6 +401,14 @@ PARALLEL = (
     "gap file with nan",
     "output in no directory",
     "normal_rtol 0",
+    "history is a pipe",
+    "gap is a pipe",
+    "restart from a pipe",
+    "options file is wrong YAML",
+    "-python refused",
+    "viewer in no directory",
+    "log in no directory",
+    "log is the output",
     "grid too large for memory, 32-bit",
 )
 
@@ -351,9 +424,33 @@ def test_mistakes_in_an_options_file_are_found(petsam, folder):
     assert_refused(petsam, folder, {}, ("-options_file", "study.opts"), ["-lood_ty"], 2)
 
 
-def test_mistakes_in_the_environment_are_found(petsam, sphere):
-    done = petsam(dict(sphere, grid_n=8), environment=dict(PETSC_OPTIONS="-lood_ty 3"), check=2)
-    assert "-lood_ty" in done.complaint[0]
+@pytest.mark.parametrize(
+    "text, says",
+    [
+        ("-lood_ty 3", "-lood_ty"),
+        ("load_ty 3", "PETSC_OPTIONS: load_ty"),
+        ("-python", "PETSC_OPTIONS: -python"),
+        ("-load_ty 3 -options_file python.opts", "python.opts, line 1: -python"),
+    ],
+)
+def test_mistakes_in_the_environment_are_found(petsam, folder, text, says):
+    done = petsam(dict(SPHERE, grid_n=8), environment=dict(PETSC_OPTIONS=text), check=2)
+    assert says in done.complaint[0] and len(done.stderr.splitlines()) <= 2
+
+
+@pytest.mark.parametrize(
+    "text, says",
+    [
+        ("-load_ty 3 -load_tx 4\n", ".petscrc, line 1: expected one option"),
+        ("\n# a comment\nload_ty 3\n", ".petscrc, line 3: expected an option"),
+        ("-dll_append libm.so", ".petscrc, line 1: -dll_append"),
+    ],
+)
+def test_mistakes_in_petscrc_are_found(petsam, sphere, tmp_path, text, says):
+    (tmp_path / ".petscrc").write_text(text)
+    done = petsam(dict(sphere, grid_n=8), check=2)
+    assert says in done.complaint[0] and len(done.stderr.splitlines()) <= 2
+    petsam(dict(sphere, grid_n=8), "-skip_petscrc")
 
 
 @pytest.mark.parametrize(

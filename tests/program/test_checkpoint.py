@@ -162,7 +162,7 @@ def test_results_that_were_closed_go_on_in_place(folder, launcher, petsam):
     "spoil, code, word",
     [
         (lambda f: f.unlink(), 3, "No such file"),
-        (lambda f: f.write_text("no"), 3, "not an HDF5 file"),
+        (lambda f: f.write_text("no"), 3, "petsam has not written"),
         (lambda f: shutil.copy(f.with_name("short.h5"), f), 3, "3 of the 21 steps"),
         (lambda f: shutil.copy(f.with_name("other.h5"), f), 2, "-friction is 0.3 there, not 0.1"),
         (lambda f: shutil.copy(f.with_name("late.h5"), f), 2, "times"),
@@ -419,12 +419,42 @@ def test_checkpoint_of_another_history_is_refused_by_name(stopped, petsam, chang
     assert "-restart state.h5" in done.complaint[0] and word in done.complaint[0]
 
 
-@pytest.mark.parametrize("name, value", [("petsam_version", "0.0.9"), ("checkpoint_format", 99)])
-def test_checkpoint_of_another_version_is_refused(stopped, petsam, name, value):
-    with h5py.File(stopped / "state.h5", "a") as f:
-        f.attrs[name] = value
+def mixed(x):
+    """The finalizer of MurmurHash3."""
+    x = (x ^ x >> 33) * 0xFF51AFD7ED558CCD % 2**64
+    x = (x ^ x >> 33) * 0xC4CEB9FE1A85EC53 % 2**64
+    return x ^ x >> 33
+
+
+def sealed(path, version=3):
+    """The seal that a file should have, as the manual describes it: hashed by blocks, whose hashes are added."""
+    data, block, total = path.read_bytes(), 1 << 20, 0
+    for place, start in enumerate(range(512, len(data), block)):
+        part = data[start : start + block]
+        value = mixed(place + 1)
+        for k in range(0, len(part), 8):
+            value = mixed((value + int.from_bytes(part[k : k + 8], "little")) % 2**64)
+        total += mixed((value + len(part)) % 2**64)
+    text = f"petsam checkpoint {version}\nbytes {len(data)}\nchecksum {total % 2**64:016x}\n"
+    return text.encode().ljust(512, b"\0")
+
+
+def test_seal_is_a_checksum_over_the_whole_file(stopped):
+    for name in ("state.h5", "state.h5.1"):
+        path = stopped / name
+        assert path.read_bytes()[:512] == sealed(path)
+
+
+def test_checkpoint_of_another_version_is_refused(stopped, petsam):
+    path = stopped / "state.h5"
+    with h5py.File(path, "a") as f:
+        f.attrs["petsam_version"] = "0.0.9"
+    path.write_bytes(sealed(path) + path.read_bytes()[512:])
     done = petsam(CASE, ON, check=2)
-    assert "petsam" in done.complaint[0] and "written by" in done.complaint[0]
+    assert "petsam" in done.complaint[0] and "written by petsam 0.0.9" in done.complaint[0]
+    path.write_bytes(sealed(path, 4) + path.read_bytes()[512:])
+    done = petsam(CASE, ON, check=3)
+    assert "written by another version of petsam" in done.complaint[0] and "state.h5.1" in done.complaint[0]
 
 
 # ---------------------------------------------------------------- damage

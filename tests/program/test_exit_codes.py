@@ -162,8 +162,11 @@ def test_loose_tolerance_converges_sooner(solve):
 
 
 def test_error_if_not_converged_stops(petsam):
-    done = petsam(BALL, dict(load_tx=30.0, normal_max_it=1, normal_error_if_not_converged=True), check=None)
-    assert done.code not in (0, 10) and "normal" in done.stderr.lower()
+    for solver in ("normal", "tangential"):
+        done = petsam(
+            BALL, {"load_tx": 30.0, f"{solver}_max_it": 1, f"{solver}_error_if_not_converged": True}, check=10
+        )
+        assert f"The {solver} solve did not converge" in done.complaint[0] and len(done.complaint) == 1
 
 
 def test_success_says_nothing_on_stderr(petsam):

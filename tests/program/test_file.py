@@ -162,10 +162,47 @@ def test_infinite_parameters_are_stored(solve):
 
 
 def test_results_replace_an_older_file(petsam, tmp_path):
-    (tmp_path / "out.h5").write_text("old")
-    petsam(CASE, dict(output="out.h5"))
+    done = petsam(CASE, dict(output="out.h5", grid_n=20))
+    assert "replacing" not in done.stdout
+    done = petsam(CASE, dict(output="out.h5"))
+    assert "results in out.h5, replacing those there" in done.stdout
     with h5py.File(tmp_path / "out.h5") as f:
         assert f["pressure"].shape == (1, 41, 34)
+
+
+def write_hdf5(path):
+    with h5py.File(path, "w") as f:
+        f["pressure"] = np.zeros(9)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize(
+    "name, write",
+    [
+        ("out.h5", lambda path: path.write_text("the only copy of a long text")),
+        ("out.h5", write_hdf5),
+        ("out.xdmf", lambda path: path.write_text('<?xml version="1.0"?>\n<Xdmf Version="3.0"/>\n')),
+    ],
+    ids=["text", "other HDF5", "other XDMF"],
+)
+def test_files_of_others_are_not_replaced(petsam, tmp_path, ranks, name, write):
+    path = tmp_path / name
+    write(path)
+    before = path.read_bytes()
+    done = petsam(CASE, dict(output="out.h5"), ranks=ranks, check=3)
+    assert f"-output {name}: cannot be written: there is a file of that name" in done.complaint[0]
+    assert path.read_bytes() == before and [entry.name for entry in tmp_path.iterdir()] == [name]
+
+
+def test_checkpoint_is_not_replaced_by_results(petsam, tmp_path):
+    petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=1))
+    before = (tmp_path / "state.h5").read_bytes()
+    petsam(CASE, dict(output="state.h5"), check=3)
+    assert (tmp_path / "state.h5").read_bytes() == before
+    petsam(CASE, dict(output="out.h5"))
+    petsam(CASE, dict(checkpoint="out.h5", checkpoint_every=1), check=3)
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert len(f["time"]) == 1
 
 
 def test_without_output_no_file_is_written(petsam, tmp_path):

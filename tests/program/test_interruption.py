@@ -128,6 +128,53 @@ def test_lost_folder_ends_the_run(launcher, folder, ranks, lose):
         assert_intact(folder / "away" / "out.h5", 4 + steps)
 
 
+# ---- changed by others
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        (lambda path: path.write_bytes(b""), "changed its size"),
+        (lambda path: os.truncate(path, path.stat().st_size - 1), "changed its size"),
+        (lambda path: shutil.copy(path, path.with_name("new")) and path.with_name("new").rename(path), "replaced it"),
+        (lambda path: path.unlink(), "No such file"),
+    ],
+    ids=["emptied", "cut", "replaced", "removed"],
+)
+def test_change_from_outside_ends_the_run(launcher, folder, ranks, change, says):
+    run = start(launcher, folder, ranks)
+    wait_for(run, 4)
+    change(folder / "out" / "out.h5")
+    code, _, complaint = ended(run)
+    assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0] and says in complaint[0]
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
+    """From results and checkpoints, also one that would go on from there; not after the first has been killed."""
+    mine = dict(checkpoint="out/state.h5", checkpoint_every=1)
+    first = start(launcher, folder, 1, mine)
+    wait_for(first, 4)
+    for other in (
+        dict(grid_n=12),
+        dict(output="out/other.h5", **mine),
+        dict(output=None, **mine),
+        dict(restart="out/state.h5"),
+    ):
+        code, steps, complaint = ended(start(launcher, folder, ranks, other))
+        assert code == 3 and steps == 0
+        assert len(complaint) == 1 and "another run is writing it" in complaint[0], complaint
+    wait_for(first, 8)
+    first.kill()
+    assert_intact(folder / "out" / "out.h5", 8)
+    assert not [path.name for path in (folder / "out").iterdir() if path.name.endswith(".lock")]
+    third = start(launcher, folder, ranks, mine)
+    wait_for(third, 2)
+    conftest.kill_all(third, ranks)
+    third.communicate(timeout=60)
+
+
 # ---- killed
 
 

@@ -7,6 +7,7 @@
 #include <hdf5.h>
 #include <unistd.h>
 
+#include "../../src/io/ioimpl.h"
 #include <petsam/checkpoint.h>
 
 static const char filename[] = "test_checkpoint.h5";
@@ -17,6 +18,16 @@ static int Rank(void)
 
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   return rank;
+}
+
+/* Writes one checkpoint, as a run would. */
+static void Write(const Case *c, const SamParameters *parameters, PetscInt n, const SamNote notes[])
+{
+  SamCheckpoint files;
+
+  sam_call(SamCheckpointCreate(c->s.grid, filename, &files));
+  sam_call(SamCheckpointWrite(files, c->contact, parameters, n, notes));
+  sam_call(SamCheckpointDestroy(&files));
 }
 
 static void Remove(void)
@@ -103,7 +114,7 @@ static void test_contact_that_is_read_goes_on_as_the_one_that_was_written(void *
 
     for (int k = 0; k < solved; k++) SolveStep(&one, k, &a);
     SolveStep(&other, 3, &b); /* is forgotten */
-    sam_call(SamCheckpointWrite(filename, one.contact, &parameters, 2, to));
+    Write(&one, &parameters, 2, to);
     sam_call(SamCheckpointRead(filename, other.contact, &parameters, 2, from));
     sam_assert(!memcmp(read, written, sizeof(read)));
     if (solved) AssertSameFields(&one, &other);
@@ -136,7 +147,7 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   second.stretch[2]     = 1e-6;
   (void)Solve(&one, &second);
   (void)Try(&one, &control);
-  sam_call(SamCheckpointWrite(filename, one.contact, &parameters, 0, NULL));
+  Write(&one, &parameters, 0, NULL);
   sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
   sam_call(SamContactReject(one.contact));
   AssertSameFields(&one, &other);
@@ -174,7 +185,7 @@ static void test_gap_that_has_changed_is_told(void **state)
     SolveStep(&one, 3, &step);
     sam_call(SamProblemGetGap(changed->problem, &gap));
     if (which) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
-    sam_call(SamCheckpointWrite(filename, one.contact, &parameters, 0, NULL));
+    Write(&one, &parameters, 0, NULL);
     sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
     sam_call(SamContactGetState(other.contact, &held));
     sam_assert(held.gap_is_current == (which ? PETSC_FALSE : PETSC_TRUE));
@@ -272,18 +283,26 @@ static void ChangeVersion(hid_t file)
   (void)H5Tclose(type);
 }
 
-static void ChangeFormat(hid_t file)
+static void Seal(const Case *c, const char *name)
 {
-  const long long other     = 1;
-  const hid_t     attribute = H5Aopen(file, "checkpoint_format", H5P_DEFAULT);
-
-  (void)H5Awrite(attribute, H5T_NATIVE_LLONG, &other);
-  (void)H5Aclose(attribute);
+  sam_call(SamSealWrite(c->s.grid, "checkpoint", name));
 }
 
-static void RemoveFormat(hid_t file)
+/* Adds 1 to a byte, from the start of the file, or if negative from its end. */
+static void ChangeByte(const char *name, long where)
 {
-  (void)H5Adelete(file, "checkpoint_format");
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  if (Rank() == 0) {
+    FILE *file = fopen(name, "r+b");
+    int   byte;
+
+    (void)fseek(file, where, where < 0 ? SEEK_END : SEEK_SET);
+    byte = fgetc(file);
+    (void)fseek(file, where, where < 0 ? SEEK_END : SEEK_SET);
+    (void)fputc(byte + 1, file);
+    (void)fclose(file);
+  }
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
 /* Two checkpoints, of the second and of the third step. */
@@ -295,31 +314,125 @@ static Case WriteTwo(const SamParameters *parameters)
 
   for (int k = 0; k < 3; k++) {
     SolveStep(&c, k, &step);
-    if (k) sam_call(SamCheckpointWrite(filename, c.contact, parameters, 1, &(SamNote){"note", 1, &note}));
+    if (k) Write(&c, parameters, 1, &(SamNote){"note", 1, &note});
   }
   return c;
 }
 
-/* A flipped bit of any field is found, and the file before is named if it can be read. */
+/* Any change is found, and the file before is named if it can be read. */
 static void test_damaged_file_is_told_with_the_one_before_it(void **state)
 {
-  static const Damage      damages[] = {DamagePressure, DamageBefore, DamageDisplacement, RemoveNote, RemoveFormat};
-  static const char *const says[] = {"checksum of pressure", "checksum of before_shear", "checksum of displacement_t",
-                                     "cannot be read", "not a checkpoint"};
-  const SamParameters      parameters = NewParameters(friction);
+  static const Damage damages[]  = {DamagePressure, DamageBefore, DamageDisplacement, RemoveNote};
+  const SamParameters parameters = NewParameters(friction);
 
   (void)state;
-  for (int k = 0; k < 5; k++) {
+  for (int k = 0; k < 4; k++) {
     Case c = WriteTwo(&parameters);
 
     DamageFile(filename, damages[k]);
-    AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){says[k], "-restart test_checkpoint.h5.1"});
+    AssertUnreadable(&c, &parameters, SAM_ERR_FILE,
+                     (const char *const[2]){"its checksum is wrong", "-restart test_checkpoint.h5.1"});
     DamageFile("test_checkpoint.h5.1", damages[k]);
-    AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){says[k], NULL});
+    AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){"its checksum is wrong", NULL});
     sam_assert(!strstr(CaughtMessage(), ".h5.1"));
     DestroyCase(&c);
     Remove();
   }
+}
+
+/* In the seal's title, version, number of bytes, checksum, and the zeros after it; in HDF5's data; at the end. */
+static void test_one_changed_byte_anywhere_is_found(void **state)
+{
+  static const long        places[]   = {0, 18, 26, 45, 500, 512, 700, 5000, 12345, 100000, -1};
+  static const char *const says[]     = {"not a checkpoint", "another version", "checksum"};
+  const SamParameters      parameters = NewParameters(friction);
+  Case                     c          = WriteTwo(&parameters);
+
+  (void)state;
+  for (int k = 0; k < 11; k++) {
+    ChangeByte(filename, places[k]);
+    AssertUnreadable(&c, &parameters, SAM_ERR_FILE,
+                     (const char *const[2]){says[k < 2 ? k : 2], "-restart test_checkpoint.h5.1"});
+    for (int back = 0; back < 255; back++) ChangeByte(filename, places[k]);
+  }
+  sam_call(SamCheckpointRead(filename, c.contact, &parameters, 0, NULL));
+  sam_assert(Rank() || !truncate(filename, 100000));
+  AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){"checksum", NULL});
+  DestroyCase(&c);
+  Remove();
+}
+
+static void test_note_that_is_missing_is_told(void **state)
+{
+  const SamParameters parameters = NewParameters(friction);
+  Case                c          = WriteTwo(&parameters);
+
+  (void)state;
+  DamageFile(filename, RemoveNote);
+  Seal(&c, filename);
+  AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){"cannot be read", NULL});
+  DestroyCase(&c);
+  Remove();
+}
+
+/* A second run is kept from the files of the first, also after it has written to them; not from others. */
+static void test_second_run_is_kept_from_the_files(void **state)
+{
+  const SamParameters parameters = NewParameters(friction);
+  Case                c          = NewBody();
+  SamCheckpoint       first, second = NULL;
+  PetscErrorCode      ierr;
+
+  (void)state;
+  sam_call(SamCheckpointCreate(c.s.grid, filename, &first));
+  for (int k = 0; k < 3; k++) {
+    BeginCatching();
+    ierr = SamCheckpointCreate(c.s.grid, filename, &second);
+    EndCatching();
+    sam_assert(ierr == SAM_ERR_FILE && !second && strstr(CaughtMessage(), "another run"));
+    sam_call(SamCheckpointWrite(first, c.contact, &parameters, 0, NULL));
+  }
+  sam_call(SamCheckpointCreate(c.s.grid, "test_checkpoint_other.h5", &second));
+  sam_call(SamCheckpointDestroy(&second));
+  sam_call(SamCheckpointDestroy(&first));
+  sam_assert(access("test_checkpoint.h5.tmp", F_OK) && access("test_checkpoint_other.h5", F_OK));
+  sam_call(SamCheckpointCreate(c.s.grid, filename, &second));
+  sam_call(SamCheckpointDestroy(&second));
+  DestroyCase(&c);
+  Remove();
+}
+
+/* Of the checkpoint, the one before it, and the one that is being written. A link is not followed. */
+static void test_files_of_others_are_not_replaced(void **state)
+{
+  static const char *const names[] = {filename, "test_checkpoint.h5.1", "test_checkpoint.h5.tmp"};
+  Case                     c       = NewBody();
+  SamCheckpoint            files;
+  PetscErrorCode           ierr;
+
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    const char *const name = names[PetscMin(k, 2)];
+
+    if (!Rank()) {
+      FILE *file = fopen(k < 3 ? name : "test_checkpoint.txt", "w");
+
+      (void)fputs("the only copy of a long text", file);
+      (void)fclose(file);
+      if (k == 3) (void)!symlink("test_checkpoint.txt", name);
+    }
+    (void)MPI_Barrier(PETSC_COMM_WORLD);
+    BeginCatching();
+    ierr = SamCheckpointCreate(c.s.grid, filename, &files);
+    EndCatching();
+    sam_assert(ierr == SAM_ERR_FILE && strstr(CaughtMessage(), name));
+    sam_assert(strstr(CaughtMessage(), k < 3 ? "petsam has not written" : "symbolic link"));
+    (void)MPI_Barrier(PETSC_COMM_WORLD);
+    sam_assert(Rank() || !unlink(name));
+  }
+  sam_assert(Rank() || !unlink("test_checkpoint.txt"));
+  DestroyCase(&c);
+  Remove();
 }
 
 static void test_missing_file_is_told(void **state)
@@ -340,10 +453,8 @@ static void test_other_version_is_named(void **state)
 
   (void)state;
   DamageFile(filename, ChangeVersion);
+  Seal(&c, filename);
   AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"0.0.0-other", PETSAM_VERSION});
-  DamageFile("test_checkpoint.h5.1", ChangeFormat);
-  DamageFile(filename, ChangeFormat);
-  AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"another version", NULL});
   DestroyCase(&c);
   Remove();
 }
@@ -380,6 +491,10 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_state_in_the_file_is_the_committed_one),
     cmocka_unit_test(test_gap_that_has_changed_is_told),
     cmocka_unit_test(test_damaged_file_is_told_with_the_one_before_it),
+    cmocka_unit_test(test_one_changed_byte_anywhere_is_found),
+    cmocka_unit_test(test_note_that_is_missing_is_told),
+    cmocka_unit_test(test_second_run_is_kept_from_the_files),
+    cmocka_unit_test(test_files_of_others_are_not_replaced),
     cmocka_unit_test(test_missing_file_is_told),
     cmocka_unit_test(test_other_version_is_named),
     cmocka_unit_test(test_other_fixed_parameter_is_named),

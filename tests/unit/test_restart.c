@@ -29,12 +29,13 @@ static void Remove(void)
   (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
-static SamCheckpoints NewCheckpoints(const char *options)
+static SamCheckpoints NewCheckpoints(const Case *c, const char *options)
 {
   SamCheckpoints k;
 
   SetOptions(options);
   sam_call(SamCheckpointsCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &k));
+  sam_call(SamCheckpointsBegin(k, c->s.grid));
   SetOptions("");
   return k;
 }
@@ -100,11 +101,10 @@ static void test_checkpoints_come_after_every_so_many_steps(void **state)
 {
   static const PetscInt expected[4] = {0, 2, 2, 4};
   Case                  c           = NewBody();
-  SamCheckpoints        k           = NewCheckpoints("-checkpoint test_restart.h5 -checkpoint_every 2");
+  SamCheckpoints        k           = NewCheckpoints(&c, "-checkpoint test_restart.h5 -checkpoint_every 2");
   SamRunPoint           point       = {.history = NewUsualProgram()};
 
   (void)state;
-  sam_call(SamCheckpointsBegin(k, c.s.grid));
   for (int step = 0; step < 4; step++) {
     sam_assert(!TakeStep(k, &c, &point));
     sam_assert(LastOf(k) == expected[step]);
@@ -119,7 +119,7 @@ static void test_checkpoints_come_after_every_so_many_steps(void **state)
 static void test_signals_ask_for_checkpoints(void **state)
 {
   Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints("-checkpoint test_restart.h5");
+  SamCheckpoints k     = NewCheckpoints(&c, "-checkpoint test_restart.h5");
   SamRunPoint    point = {.history = NewUsualProgram()};
   int            ranks;
 
@@ -142,13 +142,13 @@ static void test_signals_ask_for_checkpoints(void **state)
 static void test_limit_of_time_stops_with_a_checkpoint(void **state)
 {
   Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints("-checkpoint test_restart.h5 -max_walltime 1e-6");
+  SamCheckpoints k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -max_walltime 1e-6");
   SamRunPoint    point = {.history = NewUsualProgram()};
 
   (void)state;
   sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 1);
   sam_call(SamCheckpointsDestroy(&k));
-  k = NewCheckpoints("-checkpoint test_restart.h5 -max_walltime 10:00");
+  k = NewCheckpoints(&c, "-checkpoint test_restart.h5 -max_walltime 10:00");
   sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 0);
   sam_call(SamCheckpointsDestroy(&k));
   sam_call(SamHistoryDestroy(&point.history));
@@ -160,7 +160,7 @@ static void test_limit_of_time_stops_with_a_checkpoint(void **state)
 static void WriteCheckpoint(void)
 {
   Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints("-checkpoint test_restart.h5 -checkpoint_every 2");
+  SamCheckpoints k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -checkpoint_every 2");
   SamRunPoint    point = {.history = NewUsualProgram(), .worst = SAM_STATUS_EDGE_CONTACT};
 
   for (int step = 0; step < 2; step++) (void)TakeStep(k, &c, &point);
@@ -176,7 +176,7 @@ static void WriteCheckpoint(void)
 static void AssertRestart(SamHistory history, const char *says)
 {
   Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints("-restart test_restart.h5");
+  SamCheckpoints k     = NewCheckpoints(&c, "-restart test_restart.h5");
   SamRunPoint    point = {.history = history};
   PetscErrorCode ierr;
 

@@ -179,12 +179,15 @@ static void test_restart_keeps_the_stretch(void **state)
   Case                one = NewCase(Steel(), 45, 1.5, MU, ""), other = NewCase(Steel(), 45, 1.5, MU, "");
   const SamControl    first = Stretched(&one, 1, 0.2, 0.1), next = Stretched(&one, 1.2, 0.1, 0.1);
   const SamParameters none = {.count = 0};
+  SamCheckpoint       files;
   SamStep             a, b;
   int                 rank;
 
   (void)state;
   (void)Solve(&one, &first);
-  sam_call(SamCheckpointWrite(filename, one.contact, &none, 0, NULL));
+  sam_call(SamCheckpointCreate(one.s.grid, filename, &files));
+  sam_call(SamCheckpointWrite(files, one.contact, &none, 0, NULL));
+  sam_call(SamCheckpointDestroy(&files));
   sam_call(SamCheckpointRead(filename, other.contact, &none, 0, NULL));
   AssertSameFields(&one, &other);
   a = Solve(&one, &next);

@@ -1,0 +1,298 @@
+/*
+  What PETSc reads at its start, looked through before: PETSc ends the program with a long trace at a mistake in an
+  options file, ignores words that are not options, and obeys options that load code or start programs.
+
+  Rank 0 looks and tells the others. Words are examined one by one: an option, which may be followed by its value.
+*/
+#include "arguments.h"
+#include <petsam/private/baseimpl.h>
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#define DEEPEST 8 /* options files that name options files */
+
+/* ---- words ---- */
+
+/* Whether PETSc takes a word for an option's name: a dash and a letter. A number is a value, also -inf. */
+static PetscBool IsOption(const char text[])
+{
+  const char *name = text[0] == '-' && text[1] == '-' ? text + 1 : text;
+  char       *end;
+
+  if (name[0] != '-' || !((name[1] >= 'a' && name[1] <= 'z') || (name[1] >= 'A' && name[1] <= 'Z'))) return PETSC_FALSE;
+  (void)strtod(name, &end);
+  return end == name || *end ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Notes the first mistake. */
+static void Complain(SamArguments *a, PetscErrorCode code, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
+static void Complain(SamArguments *a, PetscErrorCode code, const char format[], ...)
+{
+  va_list values;
+
+  if (a->code) return;
+  a->code = code;
+  va_start(values, format);
+  (void)vsnprintf(a->message, sizeof(a->message), format, values);
+  va_end(values);
+}
+
+/* Options of PETSc that this program refuses; a star stands for any ending. */
+static const struct {
+  const char *name, *reason;
+} refused[] = {{"-python*", "petsam does not run other programs"},
+               {"-dll_*", "petsam does not load other code"},
+               {"-start_in_debugger", "petsam does not start other programs"},
+               {"-on_error_attach_debugger", "petsam does not start other programs"},
+               {"-on_error_emacs", "petsam does not start other programs"},
+               {"-stop_for_debugger", "petsam would wait for ever"},
+               {"-saws*", "petsam does not serve the web"},
+               {"-mpi_linear_solver_server", "petsam has no linear solver to serve"},
+               {"-prefix_push", "petsam's options have no prefix"},
+               {"-prefix_pop", "petsam's options have no prefix"},
+               {"-fp_trap", "petsam computes with infinite numbers, for rigid bodies and flat surfaces"},
+               {"-log_trace", "not supported: it writes a file for each rank"},
+               {"-log_mpe*", "not supported: it writes a file for each rank"},
+               {"-citations", "not supported: petsam's sources are in its README"},
+               {"-options_file_yaml", "not supported: use -options_file"},
+               {"-options_string_yaml", "not supported: use -options_file"}};
+
+static PetscBool IsNamed(const char word[], const char name[])
+{
+  const size_t length = strlen(name);
+
+  return name[length - 1] == '*' ? !strncasecmp(word, name, length - 1) : !strcasecmp(word, name);
+}
+
+static void ExamineFile(SamArguments *a, const char where[], const char file[], int depth);
+
+/* `where` names the place, with a colon, or is "". */
+static void ExamineName(SamArguments *a, const char where[], const char option[])
+{
+  for (size_t k = 0; k < sizeof(refused) / sizeof(refused[0]); k++)
+    if (IsNamed(option, refused[k].name)) Complain(a, SAM_ERR_USER, "%s%s: %s", where, option, refused[k].reason);
+}
+
+/* An option, and the word after it if that is its value, else NULL. */
+static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
+{
+  ExamineName(a, where, option);
+  if (value && (IsNamed(option, "-info") || IsNamed(option, "-malloc_view")) && strspn(value, "01") != strlen(value))
+    Complain(a, SAM_ERR_USER, "%s%s %s: expected no value: it would write a file for each rank", where, option, value);
+  if (!IsNamed(option, "-options_file")) return;
+  if (!value || !value[0])
+    Complain(a, SAM_ERR_USER, "%s-options_file has no value: expected a file's name", where);
+  else
+    ExamineFile(a, "-options_file ", value, depth + 1);
+}
+
+/* Words separated by white space, of which the text is changed; quotes keep words together. */
+static int Split(char text[], char *words[], int most)
+{
+  int count = 0;
+
+  while (count < most) {
+    const char *stop = " \t\r\n";
+
+    text += strspn(text, stop);
+    if (!*text) break;
+    if (*text == '"' || *text == '\'') stop = *text++ == '"' ? "\"" : "'";
+    words[count++] = text;
+    text += strcspn(text, stop);
+    if (*text) *text++ = '\0';
+  }
+  return count;
+}
+
+static void ExamineWords(SamArguments *a, const char where[], int count, char **words)
+{
+  for (int k = 0; k < count; k++) {
+    const PetscBool valued = k + 1 < count && !IsOption(words[k + 1]) ? PETSC_TRUE : PETSC_FALSE;
+
+    if (!IsOption(words[k]))
+      Complain(a, SAM_ERR_USER, "%s%s: expected an option, that is a word that begins with a dash", where, words[k]);
+    else if (words[k][1] == '-')
+      Complain(a, SAM_ERR_USER, "%s%s: options begin with one dash", where, words[k]);
+    ExamineOption(a, where, words[k], valued ? words[k + 1] : NULL, 0);
+    k += valued;
+  }
+}
+
+/* ---- files ---- */
+
+/* A line of an options file: an option and its value, a comment, or an alias. */
+static void ExamineLine(SamArguments *a, const char where[], char line[], int depth)
+{
+  char     *words[3];
+  const int quoted = strpbrk(line, "\"'") != NULL;
+  int       count  = Split(line, words, 3);
+
+  for (int k = count; k-- > 0;)
+    if (words[k][0] == '#') count = k; /* the rest is a comment */
+  if (!count || strchr("!%", words[0][0]) || !strcmp(words[0], "alias")) return;
+  if (!IsOption(words[0]))
+    Complain(a, SAM_ERR_USER, "%sexpected an option, that is a word that begins with a dash", where);
+  else if (count > 2 && !quoted)
+    Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line", where);
+  ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
+}
+
+static PetscBool IsYaml(const char name[])
+{
+  const char *ending = strrchr(name, '.');
+
+  return ending && (!strcmp(ending, ".yaml") || !strcmp(ending, ".yml")) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Lines of a file; YAML is left to PETSc, but for the options that are refused. */
+static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
+{
+  char  *line = NULL;
+  size_t size = 0;
+
+  for (long number = 1; !a->code && getline(&line, &size, file) >= 0; number++) {
+    char place[600], *words[1], option[128];
+
+    (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
+    if (!IsYaml(name)) {
+      ExamineLine(a, place, line, depth);
+    } else if (Split(line, words, 1)) {
+      (void)snprintf(option, sizeof(option), "-%.*s", (int)strcspn(words[0], ":"), words[0]);
+      ExamineName(a, place, option);
+    }
+  }
+  free(line);
+}
+
+static void ExamineFile(SamArguments *a, const char where[], const char name[], int depth)
+{
+  struct stat status;
+  FILE       *file;
+
+  if (a->code) return;
+  if (depth > DEEPEST || a->count == SAM_ARGUMENTS_FILES) {
+    Complain(a, SAM_ERR_USER, "%s%s: options files name options files without end", where, name);
+  } else if (stat(name, &status) || !S_ISREG(status.st_mode) || !(file = fopen(name, "r"))) {
+    Complain(a, SAM_ERR_FILE, "%s%s: cannot be read: %s", where, name,
+             stat(name, &status) || S_ISREG(status.st_mode) ? strerror(errno) : "it is not a file");
+  } else {
+    a->files[a->count++] = strdup(name);
+    ExamineLines(a, where, name, file, depth);
+    (void)fclose(file);
+  }
+}
+
+/* The files that PETSc reads without being told. */
+static void ExamineUsualFiles(SamArguments *a, int argc, char **argv)
+{
+  const char *home = getenv("HOME");
+  char        name[PETSC_MAX_PATH_LEN];
+
+  for (int k = 1; k < argc; k++)
+    if (!strcasecmp(argv[k], "-skip_petscrc")) return;
+  (void)snprintf(name, sizeof(name), "%s/.petscrc", home ? home : "");
+  for (int k = 0; k < 3; k++) {
+    const char *const file = k == 0 ? name : k == 1 ? ".petscrc" : "petscrc";
+    struct stat       status;
+
+    if (!stat(file, &status) && S_ISREG(status.st_mode)) ExamineFile(a, "", file, 0);
+  }
+}
+
+static void ExamineEnvironment(SamArguments *a)
+{
+  const char *text = getenv("PETSC_OPTIONS");
+  char       *copy = text ? strdup(text) : NULL, *words[256];
+
+  if (!copy) return;
+  ExamineWords(a, "PETSC_OPTIONS: ", Split(copy, words, 256), words);
+  free(copy);
+}
+
+/* ---- the whole ---- */
+
+/* -help, --help, -h, --version, -version: PETSc would print its own text and go on. */
+static void TakeHelpAndVersion(int *argc, char **argv, SamArguments *a)
+{
+  int kept = 1;
+
+  for (int i = 1; i < *argc; i++) {
+    if (!strcmp(argv[i], "-help") || !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h"))
+      a->help = PETSC_TRUE;
+    else if (!strcmp(argv[i], "--version") || !strcmp(argv[i], "-version"))
+      a->version = PETSC_TRUE;
+    else
+      argv[kept++] = argv[i];
+  }
+  *argc      = kept;
+  argv[kept] = NULL;
+}
+
+void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
+{
+  static char *none[] = {"petsam", "-skip_petscrc", NULL};
+  int          rank;
+
+  memset(a, 0, sizeof(*a));
+  TakeHelpAndVersion(argc, *argv, a);
+  (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) {
+    ExamineWords(a, "", *argc - 1, *argv + 1);
+    ExamineEnvironment(a);
+    ExamineUsualFiles(a, *argc, *argv);
+  }
+  (void)MPI_Bcast(&a->code, (int)sizeof(a->code), MPI_BYTE, 0, MPI_COMM_WORLD);
+  (void)MPI_Bcast(a->message, (int)sizeof(a->message), MPI_CHAR, 0, MPI_COMM_WORLD);
+  if (!a->code) return;
+  (void)unsetenv("PETSC_OPTIONS");
+  (void)unsetenv("PETSC_OPTIONS_YAML");
+  *argc = 2;
+  *argv = none;
+}
+
+void SamArgumentsFree(SamArguments *a)
+{
+  for (int k = 0; k < a->count; k++) free(a->files[k]);
+  a->count = 0;
+}
+
+PetscErrorCode SamArgumentsRefuseUnknown(void)
+{
+  /* options that PETSc itself reads only in PetscFinalize() */
+  static const char *const late[] = {"-malloc_dump",
+                                     "-malloc_view",
+                                     "-malloc_test",
+                                     "-malloc_debug",
+                                     "-log_view",
+                                     "-log_view_memory",
+                                     "-options_left",
+                                     "-options_view",
+                                     "-objects_dump",
+                                     "-memory_view",
+                                     "-get_total_flops",
+                                     "-petsc_finalize_time",
+                                     NULL};
+  PetscInt                 count;
+  char                   **names, **values;
+  char                     first[128] = "";
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; late[k]; k++) {
+    PetscBool ignored;
+
+    PetscCall(PetscOptionsHasName(NULL, NULL, late[k], &ignored));
+  }
+  PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
+  if (count)
+    PetscCall(
+      PetscSNPrintf(first, sizeof(first), "-%s%s%s", names[0], values[0] ? " " : "", values[0] ? values[0] : ""));
+  PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
+  PetscCheck(!first[0], PETSC_COMM_WORLD, SAM_ERR_USER,
+             "%s: unknown option, or one that has no effect with the others given", first);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,31 @@
+/* The words of the command line, and all that PETSc reads besides, looked through before PETSc acts on them. */
+#ifndef PETSAM_APP_ARGUMENTS_H
+#define PETSAM_APP_ARGUMENTS_H
+
+#include <petsam/base.h>
+
+#define SAM_ARGUMENTS_FILES 64 /* most options files */
+
+typedef struct {
+  PetscBool      help, version;
+  PetscErrorCode code;         /* of the first mistake, 0: none */
+  char           message[512]; /* that says what it is */
+  char          *files[SAM_ARGUMENTS_FILES];
+  int            count; /* of the options files, which must not be overwritten; known to rank 0 */
+} SamArguments;
+
+/*
+  SamArgumentsExamine - takes -help and -version from the command line, and looks through the rest, the options files,
+  PETSC_OPTIONS and .petscrc, for mistakes at which PETSc would end the program with a trace, or wait for ever, and for
+  options that load code or start programs. After a mistake nothing is left for PETSc to read. To be called between
+  MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
+*/
+PETSC_INTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
+PETSC_INTERN void SamArgumentsFree(SamArguments *arguments);
+/*
+  SamArgumentsRefuseUnknown - refuses options that the set-up has not read: they are misspelled, or have no effect.
+  Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamArgumentsRefuseUnknown(void);
+
+#endif

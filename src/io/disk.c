@@ -1,0 +1,388 @@
+/*
+  What rank 0 does with files through the system, before and after HDF5 uses them: finds out whether a name can be
+  written and what it holds, keeps other runs from it, allocates space, notices changes from outside, renames.
+
+  Functions that return an int return 0, an errno, or one of the reasons below.
+*/
+#include "ioimpl.h"
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+enum { IN_USE = -1, FOREIGN = -2, REPLACED = -3, RESIZED = -4, IS_LINK = -5, NOT_A_FILE = -6 };
+
+static const char *Reason(int error)
+{
+  switch (error) {
+  case IN_USE:
+    return "another run is writing it";
+  case FOREIGN:
+    return "there is a file of that name that petsam has not written, and it is not replaced";
+  case REPLACED:
+    return "another program has replaced it during this run";
+  case RESIZED:
+    return "another program has changed its size during this run";
+  case IS_LINK:
+    return "it is a symbolic link";
+  case NOT_A_FILE:
+    return "it is not a file";
+  default:
+    return strerror(error);
+  }
+}
+
+PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
+  PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, Reason(error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool IsFirst(SamGrid grid)
+{
+  PetscMPIInt rank = 0;
+
+  (void)MPI_Comm_rank(grid->comm, &rank);
+  return rank ? PETSC_FALSE : PETSC_TRUE;
+}
+
+/* ---- what a file holds ---- */
+
+#define HEAD (16 << 20) /* bytes at the start of results in which their attributes are */
+
+/* Whether the bytes contain the text. */
+static PetscBool Contains(const char bytes[], size_t size, const char text[])
+{
+  const size_t length = strlen(text);
+  const char  *found  = bytes;
+
+  while (size >= length && (found = (const char *)memchr(bytes, text[0], size - length + 1))) {
+    if (!memcmp(found, text, length)) return PETSC_TRUE;
+    size -= (size_t)(found + 1 - bytes);
+    bytes = found + 1;
+  }
+  return PETSC_FALSE;
+}
+
+/*
+  Whether the first bytes of a file are those of what petsam writes under the name. HDF5 is not asked: a damaged file
+  could keep it busy for ever. A run that was killed may have left a file that begins with zeros.
+*/
+static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
+{
+  static const char hdf5[8] = "\211HDF\r\n\032\n", zeros[8] = {0};
+
+  if (!size) return PETSC_TRUE;
+  if (use == SAM_FILE_XDMF) return size >= strlen(SamXdmfHead) && !strncmp(head, SamXdmfHead, strlen(SamXdmfHead));
+  if (size >= sizeof(zeros) && !memcmp(head, zeros, sizeof(zeros))) return PETSC_TRUE;
+  if ((use == SAM_FILE_CHECKPOINT || use == SAM_FILE_TEMPORARY) && SamSealIsOne(head, size)) return PETSC_TRUE;
+  if (use == SAM_FILE_CHECKPOINT || size < sizeof(hdf5) || memcmp(head, hdf5, sizeof(hdf5))) return PETSC_FALSE;
+  return Contains(head, size, "petsam_version");
+}
+
+static int CheckContent(int file, SamFileUse use)
+{
+  char   *head;
+  ssize_t n;
+  int     error;
+
+  if (PetscMalloc1(HEAD, &head)) return ENOMEM;
+  n     = pread(file, head, HEAD, 0);
+  error = n < 0 ? errno : IsOwn(use, head, (size_t)n) ? 0 : FOREIGN;
+  (void)PetscFree(head);
+  return error;
+}
+
+/* ---- space ---- */
+
+/* Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer, else it is as before. */
+static int Reserve(int file, off_t bytes, PetscBool keep)
+{
+  struct stat    status;
+  struct statvfs space;
+  int            error = EOPNOTSUPP;
+
+  if (fstat(file, &status)) return errno;
+#if defined(__linux__)
+  error = fallocate(file, 0, status.st_size, bytes) ? errno : 0;
+  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* after an error, a part may be allocated */
+#endif
+  if (error != EOPNOTSUPP && error != ENOSYS) return error;
+  if (fstatvfs(file, &space)) return errno;
+  if ((double)space.f_bavail * (double)space.f_frsize < (double)bytes) return ENOSPC;
+  return keep && ftruncate(file, status.st_size + bytes) ? errno : 0;
+}
+
+static int ReserveInFile(const char filename[], off_t bytes)
+{
+  const int file = open(filename, O_WRONLY);
+  int       error;
+
+  if (file < 0) return errno;
+  error = Reserve(file, bytes, PETSC_TRUE);
+  return close(file) && !error ? errno : error;
+}
+
+PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
+{
+  int error = 0;
+
+  PetscFunctionBegin;
+  if (f->rank == 0) error = ReserveInFile(f->filename, SAM_FILE_METADATA + bytes);
+  PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- keeping other runs from a file ---- */
+
+/*
+  Locks a file for as long as it stays open, also for other nodes where the file system allows that. The lock lies
+  beyond all data, where MPI-IO has no locks of its own. Systems without such locks go without.
+*/
+#define LOCK_AT ((off_t)1 << 60)
+static int Lock(int file)
+{
+#if defined(F_OFD_SETLK)
+  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = LOCK_AT, .l_len = 1};
+
+  if (fcntl(file, F_OFD_SETLK, &lock) && (errno == EAGAIN || errno == EACCES)) return IN_USE;
+#else
+  (void)file;
+#endif
+  return 0;
+}
+
+/* Whether the name is still that of the open file. */
+static PetscBool IsNameOf(const char filename[], int file)
+{
+  struct stat named, open;
+
+  return (!stat(filename, &named) && !fstat(file, &open) && named.st_dev == open.st_dev && named.st_ino == open.st_ino)
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
+/* What a name stands for before it is opened. A pipe, or a device, would wait for its reader. */
+static int CheckPlace(const char filename[], SamFileUse use)
+{
+  struct stat status;
+
+  if (use == SAM_FILE_TEMPORARY && !lstat(filename, &status) && S_ISLNK(status.st_mode)) return IS_LINK;
+  if (stat(filename, &status)) return errno == ENOENT ? 0 : errno;
+  if (S_ISDIR(status.st_mode)) return EISDIR;
+  return S_ISREG(status.st_mode) ? 0 : NOT_A_FILE;
+}
+
+static off_t SizeOf(int file)
+{
+  struct stat status;
+
+  return fstat(file, &status) ? -1 : status.st_size;
+}
+
+void SamHoldRelease(const char filename[], SamHold *hold)
+{
+  if (hold->file < 0) return;
+  if ((hold->use == SAM_FILE_TEMPORARY || (hold->created && SizeOf(hold->file) == 0)) && IsNameOf(filename, hold->file))
+    (void)unlink(filename);
+  (void)close(hold->file);
+  hold->file = -1;
+}
+
+/* Opens and locks a file, which is created if it is not there, and checks that it can be written and may be replaced. */
+static int Take(const char filename[], SamFileUse use, SamHold *hold)
+{
+  int error = 0;
+
+  *hold = (SamHold){.use = use, .file = -1};
+  do { /* again if another run renames or removes the file in between */
+    if (hold->file >= 0) (void)close(hold->file);
+    error = CheckPlace(filename, use);
+    if (error) return error;
+    hold->created = access(filename, F_OK) ? PETSC_TRUE : PETSC_FALSE;
+    hold->file    = open(filename, O_RDWR | O_CLOEXEC | (use == SAM_FILE_OLD_RESULTS ? 0 : O_CREAT), 0666);
+    if (hold->file < 0) return errno;
+    error = Lock(hold->file);
+  } while (!error && !IsNameOf(filename, hold->file));
+  if (error) {
+    (void)close(hold->file); /* another run's file: leave it */
+    hold->file = -1;
+    return error;
+  }
+  hold->before = SizeOf(hold->file);
+  error        = CheckContent(hold->file, use);
+  if (error) hold->use = SAM_FILE_RESULTS; /* somebody's file: not removed */
+  if (!error) error = Reserve(hold->file, SAM_FILE_METADATA, PETSC_FALSE);
+  if (error) SamHoldRelease(filename, hold);
+  return error;
+}
+
+PetscErrorCode SamHoldTake(SamGrid grid, const char option[], const char filename[], SamFileUse use, SamHold *hold)
+{
+  int error = 0;
+
+  PetscFunctionBegin;
+  hold->file = -1;
+  if (IsFirst(grid)) error = Take(filename, use, hold);
+  PetscCall(SamFileRaise(grid, option, filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)
+{
+  SamHold hold;
+  int     error = 0;
+
+  PetscFunctionBegin;
+  if (IsFirst(grid)) error = Take(filename, use, &hold);
+  if (IsFirst(grid)) SamHoldRelease(filename, &hold);
+  PetscCall(SamFileRaise(grid, option, filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold, PetscBool *had)
+{
+  int some = hold->file >= 0 && hold->before > 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&some, 1, MPI_INT, 0, grid->comm));
+  *had = some ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamHoldNoteSize(SamHold *hold)
+{
+  if (hold->file >= 0) hold->size = SizeOf(hold->file);
+}
+
+PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold)
+{
+  struct stat status;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  if (hold->file >= 0) {
+    if (stat(filename, &status))
+      error = errno;
+    else if (!IsNameOf(filename, hold->file))
+      error = REPLACED;
+    else if (SizeOf(hold->file) != hold->size)
+      error = RESIZED;
+  }
+  PetscCall(SamFileRaise(grid, option, filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+#define PATIENCE 1000 /* milliseconds until a run that is refused has given up a file */
+
+/* Takes the next file of a name whose file has been renamed; only then the old one is given up. */
+static int TakeNext(const char filename[], SamHold *hold)
+{
+  SamHold next;
+  int     error = IN_USE;
+
+  for (int k = 0; k < PATIENCE && error == IN_USE; k++) {
+    if (k) (void)usleep(1000);
+    error = Take(filename, hold->use, &next);
+  }
+  (void)close(hold->file);
+  *hold = next;
+  return error;
+}
+
+PetscErrorCode SamHoldTakeNext(SamGrid grid, const char option[], const char filename[], SamHold *hold)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileRaise(grid, option, filename, hold->file >= 0 ? TakeNext(filename, hold) : 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- left-overs ---- */
+
+/*
+  Open MPI keeps a file <name>-<job>-<process>.lock beside each file that is open through MPI-IO, for shared file
+  pointers, which HDF5 does not use. It would stay after a kill.
+*/
+static void RemoveLockFiles(const char filename[])
+{
+  const char    *slash = strrchr(filename, '/'), *name = slash ? slash + 1 : filename;
+  char           folder[PETSC_MAX_PATH_LEN], ending[32], path[2 * PETSC_MAX_PATH_LEN];
+  struct dirent *entry;
+  DIR           *list;
+
+  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
+                 slash ? filename : ".");
+  (void)snprintf(ending, sizeof(ending), "-%ld.lock", (long)getpid());
+  list = opendir(folder);
+  while (list && (entry = readdir(list))) {
+    const size_t length = strlen(entry->d_name), begin = strlen(name), end = strlen(ending);
+
+    if (length <= begin + end || strncmp(entry->d_name, name, begin) || entry->d_name[begin] != '-' ||
+        strcmp(entry->d_name + length - end, ending))
+      continue;
+    (void)snprintf(path, sizeof(path), "%s/%s", folder, entry->d_name);
+    (void)unlink(path);
+  }
+  if (list) (void)closedir(list);
+}
+
+void SamFileRemoveLeftOvers(SamFile f)
+{
+  if (f->rank == 0) RemoveLockFiles(f->filename);
+}
+
+/* ---- the disk ---- */
+
+/* Flushes a file, or a folder's list of names, to the disk. */
+static int Sync(const char name[], int flags)
+{
+  const int file = open(name, flags);
+  int       error;
+
+  if (file < 0) return errno;
+  error = fsync(file) && errno != EINVAL && errno != EROFS ? errno : 0; /* some systems cannot flush folders */
+  return close(file) && !error ? errno : error;
+}
+
+static int SyncFolderOf(const char filename[])
+{
+  const char *slash = strrchr(filename, '/');
+  char        folder[PETSC_MAX_PATH_LEN];
+
+  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
+                 slash ? filename : ".");
+  return Sync(folder, O_RDONLY | O_DIRECTORY);
+}
+
+/*
+  Gives a file the second name `kept`, replacing a file of that name; if there is no file, does nothing. Where the file
+  system has no hard links, the file is renamed and loses its first name.
+*/
+static int KeepAs(const char filename[], const char kept[])
+{
+  if (access(filename, F_OK)) return 0;
+  if (unlink(kept) && errno != ENOENT) return errno;
+  if (!link(filename, kept)) return 0;
+  return rename(filename, kept) ? errno : 0;
+}
+
+PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[], const char filename[],
+                              const char kept[])
+{
+  int error = 0;
+
+  PetscFunctionBegin;
+  if (IsFirst(grid)) {
+    error = Sync(temporary, O_RDONLY);
+    if (!error && kept) error = KeepAs(filename, kept);
+    if (!error && rename(temporary, filename)) error = errno;
+    if (!error) error = SyncFolderOf(filename);
+  }
+  PetscCall(SamFileRaise(grid, option, filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
