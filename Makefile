@@ -43,7 +43,7 @@ UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants format check-format lint install clean
+.PHONY: all help units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants check-fuzz format check-format lint install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -118,8 +118,14 @@ test: all units bench-programs $(B)/venv/tests-done ## run all tests
 	$(PYTHON) tests/run.py --build $(B)
 
 check-sanitize: ## unit tests under the address and undefined-behaviour sanitizers
-	$(MAKE) B=build/sanitize OPT="-O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer" LDFLAGS="-fsanitize=address,undefined" all units
+	$(MAKE) $(SANITIZE) all units
 	ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=halt_on_error=1 $(PYTHON) tests/run.py --build build/sanitize --units-only
+
+SANITIZE := B=build/sanitize OPT="-O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer" LDFLAGS="-fsanitize=address,undefined"
+check-fuzz: all $(B)/venv/tests-done ## an adversary for ten minutes, without and with sanitizers: spoiled input, kills, full disks, signals; ARGS="--seconds 60 --seed 7 --only gap,kill"
+	$(B)/venv/bin/python tests/fuzz/fuzz.py --build $(B) $(ARGS)
+	$(MAKE) $(SANITIZE) all
+	$(B)/venv/bin/python tests/fuzz/fuzz.py --build build/sanitize --patience 180 $(ARGS)
 
 check-valgrind: all units ## unit tests under valgrind, one rank
 	for t in $(UNIT); do valgrind -q --error-exitcode=9 $$t > $(B)/valgrind.log 2>&1 || { cat $(B)/valgrind.log; exit 1; }; done

@@ -6,10 +6,12 @@
   been read and checked.
 */
 #include "runimpl.h"
+#include <hdf5.h>
 #include <malloc.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { EXIT_USAGE = 2, EXIT_FILE = 3, EXIT_STOPPED = 75 };
 
@@ -37,6 +39,8 @@ static const char usage[] =
 
 /* Whether an error has occurred that the other ranks may not know of. */
 static PetscBool alone = PETSC_FALSE;
+/* Whether an MPI launcher has started the program. */
+static PetscBool launched = PETSC_TRUE;
 
 /* Errors that a line explains; of all others PETSc prints a trace. */
 static PetscBool IsPlain(PetscErrorCode code)
@@ -124,13 +128,15 @@ static void ReturnLargeFields(void)
 static void PrepareMPI(void)
 {
 #if defined(OPEN_MPI)
-  static const char *const launched[] = {
+  static const char *const signs[] = {
     "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK", "PMI_ID", "PMI_FD", "PMI_SIZE", "SLURM_STEP_ID",
     "ALPS_APP_PE",          NULL};
 
   (void)setenv("OMPI_MCA_sharedfp", "^sm", 0); /* its semaphores fail where /dev/shm is full */
-  for (int k = 0; launched[k]; k++)
-    if (getenv(launched[k])) return;
+  launched = PETSC_FALSE;
+  for (int k = 0; signs[k]; k++)
+    if (getenv(signs[k])) launched = PETSC_TRUE;
+  if (launched) return;
   (void)setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   (void)setenv("OMPI_MCA_orte_create_session_dirs", "0", 0); /* else concurrent programs would share one */
   (void)setenv("OMPI_MCA_pml", "ob1", 0);
@@ -153,7 +159,6 @@ static PetscErrorCode StartPetsc(int *argc, char ***argv)
   if (!code) code = PetscPushErrorHandler(HandleErrorAtStart, NULL);
   if (!code) code = PetscInitialize(argc, argv, NULL, NULL);
   for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], &before[k], NULL);
-  (void)signal(SIGXFSZ, SIG_IGN); /* a file at its size limit becomes an error of the call that writes */
   return code;
 }
 
@@ -192,6 +197,8 @@ static void AbandonAfter(SamRun *run, PetscErrorCode code, int status)
 {
   if (!code || (status != (int)code && !run->writing && !alone)) return;
   (void)SamCheckpointsDestroy(&run->checkpoints); /* leaves no temporary file */
+  (void)fflush(NULL);
+  if (!launched) _exit(status); /* there are no other ranks */
   (void)MPI_Abort(PETSC_COMM_WORLD, status);
 }
 
@@ -202,6 +209,7 @@ int main(int argc, char **argv)
   PetscErrorCode code;
   int            status;
 
+  (void)signal(SIGXFSZ, SIG_IGN); /* a file at its size limit becomes an error of the call that writes */
   ReturnLargeFields();
   PrepareMPI();
   if (MPI_Init(&argc, &argv)) return EXIT_FAILURE;
@@ -216,7 +224,8 @@ int main(int argc, char **argv)
   PetscCall(SamRunTearDown(&run));
   PetscCall(SamFinalize());
   PetscCall(PetscPopErrorHandler());
-  if (code) PetscCall(PetscOptionsClear(NULL)); /* no viewer writes its file after a mistake */
+  if (code) PetscCall(PetscOptionsClear(NULL));          /* no viewer writes its file after a mistake */
+  if (code) (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* HDF5 may complain, at its end, of a file that was damaged */
   SamArgumentsFree(&arguments);
   PetscCall(PetscFinalize());
   (void)MPI_Finalize();

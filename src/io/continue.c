@@ -123,6 +123,97 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- before the ranks open the file ---- */
+
+/* Whether all chunks of the steps that are kept lie within the file. */
+static void CheckChunks(SamOutput o, hsize_t keep)
+{
+  hsize_t size = 0;
+
+  (void)SamFileNote(o->f, H5Fget_filesize(o->f->id, &size));
+  for (PetscInt f = 0; f < SamOutputFieldCount && !o->f->failed; f++) {
+    const hid_t space = SamFileNote(o->f, H5Dget_space(o->fields[f]));
+    hsize_t     count = 0;
+
+    (void)SamFileNote(o->f, H5Dget_num_chunks(o->fields[f], space, &count));
+    for (hsize_t k = 0; k < count && !o->f->failed; k++) {
+      hsize_t  offset[3] = {0, 0, 0}, bytes = 0;
+      haddr_t  address = 0;
+      unsigned filters = 0;
+
+      (void)SamFileNote(o->f, H5Dget_chunk_info(o->fields[f], space, k, offset, &filters, &address, &bytes));
+      if (offset[0] < keep && (address > size || bytes > size - address)) (void)SamFileNote(o->f, -1);
+    }
+    if (space >= 0) (void)SamFileNote(o->f, H5Sclose(space));
+  }
+}
+
+typedef struct {
+  SamGrid                  grid; /* of one rank */
+  const char              *filename;
+  const SamOutputSettings *set;
+  const Wanted            *wanted;
+  PetscErrorCode           code;
+  char                     message[1024];
+} Case;
+
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                                  PetscErrorType type, const char *message, void *context)
+{
+  (void)comm;
+  (void)line;
+  (void)function;
+  (void)file;
+  if (type == PETSC_ERROR_INITIAL && message) (void)snprintf((char *)context, 1024, "%s", message);
+  return code;
+}
+
+static PetscErrorCode LookAtAll(const Case *c)
+{
+  SamOutput o;
+  Found     found;
+
+  PetscFunctionBegin;
+  PetscCall(Open(c->grid, c->filename, SAM_FILE_READ_ALONE, c->set, c->wanted, &o, &found));
+  PetscCall(SamFileBegin(o->f));
+  CheckChunks(o, found.keep);
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void LookInChild(void *data)
+{
+  Case *c = (Case *)data;
+
+  (void)PetscPushErrorHandler(KeepMessage, c->message);
+  c->code = LookAtAll(c);
+}
+
+/* Rank 0 looks at all that will be read but the fields themselves, in a child process. Collective. */
+static PetscErrorCode LookBefore(SamGrid grid, const char filename[], const SamOutputSettings *set,
+                                 const Wanted *wanted)
+{
+  const PetscInt  n[2]     = {grid->nx, grid->ny};
+  const PetscReal width[2] = {grid->nx * grid->dx, grid->ny * grid->dy}, center[2] = {0, 0};
+  Case            c = {.filename = filename, .set = set, .wanted = wanted};
+  PetscMPIInt     rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  if (rank == 0) {
+    PetscCall(SamGridCreate(PETSC_COMM_SELF, n, width, center, &c.grid));
+    if (!SamCallInChild(LookInChild, &c, sizeof(c))) {
+      c.code = SAM_ERR_FILE;
+      (void)snprintf(c.message, sizeof(c.message), "-output %s: cannot be read: it is damaged", filename);
+    }
+    PetscCall(SamGridDestroy(&c.grid));
+  }
+  PetscCallMPI(MPI_Bcast(&c.code, (PetscMPIInt)sizeof(c.code), MPI_BYTE, 0, grid->comm));
+  PetscCallMPI(MPI_Bcast(c.message, (PetscMPIInt)sizeof(c.message), MPI_CHAR, 0, grid->comm));
+  PetscCheck(!c.code, grid->comm, c.code, "%s", c.message);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- copying ---- */
 
 /* Reads the numbers of a step from the history; an optional column that is not there leaves its default. */
@@ -311,6 +402,7 @@ static PetscErrorCode OpenOrRewrite(SamGrid grid, const char filename[], const S
 
   PetscFunctionBegin;
   PetscCall(SamHoldTake(grid, "output", filename, SAM_FILE_OLD_RESULTS, hold));
+  PetscCall(LookBefore(grid, filename, set, wanted));
   PetscCall(Open(grid, filename, SAM_FILE_READ, set, wanted, output, &found));
   if (!found.whole) ierr = Rewrite(*output, set, wanted, found.keep);
   PetscCall(SamOutputDestroy(output));

@@ -304,27 +304,35 @@ PetscErrorCode SamHoldTakeNext(SamGrid grid, const char option[], const char fil
 
 /* ---- left-overs ---- */
 
+/* Whether a text is -<number>-<number>.lock */
+static PetscBool IsLockEnding(const char text[])
+{
+  for (int k = 0; k < 2; k++) {
+    const size_t digits = text[0] == '-' ? strspn(text + 1, "0123456789") : 0;
+
+    if (!digits) return PETSC_FALSE;
+    text += 1 + digits;
+  }
+  return strcmp(text, ".lock") ? PETSC_FALSE : PETSC_TRUE;
+}
+
 /*
   Open MPI keeps a file <name>-<job>-<process>.lock beside each file that is open through MPI-IO, for shared file
-  pointers, which HDF5 does not use. It would stay after a kill.
+  pointers, which HDF5 does not use. It would stay after a kill. Those of runs that were killed before go, too.
 */
 static void RemoveLockFiles(const char filename[])
 {
   const char    *slash = strrchr(filename, '/'), *name = slash ? slash + 1 : filename;
-  char           folder[PETSC_MAX_PATH_LEN], ending[32], path[2 * PETSC_MAX_PATH_LEN];
+  const size_t   length = strlen(name);
+  char           folder[PETSC_MAX_PATH_LEN], path[2 * PETSC_MAX_PATH_LEN];
   struct dirent *entry;
   DIR           *list;
 
   (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
                  slash ? filename : ".");
-  (void)snprintf(ending, sizeof(ending), "-%ld.lock", (long)getpid());
   list = opendir(folder);
   while (list && (entry = readdir(list))) {
-    const size_t length = strlen(entry->d_name), begin = strlen(name), end = strlen(ending);
-
-    if (length <= begin + end || strncmp(entry->d_name, name, begin) || entry->d_name[begin] != '-' ||
-        strcmp(entry->d_name + length - end, ending))
-      continue;
+    if (strncmp(entry->d_name, name, length) || !IsLockEnding(entry->d_name + length)) continue;
     (void)snprintf(path, sizeof(path), "%s/%s", folder, entry->d_name);
     (void)unlink(path);
   }

@@ -131,21 +131,27 @@ static PetscErrorCode Examine(SamFile f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool IsOld(SamFileMode mode)
+{
+  return (mode == SAM_FILE_CREATE || mode == SAM_FILE_CREATE_SEALED) ? PETSC_FALSE : PETSC_TRUE;
+}
+
+/* Reading is not collective: in a damaged file it may fail on some ranks, and no other shall wait for these. */
 static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
 {
   hid_t access, creation;
 
   PetscFunctionBegin;
-  if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND) PetscCall(Examine(f));
+  if (IsOld(mode)) PetscCall(Examine(f));
   PetscCall(SamFileBegin(f));
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
-  (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));
+  if (mode != SAM_FILE_READ_ALONE) (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));
   (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
   creation = SamFileNote(f, H5Pcreate(H5P_FILE_CREATE));
   if (mode == SAM_FILE_CREATE_SEALED) (void)SamFileNote(f, H5Pset_userblock(creation, SAM_SEAL));
   f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
-  (void)SamFileNote(f, H5Pset_dxpl_mpio(f->transfer, H5FD_MPIO_COLLECTIVE));
-  if (mode == SAM_FILE_READ || mode == SAM_FILE_APPEND)
+  if (f->writing) (void)SamFileNote(f, H5Pset_dxpl_mpio(f->transfer, H5FD_MPIO_COLLECTIVE));
+  if (IsOld(mode))
     f->id = SamFileNote(f, H5Fopen(f->filename, f->writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access));
   else
     f->id = SamFileNote(f, H5Fcreate(f->filename, H5F_ACC_TRUNC, creation, access));
@@ -163,7 +169,7 @@ PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], co
 
   PetscFunctionBegin;
   PetscCall(Allocate(grid, event, option, filename, file));
-  (*file)->writing = mode == SAM_FILE_READ ? PETSC_FALSE : PETSC_TRUE;
+  (*file)->writing = mode == SAM_FILE_READ || mode == SAM_FILE_READ_ALONE ? PETSC_FALSE : PETSC_TRUE;
   ierr             = OpenFile(*file, mode);
   if (ierr) {
     (*file)->id = -1; /* not closed: closing would wait for a rank that could not open the file */

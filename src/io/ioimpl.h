@@ -33,10 +33,16 @@ struct _n_SamFile {
 
 #define SAM_FILE_METADATA (1 << 20) /* bytes, more than HDF5's metadata take at creation or in a step */
 
-typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ, SAM_FILE_APPEND } SamFileMode;
+typedef enum {
+  SAM_FILE_CREATE,
+  SAM_FILE_CREATE_SEALED,
+  SAM_FILE_READ,
+  SAM_FILE_READ_ALONE,
+  SAM_FILE_APPEND
+} SamFileMode;
 /*
   SamFileOpen - opens a file to READ or to APPEND, or CREATEs it, replacing one of that name; CREATE_SEALED: with room
-  for a seal. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  for a seal; READ_ALONE: without MPI-IO, by the one rank of the grid. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);

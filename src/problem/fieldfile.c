@@ -1,8 +1,9 @@
 /*
   Fields read from HDF5 datasets of shape (ny, nx).
 
-  A file may be wrong in many ways. Rank 0 examines it with the serial driver and broadcasts its verdict. So all ranks
-  raise the same error, and none waits for another in a collective call. Only then all read their rows together.
+  A file may be wrong in many ways. Rank 0 examines it with the serial driver, in a child process, and broadcasts its
+  verdict. So all ranks raise the same error, none waits for another, and a damaged file does no harm. Only then all read
+  their rows.
 */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/fieldfile.h>
@@ -102,6 +103,31 @@ static Verdict JudgeDataset(SamGrid grid, hid_t dataset)
   return verdict;
 }
 
+/* Whether all chunks of a dataset lie within the file; in a damaged one they may be anywhere. */
+static PetscBool HasAllChunks(hid_t file, hid_t dataset)
+{
+  const hid_t space = H5Dget_space(dataset), creation = H5Dget_create_plist(dataset);
+  hsize_t     count = 0, size = 0;
+  haddr_t     address = 0;
+  PetscBool   good    = space >= 0 && creation >= 0 && H5Fget_filesize(file, &size) >= 0 ? PETSC_TRUE : PETSC_FALSE;
+
+  if (good && H5Pget_layout(creation) == H5D_CHUNKED) {
+    good = H5Dget_num_chunks(dataset, space, &count) >= 0 ? PETSC_TRUE : PETSC_FALSE;
+    for (hsize_t k = 0; k < count && good; k++) {
+      hsize_t offset[2], bytes = 0;
+
+      if (H5Dget_chunk_info(dataset, space, k, offset, NULL, &address, &bytes) < 0 || address + bytes > size)
+        good = PETSC_FALSE;
+    }
+  } else if (good && H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0) {
+    address = H5Dget_offset(dataset);
+    if (address != HADDR_UNDEF && address + H5Dget_storage_size(dataset) > size) good = PETSC_FALSE;
+  }
+  if (creation >= 0) (void)H5Pclose(creation);
+  if (space >= 0) (void)H5Sclose(space);
+  return good;
+}
+
 /* Examines the file, on one rank. */
 static Verdict Judge(const SamFieldFile *source, SamGrid grid)
 {
@@ -120,6 +146,7 @@ static Verdict Judge(const SamFieldFile *source, SamGrid grid)
     verdict.kind = NO_DATASET;
   } else {
     verdict = JudgeDataset(grid, dataset);
+    if (verdict.kind == GOOD && !HasAllChunks(file, dataset)) verdict.kind = DAMAGED;
     (void)H5Dclose(dataset);
   }
   (void)H5Fclose(file);
@@ -169,16 +196,29 @@ static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verd
   }
 }
 
+typedef struct {
+  const SamFieldFile *source;
+  SamGrid             grid;
+  Verdict             verdict;
+} Case;
+
+static void JudgeCase(void *data)
+{
+  Case *c = (Case *)data;
+
+  c->verdict = Judge(c->source, c->grid);
+}
+
 static PetscErrorCode CheckFile(const SamFieldFile *source, SamGrid grid)
 {
-  Verdict     verdict = {GOOD, {0, 0}};
+  Case        c = {.source = source, .grid = grid, .verdict = {GOOD, {0, 0}}};
   PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
-  if (rank == 0) verdict = Judge(source, grid);
-  PetscCallMPI(MPI_Bcast(&verdict, (PetscMPIInt)sizeof(verdict), MPI_BYTE, 0, grid->comm));
-  PetscCall(Raise(source, grid, &verdict));
+  if (rank == 0 && !SamCallInChild(JudgeCase, &c, sizeof(c))) c.verdict.kind = DAMAGED;
+  PetscCallMPI(MPI_Bcast(&c.verdict, (PetscMPIInt)sizeof(c.verdict), MPI_BYTE, 0, grid->comm));
+  PetscCall(Raise(source, grid, &c.verdict));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -194,7 +234,7 @@ static void Open(const SamFieldFile *source, SamGrid grid, hid_t *file, hid_t *d
   if (access >= 0) (void)H5Pclose(access);
 }
 
-/* Reads this rank's rows. Collective: a rank without rows takes part with an empty selection. */
+/* Reads this rank's rows, without waiting for others: reading may fail on some ranks. */
 static PetscBool ReadRows(SamGrid grid, hid_t dataset, double array[])
 {
   const hsize_t start[2] = {(hsize_t)grid->row_start, 0}, count[2] = {(hsize_t)grid->rows, (hsize_t)grid->nx};
@@ -206,7 +246,6 @@ static PetscBool ReadRows(SamGrid grid, hid_t dataset, double array[])
 
   status = grid->rows ? H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) : H5Sselect_none(space);
   if (status < 0) good = PETSC_FALSE;
-  if (H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE) < 0) good = PETSC_FALSE;
   if (H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, transfer, grid->rows ? array : &nothing) < 0)
     good = PETSC_FALSE;
   if (H5Pclose(transfer) < 0) good = PETSC_FALSE;
@@ -223,7 +262,6 @@ static PetscErrorCode Read(const SamFieldFile *source, SamGrid grid, double arra
   PetscFunctionBegin;
   Open(source, grid, &file, &dataset);
   bad = dataset < 0;
-  PetscCall(SamMax(grid->comm, 1, &bad)); /* the read is collective: either all ranks take part in it or none */
   if (bad == 0) bad = ReadRows(grid, dataset, array) ? 0 : 1;
   if (dataset >= 0 && H5Dclose(dataset) < 0) bad = 1;
   if (file >= 0 && H5Fclose(file) < 0) bad = 1;

@@ -146,6 +146,13 @@ static inline double SamLarger(double most, double value)
 #define SAM_SYMMETRIC_MAX 8
 PETSC_EXTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[]);
 
+/*
+  SamCallInChild - calls a function in a child process, for one that may crash or never end on a damaged file; it must
+  not communicate. `data` (size bytes) is then as the function has left it. Returns whether it has ended properly. Not
+  collective.
+*/
+PETSC_EXTERN PetscBool SamCallInChild(void (*function)(void *data), void *data, size_t size);
+
 /* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */
