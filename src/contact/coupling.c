@@ -25,8 +25,11 @@
 /* The error that the first pass is solved to, and with a guess of p and q. */
 #define FIRST 1e-2
 #define GUESS 1e-3
-/* The error up to which a pass starts from the last shear. */
-#define NEAR 1e-4
+/* A pass that leaves more than this part of the error looks for contact everywhere again. */
+#define LOOK 0.9
+/* The error up to which a pass starts from the last shear, and is solved to the end. */
+#define NEAR  1e-3
+#define EXACT 1e-5
 /* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
 #define NORMAL_PART      0.1
 #define NORMAL_FINAL     0.3
@@ -106,8 +109,9 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscFunctionBegin;
   SamSolverSetEffort(s->c->normal, PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
                      p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_GLANCE);
+  /* of a pressure that is not smooth yet, Newton's method may get stuck on the shear; that is not worth its while */
   SamSolverSetEffort(s->c->tangential, PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error),
-                     SAM_EFFORT_FULL);
+                     p->error > EXACT ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL);
   PetscCall(VecCopy(s->lift, s->h));
   PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear ? PETSC_TRUE : PETSC_FALSE));
   PetscCall(SamSolveJudgeNormal(s));
@@ -122,7 +126,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
   if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0)
     PetscCall(Slide(p));
-  else
+  else if (reason != SAM_SOLVER_DIVERGED_ITS || p->error <= EXACT)
     PetscCall(SamSolveJudgeTangential(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -144,7 +148,7 @@ static PetscErrorCode Measure(Passes *p, PetscBool *solved)
   if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudgeNormal(s));
   PetscCall(SamSolverGetStatistics(s->c->normal, &p->error, NULL, NULL, NULL));
   PetscCall(SamSolverGetStatistics(s->c->tangential, &error, NULL, NULL, NULL));
-  p->looks = p->error > before ? PETSC_TRUE : PETSC_FALSE;
+  p->looks = p->error > LOOK * before ? PETSC_TRUE : PETSC_FALSE;
   *solved  = (reason > 0 && (p->slides || error <= p->rtol[1])) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -43,6 +43,14 @@ PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filena
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static void GetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN])
+{
+  const char *slash = strrchr(filename, '/');
+
+  (void)snprintf(folder, PETSC_MAX_PATH_LEN, "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
+                 slash ? filename : ".");
+}
+
 static PetscBool IsFirst(SamGrid grid)
 {
   PetscMPIInt rank = 0;
@@ -233,14 +241,25 @@ PetscErrorCode SamHoldTake(SamGrid grid, const char option[], const char filenam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether a file can be made there, without making one, which would stay if the run were killed just then. */
+static int CheckFolderOf(const char filename[])
+{
+  char folder[PETSC_MAX_PATH_LEN];
+
+  GetFolder(filename, folder);
+  return access(folder, W_OK | X_OK) ? errno : 0;
+}
+
 PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)
 {
-  SamHold hold;
+  SamHold hold  = {.file = -1};
   int     error = 0;
 
   PetscFunctionBegin;
-  if (IsFirst(grid)) error = Take(filename, use, &hold);
-  if (IsFirst(grid)) SamHoldRelease(filename, &hold);
+  if (IsFirst(grid)) {
+    error = access(filename, F_OK) ? CheckFolderOf(filename) : Take(filename, use, &hold);
+    SamHoldRelease(filename, &hold);
+  }
   PetscCall(SamFileRaise(grid, option, filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -328,8 +347,7 @@ static void RemoveLockFiles(const char filename[])
   struct dirent *entry;
   DIR           *list;
 
-  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
-                 slash ? filename : ".");
+  GetFolder(filename, folder);
   list = opendir(folder);
   while (list && (entry = readdir(list))) {
     if (strncmp(entry->d_name, name, length) || !IsLockEnding(entry->d_name + length)) continue;
@@ -359,11 +377,9 @@ static int Sync(const char name[], int flags)
 
 static int SyncFolderOf(const char filename[])
 {
-  const char *slash = strrchr(filename, '/');
-  char        folder[PETSC_MAX_PATH_LEN];
+  char folder[PETSC_MAX_PATH_LEN];
 
-  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
-                 slash ? filename : ".");
+  GetFolder(filename, folder);
   return Sync(folder, O_RDONLY | O_DIRECTORY);
 }
 

@@ -1,6 +1,8 @@
 /* The base of all solvers: creation, the registries of types, settings, and the frame of a solve. */
 #include <petsam/private/solverimpl.h>
 
+#define BRIEF 10 /* iterations of a solve that is to be brief */
+
 static SamSolverKind *kinds = NULL; /* those whose registries are in use */
 
 const char *SamSolverReasonName(SamSolverReason reason)
@@ -172,8 +174,10 @@ PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver s, PetscBool error)
 
 PetscInt SamSolverMaxIterations(SamSolver s)
 {
-  if (s->measures) return 0;
-  return s->max_it ? s->max_it : s->default_max_it;
+  const PetscInt most = s->max_it ? s->max_it : s->default_max_it;
+
+  if (s->effort == SAM_EFFORT_MEASURE) return 0;
+  return s->effort == SAM_EFFORT_BRIEF ? PetscMin(most, BRIEF) : most;
 }
 
 PetscInt SamSolverLevels(SamSolver s)
@@ -183,9 +187,8 @@ PetscInt SamSolverLevels(SamSolver s)
 
 void SamSolverSetEffort(SamSolver s, PetscReal rtol, SamEffort effort)
 {
-  s->effort   = rtol;
-  s->glances  = effort == SAM_EFFORT_GLANCE ? PETSC_TRUE : PETSC_FALSE;
-  s->measures = effort == SAM_EFFORT_MEASURE ? PETSC_TRUE : PETSC_FALSE;
+  s->enough = rtol;
+  s->effort = effort;
 }
 
 PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *context)
@@ -237,7 +240,7 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamL
   s->limit                                      = PETSC_INFINITY;
   s->reason                                     = SAM_SOLVER_ITERATING;
   level.elasticity                              = s->elasticity;
-  level.rtol                                    = s->effort > 0 ? s->effort : s->rtol;
+  level.rtol                                    = s->enough > 0 ? s->enough : s->rtol;
   level.finest                                  = PETSC_TRUE;
   PetscCall(SamElasticityGetGrid(s->elasticity, &level.grid));
   if (!s->keeps_product) {
@@ -255,10 +258,12 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamL
   }
   PetscCall(PetscLogEventEnd(SamEvents[kind->event], 0, 0, 0, 0));
   PetscCheck(s->reason, s->comm, PETSC_ERR_PLIB, "Method %s set no reason", s->type);
-  if (s->measures) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->effort == SAM_EFFORT_MEASURE) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolverViewFromOptions(s));
-  PetscCheck(s->reason > 0 || !s->error_if_not_converged, s->comm, PETSC_ERR_NOT_CONVERGED,
-             "The %s solve did not converge due to %s", kind->name, SamSolverReasonName(s->reason));
+  PetscCheck(s->reason > 0 || !s->error_if_not_converged ||
+               (s->effort == SAM_EFFORT_BRIEF && s->reason == SAM_SOLVER_DIVERGED_ITS),
+             s->comm, PETSC_ERR_NOT_CONVERGED, "The %s solve did not converge due to %s", kind->name,
+             SamSolverReasonName(s->reason));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -57,6 +57,13 @@ typedef enum {
   SAM_START_GUESS   /* from the caller */
 } SamStart;
 
+/*
+  SamEffort - what the next solves are for, when the problem is part of another one: all of it; a solution that need not
+  be checked outside of its window by a product, as later ones will be; what a few iterations bring; or only the error
+  of the start. The last two may end with SAM_SOLVER_DIVERGED_ITS, which is no error then.
+*/
+typedef enum { SAM_EFFORT_FULL, SAM_EFFORT_GLANCE, SAM_EFFORT_BRIEF, SAM_EFFORT_MEASURE } SamEffort;
+
 typedef struct _n_SamSolverKind SamSolverKind;
 struct _n_SamSolverKind {
   const char    *name;       /* "normal": in the names of options and in messages */
@@ -109,9 +116,8 @@ struct _n_SamSolver {
   SamSolverMonitor monitor[SAM_MONITORS];
   void            *monitor_context[SAM_MONITORS];
   /* what the caller of the next solves wants */
-  PetscReal effort;   /* relative error that is enough; 0: the user's rtol */
-  PetscBool glances;  /* the outside of a window is not checked by a product */
-  PetscBool measures; /* only the error of the start, without an iteration */
+  SamEffort effort;
+  PetscReal enough; /* relative error that is enough; 0: the user's rtol */
   /* of the last solve, on the finest grid */
   SamSolverReason reason;
   PetscReal       error;
@@ -150,12 +156,7 @@ typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, Pets
 PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
                                                   SamElasticity part, PetscBool guess, SamLevelSolver solve);
 
-/*
-  SamEffort - what the next solves are for, when the problem is part of another one: all of it; a solution that need not
-  be checked outside of its window by a product, as later ones will be; or only the error of the start.
-*/
-typedef enum { SAM_EFFORT_FULL, SAM_EFFORT_GLANCE, SAM_EFFORT_MEASURE } SamEffort;
-/* SamSolverSetEffort - that, and the relative error that is enough (0: the user's rtol). Not collective. */
+/* SamSolverSetEffort - the effort of the next solves, and the relative error that is enough (0: the user's rtol). Not collective. */
 PETSC_EXTERN void SamSolverSetEffort(SamSolver solver, PetscReal rtol, SamEffort effort);
 /* SamLevelHasProduct - whether the product with the level's traction is known everywhere. Not collective. */
 PETSC_EXTERN PetscBool SamLevelHasProduct(const SamLevel *level);

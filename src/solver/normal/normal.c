@@ -154,7 +154,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
     PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveFromPressure));
     if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
     done = (!level->finest || s->reason < 0) ? PETSC_TRUE : PETSC_FALSE;
-    if (!done && s->glances)
+    if (!done && s->effort == SAM_EFFORT_GLANCE)
       PetscCall(IsInside(level, window, first, size, &done));
     else if (!done)
       PetscCall(SamNormalLookOutside(s, level, window, first, size, &done));
