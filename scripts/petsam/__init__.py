@@ -9,6 +9,7 @@ closed          closed solutions of contact mechanics
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
 comparison      what the examples' comparisons with other solutions share
+isolation       reading of files that may be damaged, in a child process
 environment     where the interpreter, its libraries and petsam are found
 
 Importing this package alone needs the standard library only: each part imports its libraries when it is used.

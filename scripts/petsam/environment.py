@@ -3,20 +3,24 @@
 Standard library only: it is imported before the libraries are known to be there.
 """
 
+import contextlib
 import importlib
 import importlib.util
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
-from .errors import Missing
+from .errors import Error, Missing
 
 SCRIPTS = Path(__file__).resolve().parents[1]
 TREE = SCRIPTS.parent  # the repository, or prefix/share/petsam
 ENTERED = "PETSAM_ENTERED"
+VERSION, SECONDS = 4096, 60.0  # characters of what a launcher says about itself, and how long it may take
 
 
 # ---------------------------------------------------------------- Python
@@ -45,8 +49,14 @@ def enter(*libraries):
     # execv keeps the process: its number says that this one has been through here
     if python and os.environ.get(ENTERED) != str(os.getpid()):
         os.environ[ENTERED] = str(os.getpid())
-        sys.stdout.flush()
-        os.execv(python, [python, *sys.argv])
+        if sys.stdout:
+            sys.stdout.flush()
+        try:
+            os.execv(python, [python, *sys.argv])
+        except OSError as error:
+            sys.exit(
+                f"{os.path.basename(sys.argv[0])}: error: {python} cannot be executed: {error.strerror}; see PYTHON"
+            )
     lacking = [name for name in libraries if importlib.util.find_spec(name) is None]
     if lacking:
         sys.exit(
@@ -81,21 +91,55 @@ def petsam():
     return found
 
 
+def split(text, what):
+    """Words of a text as a shell takes them; what names the text."""
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise Error(f"{what}: {text}: {str(error).lower()}") from error
+
+
 def launcher(words=None):
     """The MPI launcher's words, to which `-n RANKS PROGRAM` is added: words, $MPIRUN, or mpirun."""
-    command = shlex.split(words or os.environ.get("MPIRUN") or "mpirun")
+    text = words or os.environ.get("MPIRUN") or "mpirun"
+    command = split(text, "the MPI launcher")
     if not command or not shutil.which(command[0]):
-        raise Missing(f"no MPI launcher {command[0] if command else words}: set MPIRUN")
-    try:
-        version = subprocess.run(
-            command + ["--version"], capture_output=True, text=True, check=False, timeout=60
-        ).stdout
-    except (OSError, subprocess.TimeoutExpired):
-        version = ""
+        raise Missing(f"no MPI launcher {command[0] if command else repr(text)}: set MPIRUN")
+    if os.sep in command[0]:
+        command[0] = os.path.abspath(command[0])  # it is called from the cases' folders
+    version = _version(command)
     if "Open MPI" in version or "OpenRTE" in version:
         # several runs side by side would otherwise all be bound to the first cores
         command += ["--bind-to", "none", "--oversubscribe"]
     return command
+
+
+def _version(command):
+    """The beginning of what a launcher says about itself; one that says too much, or takes too long, is stopped."""
+    try:
+        process = subprocess.Popen(
+            command + ["--version"],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+    except OSError as error:
+        raise Missing(f"the MPI launcher {command[0]} cannot be executed: {error.strerror}") from error
+
+    def stop():
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+
+    timer = threading.Timer(SECONDS, stop)
+    timer.start()
+    try:
+        with process.stdout:
+            return process.stdout.read(VERSION).decode(errors="replace")
+    finally:
+        timer.cancel()
+        stop()
+        process.wait()
 
 
 def run_environment():

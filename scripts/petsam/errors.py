@@ -1,8 +1,14 @@
 """Errors that the commands report in one line: their message says all that a user needs."""
 
+import argparse
+import os
 import sys
 
 USAGE, FILE = 2, 3  # exit codes, as petsam's
+UNEXPECTED = 1
+INTERRUPTED = 130
+TRACEBACK = "PETSAM_TRACEBACK"  # environment variable: show where an unexpected error comes from
+LINE = 4000  # characters of a message at most
 
 
 class Error(Exception):
@@ -13,9 +19,64 @@ class Missing(Error):
     """A file, a program or a library that is not there."""
 
 
+def one_line(text, most=LINE):
+    """The text without line breaks and what else a terminal cannot show, cut in the middle when it is long."""
+    text = str(text)
+    if len(text) > most:
+        half = (most - 5) // 2
+        text = text[:half] + " ... " + text[-half:]
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def short(text):
+    """The same for a part of a message that comes from a file."""
+    return one_line(text, 80)
+
+
 def fail(command, error, code=FILE):
     """Print the error of a command; the exit code."""
     if isinstance(error, OSError):
-        error = f"{error.filename or 'writing'}: {error.strerror}"
-    print(f"{command}: error: {error}", file=sys.stderr)
+        error = f"{error.filename or 'writing'}: {error.strerror or error}"
+    print(f"{command}: error: {one_line(error)}", file=sys.stderr)
     return code
+
+
+class Parser(argparse.ArgumentParser):
+    """A command line whose errors are one line as all others are, without the usage before it."""
+
+    def error(self, message):
+        """End with the message."""
+        self.exit(fail(self.prog, f"{message}; see {self.prog} --help", USAGE))
+
+
+def _flush():
+    """What has been printed reaches its destination here, not when Python ends, where nobody could report it."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise
+
+
+def guarded(command, body):
+    """Exit code of body(), which is a command: errors that it does not foresee end with a line, too."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:  # closed: the next file to be opened would get its number
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), "r" if number == 0 else "w"))
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")  # names of files need not be text
+    try:
+        try:
+            return body()
+        finally:
+            _flush()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except OSError as error:
+        return fail(command, error)
+    except Exception as error:
+        if os.environ.get(TRACEBACK):
+            raise
+        text = f"unexpected {type(error).__name__}: {error} (set {TRACEBACK}=1 to see where)"
+        return fail(command, text, UNEXPECTED)

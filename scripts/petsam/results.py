@@ -6,13 +6,16 @@ from functools import cached_property
 import h5py
 import numpy as np
 
-from .errors import Error, Missing
+from .errors import Error, Missing, one_line, short
+from .files import need_regular
+from .isolation import reading
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
 NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
 BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
+WHOLE = 1 << 27  # values of what is read whole at most; a damaged file may claim any number
 # what h5py raises for a file that is damaged, or laid out in another way
-DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
+DAMAGED = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, ArithmeticError, MemoryError)
 
 
 class NotSaved(Error):
@@ -48,23 +51,30 @@ class Results:
     def __init__(self, path, label=None):
         self.path = str(path)
         self.label = label or os.path.splitext(os.path.basename(self.path))[0]
-        try:
-            self.file = h5py.File(self.path, "r")
-        except OSError as error:
-            raise self._error(error) from error
-        try:
-            self._read()
-        except DAMAGED as error:
-            self.close()
-            raise self._error(error) from error
-        except Error:
-            self.close()
-            raise
+        with reading(self.path):
+            try:
+                need_regular(self.path)
+                self.file = h5py.File(self.path, "r")
+            except DAMAGED as error:
+                raise self._error(error) from error
+            try:
+                self._read()
+            except DAMAGED as error:
+                self.close()
+                raise self._error(error) from error
+            except Error:
+                self.close()
+                raise
 
     def _read(self):
-        self.x, self.y, self.times = (self.file[name][:] for name in ("x", "y", "time"))
-        self.history = Named(self.path, {name: data[:] for name, data in self.file["history"].items()})
-        self.units = {name: data.attrs["units"] for name, data in self.file["history"].items()}
+        self.x, self.y, self.times = (self._row(_own(self.file, name), name) for name in ("x", "y", "time"))
+        for name, axis in (("x", self.x), ("y", self.y)):
+            if axis.size < 2 or not np.all(np.isfinite(axis)) or not np.all(np.diff(axis) > 0.0):
+                raise ValueError(f"/{name} is not two or more numbers that increase")
+        history = _own(self.file, "history")
+        history = {name: _own(history, name) for name in history}
+        self.history = Named(self.path, {name: self._row(data, "history/" + name) for name, data in history.items()})
+        self.units = {name: self._unit(data, "history/" + name) for name, data in history.items()}
         self.parameters = Named(self.path, self.file.attrs)
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
@@ -72,6 +82,23 @@ class Results:
         if not time.size:
             raise Error(f"{self.path}: has no load step yet")
         self.steps = [int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
+
+    @staticmethod
+    def _row(data, name):
+        """All values of a dataset that has one dimension."""
+        if getattr(data, "ndim", None) != 1 or data.dtype.kind not in "biuf":
+            raise ValueError(f"/{name} is not a row of numbers")
+        if data.size > WHOLE:
+            raise ValueError(f"/{name} has {data.size} values")
+        return data[:]
+
+    @staticmethod
+    def _unit(data, name):
+        unit = data.attrs["units"] if "units" in data.attrs else None
+        unit = unit.decode(errors="replace") if isinstance(unit, bytes) else unit
+        if not isinstance(unit, str):
+            raise ValueError(f"/{name} has no attribute units that is a text")
+        return short(unit)
 
     def __enter__(self):
         return self
@@ -97,7 +124,7 @@ class Results:
         The row of a refused step holds the loads and displacements that were asked for, and NaN for what is unknown.
         The step that a killed run was writing may be there in some datasets only, and does not count either.
         """
-        complete = min(values.shape[0] for values in self.history.values())
+        complete = min(values.size for values in self.history.values())
         return np.flatnonzero(self.history["status"][:complete] != NO_EQUILIBRIUM)
 
     def series(self, name):
@@ -147,28 +174,35 @@ class Results:
 
     def friction(self, index):
         """Coefficient of friction of a saved step; NaN where it is a field (-friction_file)."""
-        number = float(self.parameters["friction"]) if "friction" in self.parameters else np.nan
-        scale = self.history["friction_scale"][self.steps[index] - 1] if "friction_scale" in self.history else 1.0
-        return number * float(scale)
+        try:
+            number = float(self.parameters["friction"]) if "friction" in self.parameters else np.nan
+            scale = self.history["friction_scale"][self.steps[index] - 1] if "friction_scale" in self.history else 1.0
+            return number * float(scale)
+        except DAMAGED as error:
+            raise self._error(error) from error
 
     # ------------------------------------------------------------ fields
 
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
         """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell."""
         low, high, _ = rows.indices(self.y.size)
-        if name not in self.file:
-            raise Error(f"{self.path}: has no {name}")
         try:
-            data = self.file[name]
+            with reading(self.path):
+                if name not in self.file:
+                    raise Error(f"{self.path}: has no {name}")
+                data = _own(self.file, name)
+            if data.dtype.kind not in "biuf":
+                raise ValueError(f"/{name} has no numbers")
             if data.shape != (self.times.size, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
             if not -self.times.size <= index < self.times.size:
                 raise IndexError(f"step {index} of {self.times.size}")
             index %= self.times.size
             block = stride * max(1, BLOCK // stride)
-            parts = [
-                data[index, k : min(k + block, high), columns][::stride, ::stride] for k in range(low, high, block)
-            ]
+            parts = []
+            for k in range(low, high, block):
+                with reading(self.path):
+                    parts.append(data[index, k : min(k + block, high), columns][::stride, ::stride])
         except DAMAGED as error:
             raise self._error(error) from error
         return np.concatenate(parts)
@@ -228,6 +262,14 @@ class Snapshot:
         return np.sqrt(self[area] / np.pi)
 
 
+def _own(group, name):
+    """What a group has of this name; a file that petsam has written refers to no other, which might be anything."""
+    found = None if isinstance(group.get(name, getlink=True), h5py.ExternalLink) else group[name]
+    if found is None or isinstance(found, h5py.Dataset) and (found.external or found.is_virtual):
+        raise ValueError(f"{name} is in another file")
+    return found
+
+
 def _window(cells, stride, size, margin):
     if not cells.size:
         return slice(0, size)
@@ -247,4 +289,5 @@ def _reason(error):
         return "is not an HDF5 file"
     if "unable to lock file" in text.lower():
         return "is being written by a run"
+    text = one_line(text or type(error).__name__, 300)
     return "cannot be read: " + text if isinstance(error, OSError) else "is not a results file of petsam: " + text

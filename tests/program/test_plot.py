@@ -1,6 +1,8 @@
 """petsam-plot: each picture from true results, its steps, files and messages."""
 
 import os
+import random
+import signal
 import subprocess
 import sys
 
@@ -8,7 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
-from petsam.plot import pictures
+from petsam.plot import command, pictures
 from petsam.plot.units import scale
 from petsam.results import Results
 from support import ROOT, ball, slide_limit
@@ -165,6 +167,190 @@ def test_bad_usage_is_exit_code_2(plot, single):
     assert "--labels" in plot(single, "--labels", "a,b", check=2).stderr
     assert "--step" in plot(single, "--step", "two", check=2).stderr
     assert "not allowed with" in plot(single, "--step", "1", "--time", "1", check=2).stderr
+
+
+@pytest.fixture
+def draw(tmp_path, monkeypatch, capfd):
+    """draw(*words): exit code and messages of petsam-plot, run here in tmp_path: many in little time."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["petsam-plot", *map(str, words)])
+        try:
+            code = command.main()
+        except SystemExit as end:  # of argparse
+            code = end.code
+        return code, capfd.readouterr().err.splitlines()
+
+    return run
+
+
+def replaced(file, name, values):
+    """Another dataset of this name, with the units of the first."""
+    units = file[name].attrs["units"]
+    del file[name]
+    file[name] = values
+    file[name].attrs["units"] = units
+
+
+@pytest.mark.parametrize(
+    "name, values",
+    [
+        ("x", []),
+        ("x", [1.0]),
+        ("x", np.arange(48.0)[::-1]),
+        ("x", np.full(48, np.nan)),
+        ("x", np.ones((2, 2))),
+        ("x", 1.0),
+        ("y", np.array([b"a", b"b"])),
+        ("time", np.zeros(0)),
+        ("time", np.zeros(99)),
+        ("history/time", np.zeros(0)),
+        ("history/load_tx", np.ones((16, 2))),
+        ("history/load_tx", np.full(16, b"a")),
+        ("history/load_tx", np.full(16, 1j)),
+        ("pressure", np.ones((2, 3, 4))),
+        ("pressure", np.full((8, 48, 48), b"a")),
+    ],
+)
+def test_results_of_another_form_are_named(draw, strokes, tmp_path, name, values):
+    path = tmp_path / "odd.h5"
+    path.write_bytes(strokes.read_bytes())
+    with h5py.File(path, "r+") as file:
+        replaced(file, name, values)
+    code, (error,) = draw(path, "--maps")
+    assert code == 3 and error.startswith(f"petsam-plot: error: {path}: ") and "TRACEBACK" not in error
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda file: file["history/load_tx"].attrs.__delitem__("units"),
+        lambda file: file["history/load_tx"].attrs.__setitem__("units", 5),
+        lambda file: file.attrs.__setitem__("friction", "much"),
+        lambda file: file.attrs.__delitem__("friction"),
+        lambda file: file.__delitem__("pressure"),
+        lambda file: file.__delitem__("history"),
+        lambda file: file["history"].__setitem__("loop", file["history"]),
+        lambda file: (file.__delitem__("x"), file.__setitem__("x", h5py.ExternalLink("pipe", "/x"))),
+        lambda file: (file.__delitem__("x"), file.create_dataset("x", (10**13,), "f8", chunks=(1000,))),
+    ],
+)
+def test_results_that_lack_something_are_named(draw, strokes, tmp_path, change):
+    os.mkfifo(tmp_path / "pipe")
+    path = tmp_path / "odd.h5"
+    path.write_bytes(strokes.read_bytes())
+    with h5py.File(path, "r+") as file:
+        change(file)
+    code, (error,) = draw(path)
+    assert code == 3 and error.startswith(f"petsam-plot: error: {path}: ") and "TRACEBACK" not in error
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1e200, 4e-324, 0.0])
+def test_any_numbers_in_the_fields_and_the_history_are_drawn(draw, strokes, tmp_path, value):
+    path = tmp_path / "odd.h5"
+    path.write_bytes(strokes.read_bytes())
+    with h5py.File(path, "r+") as file:
+        for name in ("pressure", "shear_x", "history/disp_y", "history/load_ty"):
+            file[name][...] = value
+        # neither a text that HDF5 pads nor one that matplotlib would take as a formula is in the way
+        file["history/load_tx"].attrs["units"] = np.bytes_(b"N")
+        file["history/load_ty"].attrs["units"] = "$\\frac{$_^" * 1000
+    code, errors = draw(path, "--maps", "--profiles", "--history", "--names", "disp_y,load_ty", "--labels", "_$x_{^")
+    assert (code, errors) == (0, [])
+
+
+def test_datasets_of_different_lengths_are_drawn(draw, strokes, tmp_path):
+    path = tmp_path / "odd.h5"
+    path.write_bytes(strokes.read_bytes())
+    with h5py.File(path, "r+") as file:
+        replaced(file, "history/load_tx", file["history/load_tx"][:9])
+        replaced(file, "history/status", np.zeros(99, dtype=int))
+    assert draw(path, "--history", "--names", "status,load_tx") == (0, [])
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--dpi", "0"], ["--dpi=-1"], ["--dpi", "1e9"], ["--dpi", "1000000000"], ["--step", ""], ["--step", "inf"],
+        ["--step", "9" * 5000], ["--time", ""], ["--at", "1"], ["--at", ""], ["--names", ""],
+    ],
+)  # fmt: skip
+def test_bad_words_are_one_line_with_exit_code_2(draw, single, words):
+    code, (error,) = draw(single, *words)
+    assert code == 2 and error.startswith("petsam-plot: error: ") and words[0].split("=")[0] in error
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--step", "9" * 30], ["--step", "0"], ["--step", ",".join(["1"] * 100)], ["--time", "nan"],
+        ["--time", "1e400"], ["--profiles", "--at", "nan,0"], ["--profiles", "--at", "0,inf"], ["--names", "a,,b"],
+        ["--names", ",".join(["load_n"] * 100)], ["--maps", "-o", "folder.png"], ["--maps", "-o", "pipe.png"],
+        ["--maps", "-o", "a" * 300 + ".png"], ["--maps", "-o", "self.png"],
+        ["--maps", "--dpi", "1200", "--step", ",".join(["1"] * 30)],
+    ],
+)  # fmt: skip
+def test_what_cannot_be_drawn_or_written_is_one_line_with_exit_code_3(draw, single, tmp_path, words):
+    (tmp_path / "folder.png").mkdir()
+    os.mkfifo(tmp_path / "pipe.png")
+    (tmp_path / "self.png").write_bytes(single.read_bytes())
+    code, (error,) = draw(tmp_path / "self.png", *words)
+    assert code == 3 and error.startswith("petsam-plot: error: ") and "TRACEBACK" not in error
+    assert (tmp_path / "self.png").read_bytes() == single.read_bytes()
+
+
+def test_what_is_no_regular_file_is_named_at_once(draw, tmp_path):
+    os.mkfifo(tmp_path / "pipe.h5")
+    (tmp_path / "empty.h5").touch()
+    for name in ("pipe.h5", "empty.h5", ".", "/dev/zero", ""):
+        code, (error,) = draw(name)
+        assert code == 3 and error.startswith(f"petsam-plot: error: {name}: ")
+
+
+def test_any_backend_that_the_environment_names_is_ignored(plot, single, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "nothere")
+    assert not plot("--maps", single).stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT, signal.SIGXCPU])
+def test_a_file_that_ends_hdf5_is_damaged(draw, strokes, monkeypatch, number):
+    monkeypatch.setattr(Results, "_read", lambda self: os.kill(os.getpid(), number))
+    assert draw(strokes) == (3, [f"petsam-plot: error: {strokes}: is damaged"])
+
+
+def test_a_file_that_keeps_hdf5_busy_for_ever_is_damaged(draw, strokes, monkeypatch):
+    def forever(_):
+        while True:
+            pass
+
+    monkeypatch.setattr(Results, "_read", forever)
+    monkeypatch.setattr("petsam.isolation.SECONDS", 1)
+    assert draw(strokes) == (3, [f"petsam-plot: error: {strokes}: is damaged"])
+
+
+def test_what_nobody_foresaw_is_a_line_too(draw, strokes, monkeypatch):
+    def fails(*_):
+        raise ZeroDivisionError("odd")
+
+    monkeypatch.setattr(command, "chosen", fails)
+    code, (error,) = draw(strokes)
+    assert code == 1 and "unexpected ZeroDivisionError: odd" in error and "PETSAM_TRACEBACK" in error
+
+
+def test_a_damaged_file_is_drawn_or_named(draw, solve, tmp_path, monkeypatch):
+    """As petsam wrote it, but for some bytes: whatever HDF5 does with them, which takes for ever with some."""
+    monkeypatch.setattr("petsam.isolation.SECONDS", 1)
+    data, chance = solve(dict(CASE, grid_n=8)).path.read_bytes(), random.Random(1)
+    path = tmp_path / "damaged.h5"
+    for _ in range(25):
+        spoiled = bytearray(data)
+        for _ in range(chance.choice((1, 2, 8, 50))):
+            spoiled[chance.randrange(min(len(data), 30000))] = chance.randrange(256)
+        path.write_bytes(spoiled[: chance.choice((len(data), chance.randrange(len(data))))])
+        code, errors = draw(path, "--loop", "--load", "tx", "--dpi", "20")
+        assert (code, errors) == (0, []) or code == 3 and len(errors) == 1, (code, errors)
+        assert code == 0 or errors[0].startswith(f"petsam-plot: error: {path}: "), errors
 
 
 # ---------------------------------------------------------------- what is drawn

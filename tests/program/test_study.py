@@ -1,7 +1,9 @@
 """petsam-study: tables, runs side by side, restarts, failures, results; Slurm's jobs with stand-ins for it."""
 
 import csv
+import json
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -14,6 +16,7 @@ import pytest
 from conftest import PROGRAM as PETSAM
 from conftest import environment
 from petsam.study import cases as study_cases
+from petsam.study import command as study_command
 from petsam.study.slurm import ranges
 from support import ROOT, ball, slide_limit, words
 
@@ -218,6 +221,206 @@ def test_a_bad_table_is_exit_code_2_with_its_place(run, tmp_path, name, text, me
     assert not (tmp_path / "t").exists()
 
 
+def refused(said):
+    """The one line of an error, without a traceback."""
+    lines = said.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("petsam-study: error: ") and "TRACEBACK" not in lines[0], said
+    return lines[0]
+
+
+def in_process(monkeypatch, capsys, *words):
+    """Exit code and messages of petsam-study, run here: many in little time."""
+    monkeypatch.setattr(sys, "argv", ["petsam-study", *map(str, words)])
+    try:
+        code = study_command.main()
+    except SystemExit as end:  # of argparse
+        code = end.code
+    return code, capsys.readouterr().err
+
+
+@pytest.mark.parametrize("ranks", ["inf", "nan", "1e400", "2.5", "-1", "0", "1e30", "two", "1;2", "9" * 5000])
+def test_ranks_are_whole_numbers(tmp_path, monkeypatch, capsys, ranks):
+    for name, text, line in (
+        ("t.csv", f"load_tx,ranks\n1,1\n2,{ranks}\n", 3),
+        ("t.yaml", f"options:\n  load_tx: 1\nranks: '{ranks}'\n", 3),
+    ):
+        code, said = in_process(monkeypatch, capsys, table(tmp_path, text, name), "--list")
+        assert code == 2 and f"{name}, line {line}: ranks " in refused(said)
+
+
+@pytest.mark.parametrize("name", ["t.csv", "t.yaml"])
+@pytest.mark.parametrize(
+    "data, message",
+    [
+        (b"load_tx\n\xe9\n", "line 2: is not UTF-8"),
+        ("load_tx\n1\n".encode("utf-16"), "line 1: is UTF-16"),
+        ("load_tx\n1\n".encode("utf-16-le"), "line 1: holds a NUL"),
+        (b"load_tx\n1\0\n", "line 2: holds a NUL"),
+        (bytes(range(256)) * 9, "line "),
+        (b"", "expected"),
+    ],
+)
+def test_a_table_that_is_no_text_is_refused(tmp_path, monkeypatch, capsys, name, data, message):
+    (tmp_path / name).write_bytes(data)
+    code, said = in_process(monkeypatch, capsys, tmp_path / name, "--list")
+    assert code == 2 and message in refused(said)
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("load_tx\n" + "1" * 200000, "line 2: field larger"),
+        ("load_tx\n1\n" + "1" * 100000, "line 3: a value of 100000 characters"),
+        ('load_tx,a\n"1,2\n3,4\n', "line 2: a quote is not closed"),
+        ('load_tx,a\n1,2\n"1\n2",3\n', "line 3: a quote is not closed"),
+        ("load_tx\n" + "".join(f"{k}\n" for k in range(100001)), "100001 cases: expected at most 100000"),
+    ],
+)
+def test_a_bad_csv_table_names_its_line(tmp_path, monkeypatch, capsys, text, message):
+    code, said = in_process(monkeypatch, capsys, table(tmp_path, text), "--list")
+    assert code == 2 and message in refused(said)
+
+
+SECTION = "options:\n  load_tx: "
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("options: " + "[" * 20000, "nested too deeply"),
+        ("options: {load_tx: &a [1, *a]}", "expected a value or a list"),
+        ("options: &o\n  <<: *o\n", "line 2: "),
+        ("options:\n  1: 2\n", "line 2: options: 1: is no name"),
+        ("options:\n  ? [a]\n  : 1\n", "line 2: "),
+        ("options:\n  a/b: 1\n", "options: a/b: is no option's name"),
+        ("options:\n\tload_tx: 1\n", "line 2: "),
+        (SECTION + "1\n  load_tx: 2\n", "line 3: load_tx: appears twice"),
+        (SECTION + "1\n---\na: 1\n", "line 3: expected a single document"),
+        (SECTION + "9" * 6000, "line 2: "),
+        (SECTION + '"\\0"\n', "line 2: "),
+        (SECTION + '"\\ud800"\n', "line 2: "),
+        (SECTION + '"\\Uffffffff"\n', "is no YAML"),
+        (SECTION + "!!int abc\n", "line 2: abc"),
+        (SECTION + "!!binary aGk=\n", "line 2: "),
+        (SECTION + "[[1], [2]]\n", "expected a value or a list"),
+        (SECTION + "1\nfiles: {1: a}\n", "line 3: "),
+        (SECTION + "1\nranks: [1, 2]\n", "line 3: ranks: expected a number"),
+        ("options:\n" + "".join(f"  a{k}: [1, 2, 3]\n" for k in range(900)), "expected at most 100000"),
+    ],
+)
+def test_a_bad_yaml_table_is_refused(tmp_path, monkeypatch, capsys, text, message):
+    start = time.monotonic()
+    code, said = in_process(monkeypatch, capsys, table(tmp_path, text, "t.yaml"), "--list")
+    assert code == 2 and message in refused(said) and time.monotonic() - start < 10.0
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "9**9**9**9", "2**10**8", "10**400", "(-8)**0.5", "0**-1", "1e308 * 10", "0 * 1e999", "exp(1000)", "log(0)",
+        "+".join("1" * 600), "(" * 300 + "1" + ")" * 300, "'a' * 10**9", "1 << 10**9", "True", "1j", "pi(1)", "min()",
+        "sqrt", "1;2", "lambda: 1", "", "x := 1", "1 is 1",
+    ],
+)  # fmt: skip
+def test_an_expression_without_a_finite_value_is_refused_at_once(tmp_path, monkeypatch, capsys, expression):
+    start = time.monotonic()
+    path = table(tmp_path, SECTION + "'{" + expression.replace("'", "''") + "}'\n", "t.yaml")
+    code, said = in_process(monkeypatch, capsys, path, "--list")
+    assert code == 2 and "t.yaml: {" in refused(said) and time.monotonic() - start < 5.0
+
+
+@pytest.mark.parametrize("count, link", [(25, "{%s + %s}"), (200, "{%s + %s}"), (29, "{%s}{%s}"), (3000, "{%s}%.0s")])
+def test_names_that_refer_to_names_take_no_time(tmp_path, monkeypatch, capsys, count, link):
+    """Each is expanded once, however often others refer to it; chains and texts are bounded."""
+    start = time.monotonic()
+    chain = "".join("  a{}: '{}'\n".format(k, link % (f"a{k + 1}", f"a{k + 1}")) for k in range(count))
+    text = "parameters:\n" + chain + f"  a{count}: 1\n" + SECTION + "'{a0}'\n"
+    code, said = in_process(monkeypatch, capsys, table(tmp_path, text, "t.yaml"), "--list")
+    assert time.monotonic() - start < 5.0
+    assert code == 0 if count == 25 else code == 2 and "a" in refused(said)
+
+
+@pytest.mark.parametrize("name", ["results.csv", "results.h5", "results.csv.tmp", "results.h5.tmp", "slurm-1_2.out"])
+def test_a_case_cannot_have_the_name_of_a_file_of_the_study(tmp_path, monkeypatch, capsys, name):
+    code, said = in_process(monkeypatch, capsys, table(tmp_path, f"case,load_tx\na,1\n{name},2\n"), "--list")
+    assert code == 2 and f"line 3: case {name}: is the name of a file" in refused(said)
+    table(tmp_path, f"case,load_tx\n{name.upper()},2\n")
+    assert in_process(monkeypatch, capsys, tmp_path / "cases.csv", "--list") == (0, "")
+
+
+def test_a_case_cannot_have_a_name_that_no_file_system_takes(tmp_path, monkeypatch, capsys):
+    code, said = in_process(monkeypatch, capsys, table(tmp_path, "case,load_tx\n" + "a" * 256 + ",2\n"), "--list")
+    assert code == 2 and "line 2: case a" in refused(said)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["petsam.log", "results.h5", "results.xdmf", "record.json", "record.json.tmp", "lock", "checkpoint.h5.1", "..", ""],
+)
+def test_a_file_of_the_cases_cannot_have_the_name_of_another(tmp_path, monkeypatch, capsys, name):
+    path = table(tmp_path, SECTION + f"1\nfiles:\n  '{name}': text\n", "t.yaml")
+    code, said = in_process(monkeypatch, capsys, path, "--list")
+    assert code == 2 and "files: " in refused(said)
+
+
+def test_a_table_that_is_no_regular_file_is_refused_at_once(tmp_path, monkeypatch, capsys):
+    os.mkfifo(tmp_path / "pipe.csv")
+    (tmp_path / "folder.csv").mkdir()
+    for name in (tmp_path / "pipe.csv", tmp_path / "folder.csv", "/dev/zero"):
+        code, said = in_process(monkeypatch, capsys, name, "--list")
+        assert code == 3 and "is " in refused(said)
+
+
+@pytest.mark.parametrize("inside", ["results.csv", "results.h5.tmp", "load_tx=1"])
+def test_what_stands_in_the_way_of_the_results_is_named_before_any_run(run, tmp_path, fake, inside):
+    table(tmp_path, "load_tx\n1\n2\n")
+    (tmp_path / "cases").mkdir()
+    os.mkfifo(tmp_path / "cases" / inside)
+    assert inside in refused(run("cases.csv", check=3, **fake)) and not runs(tmp_path)
+
+
+def test_the_table_is_not_replaced_by_the_results(run, tmp_path, fake):
+    text = "load_tx\n1\n"
+    table(tmp_path, text, "results.csv")
+    assert "would be replaced" in refused(run("results.csv", "-d", ".", check=3, **fake))
+    assert (tmp_path / "results.csv").read_text() == text
+    table(tmp_path, text, "cases")
+    assert "is not a folder" in refused(run("cases", check=3, **fake))
+
+
+def test_a_spoiled_table_never_ends_in_a_traceback(tmp_path, monkeypatch, capsys):
+    chance = random.Random(1)
+    good = {
+        "t.csv": b'load_tx, ranks, case\n# c\n"10", 2, one\n20, , two\n',
+        "t.yaml": b"parameters: {a: [1, 2]}\noptions:\n  load_tx: '{2**a + sqrt(3)}'\nfiles:\n  h.csv: |\n    x {a}\n",
+    }
+    pieces = [
+        b"{",
+        b"}",
+        b"[",
+        b"*a",
+        b"&a ",
+        b'"',
+        b"'",
+        b"\n",
+        b"\t",
+        b"**9",
+        b"\xff",
+        b"\0",
+        b": ",
+        b"- ",
+        b"!!int ",
+    ]
+    for name, data in [*good.items()] * 300:
+        data = bytearray(data)
+        for _ in range(chance.randint(1, 6)):
+            at = chance.randrange(len(data))
+            data[at : at + chance.randint(0, 3)] = chance.choice(pieces)
+        (tmp_path / name).write_bytes(data)
+        code, said = in_process(monkeypatch, capsys, tmp_path / name, "--list")
+        assert (code, said) == (0, "") or code == 2 and refused(said), bytes(data)
+
+
 def test_a_missing_table_is_exit_code_3(run):
     assert "nothere.csv: No such file" in run("nothere.csv", check=3)
 
@@ -377,6 +580,51 @@ def test_a_missing_program_is_named(run, tmp_path):
     table(tmp_path, "load_tx\n1\n")
     assert "no program nothere" in run("cases.csv", check=3, PETSAM="nothere")
     assert "no MPI launcher nothere" in run("cases.csv", check=3, MPIRUN="nothere")
+
+
+@pytest.mark.parametrize("words", ["'", "nothere", "folder", "text", "garbage", " "])
+def test_a_launcher_that_cannot_be_executed_is_named(run, tmp_path, words):
+    table(tmp_path, "load_tx\n1\n")
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "text").write_text("no program")
+    executable(tmp_path / "garbage", "\x01\x02 no program")
+    words = str(tmp_path / words) if (tmp_path / words).exists() and words.strip() else words
+    assert "launcher" in refused(run("cases.csv", "--launcher=" + words, check=3))
+
+
+def test_a_launcher_that_never_stops_to_speak_is_stopped(run, tmp_path):
+    executable(tmp_path / "bin" / "mpirun", '#!/bin/sh\n[ "$1" = -n ] || exec yes\nexit 3\n')
+    table(tmp_path, "load_tx\n1\n")
+    assert "1 failed" in run("cases.csv", check=1, MPIRUN=tmp_path / "bin" / "mpirun")
+
+
+def test_a_launcher_beside_the_table_is_found(run, tmp_path, fake):
+    table(tmp_path, "load_tx\n1\n")
+    assert "1 finished" in run("cases.csv", "--launcher", "bin/mpirun", **fake)
+
+
+def test_a_run_that_prints_no_text_is_recorded(run, tmp_path, fake):
+    executable(tmp_path / "bin" / "petsam", "#!/bin/sh\nprintf 'a\\0b\\377\\033c\\n'; exit 3\n")
+    table(tmp_path, "load_tx\n1\n")
+    assert "exit 3: a\\x00b" in run("cases.csv", check=1, **fake)
+    with h5py.File(tmp_path / "cases" / "results.h5", "r") as file:
+        assert file["message"][0].startswith(b"a\\x00b")
+
+
+def test_results_that_hdf5_cannot_read_leave_their_row_empty(run, tmp_path, fake):
+    executable(tmp_path / "bin" / "petsam", "#!/bin/sh\nprintf '\\211HDF\\r\\n\\032\\nrubbish' >results.h5\n")
+    table(tmp_path, "load_tx\n1\n2\n")
+    assert "2 finished" in run("cases.csv", **fake)
+
+
+def test_a_record_of_another_form_is_none(run, tmp_path, fake):
+    case = study_cases.read(str(table(tmp_path, "load_tx\n1\n")))[0]
+    (tmp_path / "cases" / case.name).mkdir(parents=True)
+    good = {"identity": case.identity(), "exit_code": 3, "seconds": 1.0, "message": "m"}
+    odd = [{"exit_code": [1]}, {"exit_code": "0"}, {"exit_code": 10**30}, {"seconds": "1"}, {"message": 5}]
+    for text in [*(json.dumps({**good, **change}) for change in odd), "[" * 100000, "{", ""]:
+        (tmp_path / "cases" / case.name / "record.json").write_text(text)
+        assert "1  not run" in run("cases.csv", "--list", **fake)
 
 
 # ---------------------------------------------------------------- Slurm, by commands that stand for it

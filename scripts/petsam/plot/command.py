@@ -10,14 +10,19 @@ and the history too. Each picture is a file NAME_maps.png and so on; NAME is the
 
 import argparse
 import os
+import warnings
 
-from ..errors import Error, fail
-from ..results import NotSaved, Results
+from .. import isolation
+from ..errors import Error, Parser, fail, guarded, short
+from ..files import need_replaceable, same
+from ..results import DAMAGED, NotSaved, Results
 from . import pictures
 from .style import STYLE, plt
 
 KINDS = ("maps", "profiles", "loop", "history")
 FORMATS = (".png", ".pdf")
+DPI = (10, 1200)
+PIXELS = 300e6  # of a PNG at most: matplotlib holds them all
 
 
 def numbers(kind):
@@ -27,7 +32,8 @@ def numbers(kind):
         try:
             return [kind(word) for word in text.split(",")]
         except ValueError as error:
-            raise argparse.ArgumentTypeError(f"{text}: expected numbers separated by commas") from error
+            reason = "expected numbers separated by commas" if kind is float else "expected whole numbers and commas"
+            raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {reason}") from error
 
     return read
 
@@ -36,15 +42,24 @@ def point(text):
     """Reader of a point X,Y for argparse."""
     values = numbers(float)(text)
     if len(values) != 2:
-        raise argparse.ArgumentTypeError(f"{text}: expected X,Y")
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected X,Y")
     return values
+
+
+def resolution(text):
+    """Reader of the pixels an inch for argparse."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
+    if not DPI[0] <= value <= DPI[1]:
+        raise argparse.ArgumentTypeError("{}: expected a whole number from {} to {}".format(short(text), *DPI))
+    return value
 
 
 def arguments():
     """Read the command line."""
-    parser = argparse.ArgumentParser(
-        prog="petsam-plot", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = Parser(prog="petsam-plot", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="FILE.h5", help="results of petsam; several are compared")
     kinds = parser.add_argument_group("pictures")
     kinds.add_argument("--maps", action="store_true", help="pressure, shear, slip and state over the surface")
@@ -64,8 +79,10 @@ def arguments():
     look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png or .pdf")
     look.add_argument("--format", choices=("png", "pdf"), help="instead of an end of the name (png)")
-    look.add_argument("--dpi", type=int, default=150, help="pixels an inch of a PNG (150)")
+    look.add_argument("--dpi", type=resolution, default=150, help="pixels an inch of a PNG, 10 to 1200 (150)")
     options = parser.parse_args()
+    if options.names == "":
+        parser.error("--names: expected names of datasets")
     if options.labels and len(options.labels.split(",")) != len(options.files):
         parser.error(f"--labels: expected as many as files, {len(options.files)}")
     ending = os.path.splitext(options.output or "")[1].lower()
@@ -120,19 +137,57 @@ def draw(options, results, kind):
     return pictures.history(results, options.names.split(",") if options.names else None)
 
 
-def main():
-    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
-    options = arguments()
+def save(options, figure, name):
+    """Write one picture, which replaces no results and nothing that is not a file."""
+    need_replaceable(name)
+    for one in options.files:
+        if same(one, name):
+            raise Error(f"{name}: would replace the results; --output gives another name")
+    width, height = (options.dpi * inches for inches in figure.get_size_inches())
+    if not name.lower().endswith(".pdf") and width * height > PIXELS:
+        raise Error(f"{name}: {width:.0f} x {height:.0f} pixels are too many; see --dpi")
+    figure.savefig(name, dpi=options.dpi)
+    plt.close(figure)
+    print("wrote " + name)
+
+
+def draw_all(options):
+    """All pictures that are asked for."""
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
+    results = [Results(name, label) for name, label in zip(options.files, labels)]
+    kinds = chosen(options, results)
+    with plt.rc_context(STYLE):
+        for kind in kinds:
+            try:
+                save(options, draw(options, results, kind), path(options, kind, len(kinds) == 1))
+            except OSError:  # of the picture; those of the results have been taken for Errors
+                raise
+            except DAMAGED as error:
+                # numbers that overflow in matplotlib, more than the memory holds
+                text = f"the {kind} of {options.files[0]} cannot be drawn: {error or type(error).__name__}"
+                raise Error(text) from error
+
+
+def carry_out(options):
+    """The exit code; in a child, as all files are read here."""
+    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
     try:
-        results = [Results(name, label) for name, label in zip(options.files, labels)]
-        kinds = chosen(options, results)
-        with plt.rc_context(STYLE):
-            for kind in kinds:
-                figure, name = draw(options, results, kind), path(options, kind, len(kinds) == 1)
-                figure.savefig(name, dpi=options.dpi)
-                plt.close(figure)
-                print("wrote " + name)
-    except (Error, OSError) as error:
+        draw_all(options)
+    except Error as error:
         return fail("petsam-plot", error)
     return 0
+
+
+def main():
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
+
+    def parent():
+        options = arguments()
+
+        def child(_):
+            return guarded("petsam-plot", lambda: carry_out(options))
+
+        (code,) = isolation.each(child, [None])
+        return fail("petsam-plot", code) if isinstance(code, Error) else code
+
+    return guarded("petsam-plot", parent)

@@ -7,13 +7,14 @@ units with the prefix that suits the values.
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from ..errors import Error
+from ..errors import Error, short
 from ..results import OPEN, SLIP, STICK
 from .style import colors, extent, field, plt
-from .units import label, largest, scale
+from .units import label, largest, plain, scale
 
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
+PANELS = 64  # of a picture at most, one below the other or side by side
 
 # the loads and what they work on
 PAIRS = {
@@ -25,6 +26,11 @@ SYMBOLS = {
     "disp_z": "$d_z$", "disp_x": "$d_x$", "disp_y": "$d_y$", "rot_x": "$r_x$", "rot_y": "$r_y$", "rot_z": "$r_z$",
     "dissipated_energy": "dissipated energy, sum",
 }  # fmt: skip
+
+
+def _need_few(count, what):
+    if count > PANELS:
+        raise Error(f"{count} {what} in one picture; expected at most {PANELS}")
 
 
 # ---------------------------------------------------------------- maps
@@ -58,6 +64,7 @@ def _map(axes, data, name, factor, length, vmax):
 
 def maps(snapshots, whole=False):
     """Pressure, |q|, |s| and state: a row a snapshot, one scale a column."""
+    _need_few(len(snapshots), "steps and files")
     data = [_map_data(results, index, whole) for results, index in snapshots]
     length, unit = scale("m", largest(np.array(one["extent"]) for one in data))
     columns = (
@@ -85,7 +92,7 @@ def maps(snapshots, whole=False):
                 bar.set_ticks(sorted(STATES), labels=[STATES[k][0] for k in sorted(STATES)])
     for row, (results, index) in enumerate(snapshots):
         axes[row, 0].annotate(
-            results.title(index),
+            plain(results.title(index)),
             (0.03, 0.97),
             xycoords="axes fraction",
             va="top",
@@ -146,7 +153,7 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False):
     tints = colors(len(snapshots))
     lines = [
         [
-            (_profile(results, index, axis, at, whole), tint, results.friction(index), results.title(index))
+            (_profile(results, index, axis, at, whole), tint, results.friction(index), plain(results.title(index)))
             for (results, index), tint in zip(snapshots, tints)
         ]
         for axis in (0, 1)
@@ -181,7 +188,7 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False):
     if len(snapshots) > 1:
         axes[0, 0].legend(loc="lower center")  # below the pressure
     else:
-        figure.suptitle(snapshots[0][0].title(snapshots[0][1]), fontsize=9, color="0.35")
+        figure.suptitle(plain(snapshots[0][0].title(snapshots[0][1])), fontsize=9, color="0.35")
     return figure
 
 
@@ -225,7 +232,7 @@ def loop(results, pair=None):
             color=tint,
             linewidth=1.2,
             markersize=4.0,
-            label=f"{one.label}: {factor * energy:.4g} {unit} dissipated",
+            label=f"{plain(one.label)}: {factor * energy:.4g} {unit} dissipated",
         )
         axes.plot(
             x[-1],
@@ -248,8 +255,9 @@ def _series(results, name):
     The status is that of all steps: it tells which of them have none.
     """
     if name == "status":
-        status = results.history[name]
-        return results.history["time"][: status.size], status.astype(float)
+        status, time = results.history[name], results.history["time"]
+        complete = min(status.size, time.size)
+        return time[:complete], status[:complete].astype(float)
     values = results.series(name).astype(float)
     return results.series("time"), np.cumsum(values) if name == "dissipated_energy" else values
 
@@ -266,7 +274,7 @@ def _varying(results):
         name
         for pair in PAIRS.values()
         for name in pair
-        if any(np.ptp(one.series(name)) > 1e-9 * size[one.units[name]] for one in results)
+        if any(np.ptp(one.series(name)) > 1e-9 * size.get(one.units[name], 0.0) for one in results)
     ]
     return [*loads, "contact_area", "stick_area", "dissipated_energy", "tangential_iterations"]
 
@@ -279,10 +287,11 @@ def history(results, names=None):
             if name not in one.history:
                 raise Error(
                     "{}: --names {}: has no such dataset; it has {}".format(
-                        one.path, name, ", ".join(sorted(one.history))
+                        one.path, short(name), ", ".join(sorted(one.history))
                     )
                 )
     names = names or _varying(results)
+    _need_few(len(names), "datasets")
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
     figure, axes = plt.subplots(
@@ -292,8 +301,8 @@ def history(results, names=None):
         factor, unit = scale(results[0].units[name], largest(_series(one, name)[1] for one in results))
         for one, tint in zip(results, colors(len(results))):
             time, values = _series(one, name)
-            panel.plot(time, factor * values, ".-", color=tint, linewidth=1.1, markersize=3.0, label=one.label)
-        panel.set(ylabel=label(SYMBOLS.get(name, name.replace("_", " ")), unit))
+            panel.plot(time, factor * values, ".-", color=tint, linewidth=1.1, markersize=3.0, label=plain(one.label))
+        panel.set(ylabel=label(SYMBOLS.get(name) or plain(name.replace("_", " ")), unit))
     for panel in axes.flat[len(names) :]:
         panel.set_axis_off()
     for panel in axes.flat[max(0, len(names) - columns) : len(names)]:

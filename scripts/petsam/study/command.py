@@ -7,7 +7,7 @@
 The table is CSV (a column an option, a row a case) or YAML (all combinations of lists of values); options after `--`
 hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that
 have finished with the same inputs are not run again, so the same command goes on after an interruption (Ctrl-C, or the
-end of a job). Results of all go to DIRECTORY/results.csv and results.h5.
+end of a job). Results of all go to DIRECTORY/results.csv and results.h5. A study has at most 100000 cases.
 """
 
 import argparse
@@ -15,18 +15,24 @@ import os
 import sys
 
 from .. import environment
-from ..errors import USAGE, Error, fail
+from ..errors import USAGE, Error, Parser, fail, guarded, short
+from ..files import same
 from . import slurm, tables
 from .cases import TableError, common_options, read
 from .progress import Progress, standing, summary
-from .runs import STOPPED, Study, record
+from .runs import STOPPED, Study, check_folders, record
+
+MOST = 1 << 30  # of numbers on the command line
 
 
 def positive(text):
     """A number from 1, for argparse."""
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"{text}: expected a number from 1")
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
+    if not 1 <= value <= MOST:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a whole number from 1 to {MOST}")
     return value
 
 
@@ -34,7 +40,7 @@ def arguments():
     """Read the command line: the options, and the words after --."""
     words = sys.argv[1:]
     at = words.index("--") if "--" in words else len(words)
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="petsam-study",
         description=__doc__,
         usage="%(prog)s TABLE [option ...] [-- petsam's options for all cases]",
@@ -118,6 +124,18 @@ def run(options, cases, waiting):
     return ended
 
 
+def prepare(options, cases):
+    """Make the study's folder; Error where what is to be written there would replace something else."""
+    if os.path.lexists(options.directory) and not os.path.isdir(options.directory):
+        raise Error(f"{options.directory}: is not a folder; --directory names another")
+    os.makedirs(options.directory, exist_ok=True)
+    for name in ("results.csv", "results.h5"):
+        path = os.path.join(options.directory, name)
+        if same(path, options.table) or same(path + ".tmp", options.table):
+            raise Error(f"{options.table}: would be replaced by the results; --directory names another folder")
+    check_folders(options.directory, cases)
+
+
 def carry_out(options):
     """Do what the options ask for; the exit code."""
     cases = read(options.table, common_options(options.words), options.ranks)
@@ -125,7 +143,7 @@ def carry_out(options):
         for case in cases:
             print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
         return 0
-    os.makedirs(options.directory, exist_ok=True)
+    prepare(options, cases)
     waiting = [] if options.collect else due(options, cases)
     if options.slurm:
         return slurm.submit(options, cases, waiting)
@@ -142,14 +160,16 @@ def carry_out(options):
     return 128 + ended if ended else code
 
 
-def main():
-    """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
-    128 + the signal that ended the study."""
+def _main():
     try:
         return carry_out(arguments())
     except (TableError, slurm.SubmitError) as error:
         return fail("petsam-study", error, USAGE)
-    except (Error, OSError) as error:
+    except Error as error:
         return fail("petsam-study", error)
-    except KeyboardInterrupt:  # before or after the runs, which end in order by themselves
-        return 130
+
+
+def main():
+    """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
+    128 + the signal that ended the study."""
+    return guarded("petsam-study", _main)

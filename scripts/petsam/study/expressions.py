@@ -1,9 +1,16 @@
-"""Expressions in braces that a study's table may hold: arithmetic of numbers and names."""
+"""Expressions in braces that a study's table may hold: arithmetic of numbers and names.
+
+All numbers are doubles, so that no expression takes long, and lengths and depths are bounded.
+"""
 
 import ast
+import functools
 import math
 import operator
 import re
+import warnings
+
+from ..errors import short
 
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log", "pi")}
 FUNCTIONS.update(abs=abs, min=min, max=max)
@@ -12,16 +19,23 @@ OPERATORS = {
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
     ast.Div: operator.truediv,
-    ast.Pow: operator.pow,
+    ast.Pow: math.pow,  # of doubles; Python's own gives complex numbers, and integers of any length
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
+LENGTH = 1000  # characters of an expression at most
+DEPTH = 30  # names that refer to names that refer to ...
+TEXT = 4 << 20  # characters of an expanded text at most
+
+
+class ExpressionError(ValueError):
+    """An expression without a value; the message begins with it."""
 
 
 def _number(node, lookup):
     """Value of an arithmetic expression's syntax tree."""
-    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
-        return node.value
+    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+        return float(node.value)
     if isinstance(node, ast.Name):
         return FUNCTIONS[node.id] if node.id == "pi" else lookup(node.id)
     if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
@@ -38,46 +52,73 @@ def _number(node, lookup):
     raise ValueError("only numbers, names, + - * / **, and {} are understood".format(", ".join(sorted(FUNCTIONS))))
 
 
+@functools.lru_cache(maxsize=10000)
+def _tree(expression):
+    """Syntax tree of an expression; the same ones come again in every case."""
+    if len(expression) > LENGTH:
+        raise ValueError(f"expected at most {LENGTH} characters")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return ast.parse(expression, mode="eval").body
+
+
 class Expander:
     """Replaces {expressions} by values of names, which may hold expressions themselves."""
 
     def __init__(self, values):
-        self.values, self.open = values, []
+        self.values, self.open, self.known = values, [], {}
 
     def text(self, name):
-        """Value of a name, expanded."""
+        """Value of a name, expanded (once: names that refer to others twice would take for ever)."""
         if name not in self.values:
-            raise ValueError(f"there is no parameter or option {name}")
+            raise ValueError(f"there is no parameter or option {short(name)}")
         if name in self.open:
             raise ValueError(f"{name} refers to itself")
-        self.open.append(name)
-        try:
-            return self.expand(self.values[name])
-        finally:
-            self.open.pop()
+        if name not in self.known:
+            if len(self.open) >= DEPTH:
+                raise ValueError(f"{name}: more than {DEPTH} names refer to one another")
+            self.open.append(name)
+            try:
+                self.known[name] = self.expand(self.values[name])
+            finally:
+                self.open.pop()
+        return self.known[name]
 
     def _lookup(self, name):
         text = self.text(name)
         try:
             return float(text)
         except (TypeError, ValueError):
-            raise ValueError(f"{name} = {text} is no number") from None
+            raise ValueError(f"{name} = {short(text)} is no number") from None
 
-    def _value(self, match):
-        expression = match.group(1).strip()
+    def _value(self, expression):
+        """Text of an expression's value; None for an option without a value."""
         if expression in self.values:
             return self.text(expression)
         try:
-            value = _number(ast.parse(expression, mode="eval").body, self._lookup)
+            value = _number(_tree(expression), self._lookup)
+        except (RecursionError, MemoryError) as error:
+            raise ValueError("is nested too deeply") from error
         except (SyntaxError, ArithmeticError, TypeError) as error:
             raise ValueError(getattr(error, "msg", None) or str(error)) from error
+        if not isinstance(value, float) or not math.isfinite(value):
+            raise ValueError(f"is {value:g}, no finite number" if isinstance(value, float) else "is no number")
         return f"{value:.15g}"
 
     def expand(self, text):
         """The text with its expressions replaced; None stays."""
-        try:
-            return None if text is None else re.sub(r"\{([^{}]*)\}", self._value, text)
-        except ValueError as error:
-            raise ValueError(
-                f"{text.strip().splitlines()[0]}: {error}" if "{" not in str(error) else str(error)
-            ) from error
+        if text is None:
+            return None
+        parts, length = re.split(r"\{([^{}]*)\}", text), 0
+        for k, part in enumerate(parts):
+            if k % 2:
+                try:
+                    parts[k] = self._value(part.strip()) or ""
+                except ExpressionError:
+                    raise
+                except ValueError as error:
+                    raise ExpressionError(f"{{{short(part.strip())}}}: {error}") from error
+            length += len(parts[k])
+            if length > TEXT:
+                raise ExpressionError(f"{short(text)}: expected at most {TEXT} characters when it is expanded")
+        return "".join(parts)

@@ -9,12 +9,15 @@ import contextlib
 import errno
 import fcntl
 import json
+import math
 import os
 import signal
 import subprocess
 import time
 
 from .. import environment
+from ..errors import Error, one_line, short
+from ..files import need_regular, need_replaceable
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
@@ -27,7 +30,8 @@ MEANINGS = {
     STOPPED: "stopped early, to be run again",
 }
 PATIENCE = 10.0  # seconds that runs get to end when asked to
-GRACE = float(os.environ.get("GRACE", 90.0))  # seconds that they get to write a checkpoint and stop
+GRACE = 90.0  # seconds that they get to write a checkpoint and stop; the variable GRACE overrides it
+WORDS = 1000  # characters of a run's own words on how it ended
 PAUSE = 0.05  # seconds between looks at the runs
 
 
@@ -41,7 +45,8 @@ class Busy(Exception):
 def write_atomically(path, text):
     """The file holds either what it held before or all of the text."""
     beside = path + ".tmp"
-    with open(beside, "w", encoding="utf-8") as file:
+    need_replaceable(beside)
+    with open(beside, "w", encoding="utf-8", errors="backslashreplace") as file:  # names of files need not be text
         file.write(text)
         file.flush()
         os.fsync(file.fileno())
@@ -50,12 +55,28 @@ def write_atomically(path, text):
 
 def record(directory, case):
     """The case's record if it is of these inputs, else an empty one."""
+    path = os.path.join(directory, case.name, RECORD)
     try:
-        with open(os.path.join(directory, case.name, RECORD), encoding="utf-8") as file:
+        need_regular(path)
+        with open(path, encoding="utf-8") as file:
             known = json.load(file)
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError, Error):
         return {}
-    return known if isinstance(known, dict) and known.get("identity") == case.identity() else {}
+    return known if _is_record(known) and known["identity"] == case.identity() else {}
+
+
+def _is_record(known):
+    """Whether it could be a record that has been written here."""
+    if not isinstance(known, dict) or not {"identity", "exit_code", "seconds", "message"} <= set(known):
+        return False
+    code, seconds = known["exit_code"], known["seconds"]
+    return (
+        (code is None or type(code) is int and abs(code) < 1 << 31)
+        and type(seconds) in (int, float)
+        and abs(seconds) < math.inf
+        and isinstance(known["message"], str)
+        and "\0" not in known["message"]
+    )
 
 
 def finished(directory, case):
@@ -72,11 +93,34 @@ def _message(log, code):
         lines = []
     own = [line[len("petsam: ") :] for line in lines if line.startswith("petsam: ") and "warning: " not in line]
     if own:
-        return own[0]
+        return one_line(own[0], WORDS)
     if code < 0 or code > 128:
         number = -code if code < 0 else code - 128
         return f"ended by signal {number}"
-    return lines[-1] if lines and code else ""
+    return one_line(lines[-1], WORDS) if lines and code else ""
+
+
+def grace():
+    """Seconds that runs get to write a checkpoint and stop."""
+    text = os.environ.get("GRACE") or str(GRACE)
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = math.nan
+    if not 0.0 <= seconds < math.inf:
+        raise Error(f"the variable GRACE is {text}; expected a number of seconds")
+    return seconds
+
+
+def check_folders(directory, cases):
+    """Error where something else has the name of what is to be written, before any case runs."""
+    for name in ("results.csv", "results.h5"):
+        for path in (os.path.join(directory, name), os.path.join(directory, name + ".tmp")):
+            need_replaceable(path)
+    for case in cases:
+        folder = os.path.join(directory, case.name)
+        if os.path.lexists(folder) and not os.path.isdir(folder):
+            raise Error(f"{folder}: is not a folder; it has the name of a case")
 
 
 # ---------------------------------------------------------------- one case
@@ -85,15 +129,15 @@ def _message(log, code):
 class Run:
     """A case that is running."""
 
-    def __init__(self, case, directory, command, checkpoint_every=None):
-        """Make the folder ready and start `command -n RANKS petsam ...` in it."""
+    def __init__(self, case, directory, command, checkpoint_every=None, patience=GRACE):
+        """Make the folder ready and start `command -n RANKS petsam ...` in it; patience is that of grace()."""
         self.case, self.folder = case, os.path.join(directory, case.name)
         os.makedirs(self.folder, exist_ok=True)
         self.lock = self._lock()
         goes_on = self._goes_on(directory, checkpoint_every)
         for name, text in case.files.items():
             write_atomically(os.path.join(self.folder, name), text)
-        self.start, self.told = time.monotonic(), None
+        self.start, self.told, self.patience = time.monotonic(), None, patience
         self.before = record(directory, case).get("seconds", 0.0) if goes_on else 0.0
         self._note(None, "")
         words = [
@@ -103,9 +147,15 @@ class Run:
             RESULTS,
             *self._checkpointing(checkpoint_every, goes_on),
         ]
-        with open(os.path.join(self.folder, LOG), "a" if goes_on else "w", encoding="utf-8") as log:
+        log = os.path.join(self.folder, LOG)
+        need_replaceable(log)
+        with open(log, "a" if goes_on else "w", encoding="utf-8") as file:
+            self.process = self._popen(words, file)
+
+    def _popen(self, words, log):
+        try:
             # its own session: the terminal's Ctrl-C reaches the study alone, which then ends the runs in order
-            self.process = subprocess.Popen(
+            return subprocess.Popen(
                 words,
                 cwd=self.folder,
                 stdin=subprocess.DEVNULL,
@@ -115,6 +165,9 @@ class Run:
                 start_new_session=True,
                 pass_fds=(self.lock,),
             )
+        except (OSError, ValueError) as error:  # no program for this system, or more words than it takes
+            reason = getattr(error, "strerror", None) or error
+            raise Error(f"case {self.case.name}: {short(words[0])} cannot be started: {reason}") from error
 
     def _lock(self):
         lock = os.open(os.path.join(self.folder, "lock"), os.O_RDWR | os.O_CREAT, 0o666)
@@ -162,7 +215,7 @@ class Run:
     def ended(self):
         """Exit code when the run has ended by itself, which is then on record; else None."""
         code = self.process.poll()
-        if self.told and code is None and time.monotonic() > self.told + GRACE:
+        if self.told and code is None and time.monotonic() > self.told + self.patience:
             self.signal(signal.SIGTERM)
         if code is not None:
             if self.told and code not in (0, *MEANINGS) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
@@ -201,6 +254,7 @@ class Study:
         self.directory, self.command, self.cores = directory, command, cores
         self.report, self.tick, self.checkpoint_every = report, tick, checkpoint_every
         self.running, self.interrupted, self.stop = [], 0, False
+        self.patience = grace()
 
     def _catch(self, number, _frame):
         if number == signal.SIGUSR1:  # Slurm's notice of the end: the runs write their checkpoints and stop
@@ -242,7 +296,7 @@ class Study:
 
     def _start(self, case):
         try:
-            self.running.append(Run(case, self.directory, self.command, self.checkpoint_every))
+            self.running.append(Run(case, self.directory, self.command, self.checkpoint_every, self.patience))
         except Busy:
             self.report(case, None)
 

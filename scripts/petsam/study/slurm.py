@@ -1,12 +1,13 @@
 """A study as Slurm jobs: an array of scripts/slurm/array.sbatch for each number of ranks, and a job that collects."""
 
 import os
+import re
 import shlex
 import shutil
 import subprocess
 
 from .. import environment
-from ..errors import Error
+from ..errors import Error, short
 
 SCRIPT = environment.SCRIPTS / "slurm" / "array.sbatch"
 STUDY = environment.SCRIPTS / "petsam-study"
@@ -31,12 +32,25 @@ def _sbatch(words):
     """Submit; the job's number."""
     if not shutil.which("sbatch"):
         raise SubmitError("--slurm: no sbatch on PATH")
-    done = subprocess.run(["sbatch", "--parsable", *words], capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run(
+            ["sbatch", "--parsable", *words],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+    except OSError as error:
+        raise SubmitError(f"sbatch: cannot be executed: {error.strerror}") from error
     if done.returncode:
         raise SubmitError(
             "sbatch: {}".format(" ".join((done.stderr or done.stdout).split()) or f"exit code {done.returncode}")
         )
-    return done.stdout.strip().split(";")[0]  # number;cluster
+    job = done.stdout.strip().split(";")[0]  # number;cluster
+    if not re.fullmatch(r"[0-9]+", job):
+        raise SubmitError(f"sbatch: says {short(job) or 'nothing'} instead of a job's number")
+    return job
 
 
 def _study_words(options):
@@ -49,7 +63,7 @@ def _study_words(options):
 
 def submit(options, cases, waiting):
     """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables at the end."""
-    words, extra = _study_words(options), shlex.split(options.sbatch)
+    words, extra = _study_words(options), environment.split(options.sbatch, "--sbatch")
     common = ["--", *options.words] if options.words else []
     log = "--output=" + os.path.join(options.directory, "slurm-%A_%a.out")
     jobs = []

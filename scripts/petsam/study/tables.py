@@ -16,8 +16,10 @@ import os
 import h5py
 import numpy as np
 
+from .. import isolation
 from ..errors import Error
-from ..results import Results
+from ..files import need_replaceable
+from ..results import DAMAGED, Results
 from .runs import RESULTS, record, write_atomically
 
 
@@ -34,18 +36,18 @@ def scalars(path):
             total = float(np.sum(results.series(energy))) if results.solved.size else np.nan
             found[energy + "_sum"] = (total, results.units[energy])
             return found
-    except Error:
+    except (Error, *DAMAGED):
         return {}
 
 
 def rows(directory, cases):
     """For every case: the case, its record, its scalars (only where its record is of the same inputs)."""
-    found = []
-    for case in cases:
-        known = record(directory, case)
-        path = os.path.join(directory, case.name, RESULTS)
-        found.append((case, known, scalars(path) if known.get("exit_code") is not None else {}))
-    return found
+    records = [(case, record(directory, case)) for case in cases]
+    ended = [case for case, known in records if known.get("exit_code") is not None]
+    # a run that was killed may have left a damaged file
+    values = list(isolation.each(scalars, [os.path.join(directory, case.name, RESULTS) for case in ended]))
+    known_values = {case.name: {} if isinstance(one, Error) else one for case, one in zip(ended, values)}
+    return [(case, known, known_values.get(case.name, {})) for case, known in records]
 
 
 def _names(found):
@@ -95,10 +97,15 @@ def _numbers(texts):
         return None
 
 
+def _encodable(text):
+    """The text as HDF5 takes it: names of files need not be UTF-8."""
+    return text.encode(errors="backslashreplace").decode()
+
+
 def _write(group, name, values, unit=None):
     numbers = values if isinstance(values, np.ndarray) else _numbers(values)
     if numbers is None:
-        group.create_dataset(name, data=["" if value is None else value for value in values], dtype=h5py.string_dtype())
+        group.create_dataset(name, data=[_encodable(value or "") for value in values], dtype=h5py.string_dtype())
     else:
         group.create_dataset(name, data=numbers)
     if unit:
@@ -109,11 +116,10 @@ def write_hdf5(path, found, study):
     """The table as HDF5."""
     inputs, units = _names(found)
     shared = set.intersection(*[set(case.options.items()) for case, _, _ in found])
+    need_replaceable(path + ".tmp")
     with h5py.File(path + ".tmp", "w") as file:
-        file.attrs["study"] = study
-        file.attrs["options"] = " ".join(
-            "-" + name + (" " + value if value else "") for name, value in sorted(shared, key=str)
-        )
+        words = ("-" + name + (" " + value if value else "") for name, value in sorted(shared, key=str))
+        file.attrs["study"], file.attrs["options"] = _encodable(study), _encodable(" ".join(words))
         for name, values in (
             ("case", [case.name for case, _, _ in found]),
             ("message", [known.get("message", "") for _, known, _ in found]),

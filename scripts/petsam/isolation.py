@@ -1,0 +1,174 @@
+"""Work in a child process: HDF5 follows the addresses in a file, and on a damaged one it may crash or never end."""
+
+import contextlib
+import ctypes
+import math
+import mmap
+import os
+import pickle
+import resource
+import signal
+import sys
+import warnings
+
+from .errors import Error
+
+SECONDS = 20  # of CPU time for one reading
+MEMORY = 4 << 30  # bytes that one reading may need: it is by blocks
+NAME = 4096  # bytes of a file's name that are noted
+PR_SET_PDEATHSIG = 1  # of Linux's prctl
+# what ends a child that reads a damaged file
+DAMAGE = {
+    getattr(signal, name)
+    for name in ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGFPE", "SIGILL", "SIGTRAP", "SIGXCPU", "SIGSYS")
+}
+
+_note = None  # in a child: memory shared with the parent, with the name of the file that is being read
+
+
+class Ended(Error):
+    """A child has ended before its work: number is the signal, if any; path the file it was reading, if any."""
+
+    def __init__(self, number, path):
+        super().__init__(
+            f"{path}: is damaged"
+            if path and number in DAMAGE
+            else f"{path or 'the work'}: ended by signal {number}"
+            if number
+            else "the work ended early"
+        )
+        self.number, self.path = number, path
+
+
+def _addresses():
+    """Bytes of address space in use; infinite where the system does not say."""
+    try:
+        with open("/proc/self/statm", encoding="ascii") as file:
+            return int(file.read().split()[0]) * mmap.PAGESIZE
+    except (OSError, ValueError):
+        return math.inf
+
+
+@contextlib.contextmanager
+def _limits(**wanted):
+    """Soft limits for now; the least of each and what holds anyway."""
+    before = {name: resource.getrlimit(getattr(resource, name)) for name in wanted}
+    for name, value in wanted.items():
+        if math.isfinite(value):
+            holding = [one for one in before[name] if one != resource.RLIM_INFINITY]
+            resource.setrlimit(getattr(resource, name), (min([value, *holding]), before[name][1]))
+    try:
+        yield
+    finally:
+        for name, pair in before.items():
+            resource.setrlimit(getattr(resource, name), pair)
+
+
+@contextlib.contextmanager
+def _silence():
+    """A library that aborts says so itself, in words that mean nothing to a user."""
+    sys.stderr.flush()
+    before, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    os.close(nowhere)
+    try:
+        yield
+    finally:
+        os.dup2(before, 2)
+        os.close(before)
+
+
+@contextlib.contextmanager
+def reading(path):
+    """HDF5 reads a file here. In a child, time and memory are limited and the parent knows which file it was."""
+    if _note is None:
+        yield
+        return
+    name = os.fsencode(path)[:NAME]
+    _note[: len(name) + 1] = name + b"\0"
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    seconds = math.ceil(used.ru_utime + used.ru_stime) + SECONDS
+    try:
+        with _silence(), _limits(RLIMIT_CPU=seconds, RLIMIT_AS=_addresses() + MEMORY):
+            yield
+    finally:
+        _note[:1] = b"\0"
+
+
+def _work(function, items, pipe):
+    """The child: results of the items, one after another, into the pipe."""
+    resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
+    with contextlib.suppress(OSError, AttributeError):  # elsewhere than on Linux
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)  # whoever ends the parent means the child, too
+    for number in DAMAGE:
+        signal.signal(number, signal.SIG_DFL)
+    with os.fdopen(pipe, "wb") as out:
+        for item in items:
+            try:
+                answer = pickle.dumps((True, function(item)))
+            except Exception as error:
+                answer = pickle.dumps((False, f"{type(error).__name__}: {error}"))
+            out.write(answer)
+            out.flush()
+    for stream in (sys.stdout, sys.stderr):
+        if stream:
+            stream.flush()
+
+
+def _start(function, items, note):
+    """A child that works on the items: its process number, and the stream of its answers."""
+    global _note
+    source, sink = os.pipe()
+    for stream in (sys.stdout, sys.stderr):
+        if stream:
+            stream.flush()  # or the child would print it again
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the threads of numerical libraries do nothing here
+        child = os.fork()
+    if child:
+        os.close(sink)
+        return child, os.fdopen(source, "rb")
+    code = 1
+    try:
+        os.close(source)
+        _note = note
+        _work(function, items, sink)
+        code = 0
+    except KeyboardInterrupt:
+        code = 130
+    finally:
+        os._exit(code)  # what belongs to the parent is not undone here
+
+
+def each(function, items):
+    """function(item) of all items, in order, in a child process; Ended in place of a result where the child ended.
+
+    The child sees all that is in memory now; what it changes there is lost.
+    """
+    items, note = list(items), mmap.mmap(-1, NAME + 1)
+    done = 0
+    while done < len(items):
+        note[:1] = b"\0"
+        child, answers = _start(function, items[done:], note)
+        wanted = True
+        try:
+            while done < len(items):
+                try:
+                    fine, value = pickle.load(answers)
+                except (EOFError, pickle.UnpicklingError):
+                    break
+                if not fine:
+                    raise RuntimeError(value)
+                done += 1
+                yield value
+            wanted = False
+        finally:
+            answers.close()
+            if wanted:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(child, signal.SIGTERM)
+            status = os.waitpid(child, 0)[1]
+        if done < len(items):
+            number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+            yield Ended(number, os.fsdecode(note[:].split(b"\0")[0]))
+            done += 1
