@@ -3,7 +3,8 @@
 
   A run may have been killed in the middle of a step. The steps that it has reported can be read (output.c), but HDF5's
   indices may be in an inconsistent state, and nothing should be appended to those. So unless the file was closed
-  properly, the wanted steps are copied to a new file beside it, which replaces it when it is complete.
+  properly, and has not been damaged since (structure.c), the wanted steps are copied to a new file beside it, which
+  replaces it when it is complete.
 */
 #include "ioimpl.h"
 #include <string.h>
@@ -128,24 +129,21 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
 /* Whether all chunks of the steps that are kept lie within the file. */
 static void CheckChunks(SamOutput o, hsize_t keep)
 {
-  hsize_t size = 0;
+  const hsize_t dx = (hsize_t)o->set.chunk[0], dy = (hsize_t)o->set.chunk[1];
+  hsize_t       size = 0, at[3];
 
   (void)SamFileNote(o->f, H5Fget_filesize(o->f->id, &size));
-  for (PetscInt f = 0; f < SamOutputFieldCount && !o->f->failed; f++) {
-    const hid_t space = SamFileNote(o->f, H5Dget_space(o->fields[f]));
-    hsize_t     count = 0;
+  for (PetscInt f = 0; f < SamOutputFieldCount && !o->f->failed; f++)
+    for (at[0] = 0; at[0] < keep; at[0]++)
+      for (at[1] = 0; at[1] < (hsize_t)o->f->grid->ny && dy; at[1] += dy)
+        for (at[2] = 0; at[2] < (hsize_t)o->f->grid->nx && dx && !o->f->failed; at[2] += dx) {
+          haddr_t  address = 0;
+          hsize_t  bytes   = 0;
+          unsigned filters = 0;
 
-    (void)SamFileNote(o->f, H5Dget_num_chunks(o->fields[f], space, &count));
-    for (hsize_t k = 0; k < count && !o->f->failed; k++) {
-      hsize_t  offset[3] = {0, 0, 0}, bytes = 0;
-      haddr_t  address = 0;
-      unsigned filters = 0;
-
-      (void)SamFileNote(o->f, H5Dget_chunk_info(o->fields[f], space, k, offset, &filters, &address, &bytes));
-      if (offset[0] < keep && (address > size || bytes > size - address)) (void)SamFileNote(o->f, -1);
-    }
-    if (space >= 0) (void)SamFileNote(o->f, H5Sclose(space));
-  }
+          (void)SamFileNote(o->f, H5Dget_chunk_info_by_coord(o->fields[f], at, &filters, &address, &bytes));
+          if (address > size || bytes > size - address) (void)SamFileNote(o->f, -1);
+        }
 }
 
 typedef struct {
@@ -153,6 +151,7 @@ typedef struct {
   const char              *filename;
   const SamOutputSettings *set;
   const Wanted            *wanted;
+  PetscBool                sealed; /* closed properly, and its structure is as it was then */
   PetscErrorCode           code;
   char                     message[1024];
 } Case;
@@ -178,6 +177,7 @@ static PetscErrorCode LookAtAll(const Case *c)
   PetscCall(SamFileBegin(o->f));
   CheckChunks(o, found.keep);
   PetscCall(SamFileEnd(o->f));
+  PetscCall(SamOutputDestroy(&o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -187,11 +187,15 @@ static void LookInChild(void *data)
 
   (void)PetscPushErrorHandler(KeepMessage, c->message);
   c->code = LookAtAll(c);
+  if (!c->code) c->sealed = SamStructureIsSealed(c->filename);
 }
 
-/* Rank 0 looks at all that will be read but the fields themselves, in a child process. Collective. */
+/*
+  Rank 0 looks at all that will be read but the fields themselves, in a child process. `sealed`: the file may be
+  appended to. Collective.
+*/
 static PetscErrorCode LookBefore(SamGrid grid, const char filename[], const SamOutputSettings *set,
-                                 const Wanted *wanted)
+                                 const Wanted *wanted, PetscBool *sealed)
 {
   const PetscInt  n[2]     = {grid->nx, grid->ny};
   const PetscReal width[2] = {grid->nx * grid->dx, grid->ny * grid->dy}, center[2] = {0, 0};
@@ -210,7 +214,9 @@ static PetscErrorCode LookBefore(SamGrid grid, const char filename[], const SamO
   }
   PetscCallMPI(MPI_Bcast(&c.code, (PetscMPIInt)sizeof(c.code), MPI_BYTE, 0, grid->comm));
   PetscCallMPI(MPI_Bcast(c.message, (PetscMPIInt)sizeof(c.message), MPI_CHAR, 0, grid->comm));
+  PetscCallMPI(MPI_Bcast(&c.sealed, (PetscMPIInt)sizeof(c.sealed), MPI_BYTE, 0, grid->comm));
   PetscCheck(!c.code, grid->comm, c.code, "%s", c.message);
+  *sealed = c.sealed;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -398,16 +404,17 @@ static PetscErrorCode OpenOrRewrite(SamGrid grid, const char filename[], const S
                                     const Wanted *wanted, SamHold *hold, SamOutput *output)
 {
   Found          found;
+  PetscBool      sealed;
   PetscErrorCode ierr = 0;
 
   PetscFunctionBegin;
   PetscCall(SamHoldTake(grid, "output", filename, SAM_FILE_OLD_RESULTS, hold));
-  PetscCall(LookBefore(grid, filename, set, wanted));
+  PetscCall(LookBefore(grid, filename, set, wanted, &sealed));
   PetscCall(Open(grid, filename, SAM_FILE_READ, set, wanted, output, &found));
-  if (!found.whole) ierr = Rewrite(*output, set, wanted, found.keep);
+  if (!found.whole || !sealed) ierr = Rewrite(*output, set, wanted, found.keep);
   PetscCall(SamOutputDestroy(output));
   PetscCall(ierr);
-  if (!found.whole) PetscCall(SamHoldTakeNext(grid, "output", filename, hold));
+  if (!found.whole || !sealed) PetscCall(SamHoldTakeNext(grid, "output", filename, hold));
   PetscCall(Open(grid, filename, SAM_FILE_APPEND, set, wanted, output, &found));
   PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program",
              filename);

@@ -233,6 +233,13 @@ PETSC_INTERN void SamOutputOpenVTK(SamOutput output);
 PETSC_INTERN void SamOutputCountVTK(SamOutput output, hsize_t saved);
 
 /*
+  SamStructureSeal - seals a results file that has been closed: notes a checksum of its structure at its end.
+  SamStructureIsSealed - whether it has a seal that is right. Both use the serial driver, on one rank. Not collective.
+*/
+PETSC_INTERN void      SamStructureSeal(const char filename[]);
+PETSC_INTERN PetscBool SamStructureIsSealed(const char filename[]);
+
+/*
   SamOutputLength - the number of steps in a dataset.
   SamOutputReadSeries - reads `count` numbers of a series from index `first` on, on all ranks.
 */

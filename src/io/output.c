@@ -162,6 +162,8 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
     MarkClosed(o);
     SamOutputCloseLayout(o);
     SamFileClose(o->f);
+    PetscCall(SamFileAgree(o->f)); /* all ranks have closed it */
+    if (o->hold.file >= 0 && !o->f->failed && !o->unchanged && !changed) SamStructureSeal(o->f->filename);
   }
   ierr = SamFileEnd(o->f);
   SamHoldRelease(o->f->filename, &o->hold);

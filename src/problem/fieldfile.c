@@ -107,18 +107,20 @@ static Verdict JudgeDataset(SamGrid grid, hid_t dataset)
 static PetscBool HasAllChunks(hid_t file, hid_t dataset)
 {
   const hid_t space = H5Dget_space(dataset), creation = H5Dget_create_plist(dataset);
-  hsize_t     count = 0, size = 0;
+  hsize_t     size = 0, bytes = 0, chunk[2] = {1, 1}, shape[2] = {0, 0}, at[2];
   haddr_t     address = 0;
   PetscBool   good    = space >= 0 && creation >= 0 && H5Fget_filesize(file, &size) >= 0 ? PETSC_TRUE : PETSC_FALSE;
 
   if (good && H5Pget_layout(creation) == H5D_CHUNKED) {
-    good = H5Dget_num_chunks(dataset, space, &count) >= 0 ? PETSC_TRUE : PETSC_FALSE;
-    for (hsize_t k = 0; k < count && good; k++) {
-      hsize_t offset[2], bytes = 0;
-
-      if (H5Dget_chunk_info(dataset, space, k, offset, NULL, &address, &bytes) < 0 || address + bytes > size)
-        good = PETSC_FALSE;
-    }
+    good = H5Pget_chunk(creation, 2, chunk) == 2 && chunk[0] && chunk[1] &&
+               H5Sget_simple_extent_dims(space, shape, NULL) == 2
+             ? PETSC_TRUE
+             : PETSC_FALSE;
+    for (at[0] = 0; good && at[0] < shape[0]; at[0] += chunk[0])
+      for (at[1] = 0; good && at[1] < shape[1]; at[1] += chunk[1])
+        if (H5Dget_chunk_info_by_coord(dataset, at, NULL, &address, &bytes) < 0 ||
+            (address != HADDR_UNDEF && address + bytes > size))
+          good = PETSC_FALSE;
   } else if (good && H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0) {
     address = H5Dget_offset(dataset);
     if (address != HADDR_UNDEF && address + H5Dget_storage_size(dataset) > size) good = PETSC_FALSE;
