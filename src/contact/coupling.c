@@ -44,6 +44,7 @@ typedef struct {
   PetscReal rtol[2]; /* of the normal and the tangential problem, as the user wants them */
   PetscBool looks;   /* contact may be where it has not been looked for */
   PetscBool slides;  /* the bound of this pass cannot carry the loads */
+  PetscBool stuck;   /* the last shear was not found within a few iterations */
 } Passes;
 
 static PetscErrorCode Create(SamSolve *s, const SamStepStart *start, Passes *p)
@@ -101,7 +102,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   SamSolve       *s            = p->s;
   const PetscBool has_pressure = pass > 1 || start->pressure ? PETSC_TRUE : PETSC_FALSE;
   /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
-  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR ? PETSC_TRUE : PETSC_FALSE) : start->shear;
+  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck ? PETSC_TRUE : PETSC_FALSE) : start->shear;
   SamSolverReason reason;
   PetscReal       limit;
   const PetscReal error = PetscMin(p->error, FIRST);
@@ -124,9 +125,10 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscCall(SamSolveTangential(s, has_shear));
   PetscCall(SamSolverGetReason(s->c->tangential, &reason));
   PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
+  p->stuck = reason == SAM_SOLVER_DIVERGED_ITS && p->error > EXACT ? PETSC_TRUE : PETSC_FALSE;
   if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0)
     PetscCall(Slide(p));
-  else if (reason != SAM_SOLVER_DIVERGED_ITS || p->error <= EXACT)
+  else if (!p->stuck)
     PetscCall(SamSolveJudgeTangential(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
