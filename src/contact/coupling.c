@@ -30,6 +30,8 @@
 /* The error up to which a pass starts from the last shear, and is solved to the end. */
 #define NEAR  1e-3
 #define EXACT 1e-5
+/* Passes in a row that may end without it before. */
+#define PATIENCE 2
 /* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
 #define NORMAL_PART      0.1
 #define NORMAL_FINAL     0.3
@@ -44,7 +46,7 @@ typedef struct {
   PetscReal rtol[2]; /* of the normal and the tangential problem, as the user wants them */
   PetscBool looks;   /* contact may be where it has not been looked for */
   PetscBool slides;  /* the bound of this pass cannot carry the loads */
-  PetscBool stuck;   /* the last shear was not found within a few iterations */
+  PetscInt  stuck;   /* number of passes in a row whose shear was not found within a few iterations */
 } Passes;
 
 static PetscErrorCode Create(SamSolve *s, const SamStepStart *start, Passes *p)
@@ -103,16 +105,17 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   const PetscBool has_pressure = pass > 1 || start->pressure ? PETSC_TRUE : PETSC_FALSE;
   /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
   const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck ? PETSC_TRUE : PETSC_FALSE) : start->shear;
+  const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE ? PETSC_TRUE : PETSC_FALSE;
+  const PetscReal error     = PetscMin(p->error, FIRST);
   SamSolverReason reason;
   PetscReal       limit;
-  const PetscReal error = PetscMin(p->error, FIRST);
 
   PetscFunctionBegin;
   SamSolverSetEffort(s->c->normal, PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
                      p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_GLANCE);
   /* of a pressure that is not smooth yet, Newton's method may get stuck on the shear; that is not worth its while */
   SamSolverSetEffort(s->c->tangential, PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error),
-                     p->error > EXACT ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL);
+                     brief ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL);
   PetscCall(VecCopy(s->lift, s->h));
   PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear ? PETSC_TRUE : PETSC_FALSE));
   PetscCall(SamSolveJudgeNormal(s));
@@ -125,7 +128,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscCall(SamSolveTangential(s, has_shear));
   PetscCall(SamSolverGetReason(s->c->tangential, &reason));
   PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
-  p->stuck = reason == SAM_SOLVER_DIVERGED_ITS && p->error > EXACT ? PETSC_TRUE : PETSC_FALSE;
+  p->stuck = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
   if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0)
     PetscCall(Slide(p));
   else if (!p->stuck)
