@@ -156,11 +156,12 @@ def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
     mine = dict(checkpoint="out/state.h5", checkpoint_every=1)
     first = start(launcher, folder, 1, mine)
     wait_for(first, 4)
+    shutil.copy(folder / "out" / "state.h5", folder / "out" / "kept.h5")  # the first run goes on replacing its own
     for other in (
         dict(grid_n=12),
         dict(output="out/other.h5", **mine),
         dict(output=None, **mine),
-        dict(restart="out/state.h5"),
+        dict(restart="out/kept.h5"),
     ):
         code, steps, complaint = ended(start(launcher, folder, ranks, other))
         assert code == 3 and steps == 0
