@@ -156,7 +156,10 @@ typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, Pets
 PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
                                                   SamElasticity part, PetscBool guess, SamLevelSolver solve);
 
-/* SamSolverSetEffort - the effort of the next solves, and the relative error that is enough (0: the user's rtol). Not collective. */
+/*
+  SamSolverSetEffort - the effort of the next solves, and the relative error that is enough (0: the user's rtol). Not
+  collective.
+*/
 PETSC_EXTERN void SamSolverSetEffort(SamSolver solver, PetscReal rtol, SamEffort effort);
 /* SamLevelHasProduct - whether the product with the level's traction is known everywhere. Not collective. */
 PETSC_EXTERN PetscBool SamLevelHasProduct(const SamLevel *level);
