@@ -202,7 +202,7 @@ void SamHoldRelease(const char filename[], SamHold *hold)
   hold->file = -1;
 }
 
-/* Opens and locks a file, which is created if it is not there, and checks that it can be written and may be replaced. */
+/* Opens and locks a file, which is created if it is not there; checks that it can be written and may be replaced. */
 static int Take(const char filename[], SamFileUse use, SamHold *hold)
 {
   int error = 0;

@@ -42,7 +42,8 @@ typedef enum {
 } SamFileMode;
 /*
   SamFileOpen - opens a file to READ or to APPEND, or CREATEs it, replacing one of that name; CREATE_SEALED: with room
-  for a seal; READ_ALONE: without MPI-IO, by the one rank of the grid. `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  for a seal; READ_ALONE: without MPI-IO, by the one rank of the grid. `option` is not copied. Collective. Errors:
+  SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
@@ -82,8 +83,8 @@ PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], 
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
 /*
   SamFileReplace - flushes the finished file `temporary` to the disk and renames it to `filename`. A file of that name
-  is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these names,
-  if there was one. Collective. Errors: SAM_ERR_FILE.
+  is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these
+  names, if there was one. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
                                            const char filename[], const char kept[]);

@@ -2,8 +2,8 @@
   Fields read from HDF5 datasets of shape (ny, nx).
 
   A file may be wrong in many ways. Rank 0 examines it with the serial driver, in a child process, and broadcasts its
-  verdict. So all ranks raise the same error, none waits for another, and a damaged file does no harm. Only then all read
-  their rows.
+  verdict. So all ranks raise the same error, none waits for another, and a damaged file does no harm. Only then all
+  read their rows.
 */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/fieldfile.h>

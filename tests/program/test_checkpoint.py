@@ -429,8 +429,8 @@ def mixed(x):
 def sealed(path, version=3):
     """The seal that a file should have, as the manual describes it: hashed by blocks, whose hashes are added."""
     data, block, total = path.read_bytes(), 1 << 20, 0
-    for place, start in enumerate(range(512, len(data), block)):
-        part = data[start : start + block]
+    for place, first in enumerate(range(512, len(data), block)):
+        part = data[first : first + block]
         value = mixed(place + 1)
         for k in range(0, len(part), 8):
             value = mixed((value + int.from_bytes(part[k : k + 8], "little")) % 2**64)
