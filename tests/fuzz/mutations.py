@@ -2,7 +2,8 @@
 
 ODD_WORDS = (
     "0 -0 1 -1 2 3 17 1e-300 -1e300 1e308 4e-324 nan inf -inf 1e400 0x10 1, ,1 1,2 1,2,3 1;2 2,6e-3 1e 1.5.2 abc "
-    "true false yes none all 99999999999999999999 2147483647 2147483648 -2147483648 % # ! @ '' \u00e9 \u6f22 :x ascii: ../x . / "
+    "true false yes none all 99999999999999999999 2147483647 2147483648 -2147483648 % # ! @ '' "
+    "\u00e9 \u6f22 :x ascii: ../x . / "
     "$HOME ~ * a=b -- - _ ., +5 1d3 1_000"
 ).split(" ") + ["", " ", "\t", "a b", "x" * 300, "1" * 400]
 
@@ -10,7 +11,8 @@ ODD_NAMES = (
     "-grid_m -load -loadn -load_n=5 --grid_n -help -version -log_view -options_left -info -malloc_dump -prefix_push "
     "-options_file -history -output -checkpoint -restart -steps -normal_type -tangential_type -normal_max_it "
     "-tangential_max_it -normal_rtol -tangential_rtol -normal_view -tangential_converged_reason -coupling "
-    "-coupling_rtol -elasticity -disp_z -disp_x -rot_z -load_mz -load_mx -friction -friction_file -gap_file -gap_rough_file -gap_type "
+    "-coupling_rtol -elasticity -disp_z -disp_x -rot_z -load_mz -load_mx -friction -friction_file "
+    "-gap_file -gap_rough_file -gap_type "
     "-max_walltime -checkpoint_every -output_every -output_compress -output_chunk -output_xdmf -allow_edge_contact "
     "-memory_check -python -fp_trap -log_trace -options_view -normal_monitor -tangential_levels -normal_levels"
 ).split()

@@ -1,8 +1,9 @@
 """Trials of the program with spoiled input, and with faults while it runs. Each raises Failure for a broken promise.
 
 What is promised: a run ends, with an exit code of the contract. After exit code 2 or 3 there are one to three lines
-that begin with `petsam: `, and no file has changed. What exit code 0 leaves can be read, and balances the load. A damaged
-checkpoint is never used. A run that is killed goes on to the same results, to the last bit. Nothing prints a trace.
+that begin with `petsam: `, and no file has changed. What exit code 0 leaves can be read, and balances the load. A
+damaged checkpoint is never used. A run that is killed goes on to the same results, to the last bit. Nothing prints a
+trace.
 """
 
 import math
