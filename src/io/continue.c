@@ -394,6 +394,7 @@ static PetscErrorCode MarkOpen(SamOutput o)
   PetscCall(SamFileBegin(o->f));
   (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
   (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  SamOutputMark(o);
   PetscCall(SamFileEnd(o->f));
   SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -279,6 +279,16 @@ void SamHoldNoteSize(SamHold *hold)
   if (hold->file >= 0) hold->size = SizeOf(hold->file);
 }
 
+static PetscBool HasMark(const SamHold *hold)
+{
+  double found = 0;
+
+  if (!hold->mark_at) return PETSC_TRUE;
+  return pread(hold->file, &found, sizeof(found), hold->mark_at) == (ssize_t)sizeof(found) && found == hold->mark
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
 PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold)
 {
   struct stat status;
@@ -290,7 +300,7 @@ PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filena
       error = errno;
     else if (!IsNameOf(filename, hold->file))
       error = REPLACED;
-    else if (SizeOf(hold->file) != hold->size)
+    else if (SizeOf(hold->file) != hold->size || !HasMark(hold))
       error = RESIZED;
   }
   PetscCall(SamFileRaise(grid, option, filename, error));

@@ -106,11 +106,14 @@ typedef struct {
   PetscBool  created; /* was not there before */
   off_t      before;  /* size when it was taken */
   off_t      size;    /* when it was noted */
+  off_t      mark_at; /* where a number is that never changes, 0: none */
+  double     mark;
 } SamHold;
 /*
   SamHoldTake - takes hold of a file, which is created if it is not there. Errors as SamFileCheckName().
   SamHoldTakeNext - of the next file of a name whose file has been renamed.
-  SamHoldCheck - raises an error if the file has been removed, replaced, or has not the size that was noted.
+  SamHoldCheck - raises an error if the file has been removed, replaced, has not the size that was noted, or lacks the
+  mark: cut while a step was written, it has its size again.
   SamHoldHadContent - whether there was something in the file before it was taken.
   These are collective. Errors: SAM_ERR_FILE.
   SamHoldNoteSize - notes the size.
@@ -222,7 +225,9 @@ struct _n_SamOutput {
 */
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
 PETSC_INTERN void           SamOutputOpenLayout(SamOutput output);
-PETSC_INTERN void           SamOutputCloseLayout(SamOutput output);
+/* SamOutputMark - notes the first coordinate as the mark of the file. Collective; notes its failures. */
+PETSC_INTERN void SamOutputMark(SamOutput output);
+PETSC_INTERN void SamOutputCloseLayout(SamOutput output);
 /* SamOutputFieldBytes - the size of the fields of one step, uncompressed. Not collective. */
 PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
 /*

@@ -223,6 +223,17 @@ void SamOutputOpenLayout(SamOutput o)
   if (history >= 0) (void)SamFileNote(o->f, H5Gclose(history));
 }
 
+void SamOutputMark(SamOutput o)
+{
+  const hid_t   x  = SamFileNote(o->f, H5Dopen2(o->f->id, x_label.name, H5P_DEFAULT));
+  const haddr_t at = x >= 0 ? H5Dget_offset(x) : HADDR_UNDEF;
+
+  /* stored as it is in memory on little-endian machines only */
+  o->hold.mark    = (double)SamGridX(o->f->grid, 0);
+  o->hold.mark_at = at != HADDR_UNDEF && H5Tequal(H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE) > 0 ? (off_t)at : 0;
+  if (x >= 0) (void)SamFileNote(o->f, H5Dclose(x));
+}
+
 static void Close(SamOutput o, hid_t *dataset)
 {
   if (*dataset >= 0) (void)SamFileNote(o->f, H5Dclose(*dataset));

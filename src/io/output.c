@@ -87,6 +87,7 @@ static PetscErrorCode CreateDatasets(SamOutput o)
   PetscCall(SamFileBegin(o->f));
   PetscCall(SamOutputCreateLayout(o));
   (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  SamOutputMark(o);
   PetscCall(SamFileEnd(o->f));
   SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
