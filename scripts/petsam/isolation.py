@@ -51,7 +51,7 @@ def _addresses():
 
 @contextlib.contextmanager
 def _limits(**wanted):
-    """Soft limits for now; the least of each and what holds anyway."""
+    """Lowers soft limits of the system while the block runs; a lower one that holds already stays."""
     before = {name: resource.getrlimit(getattr(resource, name)) for name in wanted}
     for name, value in wanted.items():
         if math.isfinite(value):

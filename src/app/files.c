@@ -62,8 +62,7 @@ static PetscBool SameFile(const char a[], const char b[])
     const char *slash = strrchr(names[k], '/');
 
     last[k] = slash ? slash + 1 : names[k];
-    (void)snprintf(folder[k], sizeof(folder[k]), "%.*s", slash ? PetscMax((int)(slash - names[k]), 1) : 1,
-                   slash ? names[k] : ".");
+    SamGetFolder(names[k], folder[k]);
     real[k] = realpath(folder[k], NULL);
   }
   same = real[0] && real[1] && !strcmp(real[0], real[1]) && !strcmp(last[0], last[1]) ? PETSC_TRUE : PETSC_FALSE;
@@ -89,12 +88,11 @@ static PetscBool IsViewerFormat(const char text[])
 /* Whether PETSc could open the file; it would report a failure on one rank only. Not collective. */
 static int CheckPlace(const char name[])
 {
-  const char *slash = strrchr(name, '/');
   char        folder[PETSC_MAX_PATH_LEN];
   struct stat status;
 
   if (!stat(name, &status)) return S_ISDIR(status.st_mode) ? EISDIR : access(name, W_OK) ? errno : 0;
-  (void)snprintf(folder, sizeof(folder), "%.*s", slash ? PetscMax((int)(slash - name), 1) : 1, slash ? name : ".");
+  SamGetFolder(name, folder);
   return access(folder, W_OK | X_OK) ? errno : 0;
 }
 

@@ -52,6 +52,14 @@ PetscErrorCode SamFinalize(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN])
+{
+  const char *slash = strrchr(filename, '/');
+
+  (void)snprintf(folder, PETSC_MAX_PATH_LEN, "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
+                 slash ? filename : ".");
+}
+
 PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[])
 {
   PetscFunctionBegin;

@@ -303,13 +303,9 @@ PetscErrorCode SamCheckpointDestroy(SamCheckpoint *checkpoint)
 
 PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **temporary)
 {
-  const size_t size = strlen(filename) + sizeof(".tmp");
-
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(size, before));
-  PetscCall(PetscMalloc1(size, temporary));
-  (void)snprintf(*before, size, "%s.1", filename);
-  (void)snprintf(*temporary, size, "%s.tmp", filename);
+  PetscCall(SamFileNameBeside(filename, ".1", before));
+  PetscCall(SamFileNameBeside(filename, ".tmp", temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -382,28 +378,16 @@ static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* An error handler that keeps the first message (in `context`), to which advice may be added. */
-static PetscErrorCode Keep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                           PetscErrorType type, const char *message, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  if (type == PETSC_ERROR_INITIAL && message) (void)snprintf((char *)context, 1024, "%s", message);
-  return code;
-}
-
 /* Advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
 static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *rest, char advice[], size_t size)
 {
   SamContactState state;
   uint64_t        gap;
-  char            ignored[1024], *before, *temporary;
+  char            ignored[SAM_MESSAGE], *before, *temporary;
 
   PetscFunctionBegin;
   PetscCall(SamCheckpointNames(filename, &before, &temporary));
-  PetscCall(PetscPushErrorHandler(Keep, ignored));
+  PetscCall(PetscPushErrorHandler(SamFileKeepMessage, ignored));
   if (!ReadFile(grid, before, rest, &state, &gap))
     (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
   PetscCall(PetscPopErrorHandler());
@@ -419,15 +403,15 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, cons
   const Rest      rest = {parameters, n, notes};
   SamContactState state;
   SamGrid         grid;
-  uint64_t        gap[2]        = {0, 0}; /* in the file; of the problem */
-  char            message[1024] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
+  uint64_t        gap[2]               = {0, 0}; /* in the file; of the problem */
+  char            message[SAM_MESSAGE] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
   PetscErrorCode  ierr;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(GapChecksum(contact, &gap[1]));
-  PetscCall(PetscPushErrorHandler(Keep, message));
+  PetscCall(PetscPushErrorHandler(SamFileKeepMessage, message));
   ierr = ReadFile(grid, filename, &rest, &state, &gap[0]);
   PetscCall(PetscPopErrorHandler());
   if (gap[0] != gap[1]) state.gap_is_current = PETSC_FALSE;

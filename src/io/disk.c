@@ -43,12 +43,14 @@ PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filena
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void GetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN])
+PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name)
 {
-  const char *slash = strrchr(filename, '/');
+  const size_t size = strlen(filename) + strlen(ending) + 1;
 
-  (void)snprintf(folder, PETSC_MAX_PATH_LEN, "%.*s", slash ? PetscMax((int)(slash - filename), 1) : 1,
-                 slash ? filename : ".");
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(size, name));
+  (void)snprintf(*name, size, "%s%s", filename, ending);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscBool IsFirst(SamGrid grid)
@@ -246,7 +248,7 @@ static int CheckFolderOf(const char filename[])
 {
   char folder[PETSC_MAX_PATH_LEN];
 
-  GetFolder(filename, folder);
+  SamGetFolder(filename, folder);
   return access(folder, W_OK | X_OK) ? errno : 0;
 }
 
@@ -357,7 +359,7 @@ static void RemoveLockFiles(const char filename[])
   struct dirent *entry;
   DIR           *list;
 
-  GetFolder(filename, folder);
+  SamGetFolder(filename, folder);
   list = opendir(folder);
   while (list && (entry = readdir(list))) {
     if (strncmp(entry->d_name, name, length) || !IsLockEnding(entry->d_name + length)) continue;
@@ -389,7 +391,7 @@ static int SyncFolderOf(const char filename[])
 {
   char folder[PETSC_MAX_PATH_LEN];
 
-  GetFolder(filename, folder);
+  SamGetFolder(filename, folder);
   return Sync(folder, O_RDONLY | O_DIRECTORY);
 }
 

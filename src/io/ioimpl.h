@@ -60,6 +60,13 @@ PETSC_INTERN PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close);
 PETSC_INTERN PetscErrorCode SamFileBegin(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileEnd(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileAgree(SamFile file);
+/* SamFileKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
+#define SAM_MESSAGE 1024
+PETSC_INTERN PetscErrorCode SamFileKeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
+                                               PetscErrorCode code, PetscErrorType type, const char *message,
+                                               void *context);
+/* SamFileNameBeside - a name with an ending added; the caller frees it with PetscFree(). Not collective. */
+PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name);
 /* SamFileNote - returns `result`, that of an HDF5 call, and notes a failure with HDF5's reason. Not collective. */
 PETSC_INTERN hid_t SamFileNote(SamFile file, hid_t result);
 

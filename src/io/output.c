@@ -164,7 +164,8 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
     SamOutputCloseLayout(o);
     SamFileClose(o->f);
     PetscCall(SamFileAgree(o->f)); /* all ranks have closed it */
-    if (o->hold.file >= 0 && !o->f->failed && !o->unchanged && !changed) SamStructureSeal(o->f->filename);
+    if (o->hold.file >= 0 && !o->f->failed && !o->unchanged && !o->copying && !changed)
+      SamStructureSeal(o->f->filename);
   }
   ierr = SamFileEnd(o->f);
   SamHoldRelease(o->f->filename, &o->hold);
@@ -187,12 +188,9 @@ PetscErrorCode SamOutputHasReplaced(SamOutput o, PetscBool *replaced)
 
 PetscErrorCode SamOutputNames(const char filename[], char **xdmf, char **temporary)
 {
-  const size_t size = strlen(filename) + sizeof(".tmp");
-
   PetscFunctionBegin;
   PetscCall(SamXdmfMakeName(filename, xdmf));
-  PetscCall(PetscMalloc1(size, temporary));
-  (void)snprintf(*temporary, size, "%s.tmp", filename);
+  PetscCall(SamFileNameBeside(filename, ".tmp", temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

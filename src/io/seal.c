@@ -22,14 +22,7 @@ PetscBool SamSealIsOne(const char head[], size_t size)
 
 static uint64_t HashBlock(const unsigned char bytes[], size_t size, uint64_t place)
 {
-  uint64_t hash = SamHashMix(place + 1), word;
-
-  for (size_t k = 0; k < size; k += sizeof(word)) {
-    word = 0;
-    memcpy(&word, bytes + k, PetscMin(sizeof(word), size - k));
-    hash = SamHashMix(hash + word);
-  }
-  return SamHashMix(hash + size);
+  return SamHashMix(SamHashBytes(SamHashMix(place + 1), bytes, size) + size);
 }
 
 /* Hashes every `stride`-th block of an open file from `first` on. Returns an errno or 0. */

@@ -86,12 +86,7 @@ static PetscBool HashRange(int file, off_t first, off_t end, uint64_t *hash)
     const ssize_t n = pread(file, bytes, (size_t)PetscMin((off_t)sizeof(bytes), end - first), first);
 
     if (n <= 0) return PETSC_FALSE;
-    for (ssize_t k = 0; k < n; k += 8) {
-      uint64_t word = 0;
-
-      memcpy(&word, bytes + k, (size_t)PetscMin(8, n - k));
-      *hash = SamHashMix(*hash + word);
-    }
+    *hash = SamHashBytes(*hash, bytes, (size_t)n);
     first += n;
   }
   return PETSC_TRUE;

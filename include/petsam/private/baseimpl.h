@@ -87,6 +87,18 @@ static inline uint64_t SamHashMix(uint64_t x)
   return x ^ x >> 33;
 }
 
+/* SamHashBytes - adds n bytes to a hash, eight at a time. */
+static inline uint64_t SamHashBytes(uint64_t hash, const unsigned char bytes[], size_t n)
+{
+  for (size_t k = 0; k < n; k += sizeof(hash)) {
+    uint64_t word = 0;
+
+    memcpy(&word, bytes + k, n - k < sizeof(word) ? n - k : sizeof(word));
+    hash = SamHashMix(hash + word);
+  }
+  return hash;
+}
+
 /* SamHashBits - the bits of a number. */
 static inline uint64_t SamHashBits(double value)
 {
@@ -145,6 +157,9 @@ static inline double SamLarger(double most, double value)
 */
 #define SAM_SYMMETRIC_MAX 8
 PETSC_EXTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[]);
+
+/* SamGetFolder - the folder that a file's name names it in, "." without one. Not collective. */
+PETSC_EXTERN void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN]);
 
 /*
   SamCallInChild - calls a function in a child process, for one that may crash or never end on a damaged file; it must
