@@ -12,8 +12,12 @@
 
 #include <cmocka.h>
 
+#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include <petsam/base.h>
 
@@ -44,18 +48,49 @@ static inline void SamAssert_(int ok, const char *text, const char *file, int li
   SamAssert_(fabs((double)(a) - (double)(b)) <= (double)(tol), "|" #a " - " #b "| <= " #tol, __FILE__, __LINE__)
 #define sam_call(petsc_call_expr) SamAssert_((petsc_call_expr) == 0, #petsc_call_expr, __FILE__, __LINE__)
 
+/* A folder of its own for the files of the tests, without those of a test that crashed. 0: all ranks are there. */
+static inline int SamEnterFolder_(int rank, char folder[PETSC_MAX_PATH_LEN])
+{
+  const size_t size = PETSC_MAX_PATH_LEN - sizeof("/petsam_test_XXXXXX");
+  int          good = 1;
+
+  if (!rank) {
+    good = getcwd(folder, size) != NULL;
+    if (good) good = mkdtemp(strcat(folder, "/petsam_test_XXXXXX")) != NULL;
+  }
+  (void)MPI_Bcast(folder, PETSC_MAX_PATH_LEN, MPI_CHAR, 0, PETSC_COMM_WORLD);
+  good = good && !chdir(folder);
+  (void)MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
+  return !good;
+}
+
+/* Removes the tests' folder and the files in it. */
+static inline void SamRemoveFolder_(int rank, const char folder[])
+{
+  DIR           *list  = rank ? NULL : opendir(".");
+  struct dirent *entry = NULL;
+
+  while (list && (entry = readdir(list)))
+    if (entry->d_type != DT_DIR) (void)unlink(entry->d_name);
+  if (list) (void)closedir(list);
+  if (!rank) (void)rmdir(folder);
+}
+
 /* Starts PETSc, runs the tests, and returns what main() returns: 0 when no test failed on any rank. */
 static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *tests, size_t n)
 {
-  int rank, failed;
+  char folder[PETSC_MAX_PATH_LEN] = "";
+  int  rank, failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)))
     MPI_Abort(PETSC_COMM_WORLD, 1);
   cmocka_set_message_output(CM_OUTPUT_STDOUT);
+  if (SamEnterFolder_(rank, folder)) MPI_Abort(PETSC_COMM_WORLD, 1);
   failed = _cmocka_run_group_tests(argv[0], tests, n, NULL, NULL);
   (void)MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  SamRemoveFolder_(rank, folder);
   if (SamFinalize() || PetscFinalize()) return 1;
   return failed ? 1 : 0;
 }
