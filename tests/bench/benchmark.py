@@ -47,15 +47,14 @@ CASES = {
 }
 CONVOLUTIONS = (512, 1024, 2048, 4096)
 EXACT, APPROXIMATE = 1e-7, 1e-5  # limits of the classes of accuracy: error of a normal solution
-SHEAR_EXACT, SHEAR_APPROXIMATE = (
-    1e-5,
-    1e-2,
-)  # and a peer's shear against petsam's certified one; increments slip on another path
+# and of a peer's shear against petsam's certified one; increments slip on another path
+SHEAR_EXACT, SHEAR_APPROXIMATE = 1e-5, 1e-2
 PATIENCE = 900.0  # seconds for anything but a peer
 ENOUGH = 30.0  # seconds of repeats after which one median is good enough
 START = time.monotonic()
 # what measures and is measured: rows belong together when none of it has changed
 MEASURING = [BENCH / name for name in ("benchmark.py", "problem.py", "peer.py")]
+PARTS = ("influence coefficients", "products", "preconditioner")  # of petsam's time, none within another
 MEASURED = ("bin/petsam", "bench/bandwidth", "bench/convolution")
 
 
@@ -294,17 +293,20 @@ class Bench:
         return self.check(folder, folder / "results.h5")
 
     def petsam(self, ranks, folder):
-        """Times on that many ranks."""
+        """Times on that many ranks, and the shares of the parts that petsam tells of its own time."""
         command = launch(ranks, PATIENCE) + [
             self.build / "bin" / "petsam",
             *json.loads((folder / "problem.json").read_text())["options"],
         ]
+        shares = []
 
         def once():
             ran = Ran(command, PATIENCE)
-            return float(re.search(r"used\s+([\d.]+) s", ran.must("petsam"))[1]), ran.cpu, ran.memory * ranks
+            text = ran.must("petsam")
+            shares.append({part: float(re.search(part + r"\s+[\d.]+ s\s+([\d.]+) %", text)[1]) for part in PARTS})
+            return float(re.search(r"used\s+([\d.]+) s", text)[1]), ran.cpu, ran.memory * ranks
 
-        return self.repeat(once)
+        return dict(self.repeat(once), parts={k: statistics.median(s[k] for s in shares) / 100 for k in PARTS})
 
     # ---------------------------------------------------------------- peers
 

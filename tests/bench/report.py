@@ -214,6 +214,29 @@ class Report:
                     ratio = a["seconds"] / b["seconds"]
                     self.write(f"The {TITLES[case]} at {cells}² costs {ratio:.1f} partial-slip solves on one rank.\n")
 
+    def solves_in_convolutions(self):
+        """What a solve of one step takes, in convolutions of the same grid on as many ranks."""
+        rows = []
+        for case in (c for c in self.cases() if not c.startswith("cycle_")):
+            for r in (r for r in self.of(case) if "parts" in r):
+                one = [c for c in self.data["convolution"] if (c["cells"], c["ranks"]) == (r["cells"], r["cores"])]
+                if not one:
+                    continue
+                total, parts = r["seconds"] / one[0]["petsam"], r["parts"].values()
+                shares = [*parts, 1 - sum(parts)]
+                rows.append(
+                    [TITLES[case], f"{r['cells']}²", str(r["cores"]), f"{total:.1f}"]
+                    + [f"{total * share:.1f}" for share in shares]
+                )
+        if rows:
+            headings = ["case", "cells", "ranks", "solve", "coefficients", "products", "preconditioner", "rest"]
+            self.write(
+                "A solve of one step from nothing, in double-precision convolutions of the same grid on as many ranks. "
+                "Products are those of all nested grids and of the check, most of them in single precision on the "
+                "contact's window; the rest is reading and writing fields in memory, planning and sums:\n",
+                table(headings, rows),
+            )
+
     def details(self):
         for case in self.cases():
             rows = []
@@ -397,6 +420,7 @@ class Report:
         self.missing()
         self.cycle()
         self.machine()
+        self.solves_in_convolutions()
         self.details()
         self.curves("seconds", "s")
         self.curves("memory", "MB")

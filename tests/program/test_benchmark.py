@@ -69,6 +69,16 @@ def test_report_has_all_rows_and_figures(report):
     assert "| 32² | 2 |" in text  # FFTW's padded pair beside petsam's convolution
 
 
+def test_parts_of_a_solve_make_up_the_whole(report):
+    lines = (report / "report.md").read_text().split("| preconditioner | rest |")[1].splitlines()[2:]
+    solves = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines if line.startswith("|")]
+    solves = solves[: 2 * (len(CASES) - 1)]  # all but the cycle
+    assert {(row[0], row[2]) for row in solves} >= {("Hertz", "1"), ("Hertz", "2")}
+    for row in solves:
+        total, *parts = map(float, row[3:])
+        assert total > 0 and min(parts) >= 0 and sum(parts) == pytest.approx(total, abs=0.3)
+
+
 @pytest.fixture
 def killed(tmp_path):
     """The folder of a run that was killed after its first rows."""
