@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
   hsize_t        steps, saved; /* complete steps, and complete steps with fields */
   hsize_t        keep;         /* steps with fields among the wanted ones */
-  PetscBool      whole;        /* closed properly, with the wanted steps and no others */
+  PetscBool      whole;        /* with the wanted steps and no others */
   char           problem[256];
   PetscErrorCode code; /* of the problem */
 } Found;
@@ -77,8 +77,7 @@ static PetscBool HasOptional(SamOutput o)
 /* Examines a file that is open. */
 static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
 {
-  char   text[192];
-  int8_t closed = 0;
+  char text[192];
 
   PetscFunctionBegin;
   SamOutputOpenLayout(o);
@@ -93,11 +92,10 @@ static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(CompareTimes(o, wanted, found));
-  (void)SamFileNote(o->f, H5Aread(o->closed, H5T_NATIVE_INT8, &closed));
-  found->whole = (closed && found->steps == wanted->steps && found->saved == found->keep &&
-                  (HasOptional(o) || !o->set.friction_scale))
-                   ? PETSC_TRUE
-                   : PETSC_FALSE;
+  found->whole =
+    (found->steps == wanted->steps && found->saved == found->keep && (HasOptional(o) || !o->set.friction_scale))
+      ? PETSC_TRUE
+      : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

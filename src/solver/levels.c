@@ -64,12 +64,31 @@ void SamLevelForgetProduct(SamLevel *level)
   if (level->product) level->product->n[0] = level->product->n[1] = 0;
 }
 
-/* The product of a level in a window of it; known there if it is on all of the window. */
-static PetscErrorCode TakeProduct(SamWindow window, const SamProduct *whole, SamLevel *level, PetscInt components,
+static PetscErrorCode CountNonzeros(SamGrid grid, PetscInt components, Vec field, double *count)
+{
+  const PetscInt n = components * grid->cells;
+  const double  *f;
+
+  PetscFunctionBegin;
+  *count = 0;
+  PetscCall(VecGetArrayRead(field, &f));
+  for (PetscInt k = 0; k < n; k++) *count += f[k] != 0;
+  PetscCall(VecRestoreArrayRead(field, &f));
+  PetscCall(SamSum(grid->comm, 1, count));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  The product of a level in a window of it; known there if it is on all of the window, and none of its traction is cut
+  off.
+*/
+static PetscErrorCode TakeProduct(SamWindow window, const SamLevel *from, SamLevel *level, PetscInt components,
                                   SamProduct *part)
 {
-  PetscInt  first[2], n[2];
-  PetscBool known = whole->n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  const SamProduct *whole = from->product;
+  PetscInt          first[2], n[2];
+  PetscBool         known = whole->n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  double            all, inside;
 
   PetscFunctionBegin;
   PetscCall(SamWindowGetPlace(window, first, n));
@@ -78,6 +97,9 @@ static PetscErrorCode TakeProduct(SamWindow window, const SamProduct *whole, Sam
   PetscCall(SamGridCreateVec(level->grid, components, &part->field));
   level->product = part;
   if (!known) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(CountNonzeros(from->grid, components, from->traction, &all));
+  PetscCall(CountNonzeros(level->grid, components, level->traction, &inside));
+  if (inside < all) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamWindowTake(window, whole->field, part->field));
   SamLevelKeepProduct(level, whole->rounding);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -108,7 +130,7 @@ PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow win
   for (PetscInt k = 0; k < SAM_GIVEN; k++)
     if (whole->given[k]) PetscCall(SamWindowTake(window, whole->given[k], level.given[k]));
   if (guess) PetscCall(SamWindowTake(window, whole->traction, level.traction));
-  if (whole->product) PetscCall(TakeProduct(window, whole->product, &level, s->kind->components, &product));
+  if (whole->product) PetscCall(TakeProduct(window, whole, &level, s->kind->components, &product));
   PetscCall(solve(s, &level, guess));
   if (whole->product) PetscCall(PutProduct(window, &product, whole->product));
   PetscCall(SamWindowPut(window, level.traction, whole->traction));

@@ -1,6 +1,8 @@
 /* The tangential solver: Cattaneo and Mindlin's contact, the conditions of stick and slip, symmetries, control. */
 #include "tangentials.h"
 
+#include <petsam/private/tangentialimpl.h>
+
 /* ---- Cattaneo and Mindlin ---- */
 
 /* mu p0 (sqrt(1 - r^2/a^2) - (c/a) sqrt(1 - r^2/c^2)), T = ratio mu N. */
@@ -280,6 +282,147 @@ static void test_rigid_offset_moves_the_bodies_alone(void **state)
   DestroyCase(&c);
 }
 
+/* A smaller bound with a smaller edge: `less` of its largest value is taken off. */
+static Vec Shrunk(const Case *c, double less)
+{
+  Vec            bound = Copy(c->bound);
+  const double   most  = Norm(bound, NORM_INFINITY);
+  const PetscInt cells = c->s.grid->cells;
+  double        *b;
+
+  sam_call(VecGetArray(bound, &b));
+  for (PetscInt k = 0; k < cells; k++) b[k] = fmax(0, b[k] - less * most);
+  sam_call(VecRestoreArray(bound, &b));
+  return bound;
+}
+
+/* The shear where there is no bound. */
+static double ShearOutside(const Case *c, Vec bound, Vec q)
+{
+  const PetscInt cells = c->s.grid->cells;
+  const double  *b, *t;
+  PetscReal      most = 0;
+
+  sam_call(VecGetArrayRead(bound, &b));
+  sam_call(VecGetArrayRead(q, &t));
+  for (PetscInt k = 0; k < cells; k++)
+    if (b[k] == 0) most = fmax(most, hypot(t[k], t[k + cells]));
+  sam_call(VecRestoreArrayRead(q, &t));
+  sam_call(VecRestoreArrayRead(bound, &b));
+  sam_call(SamMax(c->s.grid->comm, 1, &most));
+  return most;
+}
+
+/* How far a product is from that with the shear, relative to it, where it is known. */
+static double ProductError(const Case *c, const SamProduct *product, Vec q)
+{
+  const SamGrid grid = c->s.grid;
+  Vec           u    = NewField(grid, 2);
+  const double *known, *is;
+  double        most[2] = {0, 0};
+
+  sam_call(SamElasticityApplyTangential(c->s.elasticity, q, u));
+  sam_call(VecGetArrayRead(u, &is));
+  sam_call(VecGetArrayRead(product->field, &known));
+  for (PetscInt k = 0; k < 2 * grid->cells; k++) {
+    const PetscInt i = k % grid->nx - product->first[0],
+                   j = k % grid->cells / grid->nx + grid->row_start - product->first[1];
+
+    if (i < 0 || i >= product->n[0] || j < 0 || j >= product->n[1]) continue;
+    most[0] = fmax(most[0], fabs(known[k] - is[k]));
+    most[1] = fmax(most[1], fabs(is[k]));
+  }
+  sam_call(VecRestoreArrayRead(product->field, &known));
+  sam_call(VecRestoreArrayRead(u, &is));
+  sam_call(VecDestroy(&u));
+  sam_call(SamMax(grid->comm, 2, most));
+  return most[0] / most[1];
+}
+
+/* As between two passes of dissimilar bodies; `less` is from cells at the edge to nearly all of the contact. */
+static void test_start_from_shear_beyond_the_bound_and_its_product(void **state)
+{
+  static const double less[] = {0.1, 0.5, 0.9, 0.98};
+  Case                c      = NewCase(67, 0.3);
+
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    Vec           bound = Shrunk(&c, less[k]), q = NewField(c.s.grid, 2), r = NewField(c.s.grid, 2);
+    const double  T     = 0.3 * Sum(bound) * c.s.grid->dx * c.s.grid->dy;
+    SamBalance    first = Loaded(&c, 0.6, 0.1, 0.3), next = first, cold;
+    SamProduct    product = {.field = NewField(c.s.grid, 2)};
+    SamTangential t;
+
+    next.load[0] = T;
+    next.load[1] = 0.1 * T;
+    next.load[2] = 0;
+    cold         = next;
+    sam_assert(Solve(&c, bound, NULL, NULL, 1e-7, &cold, r).reason == SAM_SOLVER_CONVERGED_RTOL);
+    sam_call(SamTangentialCreate(c.s.elasticity, &t));
+    sam_call(SamTangentialSolveKeeping(t, c.bound, NULL, &first, PETSC_FALSE, q, &product));
+    sam_assert(product.n[0] > 0);
+    for (int pass = 0; pass < 2; pass++) {
+      sam_call(SamSolverSetTolerances(t, pass ? 1e-7 : 1e-2, PETSC_DEFAULT));
+      sam_call(SamTangentialSolveKeeping(t, bound, NULL, &next, PETSC_TRUE, q, &product));
+      sam_assert_close(ShearOutside(&c, bound, q), 0, 0);
+      sam_assert_close(ProductError(&c, &product, q), 0, 1e-4);
+    }
+    sam_assert_close(Difference(q, r, NORM_2), 0, 1e-4);
+    sam_assert_close(next.rigid[0], cold.rigid[0], 1e-4 * cold.rigid[0]);
+    sam_call(SamSolverDestroy(&t));
+    sam_call(VecDestroy(&product.field));
+    sam_call(VecDestroy(&bound));
+    sam_call(VecDestroy(&q));
+    sam_call(VecDestroy(&r));
+  }
+  DestroyCase(&c);
+}
+
+static PetscBool knows; /* whether the last start of Notice() came with its product */
+
+/* A method that takes the start for the solution. */
+static PetscErrorCode Notice(SamSolver solver, SamLevel *level)
+{
+  PetscFunctionBegin;
+  knows          = SamLevelHasProduct(level);
+  solver->reason = SAM_SOLVER_CONVERGED_RTOL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateNotice(SamSolver solver)
+{
+  PetscFunctionBegin;
+  solver->ops.solve     = Notice;
+  solver->keeps_product = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A bound so small that its window cuts some of the shear off. */
+static void test_product_of_shear_that_is_cut_off_is_forgotten(void **state)
+{
+  Case          c      = NewCase(67, 0.3);
+  Vec           nearly = Shrunk(&c, 0.1), small = Shrunk(&c, 0.95), q = NewField(c.s.grid, 2);
+  SamBalance    loaded = Loaded(&c, 0.6, 0, 0), same = loaded, little = Loaded(&c, 1e-5, 0, 0);
+  SamProduct    product = {.field = NewField(c.s.grid, 2)};
+  SamTangential t;
+
+  (void)state;
+  sam_call(SamTangentialRegister("notice", CreateNotice));
+  sam_call(SamTangentialCreate(c.s.elasticity, &t));
+  sam_call(SamTangentialSolveKeeping(t, c.bound, NULL, &loaded, PETSC_FALSE, q, &product));
+  sam_call(SamSolverSetType(t, "notice"));
+  sam_call(SamTangentialSolveKeeping(t, nearly, NULL, &same, PETSC_TRUE, q, &product));
+  sam_assert(knows);
+  sam_call(SamTangentialSolveKeeping(t, small, NULL, &little, PETSC_TRUE, q, &product));
+  sam_assert(!knows);
+  sam_call(SamSolverDestroy(&t));
+  sam_call(VecDestroy(&product.field));
+  sam_call(VecDestroy(&nearly));
+  sam_call(VecDestroy(&small));
+  sam_call(VecDestroy(&q));
+  DestroyCase(&c);
+}
+
 /* Where the bodies stick to where they were, shear remains without any load. */
 static void test_offset_alone_leaves_shear_that_carries_no_load(void **state)
 {
@@ -315,6 +458,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_torque_alone_turns_the_shear_about_the_centre),
     cmocka_unit_test(test_same_load_again_changes_nothing),
     cmocka_unit_test(test_rigid_offset_moves_the_bodies_alone),
+    cmocka_unit_test(test_start_from_shear_beyond_the_bound_and_its_product),
+    cmocka_unit_test(test_product_of_shear_that_is_cut_off_is_forgotten),
     cmocka_unit_test(test_offset_alone_leaves_shear_that_carries_no_load),
   };
 
