@@ -361,12 +361,10 @@ static void test_start_from_shear_beyond_the_bound_and_its_product(void **state)
     sam_call(SamTangentialCreate(c.s.elasticity, &t));
     sam_call(SamTangentialSolveKeeping(t, c.bound, NULL, &first, PETSC_FALSE, q, &product));
     sam_assert(product.n[0] > 0);
-    for (int pass = 0; pass < 2; pass++) {
-      sam_call(SamSolverSetTolerances(t, pass ? 1e-7 : 1e-2, PETSC_DEFAULT));
-      sam_call(SamTangentialSolveKeeping(t, bound, NULL, &next, PETSC_TRUE, q, &product));
-      sam_assert_close(ShearOutside(&c, bound, q), 0, 0);
-      sam_assert_close(ProductError(&c, &product, q), 0, 1e-4);
-    }
+    sam_call(SamSolverSetTolerances(t, 1e-7, PETSC_DEFAULT));
+    sam_call(SamTangentialSolveKeeping(t, bound, NULL, &next, PETSC_TRUE, q, &product));
+    sam_assert_close(ShearOutside(&c, bound, q), 0, 0);
+    sam_assert_close(ProductError(&c, &product, q), 0, 1e-4);
     sam_assert_close(Difference(q, r, NORM_2), 0, 1e-4);
     sam_assert_close(next.rigid[0], cold.rigid[0], 1e-4 * cold.rigid[0]);
     sam_call(SamSolverDestroy(&t));
