@@ -40,10 +40,10 @@ PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *bala
 /*
   SamBalanceSlideLimit - the factor by which the force-controlled tangential loads can be multiplied until the whole
   contact slides, given the bound mu p (Pa) of the shear: the least of sum b |v| dA over rigid velocities v of power 1
-  (the kinematic limit theorem). Infinite without a load. Also the sliding motion, d_x, d_y, r_z, when not NULL.
-  Collective.
+  (the kinematic limit theorem). Infinite without a load. When not NULL, `shear` (Pa, two components) becomes that of
+  sliding, which carries that many times the loads. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor,
-                                                 PetscReal motion[3]);
+                                                 Vec shear);
 
 #endif

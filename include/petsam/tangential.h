@@ -40,7 +40,8 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
   SamTangentialSolve - finds q (Pa, two components) for the bound of each cell's shear (Pa, one component, >= 0) and the
   offset w - S (m, two components; NULL: zero). With `guess` q and the rigid displacements in the balance are a start,
   and only the finest grid is used. On return the balance holds all loads and rigid displacements; after gross slip,
-  SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM, it is as it was, unless there was no friction at all. The relative error is the
+  SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM, it is as it was, unless there was no friction at all, and q is the shear of
+  sliding, which carries the loads at their limit. The relative error is the
   residual of the projection equation q = D(q - ds/c), D the projection onto the discs |q| <= bound and c the
   self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm. Collective. Not
   converging is a reason, not an error, unless that was asked for.

@@ -71,33 +71,6 @@ static PetscErrorCode Destroy(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear of sliding everywhere: along the motion at the limit of the loads, which the solver has found. */
-static PetscErrorCode Slide(Passes *p)
-{
-  const SamGrid    grid   = p->s->c->grid;
-  const PetscReal *motion = p->s->c->tangential->motion;
-  const double    *b;
-  double          *q;
-
-  PetscFunctionBegin;
-  p->slides = PETSC_TRUE;
-  PetscCall(VecGetArrayRead(p->s->s->bound, &b));
-  PetscCall(VecGetArray(p->s->s->shear, &q));
-  for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const PetscInt k = j * grid->nx + i;
-      const double   x = motion[0] - SamGridY(grid, grid->row_start + j) * motion[2],
-                   y = motion[1] + SamGridX(grid, i) * motion[2], n = hypot(x, y), s = n > 0 && b[k] > 0 ? b[k] / n : 0;
-
-      q[k]               = s > 0 ? s * x : 0; /* and not -0 */
-      q[k + grid->cells] = s > 0 ? s * y : 0;
-    }
-  PetscCall(VecRestoreArray(p->s->s->shear, &q));
-  PetscCall(VecRestoreArrayRead(p->s->s->bound, &b));
-  p->s->shear_product.n[0] = p->s->shear_product.n[1] = 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Steps 1 and 2. The first pass starts from what the start has a guess of, later ones from the last one. */
 static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
 {
@@ -128,11 +101,9 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscCall(SamSolveTangential(s, has_shear));
   PetscCall(SamSolverGetReason(s->c->tangential, &reason));
   PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
-  p->stuck = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
-  if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0)
-    PetscCall(Slide(p));
-  else if (!p->stuck)
-    PetscCall(SamSolveJudgeTangential(s));
+  p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
+  p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (!p->slides && !p->stuck) PetscCall(SamSolveJudgeTangential(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -122,8 +122,7 @@ struct _n_SamSolver {
   SamSolverReason reason;
   PetscReal       error;
   PetscInt        iterations, applies, preconditions;
-  PetscReal       limit;     /* tangential: factor on the loads at which sliding begins; infinite: not looked for */
-  PetscReal       motion[3]; /* tangential: of sliding then, d_x, d_y, r_z */
+  PetscReal       limit; /* tangential: factor on the loads at which sliding begins; infinite: not looked for */
 };
 
 /* ---- for kinds ---- */

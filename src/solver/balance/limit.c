@@ -11,6 +11,13 @@
 
 /* Of the sum of the bound: an error of equilibrium that is taken for none. */
 #define TOLERANCE 1e-11
+/*
+  Numbers of smoothings, 1, 0.1, ..., and of that of the shear: less would leave rounding in it where the motion turns.
+*/
+#define SMOOTHINGS         10
+#define SMOOTHING_OF_SHEAR 6
+/* The part of the power that a step must promise for the power to tell its worth. */
+#define FLAT 1e-10
 
 /* A row's sums of t and of xi t. */
 SAM_VECTORIZED static void SumRow(SamRow row, const double *restrict t, double sums[2])
@@ -179,41 +186,77 @@ static void OrthogonalTo(const SamFrame *f, const double F[3], SamFrame *across)
   }
 }
 
-/* Newton with halving for one smoothing, moving a within the directions of `across`. */
-static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing,
-                                    double a[3], double *value)
+/* The Newton step within the directions of `across`; returns how fast the power falls along it. */
+static double FindStep(const SamFrame *across, const Power *now, double step[3])
 {
-  Power now, next;
+  double down[3], slope = 0;
+
+  for (PetscInt i = 0; i < 3; i++) down[i] = -now->gradient[i];
+  SamFrameSolve(across, now->hessian, down, step);
+  for (PetscInt i = 0; i < 3; i++) slope += down[i] * step[i];
+  return slope;
+}
+
+/*
+  Newton with halving for one smoothing, moving a within the directions of `across`. Where the power is too flat to tell
+  a step's worth, the slope does: the motion is wanted exactly, and not only its power.
+*/
+static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing,
+                                    double a[3])
+{
+  Power  now, next;
+  double step[3], next_step[3], slope, next_slope;
 
   PetscFunctionBegin;
   PetscCall(EvaluatePower(f, bound, a, smoothing, &now));
-  for (PetscInt it = 0; it < 50 && across->count; it++) {
-    double down[3], step[3], slope = 0, t = 1, trial[3];
+  slope = FindStep(across, &now, step);
+  for (PetscInt it = 0; it < 50 && across->count && slope > 0; it++) {
+    const PetscBool flat = slope <= FLAT * now.value ? PETSC_TRUE : PETSC_FALSE;
+    double          t    = 1, trial[3];
 
-    for (PetscInt i = 0; i < 3; i++) down[i] = -now.gradient[i];
-    SamFrameSolve(across, now.hessian, down, step);
-    for (PetscInt i = 0; i < 3; i++) slope += down[i] * step[i];
-    if (!(slope > 1e-14 * now.value)) break;
     for (;;) {
       for (PetscInt i = 0; i < 3; i++) trial[i] = a[i] + t * step[i];
       PetscCall(EvaluatePower(f, bound, trial, smoothing, &next));
-      if (next.value <= now.value - 1e-4 * t * slope || t < 1e-8) break;
+      if (flat || next.value <= now.value - 1e-4 * t * slope || t < 1e-8) break;
       t *= 0.5;
     }
-    if (next.value >= now.value) break;
-    for (PetscInt i = 0; i < 3; i++) a[i] = trial[i];
-    now = next;
+    next_slope = FindStep(across, &next, next_step);
+    if (flat ? next_slope > 0.25 * slope : next.value >= now.value) break; /* all is rounding */
+    PetscCall(PetscArraycpy(a, trial, 3));
+    PetscCall(PetscArraycpy(step, next_step, 3));
+    now   = next;
+    slope = next_slope;
   }
-  *value = now.value;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor,
-                                    PetscReal motion[3])
+/* The shear along a smoothed motion a: it carries the loads at the limit, also by the cells at the centre of rotation. */
+static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const double a[3], double smoothing,
+                                 Vec shear)
+{
+  double *q;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(shear, &q));
+  for (PetscInt j = 0; j < f->grid->rows; j++)
+    for (PetscInt i = 0; i < f->grid->nx; i++) {
+      const PetscInt k = j * f->grid->nx + i;
+      const double   x = SamFrameX(a, SamFrameEta(f, j)), y = SamFrameY(a, f->xi0 + (double)i * f->dxi),
+                   s = bound[k] > 0 ? bound[k] / sqrt(x * x + y * y + smoothing * smoothing) : 0;
+
+      q[k]                  = s > 0 ? s * x : 0; /* and not -0 */
+      q[k + f->grid->cells] = s > 0 ? s * y : 0;
+    }
+  PetscCall(VecRestoreArray(shear, &q));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, Vec shear)
 {
   SamFrame      f, across;
-  double        F[3] = {0, 0, 0}, norm = 0, a[3], value = 0;
+  double        F[3] = {0, 0, 0}, norm = 0, a[3];
   const double *b;
+  Power         exact;
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&f, grid, balance));
@@ -221,29 +264,20 @@ PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec
     for (PetscInt i = 0; i < 3; i++) F[i] += f.target[k] * f.basis[k][i];
   for (PetscInt i = 0; i < 3; i++) norm += F[i] * F[i];
   *factor = PETSC_INFINITY;
-  if (motion)
-    for (PetscInt i = 0; i < 3; i++) motion[i] = 0;
+  if (shear) PetscCall(SamVecZero(shear));
   if (norm == 0) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < 3; i++) a[i] = F[i] / norm;
   OrthogonalTo(&f, F, &across);
   PetscCall(VecGetArrayRead(bound, &b));
   /* the smoothed sum lies above the true one by at most smoothing * sum b */
-  for (double smoothing = 1; smoothing > 1e-9; smoothing *= 0.1)
-    PetscCall(MinimizePower(&f, &across, b, smoothing / sqrt(norm), a, &value));
-  {
-    Power exact;
+  for (PetscInt k = 0; k < SMOOTHINGS; k++) {
+    const double smoothing = pow(10, -k) / sqrt(norm);
 
-    PetscCall(EvaluatePower(&f, b, a, 1e-300, &exact));
-    value = exact.value;
+    PetscCall(MinimizePower(&f, &across, b, smoothing, a));
+    if (shear && k == SMOOTHING_OF_SHEAR) PetscCall(SetSliding(&f, b, a, smoothing, shear));
   }
+  PetscCall(EvaluatePower(&f, b, a, 1e-300, &exact));
   PetscCall(VecRestoreArrayRead(bound, &b));
-  *factor = value;
-  if (motion) {
-    SamBalance sliding = *balance;
-
-    for (PetscInt i = 0; i < 3; i++) a[i] /= grid->dx * grid->dy; /* the frame's loads are per cell's area */
-    SamFrameGetRigid(&f, a, &sliding);
-    for (PetscInt k = 0; k < 3; k++) motion[k] = balance->force[k] ? sliding.rigid[k] : 0;
-  }
+  *factor = exact.value;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -135,12 +135,17 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 
 /* ---- gross slip ---- */
 
+/* When sliding is reached, its shear becomes that of the level. */
 static PetscErrorCode ComputeLimit(SamSolver s, const SamLevel *level, PetscBool *reached)
 {
+  Vec shear;
+
   PetscFunctionBegin;
-  PetscCall(
-    SamBalanceSlideLimit(level->grid, level->balance, level->given[SAM_TANGENTIAL_BOUND], &s->limit, s->motion));
+  PetscCall(SamGridCreateVec(level->grid, 2, &shear));
+  PetscCall(SamBalanceSlideLimit(level->grid, level->balance, level->given[SAM_TANGENTIAL_BOUND], &s->limit, shear));
   *reached = s->limit <= 1 + LIMIT_ROUNDING ? PETSC_TRUE : PETSC_FALSE;
+  if (*reached) PetscCall(VecCopy(shear, level->traction));
+  PetscCall(VecDestroy(&shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
