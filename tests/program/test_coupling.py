@@ -97,6 +97,49 @@ def test_strong_coupling_and_friction_converge_on_other_grids(solve, n):
     solve(pair("cork-rigid", n, friction=1.0, load_tx=90.0, load_mz=1e-3))
 
 
+def rough_on_rigid(path, n, seed):
+    """A stiff rough plane that does not tilt on a rigid one: a few cells touch, friction is high."""
+    rng = np.random.default_rng(seed)
+    modes = np.arange(-n // 8, n // 8 + 1)
+    k = np.hypot(*np.meshgrid(modes, modes))
+    size = np.where(k >= 3, np.maximum(k, 1.0) ** -1.8, 0) * np.exp(2j * np.pi * rng.random(k.shape))
+    waves = np.exp(2j * np.pi * np.outer((np.arange(n) + 0.5) / n, modes))
+    h = (waves @ size @ waves.T).real
+    with h5py.File(path, "w") as f:
+        f["height"] = 6e-7 * (h - h.min()) / h.std()
+    return dict(
+        body1_young=30e9,
+        body1_poisson=0.0,
+        body2_young=INF,
+        grid_n=n,
+        grid_size=1e-3,
+        gap_type="file",
+        gap_file=path,
+        friction=1.6,
+        rot_x=0.0,
+        rot_y=0.0,
+        allow_edge_contact=True,
+    )
+
+
+@pytest.mark.parametrize("n, seed, load", [(32, 18, 0.1), (48, 37, 0.3), (48, 61, 0.3), (32, 88, 0.3), (32, 122, 0.7)])
+def test_few_cells_slide_about_one_of_them(petsam, tmp_path, n, seed, load):
+    """The cell at the centre of rotation carries less than its bound, in a direction of its own."""
+    case = rough_on_rigid(tmp_path / "gap.h5", n, seed)
+    done = petsam(case, dict(load_n=load, load_tx=0.96 * load, output="out.h5"), check=11)
+    limit = float(re.search(r"limit ([-+.e0-9]+)\)", done.stderr)[1])
+    assert 0 < limit < 0.96 * load
+    # half of the limit is carried, twice is not
+    petsam(case, dict(load_n=load, load_tx=0.5 * limit))
+    petsam(case, dict(load_n=load, load_tx=2 * limit), check=11)
+
+
+@pytest.mark.parametrize("seed", [239, 263, 1397])
+def test_contact_that_shear_opens_elsewhere_is_found(petsam, tmp_path, seed):
+    """Contact may arise far from where a pass has looked for it."""
+    petsam(rough_on_rigid(tmp_path / "gap.h5", 48, seed), dict(load_n=0.7, load_tx=0.672))
+
+
 def test_passes_do_not_grow_with_the_grid(solve):
     passes = [solve(pair("cork-rigid", n, friction=0.5))["coupling_iterations"] for n in (32, 64, 128)]
     assert passes[2] <= 1.5 * passes[0] + 2, passes

@@ -82,6 +82,14 @@ def test_products_of_a_dissimilar_contact_that_nearly_slides_at_most_25_a_pass(s
     assert s["tangential_applies"] <= 25 * s["coupling_iterations"]
 
 
+@pytest.mark.parametrize("n, friction", [(256, 1.0), (512, 1.6)])
+def test_tangential_products_of_strong_coupling_at_most_8_a_pass(solve, n, friction):
+    """Of a pressure that is not smooth yet the shear is not sought to the end."""
+    case = ball(n, body1_young=30e9, body1_poisson=0.0, body2_young=float("inf"), friction=friction)
+    s = solve(case, dict(load_tx=0.3 * friction * case["load_n"]))
+    assert s["tangential_applies"] <= 8 * s["coupling_iterations"]
+
+
 def test_products_without_tangential_load_are_none(solve):
     assert solve(ball(64))["tangential_applies"] == 0
 

@@ -256,18 +256,23 @@ typedef struct {
   PetscReal       error, limit;
 } Outcome;
 
-static Outcome Shear(const Case *c, SamBalance *balance)
+static Outcome ShearFrom(const Case *c, SamBalance *balance, PetscBool guess)
 {
   SamTangential solver;
   Outcome       o;
 
   sam_call(SamTangentialCreate(c->elasticity, &solver));
-  sam_call(SamTangentialSolve(solver, c->bound, NULL, balance, PETSC_FALSE, c->q));
+  sam_call(SamTangentialSolve(solver, c->bound, NULL, balance, guess, c->q));
   sam_call(SamSolverGetReason(solver, &o.reason));
   sam_call(SamSolverGetStatistics(solver, &o.error, NULL, NULL, NULL));
   sam_call(SamTangentialGetLimit(solver, &o.limit));
   sam_call(SamSolverDestroy(&solver));
   return o;
+}
+
+static Outcome Shear(const Case *c, SamBalance *balance)
+{
+  return ShearFrom(c, balance, PETSC_FALSE);
 }
 
 /* The projection equation, from a product of its own. */
@@ -385,6 +390,37 @@ static void test_shear_of_cells_at_random(void **state)
   }
 }
 
+/* As when a sine goes through zero: of the shear that was there no more than the load's rounding is left. */
+static void test_load_through_zero_leaves_no_shear_in_two_cells(void **state)
+{
+  const double kept[] = {0, 1e-15, -3e-17, 1e-200};
+
+  (void)state;
+  for (PetscInt seed = 1; seed <= 12; seed++) {
+    Case           c = NewCaseAt(0.31e-3, -0.17e-3);
+    const PetscInt i = 3 + seed % 5, j = 4 + seed % 3;
+    SamBalance     first = {.kind  = SAM_BALANCE_TANGENTIAL,
+                            .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
+                            .load  = {Part(seed, 0, 0), seed % 2 * Part(seed, 0, 1), 1e-3 * Part(seed, 0, 2)}};
+    PetscReal      limit, size;
+
+    AddAt(c.grid, 0, i, j, 1e6, c.bound);
+    AddAt(c.grid, 0, i + 1, j + seed % 2, 7e5, c.bound);
+    sam_call(SamBalanceSlideLimit(c.grid, &first, c.bound, &limit, NULL));
+    for (int m = 0; m < 3; m++) first.load[m] *= 0.5 * limit;
+    for (int k = 0; k < 4; k++) {
+      SamBalance next = first;
+
+      sam_assert(Shear(&c, &first).reason > 0);
+      for (int m = 0; m < 3; m++) next.load[m] = kept[k] * first.load[m];
+      sam_assert(ShearFrom(&c, &next, PETSC_TRUE).reason > 0);
+      size = Norm(c.q, NORM_INFINITY);
+      sam_assert(size <= 1e-13 * 1e6);
+    }
+    DestroyCase(&c);
+  }
+}
+
 /* One cell carries a force through its centre; the torque about the origin is that force's to rounding only. */
 static void test_one_cell_carries_a_force_through_its_centre(void **state)
 {
@@ -426,6 +462,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_shear_of_three_cells),
     cmocka_unit_test(test_shear_of_seven_cells),
     cmocka_unit_test(test_shear_of_cells_at_random),
+    cmocka_unit_test(test_load_through_zero_leaves_no_shear_in_two_cells),
     cmocka_unit_test(test_one_cell_carries_a_force_through_its_centre),
   };
 

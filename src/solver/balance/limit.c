@@ -230,7 +230,7 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear along a smoothed motion a: it carries the loads at the limit, also by the cells at the centre of rotation. */
+/* The shear along a smoothed motion a; a cell at the centre of rotation has what is left to carry. */
 static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const double a[3], double smoothing,
                                  Vec shear)
 {

@@ -7,6 +7,8 @@
   pressures, as the equations of shears are not piecewise linear.
 */
 #define SMOOTH 1e-6
+/* Loads of this part of the sum of the shear are rounding. */
+#define ROUNDING 1e-13
 
 /* What a pass over the cells needs to know. */
 typedef struct {
@@ -157,15 +159,14 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
   First, where that is likely to be enough, one step of Newton's method is applied without a further pass over the
   cells. If it was not enough, it is a start, and the result is the nearest shear to this start.
 */
-PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], const float weight[],
-                                         PetscBool nearest, double q[], double motion[3], PetscBool *found)
+static PetscErrorCode Project(const SamFrame *f, const double bound[], const float weight[], PetscBool nearest,
+                              double q[], double motion[3], PetscBool *found)
 {
   const Cells cells = {.field = q, .bound = bound, .weight = weight};
   PetscBool   near  = PETSC_TRUE;
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
-  for (PetscInt i = 0; motion && i < 3; i++) motion[i] = 0;
   for (PetscInt time = nearest ? 1 : 0; time < 2 && !*found; time++) {
     SamTotal totals[SAM_DUAL] = {{0}};
     double   a[3]             = {0, 0, 0};
@@ -179,5 +180,44 @@ PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[]
     for (PetscInt i = 0; motion && i < 3; i++) motion[i] += a[i];
     if (!*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_EXACT, found));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the loads are rounding of what the cells' shear could carry. */
+static PetscErrorCode AreRounding(const SamFrame *f, const double q[], PetscBool *are)
+{
+  SamTotal total = {0};
+  double   sum, load = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    double row = 0;
+
+    for (PetscInt k = j * f->grid->nx; k < (j + 1) * f->grid->nx; k++) row += fabs(q[k]) + fabs(q[k + f->grid->cells]);
+    SamAddAll(1, &total, &row);
+  }
+  PetscCall(SamSumTotals(f->grid->comm, 1, &total, &sum));
+  for (PetscInt k = 0; k < f->count; k++) load = SamLarger(load, fabs(f->target[k]));
+  *are = load <= ROUNDING * sum ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Where all shear has to vanish, as in a contact of few cells whose load goes through zero, what is left of it is
+  rounding and balances nothing: then the nearest shear to zero is sought.
+*/
+PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], const float weight[],
+                                         PetscBool nearest, double q[], double motion[3], PetscBool *found)
+{
+  PetscBool rounding = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; motion && i < 3; i++) motion[i] = 0;
+  PetscCall(Project(f, bound, weight, nearest, q, motion, found));
+  if (*found) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(AreRounding(f, q, &rounding));
+  if (!rounding) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscArrayzero(q, 2 * f->grid->cells));
+  PetscCall(Project(f, bound, weight, nearest, q, motion, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
