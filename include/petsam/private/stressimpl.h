@@ -1,0 +1,48 @@
+/* Stresses inside the library: the kernels of one depth, for those who sum them up. */
+#ifndef PETSAM_STRESSIMPL_H
+#define PETSAM_STRESSIMPL_H
+
+#include <petsam/private/baseimpl.h>
+#include <petsam/stress.h>
+
+/*
+  SamStressGroup - kernels that are evaluated together. Of the 18, three are equal to others: what p does to xz and yz,
+  q_x and q_y do to zz, and q_y to xz what q_x does to yz.
+*/
+typedef enum {
+  SAM_STRESS_PLANE_P,  /* xx, yy, xy from p */
+  SAM_STRESS_PLANE_X,  /* xx, yy, xy from q_x */
+  SAM_STRESS_PLANE_Y,  /* xx, yy, xy from q_y */
+  SAM_STRESS_NORMAL_P, /* zz, xz, yz from p */
+  SAM_STRESS_NORMAL_T, /* xz, yz from q_x, yz from q_y */
+  SAM_STRESS_GROUPS
+} SamStressGroup;
+
+#define SAM_STRESS_GROUP 3 /* kernels of a group */
+
+/* SamStressKernel - which kernel of which group acts from a traction on a component. */
+typedef struct {
+  SamStressGroup group;
+  PetscInt       member;
+} SamStressKernel;
+PETSC_EXTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS];
+
+/* The parities of the kernels of a group: odd in x, odd in y. */
+PETSC_EXTERN const PetscBool SamStressOdd[SAM_STRESS_GROUPS][SAM_STRESS_GROUP][2];
+
+/* SamStressSource - unit traction on a cell, seen from a depth. */
+typedef struct {
+  double side[2]; /* of the cell, m */
+  double depth;   /* z >= 0, m */
+  double poisson;
+} SamStressSource;
+
+/*
+  SamStressRow - the kernels of a group at the lags (i, j), i = 0 ... n - 1, j >= 0, in cells: the stress in a cell's
+  centre by unit traction on the cell that lies so far before it. They contain the correction of values at centres
+  (stress.c). Not collective.
+*/
+PETSC_EXTERN void SamStressRow(const SamStressSource *source, SamStressGroup group, PetscInt j, PetscInt n,
+                               double *const values[SAM_STRESS_GROUP]);
+
+#endif
