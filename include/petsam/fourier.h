@@ -98,12 +98,18 @@ PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamF
 */
 typedef struct _n_SamKernel *SamKernel;
 
-/* Values of the kernel at the lags (i, j), i = 0 ... n - 1, j >= 0. For odd parity those at lag 0 are not used. */
-typedef void (*SamKernelRow)(PetscInt j, PetscInt n, double values[], const void *context);
+/*
+  The values of n kernels at the lags (i, j), i = 0 ... count - 1, j >= 0: values[k][i] of the k-th one. For odd parity
+  those at lag 0 are not used.
+*/
+typedef void (*SamKernelRows)(PetscInt j, PetscInt count, double *const values[], const void *context);
 
-/* SamKernelCreate - tabulates and transforms a kernel. Collective. */
-PETSC_EXTERN PetscErrorCode SamKernelCreate(SamFourier fourier, PetscBool odd_x, PetscBool odd_y, SamKernelRow row,
-                                            const void *context, SamKernel *kernel);
+/*
+  SamKernelsCreate - tabulates and transforms n kernels, at most SAM_FOURIER_FIELDS, whose values are found together;
+  odd[k] says whether the k-th one is odd in x and in y. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamKernelsCreate(SamFourier fourier, PetscInt n, const PetscBool odd[][2],
+                                             SamKernelRows rows, const void *context, SamKernel kernels[]);
 PETSC_EXTERN PetscErrorCode SamKernelDestroy(SamKernel *kernel);
 
 /*

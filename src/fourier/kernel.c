@@ -94,23 +94,25 @@ static const double *MirroredTransform(Mirrored *m)
   return m->values;
 }
 
-/* Rows of lags, transformed along x, into rows (local rows of hy + 1, hx + 1). */
-static PetscErrorCode TransformRows(SamFourier F, PetscBool odd, SamKernelRow row, const void *context, ptrdiff_t start,
-                                    ptrdiff_t count, double rows[])
+/* Rows of lags of all kernels, transformed along x, into the slabs (local rows of hy + 1, hx + 1). */
+static PetscErrorCode TransformRows(SamFourier F, PetscInt kernels, const PetscBool odd[][2], SamKernelRows rows,
+                                    const void *context, ptrdiff_t start, ptrdiff_t count)
 {
   const ptrdiff_t n = F->hx + 1;
-  Mirrored        m;
+  Mirrored        m[SAM_FOURIER_FIELDS];
+  double         *lines[SAM_FOURIER_FIELDS], *to[SAM_FOURIER_FIELDS];
 
   PetscFunctionBegin;
-  PetscCall(MirroredCreate(F->hx, odd, &m));
-  for (ptrdiff_t j = 0; j < count; j++) {
-    const double *from;
-
-    row((PetscInt)(start + j), (PetscInt)n, m.line, context);
-    from = MirroredTransform(&m);
-    PetscCall(PetscArraycpy(rows + j * n, from, (size_t)n));
+  for (PetscInt k = 0; k < kernels; k++) {
+    PetscCall(MirroredCreate(F->hx, odd[k][0], &m[k]));
+    lines[k] = m[k].line;
+    to[k]    = (double *)SamFourierRows(F, k);
   }
-  MirroredDestroy(&m);
+  for (ptrdiff_t j = 0; j < count; j++) {
+    rows((PetscInt)(start + j), (PetscInt)n, lines, context);
+    for (PetscInt k = 0; k < kernels; k++) PetscCall(PetscArraycpy(to[k] + j * n, MirroredTransform(&m[k]), (size_t)n));
+  }
+  for (PetscInt k = 0; k < kernels; k++) MirroredDestroy(&m[k]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -171,31 +173,30 @@ static PetscErrorCode ExchangeRows(SamFourier F, double rows[], double columns[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamKernelCreate(SamFourier F, PetscBool odd_x, PetscBool odd_y, SamKernelRow row, const void *context,
-                               SamKernel *kernel)
+PetscErrorCode SamKernelsCreate(SamFourier F, PetscInt n, const PetscBool odd[][2], SamKernelRows rows,
+                                const void *context, SamKernel kernels[])
 {
   ptrdiff_t count, start, columns, column_start;
-  double   *rows;
-  SamPieces pieces;
-  SamKernel k;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
-  PetscCall(PetscNew(&k));
   (void)SamFourierDivideQuadrant(F, &count, &start, &columns, &column_start);
-  k->odd_x   = odd_x;
-  k->odd_y   = odd_y;
-  k->columns = columns;
-  PetscCall(SamWorkspaceReserve(F->work, F->bytes, 1));
-  rows   = (double *)SamFourierRows(F, 0);
-  pieces = SamFourierGetPieces(F, 0, F->hy + 1, F->hx + 1, column_start, columns);
-  PetscCall(TransformRows(F, odd_x, row, context, start, count, rows));
-  if (SamWorkspaceTransposes(F->work)) PetscCall(ExchangeRows(F, rows, (double *)pieces.single));
+  PetscCall(SamWorkspaceReserve(F->work, F->bytes, n));
+  PetscCall(TransformRows(F, n, odd, rows, context, start, count));
+  for (PetscInt i = 0; i < n; i++) {
+    const SamPieces pieces = SamFourierGetPieces(F, i, F->hy + 1, F->hx + 1, column_start, columns);
+    SamKernel       k;
+
+    PetscCall(PetscNew(&k));
+    *k = (struct _n_SamKernel){.odd_x = odd[i][0], .odd_y = odd[i][1], .columns = columns};
+    if (SamWorkspaceTransposes(F->work))
+      PetscCall(ExchangeRows(F, (double *)SamFourierRows(F, i), (double *)pieces.single));
+    PetscCall(SamWorkspaceSynchronize(F->work));
+    PetscCall(SamAllocate(sizeof(double) * (size_t)(columns * (F->hy + 1)), &k->values));
+    PetscCall(TransformColumns(F, k, &pieces));
+    kernels[i] = k;
+  }
   PetscCall(SamWorkspaceSynchronize(F->work));
-  PetscCall(SamAllocate(sizeof(double) * (size_t)(columns * (F->hy + 1)), &k->values));
-  PetscCall(TransformColumns(F, k, &pieces));
-  PetscCall(SamWorkspaceSynchronize(F->work));
-  *kernel = k;
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_SETUP_INFLUENCE], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

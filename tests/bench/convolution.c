@@ -12,10 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void InverseDistance(PetscInt j, PetscInt n, double values[], const void *context)
+static void InverseDistance(PetscInt j, PetscInt n, double *const values[], const void *context)
 {
   (void)context;
-  for (PetscInt i = 0; i < n; i++) values[i] = 1 / (sqrt((double)i * (double)i + (double)j * (double)j) + 0.5);
+  for (PetscInt i = 0; i < n; i++) values[0][i] = 1 / (sqrt((double)i * (double)i + (double)j * (double)j) + 0.5);
 }
 
 static int Compare(const void *a, const void *b)
@@ -104,7 +104,8 @@ static PetscErrorCode TimePruned(PetscInt n, PetscInt repeats, double *seconds)
   PetscCall(SamFourierCreate(grid, SAM_FOURIER_FAST, &settings, &p.fourier));
   p.matrix.n_in = p.matrix.n_out = 1;
   p.matrix.scale[0][0]           = 1;
-  PetscCall(SamKernelCreate(p.fourier, PETSC_FALSE, PETSC_FALSE, InverseDistance, NULL, &p.matrix.kernel[0][0]));
+  PetscCall(SamKernelsCreate(p.fourier, 1, (const PetscBool[][2]){{PETSC_FALSE, PETSC_FALSE}}, InverseDistance, NULL,
+                             &p.matrix.kernel[0][0]));
   PetscCall(SamGridCreateVec(grid, 1, &in));
   PetscCall(SamGridCreateVec(grid, 1, &out));
   PetscCall(VecSet(in, 1));

@@ -28,7 +28,7 @@ TRACES = (
     "PETSC ERROR",
     "HDF5-DIAG",
     "Segmentation",
-    "AddressSanitizer",
+    "ERROR: AddressSanitizer",
     "runtime error:",
     "Traceback",
     "Caught signal",

@@ -47,20 +47,20 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
   return c;
 }
 
-static void CoefficientRow(PetscInt j, PetscInt n, double values[], const void *context)
+static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const void *context)
 {
   enum { CHUNK = 2048 };
   const Coefficients *c = (const Coefficients *)context;
   double              more[CHUNK];
 
-  SamIntegralRow(c->integral[0], c->dx, c->dy, j, 0, n, values);
-  for (PetscInt i = 0; i < n; i++) values[i] *= c->factor[0];
+  SamIntegralRow(c->integral[0], c->dx, c->dy, j, 0, n, values[0]);
+  for (PetscInt i = 0; i < n; i++) values[0][i] *= c->factor[0];
   if (c->factor[1] == 0) return;
   for (PetscInt start = 0; start < n; start += CHUNK) {
     const PetscInt count = PetscMin(CHUNK, n - start);
 
     SamIntegralRow(c->integral[1], c->dx, c->dy, j, start, count, more);
-    for (PetscInt i = 0; i < count; i++) values[start + i] += c->factor[1] * more[i];
+    for (PetscInt i = 0; i < count; i++) values[0][start + i] += c->factor[1] * more[i];
   }
 }
 
@@ -88,11 +88,11 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 
   PetscFunctionBegin;
   if (!data->kernel[kind]) {
-    const Coefficients c     = GetCoefficients(e, kind);
-    const PetscBool    odd_x = (kind == XY || kind == XZ) ? PETSC_TRUE : PETSC_FALSE;
-    const PetscBool    odd_y = (kind == XY || kind == YZ) ? PETSC_TRUE : PETSC_FALSE;
+    const Coefficients c        = GetCoefficients(e, kind);
+    const PetscBool    odd[][2] = {
+         {kind == XY || kind == XZ ? PETSC_TRUE : PETSC_FALSE, kind == XY || kind == YZ ? PETSC_TRUE : PETSC_FALSE}};
 
-    PetscCall(SamKernelCreate(e->fourier, odd_x, odd_y, CoefficientRow, &c, &data->kernel[kind]));
+    PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, &data->kernel[kind]));
   }
   *kernel = data->kernel[kind];
   PetscFunctionReturn(PETSC_SUCCESS);
