@@ -476,7 +476,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_padded_transform_and_back_is_the_identity),
     cmocka_unit_test(test_filter_sees_frequencies_by_their_numbers),
     cmocka_unit_test(test_settings_come_from_options),
-    TEST_TRANSPOSED(test_kernel_odd_in_x_and_y),
+    TEST_TRANSPOSED(test_kernels_of_all_parities),
     TEST_TRANSPOSED(test_two_fields_to_one),
     TEST_TRANSPOSED(test_three_fields_to_three),
     TEST_TRANSPOSED(test_output_may_be_the_input),
