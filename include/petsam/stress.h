@@ -2,7 +2,7 @@
 #ifndef PETSAM_STRESS_H
 #define PETSAM_STRESS_H
 
-#include <petsam/grid.h>
+#include <petsam/fourier.h>
 
 /* The components of the stress, tension positive, and the tractions that cause it, in the order used everywhere. */
 typedef enum {
@@ -33,5 +33,27 @@ typedef enum { SAM_STRESS_P, SAM_STRESS_QX, SAM_STRESS_QY, SAM_STRESS_TRACTIONS 
 */
 PETSC_EXTERN void SamStressCell(const PetscReal side[2], PetscReal poisson, const PetscReal point[3],
                                 PetscReal stress[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]);
+
+/*
+  SamStress - the stresses on planes parallel to the surface. z points into the body; on the surface of body 2 zz is -p,
+  xz is -q_x and yz is -q_y, of body 1 zz is -p, xz is q_x and yz is q_y.
+*/
+typedef struct _n_SamStress *SamStress;
+
+/*
+  SamStressCreate - for body 1 or 2 (`body`) of that Poisson's ratio; `settings` of the transforms may be NULL.
+  Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
+                                            PetscReal poisson, SamStress *stress);
+PETSC_EXTERN PetscErrorCode SamStressDestroy(SamStress *stress);
+/* SamStressSetDepth - the plane z = depth (m, >= 0). Takes the time of some ten SamStressApply(). Collective. */
+PETSC_EXTERN PetscErrorCode SamStressSetDepth(SamStress stress, PetscReal depth);
+/*
+  SamStressApply - the stresses (Pa, SAM_STRESS_COMPONENTS components) at the cells' centres by the pressure (Pa, one
+  component) and the shear (Pa, two components) that are uniform in each cell, corrected to those of tractions that are
+  smooth (src/stress/cell.c). Bulk stress is not in them. Collective. Errors: PETSC_ERR_ORDER before the depth is set.
+*/
+PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec pressure, Vec shear, Vec result);
 
 #endif
