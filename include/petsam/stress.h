@@ -50,10 +50,11 @@ PETSC_EXTERN PetscErrorCode SamStressDestroy(SamStress *stress);
 /* SamStressSetDepth - the plane z = depth (m, >= 0). Takes the time of some ten SamStressApply(). Collective. */
 PETSC_EXTERN PetscErrorCode SamStressSetDepth(SamStress stress, PetscReal depth);
 /*
-  SamStressApply - the stresses (Pa, SAM_STRESS_COMPONENTS components) at the cells' centres by the pressure (Pa, one
-  component) and the shear (Pa, two components) that are uniform in each cell, corrected to those of tractions that are
-  smooth (src/stress/cell.c). Bulk stress is not in them. Collective. Errors: PETSC_ERR_ORDER before the depth is set.
+  SamStressApply - the stresses (Pa, SAM_STRESS_COMPONENTS components) at the cells' centres, in place of the tractions:
+  on entry the components zz, xz and yz of `field` are the pressure and the two components of the shear (Pa). These are
+  uniform in each cell; the result is corrected to that of tractions that are smooth (src/stress/cell.c). Bulk stress is
+  not in it. Collective. Errors: PETSC_ERR_ORDER before the depth is set.
 */
-PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec pressure, Vec shear, Vec result);
+PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 
 #endif

@@ -82,6 +82,13 @@ static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
   return w->ranks > 1 && !w->shared ? PETSC_TRUE : PETSC_FALSE;
 }
 
+/* The transform of a kernel (kernel.c). */
+struct _n_SamKernel {
+  PetscBool odd_x, odd_y;
+  ptrdiff_t columns; /* of this rank */
+  double   *values;  /* (columns, hy + 1) */
+};
+
 struct _n_SamFourier {
   SamGrid            grid;
   unsigned           effort; /* FFTW's planning flag */

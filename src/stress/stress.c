@@ -2,8 +2,9 @@
   Stresses on planes parallel to the surface: convolutions of the tractions with the kernels of a depth (cell.c).
 
   Two passes of three fields to three: one for xx, yy and xy, and one for zz, xz and yz, whose matrix is symmetric. On
-  the surface the second one is not needed, as these are the tractions. Of the 18 kernels 15 differ, and each is a
-  quadrant of real numbers: 120 bytes a cell, and as much for what a pass transforms and returns.
+  the surface the second one is not needed, as these are the tractions. The second pass puts its result in the place of
+  the tractions. Of the 18 kernels 15 differ, and each is a quadrant of real numbers: 120 bytes a cell, beside 48 for
+  the stresses and 48 for the spectra of a pass.
 */
 #include <petsam/private/stressimpl.h>
 
@@ -118,38 +119,30 @@ static PetscErrorCode Pass(SamStress s, PetscInt pass, const double *const in[],
 }
 
 /* The stresses of the surface that are the tractions. */
-static void TakeTractions(SamStress s, const double *const in[], double *const out[])
+static void TakeTractions(SamStress s, double *const tractions[])
 {
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
-    for (PetscInt k = 0; k < s->grid->cells; k++) out[t][k] = in[t][k] == 0 ? 0 : -s->sign[t] * in[t][k];
+    for (PetscInt k = 0; k < s->grid->cells; k++)
+      tractions[t][k] = tractions[t][k] == 0 ? 0 : -s->sign[t] * tractions[t][k];
 }
 
-PetscErrorCode SamStressApply(SamStress s, Vec pressure, Vec shear, Vec result)
+PetscErrorCode SamStressApply(SamStress s, Vec field)
 {
-  const PetscInt cells = s->grid->cells;
-  const double  *in[SAM_STRESS_TRACTIONS];
-  double        *out;
+  const double *in[SAM_STRESS_TRACTIONS];
+  double       *array, *out[PASSES][SAM_STRESS_GROUP];
 
   PetscFunctionBegin;
   PetscCheck(s->source.depth >= 0, s->grid->comm, PETSC_ERR_ORDER, "The depth is not set");
-  PetscCall(SamGridCheckVec(s->grid, 1, pressure, "The pressure"));
-  PetscCall(SamGridCheckVec(s->grid, 2, shear, "The shear"));
-  PetscCall(SamGridCheckVec(s->grid, SAM_STRESS_COMPONENTS, result, "The stress"));
-  PetscCall(VecGetArrayRead(pressure, &in[SAM_STRESS_P]));
-  PetscCall(VecGetArrayRead(shear, &in[SAM_STRESS_QX]));
-  in[SAM_STRESS_QY] = in[SAM_STRESS_QX] + cells;
-  PetscCall(VecGetArrayWrite(result, &out));
-  for (PetscInt pass = 0; pass < PASSES; pass++) {
-    double *to[SAM_STRESS_GROUP];
-
-    for (PetscInt o = 0; o < SAM_STRESS_GROUP; o++) to[o] = out + components[pass][o] * cells;
-    if (pass == NORMAL && IsSurface(s))
-      TakeTractions(s, in, to);
-    else
-      PetscCall(Pass(s, pass, in, to));
-  }
-  PetscCall(VecRestoreArrayWrite(result, &out));
-  PetscCall(VecRestoreArrayRead(shear, &in[SAM_STRESS_QX]));
-  PetscCall(VecRestoreArrayRead(pressure, &in[SAM_STRESS_P]));
+  PetscCall(SamGridCheckVec(s->grid, SAM_STRESS_COMPONENTS, field, "The stress"));
+  PetscCall(VecGetArray(field, &array));
+  for (PetscInt pass = 0; pass < PASSES; pass++)
+    for (PetscInt o = 0; o < SAM_STRESS_GROUP; o++) out[pass][o] = array + components[pass][o] * s->grid->cells;
+  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) in[t] = out[NORMAL][t];
+  PetscCall(Pass(s, PLANE, in, out[PLANE]));
+  if (IsSurface(s))
+    TakeTractions(s, out[NORMAL]);
+  else
+    PetscCall(Pass(s, NORMAL, in, out[NORMAL]));
+  PetscCall(VecRestoreArray(field, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

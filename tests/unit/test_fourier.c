@@ -205,10 +205,15 @@ static void test_two_fields_to_two(void **state)
 
 static void test_three_fields_to_three(void **state)
 {
-  const int parity[3][3] = {{0, 3, 1}, {3, 0, 2}, {1, 2, 0}};
+  const int parity[][3][3] = {{{0, 3, 1}, {3, 0, 2}, {1, 2, 0}}, /* by reflection: the normal and two tangential ones */
+                              {{0, 1, 2}, {3, 2, 1}, {1, 0, 3}}, /* turned another way */
+                              {{1, 0, 0}, {0, 1, 3}, {0, 0, 1}}}; /* no such order */
 
   (void)state;
-  AssertConvolutions(3, 3, parity, PETSC_FALSE);
+  for (int k = 0; k < 3; k++) {
+    AssertConvolutions(3, 3, parity[k], PETSC_FALSE);
+    AssertConvolutions(3, 3, parity[k], PETSC_TRUE);
+  }
 }
 
 static void test_long_lines(void **state)

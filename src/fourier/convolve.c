@@ -1,0 +1,339 @@
+/*
+  Convolution: products of spectra with kernels.
+
+  A kernel's column of hy + 1 values serves the columns of 2 hy frequencies twice, going up and down again.
+*/
+#include "fourierimpl.h"
+
+/*
+  One column in one phase: the kernel's values there, those of the first `rising` entries in order, the others
+  mirrored.
+*/
+typedef struct {
+  const double *values;
+  ptrdiff_t     rising, mirror; /* entry m >= rising has the value at mirror - m, with the parity's sign */
+} Column;
+
+static Column GetColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const ptrdiff_t hy = block->hy, even = hy / 2 + 1;
+  const double   *base = kernel->values + (block->local + b) * (hy + 1);
+
+  if (phase == 0) return (Column){base, even, hy};
+  return (Column){base + even, (hy + 1) / 2, hy - 1};
+}
+
+/*
+  to += kernel * from for n entries whose kernel values are factor * k[0], k[1], ... or, going down, k[0], k[-1], ...;
+  `turned`: multiplied by -i.
+*/
+SAM_VECTORIZED static void AddRising(ptrdiff_t n, double factor, const double *restrict k,
+                                     const double (*restrict from)[2], double (*restrict to)[2])
+{
+  for (ptrdiff_t m = 0; m < n; m++) {
+    to[m][0] += factor * k[m] * from[m][0];
+    to[m][1] += factor * k[m] * from[m][1];
+  }
+}
+SAM_VECTORIZED static void AddFalling(ptrdiff_t n, double factor, const double *restrict k,
+                                      const double (*restrict from)[2], double (*restrict to)[2])
+{
+  for (ptrdiff_t m = 0; m < n; m++) {
+    to[m][0] += factor * k[-m] * from[m][0];
+    to[m][1] += factor * k[-m] * from[m][1];
+  }
+}
+SAM_VECTORIZED static void AddRisingTurned(ptrdiff_t n, double factor, const double *restrict k,
+                                           const double (*restrict from)[2], double (*restrict to)[2])
+{
+  for (ptrdiff_t m = 0; m < n; m++) {
+    to[m][0] += factor * k[m] * from[m][1];
+    to[m][1] -= factor * k[m] * from[m][0];
+  }
+}
+SAM_VECTORIZED static void AddFallingTurned(ptrdiff_t n, double factor, const double *restrict k,
+                                            const double (*restrict from)[2], double (*restrict to)[2])
+{
+  for (ptrdiff_t m = 0; m < n; m++) {
+    to[m][0] += factor * k[-m] * from[m][1];
+    to[m][1] -= factor * k[-m] * from[m][0];
+  }
+}
+
+/* to += scale * kernel * from for one column; multiplied by -i when the kernel is odd in one direction only. */
+static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double scale,
+                       const double (*from)[2], double (*to)[2])
+{
+  const Column    c      = GetColumn(kernel, block, phase, b);
+  const double    folded = kernel->odd_y ? -scale : scale;
+  const ptrdiff_t rest   = block->hy - c.rising;
+
+  if (kernel->odd_x != kernel->odd_y) {
+    AddRisingTurned(c.rising, scale, c.values, from, to);
+    AddFallingTurned(rest, folded, c.values + c.mirror - c.rising, from + c.rising, to + c.rising);
+  } else {
+    AddRising(c.rising, scale, c.values, from, to);
+    AddFalling(rest, folded, c.values + c.mirror - c.rising, from + c.rising, to + c.rising);
+  }
+}
+
+/*
+  Products in place, of either precision: one field by an even kernel, and two fields by a symmetric matrix of kernels
+  whose off-diagonal one is odd in x and in y. Each column goes up the kernel's values and down again.
+*/
+#define DEFINE_PRODUCTS(Real, MultiplyColumn, MultiplyPair) \
+  SAM_VECTORIZED static void MultiplyColumn(Column c, ptrdiff_t n, double factor, Real(*restrict column)[2]) \
+  { \
+    for (ptrdiff_t m = 0; m < c.rising; m++) { \
+      const Real k = (Real)(factor * c.values[m]); \
+\
+      column[m][0] *= k; \
+      column[m][1] *= k; \
+    } \
+    for (ptrdiff_t m = c.rising; m < n; m++) { \
+      const Real k = (Real)(factor * c.values[c.mirror - m]); \
+\
+      column[m][0] *= k; \
+      column[m][1] *= k; \
+    } \
+  } \
+\
+  SAM_VECTORIZED static void MultiplyPair(Column xx, Column xy, Column yy, ptrdiff_t n, double factor, \
+                                          Real(*restrict x)[2], Real(*restrict y)[2]) \
+  { \
+    for (ptrdiff_t m = 0; m < xx.rising; m++) { \
+      const Real kxx = (Real)(factor * xx.values[m]), kxy = (Real)(factor * xy.values[m]), \
+                 kyy = (Real)(factor * yy.values[m]); \
+      const Real x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
+\
+      x[m][0] = kxx * x0 + kxy * y0; \
+      x[m][1] = kxx * x1 + kxy * y1; \
+      y[m][0] = kxy * x0 + kyy * y0; \
+      y[m][1] = kxy * x1 + kyy * y1; \
+    } \
+    for (ptrdiff_t m = xx.rising; m < n; m++) { \
+      const ptrdiff_t l   = xx.mirror - m; \
+      const Real      kxx = (Real)(factor * xx.values[l]), kxy = (Real)(-factor * xy.values[l]), \
+                 kyy = (Real)(factor * yy.values[l]); \
+      const Real x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
+\
+      x[m][0] = kxx * x0 + kxy * y0; \
+      x[m][1] = kxx * x1 + kxy * y1; \
+      y[m][0] = kxy * x0 + kyy * y0; \
+      y[m][1] = kxy * x1 + kyy * y1; \
+    } \
+  }
+
+DEFINE_PRODUCTS(double, MultiplyColumn, MultiplyPair)
+DEFINE_PRODUCTS(float, MultiplyColumnSingle, MultiplyPairSingle)
+
+/*
+  Three fields to three by nine kernels, in place, when a turn by -i is due to the fields: that of field i if in[i], of
+  the result o if out[o], so that where both are, the kernel's sign changes. All kernels that come from a mechanical
+  problem are like that, by reflection.
+*/
+typedef struct {
+  PetscBool     in[3], out[3];
+  const double *values[3][3]; /* of a column, rising or falling */
+  double        factor[3][3];
+} Nine;
+
+/* The fields whose turn is due. */
+static void Turn(const PetscBool due[3], ptrdiff_t n, double (*const column[3])[2])
+{
+  for (PetscInt c = 0; c < 3; c++)
+    for (ptrdiff_t m = 0; due[c] && m < n; m++) {
+      const double re = column[c][m][0];
+
+      column[c][m][0] = column[c][m][1];
+      column[c][m][1] = -re;
+    }
+}
+
+#define DEFINE_NINE(Name, STEP) \
+  SAM_VECTORIZED static void Name(const Nine *nine, ptrdiff_t n, double(*restrict x)[2], double(*restrict y)[2], \
+                                  double(*restrict z)[2]) \
+  { \
+    const double *restrict xx = nine->values[0][0], *restrict xy = nine->values[0][1], \
+                           *restrict xz = nine->values[0][2], *restrict yx = nine->values[1][0], \
+                           *restrict yy = nine->values[1][1], *restrict yz = nine->values[1][2], \
+                           *restrict zx = nine->values[2][0], *restrict zy = nine->values[2][1], \
+                           *restrict zz = nine->values[2][2]; \
+    const double(*const f)[3]           = nine->factor; \
+\
+    for (ptrdiff_t m = 0; m < n; m++) { \
+      const double a = x[m][0], b = x[m][1], c = y[m][0], d = y[m][1], e = z[m][0], g = z[m][1]; \
+      const double k0 = f[0][0] * xx[STEP m], k1 = f[0][1] * xy[STEP m], k2 = f[0][2] * xz[STEP m], \
+                   k3 = f[1][0] * yx[STEP m], k4 = f[1][1] * yy[STEP m], k5 = f[1][2] * yz[STEP m], \
+                   k6 = f[2][0] * zx[STEP m], k7 = f[2][1] * zy[STEP m], k8 = f[2][2] * zz[STEP m]; \
+\
+      x[m][0] = k0 * a + k1 * c + k2 * e; \
+      x[m][1] = k0 * b + k1 * d + k2 * g; \
+      y[m][0] = k3 * a + k4 * c + k5 * e; \
+      y[m][1] = k3 * b + k4 * d + k5 * g; \
+      z[m][0] = k6 * a + k7 * c + k8 * e; \
+      z[m][1] = k6 * b + k7 * d + k8 * g; \
+    } \
+  }
+
+DEFINE_NINE(MultiplyRising, )
+DEFINE_NINE(MultiplyFalling, -)
+
+/* Whether a matrix is one of nine such kernels. */
+static PetscBool FindNine(const SamKernelMatrix *M, Nine *nine)
+{
+  if (M->n_in != 3 || M->n_out != 3) return PETSC_FALSE;
+  for (PetscInt o = 0; o < 3; o++)
+    for (PetscInt i = 0; i < 3; i++)
+      if (!M->kernel[o][i]) return PETSC_FALSE;
+  for (PetscInt k = 0; k < 3; k++) {
+    nine->in[k]  = M->kernel[0][k]->odd_x != M->kernel[0][k]->odd_y ? PETSC_TRUE : PETSC_FALSE;
+    nine->out[k] = (M->kernel[k][0]->odd_x != M->kernel[k][0]->odd_y) != nine->in[0] ? PETSC_TRUE : PETSC_FALSE;
+  }
+  for (PetscInt o = 0; o < 3; o++)
+    for (PetscInt i = 0; i < 3; i++) {
+      const int turned = M->kernel[o][i]->odd_x != M->kernel[o][i]->odd_y;
+
+      if (turned != (nine->in[i] != nine->out[o])) return PETSC_FALSE;
+      nine->factor[o][i] = nine->in[i] && nine->out[o] ? -M->scale[o][i] : M->scale[o][i];
+    }
+  return PETSC_TRUE;
+}
+
+static PetscBool IsScalar(const SamKernelMatrix *M)
+{
+  return (M->n_in == 1 && M->n_out == 1 && M->scale[0][0] == 1 && M->kernel[0][0]->odd_x == M->kernel[0][0]->odd_y &&
+          !M->kernel[0][0]->odd_y)
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
+static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
+{
+  if (M->n_in != 2 || M->n_out != 2 || M->kernel[0][1] != M->kernel[1][0]) return PETSC_FALSE;
+  for (PetscInt o = 0; o < 2; o++)
+    for (PetscInt i = 0; i < 2; i++) {
+      const PetscBool odd = o == i ? PETSC_FALSE : PETSC_TRUE;
+
+      if (!M->kernel[o][i] || M->scale[o][i] != 1 || M->kernel[o][i]->odd_x != odd || M->kernel[o][i]->odd_y != odd)
+        return PETSC_FALSE;
+    }
+  return PETSC_TRUE;
+}
+
+typedef struct {
+  const SamKernelMatrix *matrix;
+  double                 factor;
+  PetscBool              scalar, pair, three;
+  Nine                   nine;
+  double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
+} Factors;
+
+static void MultiplyThree(const Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const SamKernelMatrix *M      = factors->matrix;
+  const ptrdiff_t        offset = (phase * block->width + b) * (ptrdiff_t)block->stride, n = block->hy;
+  const ptrdiff_t        rising = GetColumn(M->kernel[0][0], block, phase, b).rising;
+  double(*const column[3])[2]   = {block->data[0] + offset, block->data[1] + offset, block->data[2] + offset};
+  Nine nine                     = factors->nine;
+
+  for (PetscInt o = 0; o < 3; o++)
+    for (PetscInt i = 0; i < 3; i++) nine.values[o][i] = GetColumn(M->kernel[o][i], block, phase, b).values;
+  Turn(nine.in, n, column);
+  MultiplyRising(&nine, rising, column[0], column[1], column[2]);
+  for (PetscInt o = 0; o < 3; o++)
+    for (PetscInt i = 0; i < 3; i++) {
+      nine.values[o][i] += GetColumn(M->kernel[o][i], block, phase, b).mirror - rising;
+      if (M->kernel[o][i]->odd_y) nine.factor[o][i] = -nine.factor[o][i];
+    }
+  MultiplyFalling(&nine, n - rising, column[0] + rising, column[1] + rising, column[2] + rising);
+  Turn(nine.out, n, column);
+}
+
+/* Any matrix: the output columns are gathered aside and then take the inputs' place. */
+static void MultiplyGeneral(const Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const SamKernelMatrix *M      = factors->matrix;
+  const ptrdiff_t        offset = (phase * block->width + b) * (ptrdiff_t)block->stride;
+
+  for (PetscInt o = 0; o < M->n_out; o++) {
+    double(*to)[2] = factors->column[o];
+
+    for (ptrdiff_t m = 0; m < block->hy; m++) to[m][0] = to[m][1] = 0;
+    for (PetscInt i = 0; i < M->n_in; i++)
+      if (M->kernel[o][i])
+        AddProduct(M->kernel[o][i], block, phase, b, M->scale[o][i], (const double(*)[2])block->data[i] + offset, to);
+  }
+  for (PetscInt o = 0; o < M->n_out; o++)
+    for (ptrdiff_t m = 0; m < block->hy; m++)
+      for (PetscInt r = 0; r < 2; r++) block->data[o][offset + m][r] = factors->column[o][m][r];
+}
+
+static void Multiply(const SamFourierBlock *block, const void *context)
+{
+  const Factors         *factors = (const Factors *)context;
+  const SamKernelMatrix *M       = factors->matrix;
+
+  for (PetscInt f = 0; f < block->phases; f++)
+    for (PetscInt b = 0; b < block->columns; b++) {
+      const ptrdiff_t offset = (f * block->width + b) * (ptrdiff_t)block->stride, n = block->hy;
+
+      if (factors->scalar) {
+        const Column c = GetColumn(M->kernel[0][0], block, f, b);
+
+        if (block->data[0])
+          MultiplyColumn(c, n, factors->factor, block->data[0] + offset);
+        else
+          MultiplyColumnSingle(c, n, factors->factor, block->single[0] + offset);
+      } else if (factors->pair) {
+        const Column xx = GetColumn(M->kernel[0][0], block, f, b), xy = GetColumn(M->kernel[0][1], block, f, b),
+                     yy = GetColumn(M->kernel[1][1], block, f, b);
+
+        if (block->data[0])
+          MultiplyPair(xx, xy, yy, n, factors->factor, block->data[0] + offset, block->data[1] + offset);
+        else
+          MultiplyPairSingle(xx, xy, yy, n, factors->factor, block->single[0] + offset, block->single[1] + offset);
+      } else if (factors->three)
+        MultiplyThree(factors, block, f, b);
+      else
+        MultiplyGeneral(factors, block, f, b);
+    }
+}
+
+static SamFourierFilter NewFilter(const Factors *factors)
+{
+  return (SamFourierFilter){.mode    = SAM_FOURIER_PADDED,
+                            .n_in    = factors->matrix->n_in,
+                            .n_out   = factors->matrix->n_out,
+                            .apply   = Multiply,
+                            .context = factors};
+}
+
+PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const double *const in[], double *const out[])
+{
+  Factors factors = {.matrix = matrix, .factor = 1, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+  const SamFourierFilter filter = NewFilter(&factors);
+
+  PetscFunctionBegin;
+  factors.three = FindNine(matrix, &factors.nine);
+  if (!factors.scalar && !factors.pair && !factors.three)
+    for (PetscInt o = 0; o < matrix->n_out; o++)
+      PetscCall(SamAllocate(sizeof(*factors.column[o]) * (size_t)F->hy, &factors.column[o]));
+  PetscCall(SamFourierApply(F, &filter, in, out));
+  for (PetscInt o = 0; o < matrix->n_out; o++) SamFree(factors.column[o]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamConvolveSingle(SamFourier F, const SamKernelMatrix *matrix, double factor, const float *const in[],
+                                 float *const out[])
+{
+  const Factors factors = {
+    .matrix = matrix, .factor = factor, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
+  const SamFourierFilter filter = NewFilter(&factors);
+
+  PetscFunctionBegin;
+  PetscCheck(factors.scalar || factors.pair, PETSC_COMM_SELF, PETSC_ERR_SUP,
+             "Convolution in single precision: one even kernel, or a symmetric pair");
+  PetscCall(SamFourierApplySingle(F, &filter, in, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
