@@ -55,8 +55,12 @@
 #define LEAST_UNIT 1e-13
 /* Rounding of energies, relative to the work of friction in them. */
 #define ENERGY_ROUNDING 1e-14
-/* Sets and motion depend on each other: how often they are found in turn in an iteration. */
+/*
+  Sets and motion depend on each other: how often they are found in turn in an iteration, unless the motion changes by
+  less than STEADY of the largest slip.
+*/
 #define SWEEPS 2
+#define STEADY 0.3
 /* A change of the shear that is rounding, relative to it. */
 #define STILL 1e-12
 /* Iterations without progress before a gradient step, and before giving up. */
@@ -148,6 +152,7 @@ static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewton
     SamAddAll(SPACE, totals, (const double *)&row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, SPACE, totals, (double *)space));
+  PetscCall(SamMax(u->level->grid->comm, 1, most));
   PetscCall(PetscArraycpy(w->gram, space->gram, SAM_GRAM));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -168,9 +173,9 @@ static PetscErrorCode Advance(Work *w, double t)
     PetscCall(ChooseSets(w, sweep ? 0 : t, a, &space, &most));
     SamFrameSolve(u->frame, w->gram, space.slip, a);
     for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
+    if (fabs(a[0]) + fabs(a[1]) + fabs(a[2]) <= STEADY * most) break; /* on all ranks */
   }
   for (PetscInt j = 0; u->level->product && t > 0 && j < u->rows; j++) SamNewtonOutsideRow(w, j, t * w->unit);
-  PetscCall(SamMax(u->level->grid->comm, 1, &most));
   w->unit = PetscMax(most, LEAST_UNIT * u->self * u->scale);
   if (w->unit == 0) w->unit = 1;
   w->work = space.work;
