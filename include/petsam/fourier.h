@@ -66,6 +66,8 @@ typedef struct {
   const void *context;
 } SamFourierFilter;
 
+/* SamFourierFastLength - an even length >= n for which FFTW is fast. Not collective. */
+PETSC_EXTERN PetscInt SamFourierFastLength(PetscInt n);
 /* SamFourierCreate - NULL stands for the default settings. Plans are made when they are first needed. Collective. */
 PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
                                              SamFourier *fourier);

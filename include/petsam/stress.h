@@ -57,4 +57,35 @@ PETSC_EXTERN PetscErrorCode SamStressSetDepth(SamStress stress, PetscReal depth)
 */
 PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 
+/*
+  SamSection - the stresses on a plane across the surface, through a row or a column of cells, at many depths: much
+  cheaper than the maps that hold it. Each rank has some of the depths.
+*/
+typedef struct _n_SamSection *SamSection;
+
+/* A section along x lies at a row of cells, one along y at a column. */
+typedef enum { SAM_SECTION_X, SAM_SECTION_Y } SamSectionAxis;
+
+/*
+  SamSectionCreate - through the row or column `index` of the grid, at n depths (m, >= 0); body and poisson as for
+  SamStressCreate(). Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamSectionCreate(SamGrid grid, PetscInt body, PetscReal poisson, SamSectionAxis axis,
+                                             PetscInt index, PetscInt n, const PetscReal depths[], SamSection *section);
+PETSC_EXTERN PetscErrorCode SamSectionDestroy(SamSection *section);
+/* SamSectionGetDepths - the first of the depths of this rank, their number, and the cells along. Not collective. */
+PETSC_EXTERN PetscErrorCode SamSectionGetDepths(SamSection section, PetscInt *first, PetscInt *count, PetscInt *length);
+/*
+  SamSectionAddStep - keeps tractions (Pa, three components: the pressure and the shear along x and y), whose stresses
+  the next SamSectionCompute() finds together with those of other steps, at a fraction of the time of the first. Every
+  rank keeps the spectra of all lines of cells that have traction, 48 bytes a cell. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamSectionAddStep(SamSection section, Vec tractions);
+/*
+  SamSectionCompute - the stresses (Pa) of the steps that have been added, and forgets these: value
+  ((s * SAM_STRESS_COMPONENTS + c) * count + k) * length + i is component c of step s at this rank's k-th depth in cell
+  i. As SamStressApply() in all else, and the same on any number of ranks. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamSectionCompute(SamSection section, double stress[]);
+
 #endif

@@ -47,13 +47,12 @@ static double Weight(ptrdiff_t m)
   return m == 1 || m == 5 ? 1 : (m == 3 ? 1.12 : (m == 25 ? 1.25 : 1.45));
 }
 
-/* An even length >= n for which FFTW is fast. */
-static ptrdiff_t FastSize(ptrdiff_t n)
+PetscInt SamFourierFastLength(PetscInt n)
 {
-  ptrdiff_t best      = n;
-  double    best_cost = PETSC_MAX_REAL;
+  PetscInt best      = n;
+  double   best_cost = PETSC_MAX_REAL;
 
-  for (ptrdiff_t m = n; (double)m < best_cost; m++) {
+  for (PetscInt m = n; (double)m < best_cost; m++) {
     const double cost = n < 64 ? (double)m : Weight(m) * (double)m; /* small ones are fast anyway */
 
     if (m % 2 || !IsSmooth(m) || cost >= best_cost) continue;
@@ -145,8 +144,8 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const Sam
   if (!settings) settings = &usual;
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
-  F->hx     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->nx : FastSize(grid->nx);
-  F->hy     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->ny : FastSize(grid->ny);
+  F->hx     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->nx : SamFourierFastLength(grid->nx);
+  F->hy     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->ny : SamFourierFastLength(grid->ny);
   F->effort = PlanningFlag(settings, PetscMax(F->hx, F->hy));
   /* whole cache lines, and one more, so that the columns of a block do not compete for the same cache sets */
   F->stride = (PetscInt)(F->hy + 7) / 8 * 8 + 8;

@@ -22,16 +22,30 @@ struct _n_SamStress {
   SamKernel       kernels[SAM_STRESS_GROUPS][SAM_STRESS_GROUP];
 };
 
+PetscErrorCode SamStressCheckBody(MPI_Comm comm, PetscInt body, PetscReal poisson)
+{
+  PetscFunctionBegin;
+  PetscCheck(body == 1 || body == 2, comm, PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": expected 1 or 2", body);
+  PetscCheck(poisson > -1 && poisson <= 0.5, comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Poisson's ratio %g: expected a number above -1, up to 0.5", (double)poisson);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStressCheckDepth(MPI_Comm comm, PetscReal depth)
+{
+  PetscFunctionBegin;
+  PetscCheck(depth >= 0 && depth < PETSC_INFINITY, comm, PETSC_ERR_ARG_OUTOFRANGE, "Depth %g m: expected a number >= 0",
+             (double)depth);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body, PetscReal poisson,
                                SamStress *stress)
 {
   SamStress s;
 
   PetscFunctionBegin;
-  PetscCheck(body == 1 || body == 2, grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": expected 1 or 2",
-             body);
-  PetscCheck(poisson > -1 && poisson <= 0.5, grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Poisson's ratio %g: expected a number from -1 to 0.5", (double)poisson);
+  PetscCall(SamStressCheckBody(grid->comm, body, poisson));
   PetscCall(PetscNew(&s));
   PetscCall(SamGridReference(grid));
   s->grid   = grid;
@@ -87,8 +101,7 @@ static PetscBool IsSurface(SamStress s)
 PetscErrorCode SamStressSetDepth(SamStress s, PetscReal depth)
 {
   PetscFunctionBegin;
-  PetscCheck(depth >= 0 && depth < PETSC_INFINITY, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Depth %g m: expected a number >= 0", (double)depth);
+  PetscCall(SamStressCheckDepth(s->grid->comm, depth));
   PetscCall(DestroyKernels(s));
   s->source.depth = (double)depth;
   for (PetscInt g = 0; g < SAM_STRESS_GROUPS; g++) {

@@ -45,4 +45,8 @@ typedef struct {
 PETSC_EXTERN void SamStressRow(const SamStressSource *source, SamStressGroup group, PetscInt j, PetscInt n,
                                double *const values[SAM_STRESS_GROUP]);
 
+/* SamStressCheckBody, SamStressCheckDepth - raise PETSC_ERR_ARG_OUTOFRANGE for what cannot be. Collective. */
+PETSC_EXTERN PetscErrorCode SamStressCheckBody(MPI_Comm comm, PetscInt body, PetscReal poisson);
+PETSC_EXTERN PetscErrorCode SamStressCheckDepth(MPI_Comm comm, PetscReal depth);
+
 #endif
