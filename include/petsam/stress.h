@@ -88,4 +88,16 @@ PETSC_EXTERN PetscErrorCode SamSectionAddStep(SamSection section, Vec tractions)
 */
 PETSC_EXTERN PetscErrorCode SamSectionCompute(SamSection section, double stress[]);
 
+/*
+  Quantities of a stress at n points, whose components are arrays s[0] ... s[SAM_STRESS_COMPONENTS - 1]. Not collective.
+    SamStressMises      the von Mises stress
+    SamStressPrincipal  the principal stresses p[0] >= p[1] >= p[2], to rounding of the largest component
+    SamStressStrain     the strains by Hooke's law, tensor shear strains, in the order of the stresses; none in a rigid
+                        body, of infinite modulus
+*/
+PETSC_EXTERN void SamStressMises(PetscInt n, const double *const s[], double mises[]);
+PETSC_EXTERN void SamStressPrincipal(PetscInt n, const double *const s[], double *const p[3]);
+PETSC_EXTERN void SamStressStrain(PetscInt n, PetscReal young, PetscReal poisson, const double *const s[],
+                                  double *const e[]);
+
 #endif

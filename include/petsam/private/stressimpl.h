@@ -49,4 +49,7 @@ PETSC_EXTERN void SamStressRow(const SamStressSource *source, SamStressGroup gro
 PETSC_EXTERN PetscErrorCode SamStressCheckBody(MPI_Comm comm, PetscInt body, PetscReal poisson);
 PETSC_EXTERN PetscErrorCode SamStressCheckDepth(MPI_Comm comm, PetscReal depth);
 
+/* SamPrincipalOf - the principal stresses of one stress, the largest first. Not collective. */
+PETSC_EXTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);
+
 #endif

@@ -1,0 +1,295 @@
+/*
+  Fatigue parameters of a cycle of stresses at one point.
+
+  Planes: a parameter that is the largest over planes is looked for on a hemisphere of normals by 10 degrees, and from
+  there, and from other normals that are nearly as good and point elsewhere, by steps in angle that are halved down to a
+  third of a degree. Near its maximum a parameter is at most quadratic in the angle but for kinks.
+
+  The circle about the path of the shear stress in a plane is looked for only where a larger one, about the path's
+  rectangle, would make the plane the best so far.
+*/
+#include <petsam/fatigue.h>
+#include <petsam/private/stressimpl.h>
+
+enum { XX = SAM_STRESS_XX, YY = SAM_STRESS_YY, ZZ = SAM_STRESS_ZZ };
+enum { XY = SAM_STRESS_XY, XZ = SAM_STRESS_XZ, YZ = SAM_STRESS_YZ, COMPONENTS = SAM_STRESS_COMPONENTS };
+
+/* Degrees between the first normals; largest and smallest step around the best; angle to others that are tried. */
+enum { COARSE = 10, STARTS = 3 };
+#define FIRST_STEP 5.0
+#define LAST_STEP  0.3
+#define ELSEWHERE  25.0
+/* The part of the best value from which on another start is tried. */
+#define NEARLY 0.93
+
+#define DEGREE (PETSC_PI / 180)
+
+typedef struct {
+  SamFatigueParameter        parameter;
+  const SamFatigueConstants *constants;
+  PetscInt                   states;
+  const double              *stress, *strain; /* [component][state] */
+  double                    *path;            /* scratch: (states, 2) */
+} Cycle;
+
+/* ---- on a plane ---- */
+
+/* n.s.m of all states; the two vectors may be the same. */
+SAM_VECTORIZED static void Project(PetscInt states, const double *s, const double n[3], const double m[3],
+                                   PetscInt stride, double *to)
+{
+  const double a = n[0] * m[0], b = n[1] * m[1], c = n[2] * m[2], d = n[0] * m[1] + n[1] * m[0],
+               e = n[0] * m[2] + n[2] * m[0], f = n[1] * m[2] + n[2] * m[1];
+
+  for (PetscInt k = 0; k < states; k++)
+    to[k * stride] = a * s[XX * states + k] + b * s[YY * states + k] + c * s[ZZ * states + k] + d * s[XY * states + k] +
+                     e * s[XZ * states + k] + f * s[YZ * states + k];
+}
+
+static void FindEnds(PetscInt n, const double x[], PetscInt stride, double *least, double *most)
+{
+  *least = *most = x[0];
+  for (PetscInt k = 1; k < n; k++) {
+    *least = fmin(*least, x[k * stride]);
+    *most  = fmax(*most, x[k * stride]);
+  }
+}
+
+/* The parameter of a plane whose shear stress has that amplitude. */
+static double Combine(const Cycle *c, double amplitude, double normal)
+{
+  const SamFatigueConstants *k = c->constants;
+  const double               G = (double)k->young / (2 * (1 + (double)k->poisson));
+
+  if (c->parameter == SAM_FATIGUE_FINDLEY) return amplitude + (double)k->findley_k * normal;
+  return amplitude / G * (1 + (double)k->fatemi_socie_k * normal / (double)k->yield);
+}
+
+/* A plane's normal and two directions in it. */
+static void SetFrame(double theta, double phi, double n[3], double u[3], double v[3])
+{
+  const double s = sin(theta), c = cos(theta), sp = sin(phi), cp = cos(phi);
+
+  n[0] = s * cp;
+  n[1] = s * sp;
+  n[2] = c;
+  u[0] = c * cp;
+  u[1] = c * sp;
+  u[2] = -s;
+  v[0] = -sp;
+  v[1] = cp;
+  v[2] = 0;
+}
+
+/* The parameter of a plane; anything below `best` stands for less. */
+static double OnPlane(const Cycle *c, double theta, double phi, double best)
+{
+  double n[3], u[3], v[3], least, most, normal, ends[2][2], center[2];
+
+  SetFrame(theta, phi, n, u, v);
+  Project(c->states, c->stress, n, n, 1, c->path);
+  FindEnds(c->states, c->path, 1, &least, &normal);
+  if (c->parameter == SAM_FATIGUE_SWT) {
+    if (normal <= 0) return 0;
+    Project(c->states, c->strain, n, n, 1, c->path);
+    FindEnds(c->states, c->path, 1, &least, &most);
+    return normal * 0.5 * (most - least);
+  }
+  Project(c->states, c->stress, n, u, 2, c->path);
+  Project(c->states, c->stress, n, v, 2, c->path + 1);
+  for (int d = 0; d < 2; d++) FindEnds(c->states, c->path + d, 2, &ends[d][0], &ends[d][1]);
+  most = Combine(c, 0.5 * hypot(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0]), normal);
+  if (most <= best) return most;
+  return Combine(c, SamSmallestBall(2, c->states, c->path, center), normal);
+}
+
+/* ---- the best plane ---- */
+
+typedef struct {
+  double theta, phi, value;
+} Plane;
+
+/* Climbs from a plane by steps in both angles, which are halved where none leads up. */
+static void Climb(const Cycle *c, Plane *at)
+{
+  for (double step = FIRST_STEP * DEGREE; step >= LAST_STEP * DEGREE;) {
+    const double turn = step / fmax(sin(at->theta), 0.1);
+    Plane        best = *at;
+
+    for (int k = 0; k < 8; k++) {
+      static const int way[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+      Plane            next      = {at->theta + way[k][0] * step, at->phi + way[k][1] * turn, 0};
+
+      next.value = OnPlane(c, next.theta, next.phi, best.value);
+      if (next.value > best.value) best = next;
+    }
+    if (best.value > at->value * (1 + 1e-6))
+      *at = best;
+    else
+      step *= 0.5;
+  }
+}
+
+static PetscBool IsElsewhere(const Plane *a, const Plane *b)
+{
+  double n[2][3], u[3], v[3];
+
+  SetFrame(a->theta, a->phi, n[0], u, v);
+  SetFrame(b->theta, b->phi, n[1], u, v);
+  return fabs(n[0][0] * n[1][0] + n[0][1] * n[1][1] + n[0][2] * n[1][2]) < cos(ELSEWHERE * DEGREE) ? PETSC_TRUE
+                                                                                                   : PETSC_FALSE;
+}
+
+/* Keeps a plane among the best starts, which point to different sides. */
+static void Offer(Plane starts[STARTS], PetscInt *count, Plane plane)
+{
+  PetscInt place = *count;
+
+  for (PetscInt k = 0; k < *count; k++)
+    if (!IsElsewhere(&starts[k], &plane)) {
+      if (starts[k].value >= plane.value) return;
+      place = k;
+      break;
+    }
+  if (place == STARTS) {
+    place = 0;
+    for (PetscInt k = 1; k < STARTS; k++)
+      if (starts[k].value < starts[place].value) place = k;
+    if (starts[place].value >= plane.value) return;
+  } else if (place == *count)
+    (*count)++;
+  starts[place] = plane;
+}
+
+static double LargestOverPlanes(const Cycle *c)
+{
+  Plane    starts[STARTS];
+  PetscInt count = 0;
+  double   best  = -INFINITY;
+
+  for (int t = 0; t <= 90; t += COARSE) {
+    const int turns = t == 0 ? 1 : (int)ceil(360 / COARSE * sin(t * DEGREE)), last = t == 90 ? turns / 2 : turns;
+
+    for (int k = 0; k < last || k == 0; k++) {
+      Plane plane = {t * DEGREE, 2 * PETSC_PI * k / turns, 0};
+
+      plane.value = OnPlane(c, plane.theta, plane.phi, NEARLY * best);
+      best        = fmax(best, plane.value);
+      Offer(starts, &count, plane);
+    }
+  }
+  if (c->parameter == SAM_FATIGUE_SWT && best <= 0) return 0;
+  for (PetscInt k = 0; k < count; k++) {
+    if (!(starts[k].value >= NEARLY * best)) continue;
+    Climb(c, &starts[k]);
+    best = fmax(best, starts[k].value);
+  }
+  return best;
+}
+
+/* ---- without planes ---- */
+
+/* The deviators' five coordinates in which sqrt(S:S) is the length, and the largest mean stress. */
+static double Deviators(PetscInt states, const double s[], double points[])
+{
+  double most = -INFINITY;
+
+  for (PetscInt k = 0; k < states; k++) {
+    const double xx = s[XX * states + k], yy = s[YY * states + k], zz = s[ZZ * states + k];
+    double      *p = points + k * SAM_BALL_DIMENSION;
+
+    p[0] = (xx - yy) / sqrt(2);
+    p[1] = (2 * zz - xx - yy) / sqrt(6);
+    p[2] = sqrt(2) * s[XY * states + k];
+    p[3] = sqrt(2) * s[XZ * states + k];
+    p[4] = sqrt(2) * s[YZ * states + k];
+    most = fmax(most, (xx + yy + zz) / 3);
+  }
+  return most;
+}
+
+/* The largest shear stress of a deviator given by these coordinates. */
+static double LargestShear(const double p[])
+{
+  double s[COMPONENTS], principal[3];
+
+  s[ZZ] = p[1] * 2 / sqrt(6);
+  s[XX] = p[0] / sqrt(2) - 0.5 * s[ZZ];
+  s[YY] = -p[0] / sqrt(2) - 0.5 * s[ZZ];
+  s[XY] = p[2] / sqrt(2);
+  s[XZ] = p[3] / sqrt(2);
+  s[YZ] = p[4] / sqrt(2);
+  SamPrincipalOf(s, principal);
+  return 0.5 * (principal[0] - principal[2]);
+}
+
+static double OfDeviators(const Cycle *c, double points[])
+{
+  const PetscInt n = c->states;
+  const double  *s = c->stress;
+  double         center[SAM_BALL_DIMENSION], best = -INFINITY;
+  const double   mean = Deviators(n, s, points), radius = SamSmallestBall(SAM_BALL_DIMENSION, n, points, center);
+
+  if (c->parameter == SAM_FATIGUE_CROSSLAND) return radius / sqrt(2) + (double)c->constants->crossland_alpha * mean;
+  for (PetscInt k = 0; k < n; k++) {
+    double p[SAM_BALL_DIMENSION];
+
+    for (PetscInt d = 0; d < SAM_BALL_DIMENSION; d++) p[d] = points[k * SAM_BALL_DIMENSION + d] - center[d];
+    best = fmax(best, LargestShear(p) +
+                        (double)c->constants->dang_van_alpha * (s[XX * n + k] + s[YY * n + k] + s[ZZ * n + k]) / 3);
+  }
+  return best;
+}
+
+PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants, PetscInt states,
+                                 const double stress[], double *value)
+{
+  Cycle         c = {.parameter = parameter, .constants = constants, .states = states, .stress = stress};
+  double       *scratch, *strain, *e[COMPONENTS];
+  const double *s[COMPONENTS];
+
+  PetscFunctionBegin;
+  PetscCheck(states > 0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "A cycle of no states");
+  PetscCall(PetscMalloc2(SAM_BALL_DIMENSION * states, &scratch, COMPONENTS * states, &strain));
+  for (PetscInt k = 0; k < COMPONENTS; k++) {
+    s[k] = stress + k * states;
+    e[k] = strain + k * states;
+  }
+  c.path   = scratch;
+  c.strain = strain;
+  if (parameter == SAM_FATIGUE_SWT) SamStressStrain(states, constants->young, constants->poisson, s, e);
+  *value = parameter == SAM_FATIGUE_CROSSLAND || parameter == SAM_FATIGUE_DANG_VAN ? OfDeviators(&c, scratch)
+                                                                                   : LargestOverPlanes(&c);
+  PetscCall(PetscFree2(scratch, strain));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- on the surface ---- */
+
+void SamFatigueRuiz(PetscInt states, const double stress[], const double shear[], const double slip[], double *d1,
+                    double *d2)
+{
+  double work = 0, longest = 0, way[3] = {0, 0, 0}, tension = 0;
+
+  for (PetscInt k = 0; k < states; k++) {
+    const PetscInt next = (k + 1) % states;
+    const double   x = slip[next] - slip[k], y = slip[states + next] - slip[states + k], length = hypot(x, y);
+
+    work += fabs(shear[next] * x + shear[states + next] * y); /* a cell slips under the shear of the step's end */
+    if (length <= longest) continue;
+    longest = length;
+    way[0]  = x / length;
+    way[1]  = y / length;
+  }
+  for (PetscInt k = 0; k < states; k++) {
+    double along;
+
+    Project(1,
+            (const double[]){stress[XX * states + k], stress[YY * states + k], stress[ZZ * states + k],
+                             stress[XY * states + k], stress[XZ * states + k], stress[YZ * states + k]},
+            way, way, 1, &along);
+    tension = fmax(tension, along);
+  }
+  *d1 = work / 4;
+  *d2 = tension * work / 4;
+}
