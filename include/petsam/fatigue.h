@@ -6,9 +6,9 @@
 
 /*
   SamFatigueParameter - what is computed of the states of one closed cycle, of which no order counts but for Ruiz's.
-  n is the normal of a plane, s_n the stress on it, e_n the strain along it, tau_a the radius of the smallest circle about
-  the path of the shear stress in it; S the deviator, R the radius of the smallest sphere about its path in the norm
-  sqrt(S:S), P_H the mean stress.
+  n is the normal of a plane, s_n the stress on it, e_n the strain along it, tau_a the radius of the smallest circle
+  about the path of the shear stress in it; S the deviator, R the radius of the smallest sphere about its path in the
+  norm sqrt(S:S), P_H the mean stress.
 */
 typedef enum {
   SAM_FATIGUE_CROSSLAND, /* R/sqrt(2) + alpha max P_H, Pa (Crossland 1956) */
@@ -28,8 +28,8 @@ typedef struct {
 /*
   SamFatigueCompute - a parameter of the states of a cycle at one point: stress[c * states + k] is component c (Pa) in
   state k. Planes are searched by 10 degrees, then around the best of them down to a third of a degree. Not collective.
-  Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct. 11,
-  149; Papadopoulos 1997, Int. J. Fatigue 19, 219 (measures of the shear's path).
+  Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.
+  11, 149; Papadopoulos 1997, Int. J. Fatigue 19, 219 (measures of the shear's path).
 */
 PETSC_EXTERN PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants,
                                               PetscInt states, const double stress[], double *value);

@@ -169,9 +169,9 @@ static double Compute(SamFatigueParameter parameter, PetscInt states, const doub
 }
 
 /*
-  Hertz's contact under Cattaneo and Mindlin's partial slip to and fro, a = p0 = E = 1, mu = 0.5, c/a = 0.6, at x = -a on
-  the surface and below it: the stresses at both ends from quadrature of point forces, the parameters from a search by
-  0.2 degrees.
+  Hertz's contact under Cattaneo and Mindlin's partial slip to and fro, a = p0 = E = 1, mu = 0.5, c/a = 0.6, at x = -a
+  on the surface and below it: the stresses at both ends from quadrature of point forces, the parameters from a search
+  by 0.2 degrees.
 */
 static void test_trailing_edge_of_a_fretting_cycle(void **state)
 {
@@ -279,7 +279,7 @@ static void test_search_misses_no_plane(void **state)
 
 static void test_ruiz_of_slip_to_and_fro(void **state)
 {
-  /* q = 3 against the slip, which is turned by 30 degrees, of amplitude 1e-6: 3 * 2e-6 from end to end */
+  /* q = 3 against the slip, which is turned by 30 degrees; its amplitude is 2e-6 */
   const double c = cos(PETSC_PI / 6), s = 0.5, q[] = {3, -3}, way[] = {2e-6, -2e-6};
   double       stress[COMPONENTS * 2] = {0}, shear[4], slip[4], d1, d2;
 
