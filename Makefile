@@ -34,7 +34,8 @@ WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvl
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
 LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/app/*"))
-APP_SRC := $(filter-out src/app/petsam.c,$(sort $(wildcard src/app/*.c)))
+PROGRAMS := petsam
+APP_SRC := $(filter-out $(PROGRAMS:%=src/app/%.c),$(sort $(wildcard src/app/*.c src/app/*/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
 APP_OBJ := $(APP_SRC:%.c=$(B)/obj/%.o)
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
@@ -47,7 +48,7 @@ HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(B)/bin/petsam $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so ## build the program and the libraries
+all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so ## build the program and the libraries
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -67,7 +68,7 @@ $(B)/lib/libpetsam.so: $(LIB_OBJ)
 	$(say) LD $@
 	$(Q)$(CC) -shared $(LDFLAGS) -o $@ $^ $(PC_LIBS)
 
-$(B)/bin/petsam: $(B)/obj/src/app/petsam.o $(APP_OBJ) $(B)/lib/libpetsam.a
+$(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/src/app/%.o $(APP_OBJ) $(B)/lib/libpetsam.a
 	@mkdir -p $(@D)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS)
@@ -155,7 +156,7 @@ share  = $(DESTDIR)$(prefix)/share/petsam
 
 install: all ## install program, library, headers, petsam.pc, scripts, examples: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
-	install -m 755 $(B)/bin/petsam $(DESTDIR)$(prefix)/bin
+	install -m 755 $(PROGRAMS:%=$(B)/bin/%) $(DESTDIR)$(prefix)/bin
 	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
 	install -m 755 $(B)/lib/libpetsam.so $(DESTDIR)$(prefix)/lib
 	for f in $(HEADERS); do install -D -m 644 $$f $(DESTDIR)$(prefix)/$$f || exit 1; done

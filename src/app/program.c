@@ -1,0 +1,217 @@
+/*
+  The frame of a program: MPI and PETSc, errors and exit codes, -help and -version.
+
+  Errors that a line explains are printed as that line, by one rank if all have met them; of all others PETSc prints a
+  trace.
+*/
+#include "program.h"
+#include <petsam/private/baseimpl.h>
+#include <petsam/contact.h>
+#include <hdf5.h>
+#include <malloc.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { EXIT_USAGE = 2, EXIT_FILE = 3 };
+
+/* The program that runs. */
+static const SamProgram *program;
+
+/* ---- errors ---- */
+
+/* Whether an error has occurred that the other ranks may not know of. */
+static PetscBool alone = PETSC_FALSE;
+/* Whether an MPI launcher has started the program. */
+static PetscBool launched = PETSC_TRUE;
+
+/* Errors that a line explains; of all others PETSc prints a trace. */
+static PetscBool IsPlain(PetscErrorCode code)
+{
+  return (code == SAM_ERR_USER || code == SAM_ERR_FILE || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_MEM)
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
+/* Prints an error as one line: one that all ranks have met from rank 0. */
+static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                                  PetscErrorType type, const char *message, void *context)
+{
+  PetscMPIInt rank, ranks = 1, all = 1;
+
+  (void)context;
+  if (!IsPlain(code)) return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, NULL);
+  if (type != PETSC_ERROR_INITIAL) return code;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &all);
+  MPI_Comm_size(comm, &ranks);
+  if (ranks < all) alone = PETSC_TRUE;
+  if (code == PETSC_ERR_MEM)
+    fprintf(stderr, "%s: rank %d has not enough memory: %s\n", program->name, rank, message);
+  else if (rank == 0 || ranks < all)
+    fprintf(stderr, "%s: %s\n", program->name, message);
+  if (code == SAM_ERR_USER && rank == 0)
+    fprintf(stderr, "%s: see %s -help for the options\n", program->name, program->name);
+  return code;
+}
+
+static int ExitCode(PetscErrorCode code)
+{
+  if (code == SAM_ERR_USER) return EXIT_USAGE;
+  if (code == SAM_ERR_FILE) return EXIT_FILE;
+  if (code == PETSC_ERR_NOT_CONVERGED) return SAM_STATUS_NOT_CONVERGED;
+  return code;
+}
+
+/* While PETSc starts, each of its errors is one of the options that it reads. */
+static PetscErrorCode HandleErrorAtStart(MPI_Comm comm, int line, const char *function, const char *file,
+                                         PetscErrorCode code, PetscErrorType type, const char *message, void *context)
+{
+  int rank;
+
+  (void)comm;
+  (void)line;
+  (void)function;
+  (void)file;
+  (void)context;
+  (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (type == PETSC_ERROR_INITIAL && rank == 0)
+    fprintf(stderr, "%s: PETSc cannot take the options: %s\n", program->name, message ? message : "");
+  return code;
+}
+
+/* Ends the program where PETSc could not start; the other ranks may still be starting. */
+static int GiveUpStarting(void)
+{
+  int ranks;
+
+  (void)MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) (void)MPI_Abort(MPI_COMM_WORLD, EXIT_USAGE);
+  (void)MPI_Finalize();
+  return EXIT_USAGE;
+}
+
+/* ---- the surroundings ---- */
+
+/*
+  Makes malloc() map large fields from the system and return them to it when they are freed. SuperLU_DIST, which PETSc
+  may link, switches that off for the whole program; half of the memory would then be lost to fragmentation.
+*/
+static void ReturnLargeFields(void)
+{
+#if defined(__GLIBC__)
+  (void)mallopt(M_MMAP_MAX, 65536);
+  (void)mallopt(M_MMAP_THRESHOLD, 16 << 20); /* smaller fields are allocated in every step, and are faster reused */
+#endif
+}
+
+/*
+  Without an MPI launcher no network is needed. Open MPI would look for one and start a daemon, which takes longer than
+  a small problem and is not possible everywhere. Settings of the user are not changed.
+*/
+static void PrepareMPI(void)
+{
+#if defined(OPEN_MPI)
+  static const char *const signs[] = {
+    "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK", "PMI_ID", "PMI_FD", "PMI_SIZE", "SLURM_STEP_ID",
+    "ALPS_APP_PE",          NULL};
+
+  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0); /* its semaphores fail where /dev/shm is full */
+  launched = PETSC_FALSE;
+  for (int k = 0; signs[k]; k++)
+    if (getenv(signs[k])) launched = PETSC_TRUE;
+  if (launched) return;
+  (void)setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  (void)setenv("OMPI_MCA_orte_create_session_dirs", "0", 0); /* else concurrent programs would share one */
+  (void)setenv("OMPI_MCA_pml", "ob1", 0);
+  (void)setenv("OMPI_MCA_btl", "self", 0);
+#endif
+}
+
+/* Signals at which PETSc would print a trace, though nothing is wrong in the program; nohup has one ignored. */
+static const int usual[] = {SIGHUP, SIGQUIT, SIGTERM, SIGPIPE, SIGURG};
+enum { USUAL = sizeof(usual) / sizeof(usual[0]) };
+
+/* Starts PETSc, which leaves these signals as they were. Returns its error code. */
+static PetscErrorCode StartPetsc(int *argc, char ***argv)
+{
+  struct sigaction before[USUAL];
+  PetscErrorCode   code;
+
+  for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], NULL, &before[k]);
+  code = program->prepare ? program->prepare() : 0;
+  if (!code) code = PetscPushErrorHandler(HandleErrorAtStart, NULL);
+  if (!code) code = PetscInitialize(argc, argv, NULL, NULL);
+  for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], &before[k], NULL);
+  return code;
+}
+
+/* ---- the program ---- */
+
+static PetscErrorCode Run(const SamArguments *arguments)
+{
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCheck(!arguments->code, PETSC_COMM_WORLD, arguments->code, "%s", arguments->message);
+  if (arguments->version) {
+    char petsc[256];
+
+    PetscCall(PetscGetVersion(petsc, sizeof(petsc)));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s %s\n%s\n", program->name, PETSAM_VERSION, petsc));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (arguments->help) {
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", program->usage));
+    PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
+    PetscCall(program->setup(program->context, arguments));
+    PetscCall(PetscOptionsClearValue(NULL, "-help")); /* else PetscFinalize() would print PETSc's help */
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(program->setup(program->context, arguments));
+  PetscCall(SamArgumentsRefuseUnknown());
+  PetscCall(program->run(program->context));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Ends the program after an error. Waits for the other ranks only if they have met the same error: another may have
+  occurred on one rank only. A file that failed in writing cannot be closed, either.
+*/
+static void AbandonAfter(PetscErrorCode code, int status)
+{
+  if (!code || (status != (int)code && !program->writing(program->context) && !alone)) return;
+  program->abandon(program->context); /* leaves no temporary file */
+  (void)fflush(NULL);
+  if (!launched) _exit(status); /* there are no other ranks */
+  (void)MPI_Abort(PETSC_COMM_WORLD, status);
+}
+
+int SamProgramMain(const SamProgram *given, int argc, char **argv)
+{
+  SamArguments   arguments;
+  PetscErrorCode code;
+  int            status;
+
+  program = given;
+  (void)signal(SIGXFSZ, SIG_IGN); /* a file at its size limit becomes an error of the call that writes */
+  ReturnLargeFields();
+  PrepareMPI();
+  if (MPI_Init(&argc, &argv)) return EXIT_FAILURE;
+  SamArgumentsExamine(&argc, &argv, &arguments);
+  code = StartPetsc(&argc, &argv);
+  if (code) return GiveUpStarting();
+  PetscCall(PetscPushErrorHandler(HandleError, NULL));
+  code   = Run(&arguments);
+  status = code ? ExitCode(code) : program->status(program->context);
+  AbandonAfter(code, status);
+  PetscCall(program->teardown(program->context));
+  PetscCall(SamFinalize());
+  PetscCall(PetscPopErrorHandler());
+  if (code) PetscCall(PetscOptionsClear(NULL));          /* no viewer writes its file after a mistake */
+  if (code) (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* HDF5 may complain, at its end, of a file that was damaged */
+  SamArgumentsFree(&arguments);
+  PetscCall(PetscFinalize());
+  (void)MPI_Finalize();
+  return status;
+}
