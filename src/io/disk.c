@@ -21,7 +21,7 @@ static const char *Reason(int error)
   case IN_USE:
     return "another run is writing it";
   case FOREIGN:
-    return "there is a file of that name that petsam has not written, and it is not replaced";
+    return "there is a file of that name that petsam has not written for this purpose, and it is not replaced";
   case REPLACED:
     return "another program has replaced it during this run";
   case RESIZED:

@@ -118,27 +118,32 @@ static PetscErrorCode Free(SamFile *file)
 
 #define NOT_HDF5 (-1)
 
-/* Examines an existing file on rank 0, to report common mistakes in plain words. */
-static PetscErrorCode Examine(SamFile f)
+PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], PetscBool writing)
 {
   struct stat status;
+  PetscMPIInt rank;
   int         error = 0;
 
   PetscFunctionBegin;
-  if (f->rank == 0) {
-    if (stat(f->filename, &status) || access(f->filename, f->writing ? R_OK | W_OK : R_OK))
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    if (stat(filename, &status) || access(filename, writing ? R_OK | W_OK : R_OK))
       error = errno;
     else if (!S_ISREG(status.st_mode))
       error = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
     else {
-      Silence(f);
-      if (H5Fis_hdf5(f->filename) <= 0) error = NOT_HDF5;
-      Unsilence(f);
+      H5E_auto2_t print;
+      void       *data;
+
+      (void)H5Eget_auto2(H5E_DEFAULT, &print, &data);
+      (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+      if (H5Fis_hdf5(filename) <= 0) error = NOT_HDF5;
+      (void)H5Eset_auto2(H5E_DEFAULT, print, data);
     }
   }
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, f->grid->comm));
-  PetscCheck(!error, f->grid->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename,
-             f->writing ? "written" : "read", error == NOT_HDF5 ? "it is not an HDF5 file" : strerror(error));
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
+  PetscCheck(!error, comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", option, filename, writing ? "written" : "read",
+             error == NOT_HDF5 ? "it is not an HDF5 file" : strerror(error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -153,7 +158,7 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   hid_t access, creation;
 
   PetscFunctionBegin;
-  if (IsOld(mode)) PetscCall(Examine(f));
+  if (IsOld(mode)) PetscCall(SamFileExamine(f->grid->comm, f->option, f->filename, f->writing));
   PetscCall(SamFileBegin(f));
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
   if (mode != SAM_FILE_READ_ALONE) (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->grid->comm, MPI_INFO_NULL));

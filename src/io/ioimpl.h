@@ -48,6 +48,12 @@ typedef enum {
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
 /*
+  SamFileExamine - reports, in plain words, a file that is not there or is none, may not be read (or written), or is not
+  HDF5. Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[],
+                                           PetscBool writing);
+/*
   SamFileClose - closes the file; to be called between Begin and End, notes its failures.
   SamFileDestroy - frees the object, and with `close` first closes the file; without it the file stays open, for where
   closing would hang. Errors: SAM_ERR_FILE.

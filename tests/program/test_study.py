@@ -525,7 +525,7 @@ def test_an_interruption_ends_the_runs_and_the_same_command_goes_on(study, run, 
     process = study("cases.csv", "--cores", 2, **fake)
     until(lambda: (tmp_path / "started.txt").exists() and len((tmp_path / "started.txt").read_text().split("\n")) > 3)
     process.send_signal(number)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=240)
     assert process.returncode == 128 + number and "interrupted" in err
     for line in (tmp_path / "started.txt").read_text().splitlines():
         assert not os.path.exists("/proc/" + line.split()[1])
@@ -551,7 +551,7 @@ def test_a_stopped_case_goes_on_from_its_checkpoint(study, run, tmp_path, fake):
     process = study("cases.csv", "--checkpoint", 5, **fake)
     until((tmp_path / "started.txt").exists)
     process.send_signal(signal.SIGUSR1)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=240)
     assert process.returncode == 75 and "1 stopped early" in out, (out, err)
     assert "-restart" not in runs(tmp_path)[0] and " ".join(runs(tmp_path)[0]).endswith(
         "-checkpoint checkpoint.h5 -checkpoint_every 5"
@@ -559,7 +559,7 @@ def test_a_stopped_case_goes_on_from_its_checkpoint(study, run, tmp_path, fake):
     process = study("cases.csv", "--checkpoint", 5, **fake)
     until(lambda: len(runs(tmp_path)) == 2)
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
+    process.communicate(timeout=240)
     assert " ".join(runs(tmp_path)[1]).endswith("-restart checkpoint.h5")
     # other inputs: not from this checkpoint
     run("cases.csv", "--checkpoint", 5, "--", "-wait", "0", **fake)

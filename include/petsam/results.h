@@ -1,0 +1,51 @@
+/* Results of a run, read again. */
+#ifndef PETSAM_RESULTS_H
+#define PETSAM_RESULTS_H
+
+#include <petsam/material.h>
+#include <petsam/grid.h>
+
+/* SamResults - a results file of petsam, open for reading, on any number of ranks. */
+typedef struct _n_SamResults *SamResults;
+
+/* The fields that can be read. */
+typedef enum {
+  SAM_RESULTS_PRESSURE,
+  SAM_RESULTS_SHEAR_X,
+  SAM_RESULTS_SHEAR_Y,
+  SAM_RESULTS_SLIP_X,
+  SAM_RESULTS_SLIP_Y,
+  SAM_RESULTS_FIELDS
+} SamResultsField;
+
+/*
+  SamResultsOpen - opens a file that the option (without dash) has named. Its parameters, sizes and the places of its
+  data are examined by rank 0 in a child process first, so that a damaged file does no harm. Collective. Errors:
+  SAM_ERR_FILE for a file that cannot be read, is not of petsam, is damaged, or lacks what is needed.
+*/
+PETSC_EXTERN PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char filename[],
+                                           SamResults *results);
+PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
+/*
+  SamResultsGetGrid - the grid of the run, distributed over the ranks that are there now; borrowed.
+  SamResultsGetPair - the materials.
+  SamResultsGetElasticity - the type of the bodies, as -elasticity names it; borrowed.
+  SamResultsGetSteps - number of load steps, and of those whose fields have been saved.
+  SamResultsGetSaved - load step (from 1) and time (s) of the k-th saved one (from 0).
+  None is collective.
+*/
+PETSC_EXTERN PetscErrorCode SamResultsGetGrid(SamResults results, SamGrid *grid);
+PETSC_EXTERN PetscErrorCode SamResultsGetPair(SamResults results, SamPair *pair);
+PETSC_EXTERN PetscErrorCode SamResultsGetElasticity(SamResults results, const char **type);
+PETSC_EXTERN PetscErrorCode SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
+PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
+/* SamResultsRead - a field of the k-th saved step: this rank's rows. Collective. Errors: SAM_ERR_FILE. */
+PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
+/*
+  SamResultsReadHistory - a column of /history at a load step (from 1); `otherwise` where the file does not have the
+  column. Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_EXTERN PetscErrorCode SamResultsReadHistory(SamResults results, PetscInt step, const char column[],
+                                                  PetscReal otherwise, PetscReal *value);
+
+#endif
