@@ -90,6 +90,19 @@ def test_tangential_products_of_strong_coupling_at_most_8_a_pass(solve, n, frict
     assert s["tangential_applies"] <= 8 * s["coupling_iterations"]
 
 
+@pytest.mark.parametrize(
+    "n, size, steps, tx, ty",
+    [(48, 2.6e-3, 3, 98, 0), (33, 3.1e-3, 5, 98, 0.1), (96, 2.4e-3, 2, 99.9, 0), (256, 2.6e-3, 3, 99, 0)],
+)
+def test_products_where_force_and_load_grow_together_near_sliding(petsam, tmp_path, n, size, steps, tx, ty):
+    """At nu = 0 all shear is along one line: a cell that slips does not tell how far."""
+    petsam(ball(n, friction=0.1, load_n=1000.0, grid_size=size, gap_radius1=0.2, gap_radius2=0.2, body1_young=210e9,
+                body2_young=210e9, body1_poisson=0.0, body2_poisson=0.0),
+           dict(load_tx=float(tx), load_ty=ty, steps=steps, output="out.h5"))  # fmt: skip
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert max(f["history/tangential_applies"]) <= 35
+
+
 def test_products_without_tangential_load_are_none(solve):
     assert solve(ball(64))["tangential_applies"] == 0
 

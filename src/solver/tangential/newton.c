@@ -57,14 +57,17 @@
 #define ENERGY_ROUNDING 1e-14
 /*
   Sets and motion depend on each other: how often they are found in turn in an iteration, unless the motion changes by
-  less than STEADY of the largest slip. In the passes of coupled bodies, which say what is enough, they always are: there
-  what is left of the motion's error would be taken for a change of the shear.
+  less than STEADY of the largest slip. In the passes of coupled bodies, which say what is enough, they always are:
+  there what is left of the motion's error would be taken for a change of the shear.
 */
 #define SWEEPS 2
 #define STEADY 0.3
 /* A change of the shear that is rounding, relative to it. */
 #define STILL 1e-12
-/* Iterations without progress before a gradient step, and before giving up. */
+/* Iterations without progress before the motion is looked for otherwise, before a gradient step, before giving up. */
+#define SHIFT 2
+/* The change of the motion, in parts of the largest residual, from which on the fit is taken to leave it open. */
+#define OPEN       2
 #define PATIENCE   10
 #define STAGNATION 100
 
@@ -72,54 +75,6 @@ typedef SamNewton Work;
 
 #define SPACE    ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
 #define PRODUCTS ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
-
-/* The root of the number of cells in contact. */
-static PetscErrorCode FindReach(Work *w)
-{
-  const SamStickSlip *u = &w->base;
-
-  PetscFunctionBegin;
-  w->reach = 0;
-  for (PetscInt j = 0; j < u->rows; j++)
-    for (ptrdiff_t k = (ptrdiff_t)j * u->nx + u->first[j]; k < (ptrdiff_t)j * u->nx + u->last[j]; k++)
-      w->reach += u->bound[k] > 0;
-  PetscCall(SamSum(u->level->grid->comm, 1, &w->reach));
-  w->reach = sqrt(w->reach);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-#define FLOATS 6
-
-static PetscErrorCode CreateWork(SamSolver solver, SamLevel *level, Work *w)
-{
-  const SamFrame *f              = &level->frame;
-  float **const   floats[FLOATS] = {&w->weight, &w->normal, &w->r, &w->z, &w->step, &w->u};
-
-  PetscFunctionBegin;
-  PetscCall(SamStickSlipCreate(solver, level, &w->base));
-  PetscCall(SamAllocateZeros(sizeof(*w->trial) * 2 * (size_t)w->base.cells, &w->trial));
-  for (PetscInt k = 0; k < FLOATS; k++)
-    PetscCall(SamAllocateZeros(sizeof(***floats) * (k > 0 ? 2 : 1) * (size_t)w->base.cells, floats[k]));
-  PetscCall(PetscMalloc1(w->base.nx, &w->xi));
-  for (PetscInt i = 0; i < w->base.nx; i++) w->xi[i] = (float)(f->xi0 + (double)i * f->dxi);
-  PetscCall(FindReach(w));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode DestroyWork(Work *w)
-{
-  PetscFunctionBegin;
-  SamFree(w->trial);
-  SamFree(w->weight);
-  SamFree(w->normal);
-  SamFree(w->r);
-  SamFree(w->z);
-  SamFree(w->step);
-  SamFree(w->u);
-  PetscCall(PetscFree(w->xi));
-  PetscCall(SamStickSlipDestroy(&w->base));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* z = 0 outside of the contact's part of each row, which is all that the loops write to. */
 static PetscErrorCode ClearMargins(const Work *w)
@@ -364,6 +319,35 @@ static SamSolverReason Reason(const Work *w, PetscInt stagnant)
 }
 
 /*
+  Moves by what the projected gradient is short of, if that lowers the error, or is so much that the fit must have left
+  it open: where cells slip along one line, as at nu = 0, and few stick, how far is not in the residual. Then all seem
+  to slip, and no shear would change that. `best` is the least error so far, which means nothing after that.
+*/
+static PetscErrorCode Shift(Work *w, double *best)
+{
+  SamStickSlip  *u     = &w->base;
+  const double   error = u->error;
+  double         unit  = w->unit;
+  SamNewtonSpace space;
+  double         motion[3], most;
+  PetscBool      found;
+
+  PetscFunctionBegin;
+  PetscCall(TryGradient(w, motion, &found));
+  for (PetscInt attempt = 0; found && attempt < 2; attempt++) { /* there, and back if that was no good */
+    for (PetscInt c = 0; c < 3; c++) u->motion[c] += motion[c];
+    PetscCall(ChooseSets(w, 0, motion, &space, &most));
+    PetscCall(Advance(w, 0));
+    if (u->error < error || (attempt == 0 && fabs(motion[0]) + fabs(motion[1]) + fabs(motion[2]) > OPEN * unit)) {
+      *best = u->error;
+      break;
+    }
+    for (PetscInt c = 0; c < 3; c++) motion[c] = -motion[c];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
   This is the shear. The motion is what is left: its fit leaves it open where few cells are in contact, or all slip.
   `better`: the error has fallen.
 */
@@ -454,7 +438,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   PetscBool       found    = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(CreateWork(solver, level, &w));
+  PetscCall(SamNewtonCreate(solver, level, &w));
   PetscCall(Start(&w, &found));
   best   = u->error;
   reason = found ? Reason(&w, stagnant) : SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
@@ -462,6 +446,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
     const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE, whole = w.whole;
     PetscBool       downhill = PETSC_TRUE;
 
+    if (stagnant > 0 && stagnant % SHIFT == 0) PetscCall(Shift(&w, &best));
     PetscCall(Iterate(&w, gradient, &downhill, &found));
     if (downhill && Error(&w) <= level->rtol) PetscCall(Finish(&w, &found));
     if (!downhill || !found) { /* but for a start that was not admissible, the loads can be carried */
@@ -476,7 +461,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   solver->error  = Error(&w);
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = u->motion[c];
   if (level->product && isfinite(u->error)) PetscCall(SamStickSlipKeepProduct(u, w.rounding.bound));
-  PetscCall(DestroyWork(&w));
+  PetscCall(SamNewtonDestroy(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
