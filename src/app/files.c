@@ -73,10 +73,13 @@ static PetscBool SameFile(const char a[], const char b[])
 
 /* ---- files that PETSc writes ---- */
 
-static const char *const viewers[] = {"-normal_view",     "-normal_converged_reason",
-                                      "-tangential_view", "-tangential_converged_reason",
-                                      "-log_view",        "-options_view",
-                                      "-memory_view",     NULL};
+static const char *const viewers[] = {"-normal_view",
+                                      "-normal_converged_reason",
+                                      "-tangential_view",
+                                      "-tangential_converged_reason",
+                                      "-log_view",
+                                      "-memory_view",
+                                      NULL};
 
 static PetscBool IsViewerFormat(const char text[])
 {
@@ -94,6 +97,18 @@ static int CheckPlace(const char name[])
   if (!stat(name, &status)) return S_ISDIR(status.st_mode) ? EISDIR : access(name, W_OK) ? errno : 0;
   SamGetFolder(name, folder);
   return access(folder, W_OK | X_OK) ? errno : 0;
+}
+
+/* PETSc reads it twice, once as a viewer and once as a logical value. */
+static PetscErrorCode CheckOptionsView(MPI_Comm comm)
+{
+  char      value[PETSC_MAX_PATH_LEN] = "";
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-options_view", value, sizeof(value), &set));
+  PetscCheck(!value[0], comm, SAM_ERR_USER, "-options_view %s: expected no value", value);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The value of a viewer's option is type:file:format:mode, each of which may be missing. The type is ascii. */
@@ -169,6 +184,7 @@ static PetscErrorCode CollectWritten(const SamRun *run, MPI_Comm comm, Files *fi
     Add(files, "-checkpoint", before, PETSC_TRUE);
     Add(files, "-checkpoint", temporary, PETSC_TRUE);
   }
+  PetscCall(CheckOptionsView(comm));
   for (PetscInt k = 0; viewers[k]; k++) PetscCall(AddViewer(comm, viewers[k], files));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

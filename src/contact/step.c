@@ -167,7 +167,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 
     if (!w->tangential.force[k] || load == 0) continue;
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "", name->load, load,
-                            name->load_unit, (double)factor * load));
+                            name->load_unit, (double)factor * load + 0.0)); /* and not -0 */
     PetscCall(PetscStrlcat(message, text, size));
   }
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));

@@ -236,6 +236,16 @@ static PetscErrorCode WriteFile(SamCheckpoint cp, SamContactState *state, uint64
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Refuses names at which other programs have put files meanwhile. */
+static PetscErrorCode CheckNames(SamCheckpoint cp)
+{
+  PetscFunctionBegin;
+  PetscCall(SamHoldCheck(cp->grid, OPTION, cp->temporary, &cp->hold));
+  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->filename, SAM_FILE_CHECKPOINT));
+  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->before, SAM_FILE_CHECKPOINT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamParameters *parameters, PetscInt n,
                                   const SamNote notes[])
 {
@@ -245,6 +255,7 @@ PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const Sa
   PetscErrorCode  ierr;
 
   PetscFunctionBegin;
+  PetscCall(CheckNames(cp));
   PetscCall(SamContactGetState(contact, &state));
   PetscCall(GapChecksum(contact, &gap));
   ierr = WriteFile(cp, &state, gap, &rest);
@@ -252,6 +263,7 @@ PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const Sa
   PetscCall(ierr);
   PetscCall(SamFileReplace(cp->grid, OPTION, cp->temporary, cp->filename, cp->before));
   PetscCall(SamHoldTakeNext(cp->grid, OPTION, cp->temporary, &cp->hold));
+  SamHoldNoteSize(&cp->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -260,8 +272,8 @@ static PetscErrorCode TakeNames(SamCheckpoint cp)
 {
   PetscFunctionBegin;
   PetscCall(SamHoldTake(cp->grid, OPTION, cp->temporary, SAM_FILE_TEMPORARY, &cp->hold));
-  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->filename, SAM_FILE_CHECKPOINT));
-  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->before, SAM_FILE_CHECKPOINT));
+  SamHoldNoteSize(&cp->hold);
+  PetscCall(CheckNames(cp));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -158,6 +158,26 @@ def test_change_from_outside_ends_the_run(launcher, folder, ranks, change, says)
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("name", ["state.h5", "state.h5.1", "state.h5.tmp"])
+def test_file_put_in_the_place_of_a_checkpoint_is_kept(launcher, folder, ranks, name):
+    """As is the file that a link there points to."""
+    out = folder / "out"
+    (folder / "mine").write_text("the only copy")
+    run = start(launcher, folder, ranks, dict(checkpoint="out/state.h5"))
+    wait_for(run, 4)
+    if name.endswith(".tmp"):
+        (out / "new").symlink_to(folder / "mine")
+    else:
+        shutil.copy(folder / "mine", out / "new")
+    (out / "new").rename(out / name)
+    for process in conftest.processes(run, ranks):
+        os.kill(process, signal.SIGUSR2)  # write a checkpoint
+    code, _, complaint = ended(run)
+    assert code == 3 and len(complaint) == 1 and "out/state.h5" in complaint[0]
+    assert (out / name).read_text() == (folder / "mine").read_text() == "the only copy"
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
 def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
     """From results and checkpoints, also one that would go on from there; not after the first has been killed."""
     mine = dict(checkpoint="out/state.h5", checkpoint_every=1)
