@@ -34,7 +34,7 @@ WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvl
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
 LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/app/*"))
-PROGRAMS := petsam
+PROGRAMS := petsam petsam-stress
 APP_SRC := $(filter-out $(PROGRAMS:%=src/app/%.c),$(sort $(wildcard src/app/*.c src/app/*/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
 APP_OBJ := $(APP_SRC:%.c=$(B)/obj/%.o)

@@ -3,6 +3,7 @@
   Names that petsam derives count too: the XDMF file beside the results, a checkpoint's file.1 and file.tmp; and files
   that PETSc writes for its viewers.
 */
+#include "files.h"
 #include "runimpl.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -46,8 +47,7 @@ static PetscErrorCode FreeFiles(Files *files)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether two names are those of the same file; files that do not exist yet are compared by folder and name. */
-static PetscBool SameFile(const char a[], const char b[])
+PetscBool SamIsSameFile(const char a[], const char b[])
 {
   const char *const names[2] = {a, b};
   char              folder[2][PETSC_MAX_PATH_LEN], *real[2];
@@ -206,7 +206,7 @@ static void Compare(const Files *written, const Files *read, char message[], siz
     for (PetscInt k = 0; k < read->count + w && !message[0]; k++) {
       const File *other = k < read->count ? &read->list[k] : &written->list[k - read->count];
 
-      if (!MayMeet(one, other) && SameFile(one->name, other->name))
+      if (!MayMeet(one, other) && SamIsSameFile(one->name, other->name))
         (void)snprintf(message, size, "%s %s: %s the %sfile of %s", one->option, one->name,
                        k >= read->count ? "is also" : "would overwrite", other->derived ? "second " : "",
                        other->option);

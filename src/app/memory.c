@@ -1,4 +1,5 @@
 /* The memory that a run needs, and whether each node has it. */
+#include "memory.h"
 #include "runimpl.h"
 
 /*
@@ -10,11 +11,9 @@
 */
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
-#define BYTES_PROGRAM 50e6 /* the program and its libraries, on each rank */
-
-double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
+double              SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
-  return BYTES_PROGRAM + bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] * (double)grid->cells;
+  return SAM_MEMORY_PROGRAM + bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] * (double)grid->cells;
 }
 
 /* Available memory of this node, bytes; 0 if that is not known. */
@@ -31,24 +30,34 @@ static double AvailableMemory(void)
   return 1024 * kilobytes;
 }
 
-PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamRunNeeds *needs, const SamOptions *from)
+PetscErrorCode SamMemoryRefuse(MPI_Comm comm, double bytes, const char option[], const char value[],
+                               const SamOptions *from)
 {
-  double    need, worst;
+  double    need = bytes, worst;
   MPI_Comm  node;
   PetscBool check = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsBool(from, "memory_check", "refuse a grid that the memory at hand cannot hold", &check, NULL));
-  PetscCallMPI(MPI_Comm_split_type(grid->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  need = SamRunMemory(grid, needs);
+  PetscCall(SamOptionsBool(from, "memory_check", "refuse what the memory at hand cannot hold", &check, NULL));
+  PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
   PetscCallMPI(MPI_Comm_free(&node));
   worst = AvailableMemory();
   worst = worst > 0 ? need / worst : 0;
-  PetscCall(SamMax(grid->comm, 1, &worst));
-  PetscCheck(!check || worst <= 1, grid->comm, SAM_ERR_USER,
-             "-grid_n %" PetscInt_FMT ",%" PetscInt_FMT
-             ": needs about %.3g GB on a node, %.1f times what is available; use more nodes, or -memory_check false",
-             grid->nx, grid->ny, 1e-9 * need, worst);
+  PetscCall(SamMax(comm, 1, &worst));
+  PetscCheck(
+    !check || worst <= 1, comm, SAM_ERR_USER,
+    "%s %s: needs about %.3g GB on a node, %.1f times what is available; use more nodes, or -memory_check false",
+    option, value, 1e-9 * need, worst);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamRunNeeds *needs, const SamOptions *from)
+{
+  char cells[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(cells, sizeof(cells), "%" PetscInt_FMT ",%" PetscInt_FMT, grid->nx, grid->ny));
+  PetscCall(SamMemoryRefuse(grid->comm, SamRunMemory(grid, needs), "-grid_n", cells, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

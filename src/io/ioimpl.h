@@ -290,6 +290,8 @@ PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const SamStep *ste
 extern const char           SamXdmfHead[]; /* the first bytes of the file */
 PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);
+/* SamXdmfEscape - a copy of a text in which XML's own characters are escaped; the caller frees it. Not collective. */
+PETSC_INTERN PetscErrorCode SamXdmfEscape(const char text[], char **copy);
 /* SamXdmfMakeName - results.h5 -> results.xdmf; the caller frees it. Not collective. */
 PETSC_INTERN PetscErrorCode SamXdmfMakeName(const char results[], char **name);
 PETSC_INTERN const char    *SamXdmfGetName(SamXdmf xdmf);

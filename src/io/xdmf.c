@@ -25,7 +25,7 @@ struct _n_SamXdmf {
 
 /* ---- names ---- */
 
-static PetscErrorCode CopyAsXML(const char text[], char **copy)
+PetscErrorCode SamXdmfEscape(const char text[], char **copy)
 {
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(6 * strlen(text) + 1, copy));
@@ -184,7 +184,7 @@ PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf)
   x->grid = grid;
   x->file = -1;
   PetscCall(SamXdmfMakeName(results, &x->filename));
-  PetscCall(CopyAsXML(slash ? slash + 1 : results, &x->results));
+  PetscCall(SamXdmfEscape(slash ? slash + 1 : results, &x->results));
   PetscCall(SamFileCheckName(grid, "output", x->filename, SAM_FILE_XDMF));
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
   if (!rank) error = Begin(x);

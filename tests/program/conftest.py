@@ -55,9 +55,9 @@ def kill_all(run, ranks):
             os.kill(process, signal.SIGKILL)
 
 
-def execute(launcher, directory, options, ranks, check, extra=None):
+def execute(launcher, directory, options, ranks, check, extra=None, program=PROGRAM):
     """One run; with more than one rank by the launcher."""
-    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM)] + support.flatten(options)
+    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(program)] + support.flatten(options)
     done = subprocess.run(
         command,
         capture_output=True,

@@ -1,0 +1,64 @@
+/* Files of stresses in a body. */
+#ifndef PETSAM_STRESSFILE_H
+#define PETSAM_STRESSFILE_H
+
+#include <petsam/output.h>
+#include <petsam/stress.h>
+
+/* The quantities of a file, each of one or more datasets. */
+typedef enum {
+  SAM_QUANTITY_STRESS,    /* stress_xx ... stress_yz, Pa */
+  SAM_QUANTITY_MISES,     /* mises, Pa */
+  SAM_QUANTITY_PRINCIPAL, /* principal_1 >= principal_2 >= principal_3, Pa */
+  SAM_QUANTITY_SHEAR_MAX, /* shear_max, Pa: half the difference of the largest and the smallest principal stress */
+  SAM_QUANTITY_STRAIN,    /* strain_xx ... strain_yz, tensor shear strains */
+  SAM_QUANTITIES
+} SamQuantity;
+
+/* What a file holds. The arrays are the caller's. */
+typedef struct {
+  PetscInt         steps, depths;
+  const PetscReal *times, *depth; /* s, m */
+  PetscBool        section;       /* only one line of cells: */
+  SamSectionAxis   axis;
+  PetscInt         index;
+  PetscBool        wants[SAM_QUANTITIES];
+} SamStressLayout;
+
+/*
+  SamStressFile - an HDF5 file with the datasets of the quantities, of shape (time, z, y, x), their coordinates, and the
+  largest values of each step in /history. Every dataset has the attributes `units` and `long_name` and its dimension
+  scales, so that h5py and xarray open it; an XDMF file beside it describes it to ParaView and VisIt as a volume.
+*/
+typedef struct _n_SamStressFile *SamStressFile;
+
+/*
+  SamStressFileCreate - creates the file with all datasets; replaces an older file of petsam. It takes the name only
+  when SamStressFileFinish() has completed it. Collective. Errors: SAM_ERR_FILE, also when there is no space for it.
+*/
+PETSC_EXTERN PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const SamStressLayout *layout,
+                                                const SamParameters *parameters, SamStressFile *file);
+/*
+  SamStressFileWriteMap - values of a quantity's component on a plane, this rank's rows.
+  SamStressFileWriteSection - values at depths first ... first + count - 1, (count, length), of this rank.
+  Both are collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_EXTERN PetscErrorCode SamStressFileWriteMap(SamStressFile file, SamQuantity quantity, PetscInt component,
+                                                  PetscInt step, PetscInt depth, const double values[]);
+PETSC_EXTERN PetscErrorCode SamStressFileWriteSection(SamStressFile file, SamQuantity quantity, PetscInt component,
+                                                      PetscInt step, PetscInt first, PetscInt count,
+                                                      const double values[]);
+/* SamStressFileSetHistory - a number for each step in /history, with its unit. Collective. Errors: SAM_ERR_FILE. */
+PETSC_EXTERN PetscErrorCode SamStressFileSetHistory(SamStressFile file, const char name[], const char units[],
+                                                    const char long_name[], const double values[]);
+/* SamStressFileFinish - completes the file and gives it its name. Collective. Errors: SAM_ERR_FILE. */
+PETSC_EXTERN PetscErrorCode SamStressFileFinish(SamStressFile file);
+/* SamStressFileAbandon - removes a file that has not been finished, before the program is aborted. Not collective. */
+PETSC_EXTERN void SamStressFileAbandon(SamStressFile file);
+/* SamStressFileDestroy - removes a file that has not been finished. Collective. */
+PETSC_EXTERN PetscErrorCode SamStressFileDestroy(SamStressFile *file);
+
+/* SamQuantityComponents - number of the datasets of a quantity. Not collective. */
+PETSC_EXTERN PetscInt SamQuantityComponents(SamQuantity quantity);
+
+#endif

@@ -1,0 +1,71 @@
+/*
+  The program petsam-stress: a run (stress/stressrun.c) in the frame of program.c.
+
+  Exit codes: 0 done; 2 bad usage; 3 a file cannot be used; others are PETSc's.
+*/
+#include "program.h"
+#include "stress/stressrun.h"
+#include <petsam/private/baseimpl.h>
+
+static const char usage[] =
+  "petsam-stress " PETSAM_VERSION ": stresses in a body under the tractions that petsam has found.\n"
+  "\n"
+  "  petsam-stress -input sphere.h5 -output stress.h5 [-option value ...]\n"
+  "  mpirun -n 4 petsam-stress -input sphere.h5 -output section.h5 -section y=0 -depths 0:1e-3:64 -steps all\n"
+  "\n"
+  "All quantities in SI units, tension positive, z into the body; defaults in parentheses. Required: -input, -output.\n"
+  "-help prints this, -version the version. Exit codes: 0 done, 2 bad usage, 3 a file cannot be used.\n";
+
+static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStressRunSetUp((SamStressRun *)context, arguments));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Compute(void *context)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStressRunCompute((SamStressRun *)context));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TearDown(void *context)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStressRunTearDown((SamStressRun *)context));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static int GetStatus(const void *context)
+{
+  (void)context;
+  return 0;
+}
+
+static PetscBool IsWriting(const void *context)
+{
+  return ((const SamStressRun *)context)->writing;
+}
+
+/* Leaves no temporary file. */
+static void Abandon(void *context)
+{
+  SamStressFileAbandon(((SamStressRun *)context)->file);
+}
+
+int main(int argc, char **argv)
+{
+  static SamStressRun run;
+  const SamProgram    program = {.name     = "petsam-stress",
+                                 .usage    = usage,
+                                 .setup    = SetUp,
+                                 .run      = Compute,
+                                 .teardown = TearDown,
+                                 .status   = GetStatus,
+                                 .writing  = IsWriting,
+                                 .abandon  = Abandon,
+                                 .context  = &run};
+
+  return SamProgramMain(&program, argc, argv);
+}

@@ -1,0 +1,375 @@
+/*
+  Files of stresses: datasets of shape (time, z, y, x), all of them created at once and filled part by part.
+
+  The file is written beside its name and renamed when it is complete. The XDMF file is small and written at the end.
+*/
+#include "ioimpl.h"
+#include <errno.h>
+#include <hdf5_hl.h>
+#include <petsam/stressfile.h>
+#include <stdio.h>
+#include <string.h>
+
+#define OPTION "output"
+
+enum { DATASETS = 2 * SAM_STRESS_COMPONENTS + 5, DIMENSIONS = 4, TIME = 0, Z, Y, X };
+
+typedef struct {
+  SamOutputLabel label;
+  SamQuantity    quantity;
+} Dataset;
+
+static const Dataset datasets[DATASETS] = {
+  {{"stress_xx", "Pa", "stress xx, tension positive"}, SAM_QUANTITY_STRESS},
+  {{"stress_yy", "Pa", "stress yy"}, SAM_QUANTITY_STRESS},
+  {{"stress_zz", "Pa", "stress zz, z points into the body"}, SAM_QUANTITY_STRESS},
+  {{"stress_xy", "Pa", "stress xy"}, SAM_QUANTITY_STRESS},
+  {{"stress_xz", "Pa", "stress xz"}, SAM_QUANTITY_STRESS},
+  {{"stress_yz", "Pa", "stress yz"}, SAM_QUANTITY_STRESS},
+  {{"mises", "Pa", "von Mises stress"}, SAM_QUANTITY_MISES},
+  {{"principal_1", "Pa", "largest principal stress"}, SAM_QUANTITY_PRINCIPAL},
+  {{"principal_2", "Pa", "middle principal stress"}, SAM_QUANTITY_PRINCIPAL},
+  {{"principal_3", "Pa", "smallest principal stress"}, SAM_QUANTITY_PRINCIPAL},
+  {{"shear_max", "Pa", "largest shear stress"}, SAM_QUANTITY_SHEAR_MAX},
+  {{"strain_xx", "1", "strain xx"}, SAM_QUANTITY_STRAIN},
+  {{"strain_yy", "1", "strain yy"}, SAM_QUANTITY_STRAIN},
+  {{"strain_zz", "1", "strain zz"}, SAM_QUANTITY_STRAIN},
+  {{"strain_xy", "1", "strain xy, tensor shear strain"}, SAM_QUANTITY_STRAIN},
+  {{"strain_xz", "1", "strain xz, tensor shear strain"}, SAM_QUANTITY_STRAIN},
+  {{"strain_yz", "1", "strain yz, tensor shear strain"}, SAM_QUANTITY_STRAIN},
+};
+
+struct _n_SamStressFile {
+  SamGrid   grid;
+  char     *filename, *temporary;
+  SamHold   hold; /* of the temporary file */
+  SamFile   f;
+  PetscInt  steps;
+  hsize_t   shape[DIMENSIONS];
+  hid_t     dataset[DATASETS], scale[DIMENSIONS], history, history_time;
+  double   *coordinate[DIMENSIONS];
+  PetscBool wants[SAM_QUANTITIES];
+  PetscBool broken; /* a write has failed: no collective call on the file may follow */
+};
+
+PetscInt SamQuantityComponents(SamQuantity quantity)
+{
+  PetscInt count = 0;
+
+  for (PetscInt d = 0; d < DATASETS; d++) count += datasets[d].quantity == quantity;
+  return count;
+}
+
+/* ---- creation ---- */
+
+static hid_t CreateDataset(SamStressFile s, hid_t where, const SamOutputLabel *label, int rank, const hsize_t shape[])
+{
+  const hid_t space    = SamFileNote(s->f, H5Screate_simple(rank, shape, NULL)),
+              creation = SamFileNote(s->f, H5Pcreate(H5P_DATASET_CREATE));
+  hid_t dataset;
+
+  (void)SamFileNote(s->f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER)); /* every value is written */
+  dataset =
+    SamFileNote(s->f, H5Dcreate2(where, label->name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  SamFileWriteTextAttribute(s->f, dataset, "units", label->units);
+  SamFileWriteTextAttribute(s->f, dataset, "long_name", label->long_name);
+  (void)SamFileNote(s->f, H5Pclose(creation));
+  (void)SamFileNote(s->f, H5Sclose(space));
+  return dataset;
+}
+
+/* Writes a series from rank 0. */
+static void WriteSeries(SamStressFile s, hid_t dataset, const double values[])
+{
+  const hid_t space = SamFileNote(s->f, H5Dget_space(dataset));
+
+  if (s->f->rank) (void)SamFileNote(s->f, H5Sselect_none(space));
+  (void)SamFileNote(s->f, H5Dwrite(dataset, H5T_NATIVE_DOUBLE, space, space, s->f->transfer, values));
+  (void)SamFileNote(s->f, H5Sclose(space));
+}
+
+static const SamOutputLabel coordinate_labels[DIMENSIONS] = {{"time", "s", "time of the load steps"},
+                                                             {"z", "m", "depth below the surface"},
+                                                             {"y", "m", "y of the cell centres"},
+                                                             {"x", "m", "x of the cell centres"}};
+static const char *const    axes[DIMENSIONS]              = {"T", "Z", "Y", "X"};
+
+/* The coordinates of all four dimensions; a section has one y or one x. */
+static PetscErrorCode SetCoordinates(SamStressFile s, const SamStressLayout *layout)
+{
+  const SamGrid g = s->grid;
+
+  PetscFunctionBegin;
+  s->shape[TIME] = (hsize_t)layout->steps;
+  s->shape[Z]    = (hsize_t)layout->depths;
+  s->shape[Y]    = layout->section && layout->axis == SAM_SECTION_X ? 1 : (hsize_t)g->ny;
+  s->shape[X]    = layout->section && layout->axis == SAM_SECTION_Y ? 1 : (hsize_t)g->nx;
+  for (int d = 0; d < DIMENSIONS; d++) PetscCall(PetscMalloc1(s->shape[d], &s->coordinate[d]));
+  for (hsize_t k = 0; k < s->shape[TIME]; k++) s->coordinate[TIME][k] = (double)layout->times[k];
+  for (hsize_t k = 0; k < s->shape[Z]; k++) s->coordinate[Z][k] = (double)layout->depth[k];
+  for (hsize_t k = 0; k < s->shape[Y]; k++)
+    s->coordinate[Y][k] = (double)SamGridY(g, s->shape[Y] == 1 ? layout->index : (PetscInt)k);
+  for (hsize_t k = 0; k < s->shape[X]; k++)
+    s->coordinate[X][k] = (double)SamGridX(g, s->shape[X] == 1 ? layout->index : (PetscInt)k);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void CreateAll(SamStressFile s, const SamParameters *parameters)
+{
+  SamFileWriteTextAttribute(s->f, s->f->id, "Conventions", "CF-1.8");
+  SamFileWriteTextAttribute(s->f, s->f->id, "title", "Stresses under a partial-slip contact");
+  SamFileWriteTextAttribute(s->f, s->f->id, "source", "petsam-stress " PETSAM_VERSION ", semi-analytical method");
+  SamFileWriteTextAttribute(s->f, s->f->id, "petsam_version", PETSAM_VERSION);
+  SamParametersWrite(s->f, parameters);
+  for (int d = 0; d < DIMENSIONS; d++) {
+    s->scale[d] = CreateDataset(s, s->f->id, &coordinate_labels[d], 1, &s->shape[d]);
+    SamFileWriteTextAttribute(s->f, s->scale[d], "axis", axes[d]);
+    (void)SamFileNote(s->f, H5DSset_scale(s->scale[d], coordinate_labels[d].name));
+    WriteSeries(s, s->scale[d], s->coordinate[d]);
+  }
+  for (PetscInt k = 0; k < DATASETS; k++) {
+    if (!s->wants[datasets[k].quantity]) continue;
+    s->dataset[k] = CreateDataset(s, s->f->id, &datasets[k].label, DIMENSIONS, s->shape);
+    for (unsigned d = 0; d < DIMENSIONS; d++) (void)SamFileNote(s->f, H5DSattach_scale(s->dataset[k], s->scale[d], d));
+  }
+  s->history      = SamFileNote(s->f, H5Gcreate2(s->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  s->history_time = CreateDataset(s, s->history, &coordinate_labels[TIME], 1, &s->shape[TIME]);
+  (void)SamFileNote(s->f, H5DSset_scale(s->history_time, "time"));
+  WriteSeries(s, s->history_time, s->coordinate[TIME]);
+}
+
+/* The size of all datasets, bytes. */
+static off_t Bytes(SamStressFile s)
+{
+  off_t bytes = (off_t)sizeof(double), count = 0;
+
+  for (PetscInt k = 0; k < DATASETS; k++) count += s->wants[datasets[k].quantity];
+  for (int d = 0; d < DIMENSIONS; d++) bytes *= (off_t)s->shape[d];
+  return count * bytes;
+}
+
+PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const SamStressLayout *layout,
+                                   const SamParameters *parameters, SamStressFile *file)
+{
+  SamStressFile s;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(PetscNew(&s));
+  *file        = s;
+  s->hold.file = -1;
+  s->history = s->history_time = -1;
+  for (PetscInt k = 0; k < DATASETS; k++) s->dataset[k] = -1;
+  for (int d = 0; d < DIMENSIONS; d++) s->scale[d] = -1;
+  PetscCall(SamGridReference(grid));
+  s->grid  = grid;
+  s->steps = layout->steps;
+  PetscCall(PetscArraycpy(s->wants, layout->wants, SAM_QUANTITIES));
+  PetscCall(PetscStrallocpy(filename, &s->filename));
+  PetscCall(SamFileNameBeside(filename, ".tmp", &s->temporary));
+  PetscCall(SetCoordinates(s, layout));
+  PetscCall(SamFileCheckName(grid, OPTION, filename, SAM_FILE_RESULTS));
+  PetscCall(SamHoldTake(grid, OPTION, s->temporary, SAM_FILE_TEMPORARY, &s->hold));
+  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, OPTION, s->temporary, SAM_FILE_CREATE, &s->f));
+  PetscCall(SamFileReserve(s->f, Bytes(s)));
+  PetscCall(SamFileBegin(s->f));
+  CreateAll(s, parameters);
+  PetscCall(SamFileEnd(s->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- values ---- */
+
+static PetscErrorCode Write(SamStressFile s, SamQuantity quantity, PetscInt component, const hsize_t start[],
+                            const hsize_t count[], const double values[])
+{
+  hsize_t        size = 1;
+  hid_t          space, memory;
+  PetscInt       k = 0;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  while (k < DATASETS && datasets[k].quantity != quantity) k++;
+  k += component;
+  for (int d = 0; d < DIMENSIONS; d++) size *= count[d];
+  PetscCall(SamFileBegin(s->f));
+  space  = SamFileNote(s->f, H5Dget_space(s->dataset[k]));
+  memory = SamFileNote(s->f, H5Screate_simple(1, &size, NULL));
+  if (size) {
+    (void)SamFileNote(s->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL));
+  } else {
+    (void)SamFileNote(s->f, H5Sselect_none(space));
+    (void)SamFileNote(s->f, H5Sselect_none(memory));
+  }
+  (void)SamFileNote(s->f, H5Dwrite(s->dataset[k], H5T_NATIVE_DOUBLE, memory, space, s->f->transfer, values));
+  (void)SamFileNote(s->f, H5Sclose(memory));
+  (void)SamFileNote(s->f, H5Sclose(space));
+  ierr = SamFileEnd(s->f);
+  if (ierr) s->broken = PETSC_TRUE;
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStressFileWriteMap(SamStressFile s, SamQuantity quantity, PetscInt component, PetscInt step,
+                                     PetscInt depth, const double values[])
+{
+  const hsize_t start[] = {(hsize_t)step, (hsize_t)depth, (hsize_t)s->grid->row_start, 0},
+                count[] = {1, 1, (hsize_t)s->grid->rows, (hsize_t)s->grid->nx};
+
+  PetscFunctionBegin;
+  PetscCall(Write(s, quantity, component, start, count, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStressFileWriteSection(SamStressFile s, SamQuantity quantity, PetscInt component, PetscInt step,
+                                         PetscInt first, PetscInt count, const double values[])
+{
+  const hsize_t start[] = {(hsize_t)step, (hsize_t)first, 0, 0}, size[] = {1, (hsize_t)count, s->shape[Y], s->shape[X]};
+
+  PetscFunctionBegin;
+  PetscCall(Write(s, quantity, component, start, size, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStressFileSetHistory(SamStressFile s, const char name[], const char units[], const char long_name[],
+                                       const double values[])
+{
+  const SamOutputLabel label = {name, units, long_name};
+  hid_t                dataset;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(s->f));
+  dataset = CreateDataset(s, s->history, &label, 1, &s->shape[TIME]);
+  (void)SamFileNote(s->f, H5DSattach_scale(dataset, s->history_time, 0));
+  WriteSeries(s, dataset, values);
+  (void)SamFileNote(s->f, H5Dclose(dataset));
+  PetscCall(SamFileEnd(s->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the end ---- */
+
+static void WriteAxis(FILE *file, const char name[], const double values[], hsize_t n)
+{
+  fprintf(file,
+          "        <DataItem Name=\"%s\" Dimensions=\"%llu\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">",
+          name, (unsigned long long)n);
+  for (hsize_t k = 0; k < n; k++) fprintf(file, "%s%.17g", k % 8 ? " " : "\n          ", values[k]);
+  fprintf(file, "\n        </DataItem>\n");
+}
+
+/* One step of a dataset, taken from the HDF5 file. */
+static void WriteAttribute(FILE *file, const SamStressFile s, const char results[], PetscInt k, hsize_t step)
+{
+  const unsigned long long t = step, n[3] = {s->shape[Z], s->shape[Y], s->shape[X]};
+
+  fprintf(file,
+          "      <Attribute Name=\"%s\" Center=\"Node\">\n"
+          "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"%llu %llu %llu\">\n"
+          "          <DataItem Dimensions=\"3 4\" Format=\"XML\">%llu 0 0 0 1 1 1 1 1 %llu %llu %llu</DataItem>\n"
+          "          <DataItem Dimensions=\"%llu %llu %llu %llu\" NumberType=\"Float\" Precision=\"8\" "
+          "Format=\"HDF\">%s:/%s</DataItem>\n"
+          "        </DataItem>\n"
+          "      </Attribute>\n",
+          datasets[k].label.name, n[0], n[1], n[2], t, n[0], n[1], n[2], (unsigned long long)s->shape[TIME], n[0], n[1],
+          n[2], results, datasets[k].label.name);
+}
+
+/* The whole description; returns an errno or 0. */
+static int WriteXdmf(const SamStressFile s, const char name[], const char results[])
+{
+  FILE *file = fopen(name, "w");
+  int   bad;
+
+  if (!file) return errno;
+  fprintf(file, "%s", SamXdmfHead);
+  for (hsize_t t = 0; t < s->shape[TIME]; t++) {
+    fprintf(file,
+            "    <Grid Name=\"step\">\n      <Time Value=\"%.17g\"/>\n"
+            "      <Topology TopologyType=\"3DRectMesh\" Dimensions=\"%llu %llu %llu\"/>\n"
+            "      <Geometry GeometryType=\"VXVYVZ\">\n",
+            s->coordinate[TIME][t], (unsigned long long)s->shape[Z], (unsigned long long)s->shape[Y],
+            (unsigned long long)s->shape[X]);
+    WriteAxis(file, "x", s->coordinate[X], s->shape[X]);
+    WriteAxis(file, "y", s->coordinate[Y], s->shape[Y]);
+    WriteAxis(file, "z", s->coordinate[Z], s->shape[Z]);
+    fprintf(file, "      </Geometry>\n");
+    for (PetscInt k = 0; k < DATASETS; k++)
+      if (s->wants[datasets[k].quantity]) WriteAttribute(file, s, results, k, t);
+    fprintf(file, "    </Grid>\n");
+  }
+  fprintf(file, "    </Grid>\n  </Domain>\n</Xdmf>\n");
+  bad = ferror(file) ? EIO : 0;
+  return fclose(file) ? errno : bad;
+}
+
+static PetscErrorCode Describe(SamStressFile s)
+{
+  const char *slash = strrchr(s->filename, '/');
+  char       *name, *results;
+  int         error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamXdmfMakeName(s->filename, &name));
+  PetscCall(SamXdmfEscape(slash ? slash + 1 : s->filename, &results));
+  PetscCall(SamFileCheckName(s->grid, OPTION, name, SAM_FILE_XDMF));
+  if (s->f->rank == 0) error = WriteXdmf(s, name, results);
+  PetscCall(SamFileRaise(s->grid, OPTION, name, error));
+  PetscCall(PetscFree(results));
+  PetscCall(PetscFree(name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void CloseAll(SamStressFile s)
+{
+  for (PetscInt k = 0; k < DATASETS; k++) {
+    if (s->dataset[k] >= 0) (void)SamFileNote(s->f, H5Dclose(s->dataset[k]));
+    s->dataset[k] = -1;
+  }
+  for (int d = 0; d < DIMENSIONS; d++) {
+    if (s->scale[d] >= 0) (void)SamFileNote(s->f, H5Dclose(s->scale[d]));
+    s->scale[d] = -1;
+  }
+  if (s->history_time >= 0) (void)SamFileNote(s->f, H5Dclose(s->history_time));
+  if (s->history >= 0) (void)SamFileNote(s->f, H5Gclose(s->history));
+  s->history = s->history_time = -1;
+}
+
+PetscErrorCode SamStressFileFinish(SamStressFile s)
+{
+  PetscFunctionBegin;
+  PetscCall(Describe(s));
+  PetscCall(SamFileBegin(s->f));
+  CloseAll(s);
+  PetscCall(SamFileEnd(s->f));
+  PetscCall(SamFileDestroy(&s->f, PETSC_TRUE));
+  PetscCall(SamFileReplace(s->grid, OPTION, s->temporary, s->filename, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamStressFileAbandon(SamStressFile s)
+{
+  if (s) SamHoldRelease(s->temporary, &s->hold);
+}
+
+PetscErrorCode SamStressFileDestroy(SamStressFile *file)
+{
+  SamStressFile s = *file;
+
+  PetscFunctionBegin;
+  *file = NULL;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->f && !s->broken) {
+    PetscCall(SamFileBegin(s->f));
+    CloseAll(s);
+    PetscCall(SamFileEnd(s->f));
+  }
+  if (s->f) PetscCall(SamFileDestroy(&s->f, s->broken ? PETSC_FALSE : PETSC_TRUE));
+  SamHoldRelease(s->temporary, &s->hold);
+  for (int d = 0; d < DIMENSIONS; d++) PetscCall(PetscFree(s->coordinate[d]));
+  PetscCall(PetscFree(s->filename));
+  PetscCall(PetscFree(s->temporary));
+  PetscCall(SamGridDestroy(&s->grid));
+  PetscCall(PetscFree(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,151 @@
+"""petsam-stress: stresses from a results file, as maps and sections, on any number of ranks, and its refusals."""
+
+import shutil
+
+import h5py
+import numpy as np
+import pytest
+
+import conftest
+from support import SPHERE, hertz, slide_limit
+
+QUANTITIES = "stress,mises,principal,shear_max,strain"
+PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
+COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+
+
+@pytest.fixture(scope="module")
+def contact(launcher, tmp_path_factory):
+    """The folder of a run: a sphere that is pushed to and fro, the fields of every second of six steps."""
+    folder = tmp_path_factory.mktemp("contact")
+    tx = 0.6 * slide_limit(SPHERE)[0]
+    rows = "\n".join(f"{k + 1},{f * tx}" for k, f in enumerate((0.5, 1, 0.5, -1, -0.5, 1)))
+    (folder / "h.csv").write_text("time,load_tx\n" + rows + "\n")
+    case = dict(SPHERE, grid_n=(65, 64), history="h.csv", output="c.h5", output_every=2)
+    conftest.execute(launcher, folder, [case], 1, 0)
+    return folder
+
+
+@pytest.fixture
+def stress(launcher, contact):
+    """stress(options, ranks=1, check=0): what a run of petsam-stress in the contact's folder prints to stderr."""
+
+    def run(options, ranks=1, check=0):
+        return conftest.execute(launcher, contact, [options], ranks, check, program=PROGRAM).stderr
+
+    return run
+
+
+def read(path):
+    with h5py.File(path) as f:
+        names = [*f, *("history/" + k for k in f["history"])]
+        return {name: f[name][()] for name in names if isinstance(f[name], h5py.Dataset)}
+
+
+def test_surface_has_the_tractions(stress, contact):
+    stress(dict(input="c.h5", output="s.h5", depths=0.0, steps="all"))
+    s, c = read(contact / "s.h5"), read(contact / "c.h5")
+    assert s["time"].tolist() == [2, 4, 6] and s["stress_zz"].shape == (3, 1, 64, 65)
+    assert np.array_equal(s["stress_zz"][:, 0], -c["pressure"])
+    assert np.array_equal(s["stress_xz"][:, 0], -c["shear_x"]) and np.array_equal(s["stress_yz"][:, 0], -c["shear_y"])
+
+
+def test_axis_is_that_of_hertz(stress, contact):
+    h = hertz(SPHERE)
+    depths = [0.2 * h.radius, 0.5 * h.radius, h.radius]
+    stress(dict(input="c.h5", output="a.h5", depths=",".join(repr(float(z)) for z in depths), section="y=0", body=1))
+    s = read(contact / "a.h5")
+    for k, z in enumerate(np.array(depths) / h.radius):
+        zz = np.interp(0.0, s["x"], s["stress_zz"][0, k, 0]) / h.pressure
+        assert zz == pytest.approx(-1 / (1 + z * z), abs=5e-3)  # the row nearest to y = 0 is half a cell beside it
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_results_do_not_depend_on_the_ranks(stress, contact, ranks):
+    for section in (None, "y=0", "x=1e-4"):
+        for n in (1, ranks):
+            stress(dict(input="c.h5", output=f"n{n}.h5", depths="0:5e-4:5", steps="all", section=section,
+                        quantities=QUANTITIES), ranks=n)  # fmt: skip
+        one, many = read(contact / "n1.h5"), read(contact / f"n{ranks}.h5")
+        assert set(one) == set(many) and all(np.array_equal(one[k], many[k]) for k in one)
+
+
+def test_sections_are_rows_and_columns_of_the_maps(stress, contact):
+    common = dict(input="c.h5", depths="0,3e-5,4e-4", steps="2:6:4", quantities=QUANTITIES)
+    stress(dict(common, output="map.h5"))
+    maps = read(contact / "map.h5")
+    for section, axis, at in (("y=1e-4", 2, "y"), ("x=-2e-4", 3, "x")):
+        stress(dict(common, output="line.h5", section=section))
+        line = read(contact / "line.h5")
+        k = int(np.argmin(abs(maps[at] - line[at][0])))
+        for name in maps:
+            if maps[name].ndim == 4:
+                part = np.take(maps[name], [k], axis=axis)
+                assert np.allclose(line[name], part, rtol=0, atol=1e-12 * abs(maps[name]).max()), name
+
+
+def test_quantities_belong_to_the_stresses(stress, contact):
+    stress(dict(input="c.h5", output="q.h5", depths="0,1e-4", quantities=QUANTITIES))
+    s = read(contact / "q.h5")
+    xx, yy, zz, xy, xz, yz = (s["stress_" + c] for c in COMPONENTS)
+    tensor = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), (0, 1), (-2, -1))
+    principal = np.linalg.eigvalsh(tensor)
+    scale = abs(principal).max()
+    for k in range(3):
+        assert np.allclose(s[f"principal_{k + 1}"], principal[..., 2 - k], rtol=0, atol=1e-12 * scale)
+    assert np.allclose(s["shear_max"], 0.5 * (principal[..., 2] - principal[..., 0]), rtol=0, atol=1e-12 * scale)
+    young, nu = SPHERE["body2_young"], SPHERE["body2_poisson"]
+    assert np.allclose(s["strain_xx"], (xx - nu * (yy + zz)) / young, rtol=0, atol=1e-12 * scale / young)
+    assert np.allclose(s["strain_xz"], (1 + nu) / young * xz, rtol=0, atol=1e-12 * scale / young)
+    for name in ("mises", "principal_1"):
+        place = np.unravel_index(np.argmax(s[name][0]), s[name][0].shape)
+        assert s[f"history/{name}_max"][0] == s[name][0].max()
+        assert [s[f"history/{name}_max_{c}"][0] for c in "zyx"] == [s[c][k] for c, k in zip("zyx", place)]
+
+
+def test_xarray_opens_it_as_a_volume(stress, contact):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("netCDF4")
+    stress(dict(input="c.h5", output="v.h5", depths="0,1e-4"))
+    with xarray.open_dataset(contact / "v.h5", engine="netcdf4") as data:
+        assert data["mises"].dims == ("time", "z", "y", "x") and data["stress_xx"].attrs["units"] == "Pa"
+        assert float(data["mises"].isel(time=0).sel(z=1e-4).max()) > 0
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize(
+    "options, code, says",
+    [
+        (dict(input=None), 2, "-input is missing"),
+        (dict(output=None), 2, "-output is missing"),
+        (dict(input="none.h5"), 3, "none.h5: cannot be read: No such file"),
+        (dict(input="h.csv"), 3, "h.csv: cannot be read: it is not an HDF5 file"),
+        (dict(input="other.h5"), 3, "other.h5: cannot be read: it lacks the attribute"),
+        (dict(input="cut.h5"), 3, "cut.h5: cannot be read"),
+        (dict(output="c.h5"), 2, "-output c.h5"),
+        (dict(output="h.csv"), 3, "not written"),
+        (dict(body=3), 2, "-body 3"),
+        (dict(depths="-1e-6"), 2, "-depths -1e-6"),
+        (dict(depths="0,1e-4,1e-5"), 2, "increase"),
+        (dict(depths="0:1e-3"), 2, "first:last:number"),
+        (dict(depths="1e-15"), 2, "millionth of a cell"),
+        (dict(depths="nan"), 2, "-depths nan"),
+        (dict(section="z=0"), 2, "-section z=0"),
+        (dict(section="y=1"), 2, "outside of the grid"),
+        (dict(steps="3"), 2, "step 3 of c.h5 has not been saved"),
+        (dict(steps="2:9"), 2, "there is no step 9"),
+        (dict(steps="0"), 2, "-steps 0"),
+        (dict(quantities="mises,temperature"), 2, "-quantities mises,temperature"),
+        (dict(friction=0.3), 2, "-friction"),
+    ],
+)
+def test_bad_input_is_named(stress, contact, options, code, says, ranks):
+    with h5py.File(contact / "other.h5", "w") as f:
+        f["pressure"] = np.zeros((1, 4, 4))
+    shutil.copy(contact / "c.h5", contact / "cut.h5")
+    with open(contact / "cut.h5", "r+b") as f:
+        f.truncate((contact / "c.h5").stat().st_size // 2)
+    before = {path.name: path.read_bytes() for path in contact.iterdir() if path.suffix in (".h5", ".csv")}
+    complaint = stress(dict(dict(input="c.h5", output="new.h5"), **options), ranks=ranks, check=code)
+    assert says in complaint and "PETSC ERROR" not in complaint
+    assert before == {path.name: path.read_bytes() for path in contact.iterdir() if path.suffix in (".h5", ".csv")}
