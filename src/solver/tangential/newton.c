@@ -446,7 +446,6 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
     const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE, whole = w.whole;
     PetscBool       downhill = PETSC_TRUE;
 
-    if (stagnant > 0 && stagnant % SHIFT == 0) PetscCall(Shift(&w, &best));
     PetscCall(Iterate(&w, gradient, &downhill, &found));
     if (downhill && Error(&w) <= level->rtol) PetscCall(Finish(&w, &found));
     if (!downhill || !found) { /* but for a start that was not admissible, the loads can be carried */
@@ -455,7 +454,11 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
     }
     stagnant = u->error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, u->error);
-    reason   = Reason(&w, stagnant);
+    if (stagnant > 0 && stagnant % SHIFT == 0) {
+      PetscCall(Shift(&w, &best));
+      if (Error(&w) <= level->rtol) PetscCall(Finish(&w, &found));
+    }
+    reason = found ? Reason(&w, stagnant) : SAM_SOLVER_DIVERGED_STAGNATED;
   }
   solver->reason = reason;
   solver->error  = Error(&w);
