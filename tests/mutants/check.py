@@ -97,7 +97,8 @@ def build(tree, targets):
 
 def targets_of(tests):
     """What make must build for these tests."""
-    return sorted({"build/bin/petsam" if ".py" in test else "build/tests/" + test.split("@")[0] for test in tests})
+    units = {"build/tests/" + test.split("@")[0] for test in tests if ".py" not in test}
+    return sorted(units | ({"all"} if any(".py" in test for test in tests) else set()))
 
 
 def command_of(tree, test):
