@@ -18,5 +18,9 @@
 #include <petsam/contact.h>
 #include <petsam/output.h>
 #include <petsam/checkpoint.h>
+#include <petsam/results.h>
+#include <petsam/stress.h>
+#include <petsam/fatigue.h>
+#include <petsam/stressfile.h>
 
 #endif
