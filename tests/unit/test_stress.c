@@ -12,12 +12,17 @@ typedef struct {
   Vec       p, q, s;
 } Case;
 
-static Case NewCase(SamGrid grid, PetscInt body)
+static Case NewCaseOf(SamGrid grid, PetscInt body, double poisson)
 {
   Case c = {.grid = grid, .p = NewField(grid, 1), .q = NewField(grid, 2), .s = NewField(grid, COMPONENTS)};
 
-  sam_call(SamStressCreate(grid, NULL, body, NU, &c.stress));
+  sam_call(SamStressCreate(grid, NULL, body, poisson, &c.stress));
   return c;
+}
+
+static Case NewCase(SamGrid grid, PetscInt body)
+{
+  return NewCaseOf(grid, body, NU);
 }
 
 static void DestroyCase(Case *c)
@@ -181,6 +186,60 @@ static void test_axis_is_that_of_hertz_to_second_order(void **state)
   sam_assert(fine < coarse / 3);
 }
 
+/* Von Mises stress on the axis: |s_zz - s_rr|. */
+static double AxisMises(double nu, double z)
+{
+  const double zz = -1 / (1 + z * z);
+
+  return fabs(zz + (1 + nu) * (1 - z * atan(1 / z)) + 0.5 * zz);
+}
+
+/* The place of its largest value, by halving. */
+static double LargestOnAxis(double nu)
+{
+  double low = 0.05, high = 1.5;
+
+  for (int k = 0; k < 200; k++) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+
+    if (AxisMises(nu, a) < AxisMises(nu, b))
+      low = a;
+    else
+      high = b;
+  }
+  return 0.5 * (low + high);
+}
+
+static void test_largest_mises_stress_for_all_poisson_ratios(void **state)
+{
+  const double ratios[] = {0, 0.25, 0.3, 0.4, 0.5};
+
+  (void)state;
+  sam_assert_close(LargestOnAxis(0.3), 0.48086449, 1e-7);
+  sam_assert_close(AxisMises(0.3, LargestOnAxis(0.3)), 0.6200410039, 1e-9);
+  for (int n = 0; n < 5; n++) {
+    Case         c    = NewCaseOf(NewGrid(129, 129, 2.6, 2.6), 2, ratios[n]);
+    const double best = LargestOnAxis(ratios[n]), places[] = {0.93 * best, best, 1.07 * best};
+    double       mises[3];
+
+    SetHertz(&c, 0, 0);
+    for (int k = 0; k < 3; k++) {
+      double        s[COMPONENTS];
+      const double *at[COMPONENTS];
+
+      Compute(&c, places[k]);
+      for (int i = 0; i < COMPONENTS; i++) {
+        s[i]  = At(&c, (SamStressComponent)i, 64, 64);
+        at[i] = &s[i];
+      }
+      SamStressMises(1, at, &mises[k]);
+    }
+    sam_assert_close(mises[1], AxisMises(ratios[n], best), 1e-4);
+    sam_assert(mises[1] > mises[0] && mises[1] > mises[2]);
+    DestroyCase(&c);
+  }
+}
+
 /* Errors of xx, yy and xy on the surface inside 0.9 a, for sliding with friction mu or partial slip. */
 static void SurfaceErrors(PetscInt n, double mu, double error[3])
 {
@@ -340,6 +399,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_stresses_are_sums_over_the_cells),
     cmocka_unit_test(test_axis_is_that_of_hertz_to_second_order),
+    cmocka_unit_test(test_largest_mises_stress_for_all_poisson_ratios),
     cmocka_unit_test(test_surface_is_that_of_hertz_and_of_sliding),
     cmocka_unit_test(test_points_at_depth),
     cmocka_unit_test(test_shear_leaves_the_stick_zone_free_of_plane_stress),
