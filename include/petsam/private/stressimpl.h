@@ -40,7 +40,7 @@ typedef struct {
 /*
   SamStressRow - the kernels of a group at the lags (i, j), i = 0 ... n - 1, j >= 0, in cells: the stress in a cell's
   centre by unit traction on the cell that lies so far before it. They contain the correction of values at centres
-  (stress.c). Not collective.
+  (cell.c). Not collective.
 */
 PETSC_EXTERN void SamStressRow(const SamStressSource *source, SamStressGroup group, PetscInt j, PetscInt n,
                                double *const values[SAM_STRESS_GROUP]);
