@@ -31,16 +31,29 @@ typedef struct {
 } SamComponentName;
 PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
 
-/* SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest. */
+/* The components of a bulk stress, in the order used everywhere. */
+typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamBulkComponent;
+
+/* SamBulkName - the name of a component of a body's bulk stress in options, histories and results; its description. */
+typedef struct {
+  const char *name, *text;
+} SamBulkName;
+PETSC_EXTERN const SamBulkName SamBulkNames[2][SAM_BULK_COMPONENTS];
+
+/*
+  SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest.
+  A bulk stress stretches the surface of its body about x = y = 0 by Hooke's law, without stress normal to the surface;
+  tension is positive.
+*/
 typedef struct {
   PetscReal time;                  /* s; stored with the results, the solution does not depend on it */
   PetscBool force[SAM_COMPONENTS]; /* true: the load is given and the displacement is found; false: the reverse */
   PetscReal value[SAM_COMPONENTS]; /* the given load (N, N m) or displacement (m, rad) */
   PetscReal friction_scale;        /* factor on the coefficient of friction, >= 0 */
-  PetscReal stretch[3];            /* bulk strains xx, yy, xy of body 2's surface minus those of body 1's */
+  PetscReal bulk_stress[2][SAM_BULK_COMPONENTS]; /* Pa, of body 1 and 2: uniform, parallel to the surface */
 } SamControl;
 
-/* SamControlInitialize - all loads given and 0, friction scale 1, no stretch, time 0. Not collective. */
+/* SamControlInitialize - all loads given and 0, friction scale 1, no bulk stress, time 0. Not collective. */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
 /*
   SamControlSet - prescribes a component by the name of its load or of its displacement ("load_tx", "disp_x"; N, N m, m

@@ -38,16 +38,23 @@ PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, cons
 */
 typedef struct _n_SamOutput *SamOutput;
 
+/* Columns of /history that a file has only when they are asked for. */
+typedef enum {
+  SAM_OUTPUT_FRICTION_SCALE, /* friction_scale */
+  SAM_OUTPUT_BULK_STRESS,    /* bulk1_stress_xx ... bulk2_stress_xy */
+  SAM_OUTPUT_OPTIONS
+} SamOutputOption;
+
 /* How a results file is written. */
 typedef struct {
-  PetscInt  compress;       /* deflate level of the fields, 0 (none) to 9 */
-  PetscInt  chunk[2];       /* most cells of an HDF5 chunk in x, y */
-  PetscBool xdmf;           /* write an XDMF file beside the results */
-  PetscBool friction_scale; /* the history has a column for the friction scale */
+  PetscInt  compress; /* deflate level of the fields, 0 (none) to 9 */
+  PetscInt  chunk[2]; /* most cells of an HDF5 chunk in x, y */
+  PetscBool xdmf;     /* write an XDMF file beside the results */
+  PetscBool with[SAM_OUTPUT_OPTIONS];
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (no compression, chunks of 1024 x 256 cells, with XDMF file, no
-  friction scale), then reads -output_compress, -output_chunk and -output_xdmf. Collective. Errors: SAM_ERR_USER.
+  optional columns), then reads -output_compress, -output_chunk and -output_xdmf. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 

@@ -153,7 +153,8 @@ static PetscBool TimeIsUp(const SamCheckpoints cp, double now)
 
 /* ---- the position in the load program, and the program up to there ---- */
 
-#define COLUMNS (2 + SAM_COMPONENTS) /* of the load program: time, friction, the components */
+#define BULK    (2 + SAM_COMPONENTS)             /* first column of the bulk stresses */
+#define COLUMNS (BULK + 2 * SAM_BULK_COMPONENTS) /* of the load program: time, friction, components, bulk stresses */
 
 /* Checksums of each column of the load program over the first steps; for a component, with its kind of control. */
 static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64_t columns[COLUMNS])
@@ -170,6 +171,9 @@ static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64
       columns[2 + c] = SamHashMix(columns[2 + c] + SamHashBits(control.value[c]));
       columns[2 + c] = SamHashMix(columns[2 + c] + (control.force[c] ? 1 : 2));
     }
+    for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
+      columns[BULK + n] = SamHashMix(
+        columns[BULK + n] + SamHashBits(control.bulk_stress[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS] + 0.0));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -217,6 +221,10 @@ static PetscErrorCode CompareLoads(SamCheckpoints cp, const SamRunPoint *progres
                "-restart %s: cannot go on from it: -%s, or its column in -history: the values up to step %ld differ",
                cp->restart, first.force[c] ? name->load : name->rigid, (long)progress->steps);
   }
+  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
+    PetscCheck(here[BULK + n] == there[BULK + n], cp->comm, SAM_ERR_USER,
+               "-restart %s: cannot go on from it: -%s, or its column in -history: the values up to step %ld differ",
+               cp->restart, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name, (long)progress->steps);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -11,9 +11,10 @@
 struct _n_SamHistory {
   SamControl constant; /* the kind of control of each component, and the values of those without a column */
   PetscInt   rows, increments;
-  SamTable   table;                  /* empty without a file */
-  PetscInt   time, friction;         /* columns; -1: none */
-  PetscInt   column[SAM_COMPONENTS]; /* column of each component, -1: constant */
+  SamTable   table;                        /* empty without a file */
+  PetscInt   time, friction;               /* columns; -1: none */
+  PetscInt   column[SAM_COMPONENTS];       /* column of each component, -1: constant */
+  PetscInt   bulk[2][SAM_BULK_COMPONENTS]; /* the same of each bulk stress */
 };
 
 PetscErrorCode SamHistoryClaimOption(void)
@@ -58,9 +59,28 @@ static PetscErrorCode ReadComponent(SamHistory h, const SamOptions *from, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Reads one bulk stress, from an option or a column. */
+static PetscErrorCode ReadBulkStress(SamHistory h, const SamOptions *from, const char file[], PetscInt body, PetscInt k)
+{
+  const SamBulkName *name   = &SamBulkNames[body][k];
+  const PetscInt     column = SamTableFind(&h->table, name->name);
+  char               text[96];
+  PetscBool          set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (Pa), parallel to the surface", name->text));
+  PetscCall(SamOptionsReal(from, name->name, text, SAM_RANGE_ANY, &h->constant.bulk_stress[body][k], &set));
+  PetscCheck(!set || column < 0, from->comm, SAM_ERR_USER, "-%s%s: %s has the column %s: give one of them",
+             SamOptionsPrefix(from), name->name, file, name->name);
+  h->bulk[body][k] = column;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Whether the name of a column is known. */
 static PetscBool IsKnown(SamHistory h, PetscInt column)
 {
+  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
+    if (h->bulk[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS] == column) return PETSC_TRUE;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
     if (h->column[c] == column) return PETSC_TRUE;
   return (column == h->time || column == h->friction) ? PETSC_TRUE : PETSC_FALSE;
@@ -78,7 +98,8 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
   for (PetscInt c = 0; c < t->columns; c++)
     PetscCheck(IsKnown(h, c), comm, SAM_ERR_USER,
                "%s, line %" PetscInt_FMT
-               ": unknown column %s; expected time, the name of a load or displacement, load_n ... rot_z, or " FRICTION,
+               ": unknown column %s; expected time, the name of a load or displacement, load_n ... rot_z, " FRICTION
+               ", or a bulk stress, bulk1_stress_xx ... bulk2_stress_xy",
                file, t->header_line, t->name[c]);
   for (PetscInt r = 0; r < t->rows; r++) {
     const double *row = t->value + r * t->columns, *before = row - t->columns;
@@ -129,10 +150,14 @@ PetscErrorCode SamHistoryGetIncrements(SamHistory h, PetscInt *increments)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryHasFrictionScale(SamHistory h, PetscBool *has)
+PetscErrorCode SamHistoryHas(SamHistory h, PetscBool *friction_scale, PetscBool *bulk_stress)
 {
   PetscFunctionBegin;
-  *has = h->friction >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  *friction_scale = h->friction >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  *bulk_stress    = PETSC_FALSE;
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
+      if (h->bulk[body][k] >= 0 || h->constant.bulk_stress[body][k] != 0) *bulk_stress = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -203,15 +228,18 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *h
              " rows is more steps than can be counted (%" PetscInt_FMT ")",
              SamOptionsPrefix(from), h->increments, h->rows, PETSC_MAX_INT);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, from, file, c));
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) PetscCall(ReadBulkStress(h, from, file, body, k));
   if (has_file) PetscCall(CheckRows(h, from->comm, file));
   if (has_file) PetscCall(CheckChanges(h, from->comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static double ValueOfRow(SamHistory h, PetscInt c, PetscInt r)
+/* A load, displacement or bulk stress that has a column, or is constant. */
+static double ValueOfRow(SamHistory h, PetscInt column, PetscReal constant, PetscInt r)
 {
   if (r < 0) return 0;
-  return h->column[c] >= 0 ? Entry(h, h->column[c], r) : h->constant.value[c];
+  return column >= 0 ? Entry(h, column, r) : (double)constant;
 }
 
 static double FrictionOfRow(SamHistory h, PetscInt r)
@@ -231,7 +259,14 @@ PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
   control->time           = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   control->friction_scale = BETWEEN(FrictionOfRow(h, r - 1), FrictionOfRow(h, r));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    control->value[c] = BETWEEN(ValueOfRow(h, c, r - 1), ValueOfRow(h, c, r));
+    control->value[c] = BETWEEN(ValueOfRow(h, h->column[c], h->constant.value[c], r - 1),
+                                ValueOfRow(h, h->column[c], h->constant.value[c], r));
+  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++) {
+    const PetscInt  body = n / SAM_BULK_COMPONENTS, b = n % SAM_BULK_COMPONENTS, column = h->bulk[body][b];
+    const PetscReal constant = h->constant.bulk_stress[body][b];
+
+    control->bulk_stress[body][b] = BETWEEN(ValueOfRow(h, column, constant, r - 1), ValueOfRow(h, column, constant, r));
+  }
 #undef BETWEEN
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,8 +10,9 @@
   change from row to row may be divided into equal increments, each a load step.
 
   The file is text. Fields are separated by commas, # begins a comment, empty lines are ignored. The first line names
-  the columns: `time`, any of the names of loads and displacements (load_n ... rot_z), and friction_scale. The rows
-  follow, with increasing times (s). A component without a column has the value of its option, or 0, in all rows.
+  the columns: `time`, any of the names of loads and displacements (load_n ... rot_z), friction_scale, and bulk stresses
+  (bulk1_stress_xx ... bulk2_stress_xy). The rows follow, with increasing times (s). A component or bulk stress without
+  a column has the value of its option, or 0, in all rows.
 */
 typedef struct _n_SamHistory *SamHistory;
 
@@ -23,9 +24,9 @@ typedef struct _n_SamHistory *SamHistory;
 PETSC_INTERN PetscErrorCode SamHistoryClaimOption(void);
 
 /*
-  SamHistoryCreateFromOptions - reads -history, -steps (increments), and the twelve -load_, -disp_ and -rot_ options;
-  reads and checks the whole file. Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
-  SAM_ERR_FILE for a file that cannot be read.
+  SamHistoryCreateFromOptions - reads -history, -steps (increments), the twelve -load_, -disp_ and -rot_ options and the
+  six bulk stresses; reads and checks the whole file. Collective. Errors: SAM_ERR_USER naming the option, or the file
+  and line; SAM_ERR_FILE for a file that cannot be read.
 */
 PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history);
 /* SamHistoryDestroy - frees the history and sets the handle to NULL. Not collective. */
@@ -33,12 +34,13 @@ PETSC_INTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
 /* The number of load steps, and the number of increments for each row. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *steps);
 PETSC_INTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments);
-/* SamHistoryHasFrictionScale - whether the file has a column friction_scale. Not collective. */
-PETSC_INTERN PetscErrorCode SamHistoryHasFrictionScale(SamHistory history, PetscBool *has);
+/* SamHistoryHas - whether the file has a column friction_scale, and whether there is a bulk stress. Not collective. */
+PETSC_INTERN PetscErrorCode SamHistoryHas(SamHistory history, PetscBool *friction_scale, PetscBool *bulk_stress);
 /*
-  SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads and
-  displacements at time 0; if the first row's time is not positive, they start before it by the time between the first
-  two rows (1 s for a single row). The friction scale is that of the first row from the start. Not collective.
+  SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads,
+  displacements and bulk stresses at time 0; if the first row's time is not positive, they start before it by the time
+  between the first two rows (1 s for a single row). The friction scale is that of the first row from the start. Not
+  collective.
 */
 PETSC_INTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
 

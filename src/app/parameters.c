@@ -92,14 +92,15 @@ static PetscErrorCode AddFriction(SamRun *run)
 }
 
 /*
-  The loads of the last step. The steps of a history are in /history of the results, and checkpoints compare them
-  themselves (checkpoints.c).
+  The loads and bulk stresses of the last step. The steps of a history are in /history of the results, and checkpoints
+  compare them themselves (checkpoints.c).
 */
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
 {
   SamControl control;
   PetscInt   count, increments;
   PetscReal  steps;
+  PetscBool  friction, bulk;
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetCount(history, &count));
@@ -111,6 +112,12 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
     const char *name = control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid;
 
     PetscCall(SamParametersAddReals(p, name, PETSC_FALSE, 1, &control.value[c]));
+  }
+  PetscCall(SamHistoryHas(history, &friction, &bulk));
+  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS && bulk; n++) {
+    const PetscInt body = n / SAM_BULK_COMPONENTS, k = n % SAM_BULK_COMPONENTS;
+
+    PetscCall(SamParametersAddReals(p, SamBulkNames[body][k].name, PETSC_FALSE, 1, &control.bulk_stress[body][k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -25,7 +25,28 @@ static PetscErrorCode CreateProblem(SamRun *run, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses moments and rotations where the bodies have none, by the name that the user gave. */
+/* Refuses bulk stress of a rigid body, and of periodic ones. */
+static PetscErrorCode CheckBulkStress(const SamRun *run, const SamControl *control, PetscBool periodic,
+                                      const SamOptions *from)
+{
+  const char *prefix = SamOptionsPrefix(from);
+
+  PetscFunctionBegin;
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
+      const double stress = (double)control->bulk_stress[body][k];
+
+      PetscCheck(stress == 0 || !isinf(run->pair.young[body]), from->comm, SAM_ERR_USER,
+                 "-%s%s %g: -%sbody%" PetscInt_FMT "_young is inf: a rigid body does not stretch", prefix,
+                 SamBulkNames[body][k].name, stress, prefix, body + 1);
+      PetscCheck(stress == 0 || !periodic, from->comm, SAM_ERR_USER,
+                 "-%s%s %g: has no meaning with -%selasticity periodic: stretched bodies are not periodic", prefix,
+                 SamBulkNames[body][k].name, stress, prefix);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses moments, rotations and bulk stress where the bodies have none, by the name that the user gave. */
 static PetscErrorCode CheckComponents(SamRun *run, const SamOptions *from)
 {
   SamElasticityTraits traits;
@@ -36,11 +57,12 @@ static PetscErrorCode CheckComponents(SamRun *run, const SamOptions *from)
   PetscCall(SamElasticityGetTraits(run->elasticity, &traits));
   PetscCall(SamElasticityGetType(run->elasticity, &type));
   PetscCall(SamHistoryGetCount(run->history, &count));
-  for (PetscInt k = 0; k < count && !traits.rotations; k++) {
+  for (PetscInt k = 0; k < count; k++) {
     SamControl control;
 
     PetscCall(SamHistoryGetStep(run->history, k, &control));
-    for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
+    PetscCall(CheckBulkStress(run, &control, !traits.rotations, from));
+    for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS && !traits.rotations; c++)
       PetscCheck(control.value[c] == 0, from->comm, SAM_ERR_USER,
                  "-%s%s %g: has no meaning with -%selasticity %s: moments and rotations are not periodic",
                  SamOptionsPrefix(from), control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid,
@@ -66,7 +88,8 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
   PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &run->output_every, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&run->output_settings, from));
-  PetscCall(SamHistoryHasFrictionScale(run->history, &run->output_settings.friction_scale));
+  PetscCall(SamHistoryHas(run->history, &run->output_settings.with[SAM_OUTPUT_FRICTION_SCALE],
+                          &run->output_settings.with[SAM_OUTPUT_BULK_STRESS]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -86,14 +86,18 @@ static double EdgeOfRow(SamGrid grid, PetscInt j, const double p[])
   return most;
 }
 
-static PetscErrorCode CheckNormal(SamGrid grid, Vec separation, const SamSolution *s, SamCheck *check)
+static PetscErrorCode CheckNormal(SamProblem problem, const SamSolution *s, SamCheck *check)
 {
   double        max[COUNT] = {0}, *gap;
   const double *p, *u, *h;
   SamMotion     motion;
+  SamGrid       grid;
+  Vec           separation;
 
   PetscFunctionBegin;
-  PetscCall(SamMotionSet(&motion, grid, s));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamProblemGetGap(problem, &separation));
+  PetscCall(SamMotionSet(&motion, problem, s));
   PetscCall(PetscMalloc1(grid->nx, &gap));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
@@ -212,7 +216,7 @@ static PetscErrorCode CheckTangential(SamProblem problem, const SamSolution *bef
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
   PetscCall(CreateBound(problem, s, &bound));
-  PetscCall(SamIncrementCreate(grid, before, s, &increment));
+  PetscCall(SamIncrementCreate(problem, before, s, &increment));
   PetscCall(VecGetArrayRead(s->shear, &q));
   PetscCall(VecGetArrayRead(bound, &b));
   PetscCall(SumTangential(grid, self, &increment, b, q, check));
@@ -253,7 +257,6 @@ PetscErrorCode SamCheckSolution(SamProblem problem, PetscBool coupling, PetscBoo
   SamElasticityTraits traits;
   SamGrid             grid;
   SamBalance          given[2];
-  Vec                 separation;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
@@ -261,9 +264,8 @@ PetscErrorCode SamCheckSolution(SamProblem problem, PetscBool coupling, PetscBoo
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamProblemGetGap(problem, &separation));
   PetscCall(ComputeDisplacements(problem, coupling, u_z_known, solution));
-  PetscCall(CheckNormal(grid, separation, solution, check));
+  PetscCall(CheckNormal(problem, solution, check));
   if (!traits.edge) check->edge = 0;
   PetscCall(CheckTangential(problem, before, solution, check));
   given[0] = SamControlGetBalance(&solution->control, SAM_BALANCE_NORMAL);

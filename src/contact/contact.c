@@ -173,7 +173,7 @@ static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
   const Vec          before = c->steps ? c->committed.solution.bound : s->bound;
 
   PetscFunctionBegin;
-  PetscCall(SamIncrementCreate(c->grid, c->steps ? &c->committed.solution : NULL, s, &increment));
+  PetscCall(SamIncrementCreate(c->problem, c->steps ? &c->committed.solution : NULL, s, &increment));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
   PetscCall(VecGetArrayRead(before, &b_before));
@@ -226,6 +226,27 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Bulk stress must be finite, and 0 in a rigid body, and in periodic bodies, whose surfaces would no longer be so. */
+static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
+{
+  const SamPair *pair;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(c->elasticity, &pair));
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
+      const char  *name   = SamBulkNames[body][k].name;
+      const double stress = (double)control->bulk_stress[body][k];
+
+      PetscCheck(isfinite(stress), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
+      PetscCheck(stress == 0 || !isinf(pair->young[body]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+                 "%s = %g: expected 0: a rigid body does not stretch", name, stress);
+      PetscCheck(stress == 0 || c->traits.rotations, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+                 "%s = %g: expected 0: stretched bodies are not periodic", name, stress);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
@@ -244,9 +265,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
              PETSC_ERR_ARG_OUTOFRANGE, "load_n = %g: expected a number >= 0", (double)control->value[SAM_COMPONENT_N]);
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %g: expected a number >= 0", (double)control->friction_scale);
-  for (PetscInt k = 0; k < 3; k++)
-    PetscCheck(isfinite(control->stretch[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-               "stretch[%" PetscInt_FMT "] = %g: expected a finite number", k, (double)control->stretch[k]);
+  PetscCall(CheckBulkStress(c, control));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -57,17 +57,26 @@ PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], P
 PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
 
 /*
+  SamStretch - the strains of body 2's surface by its bulk stress minus those of body 1's. They move a point at (x, y)
+  by (xx x + xy y, xy x + yy y).
+*/
+typedef struct {
+  PetscReal xx, yy, xy;
+} SamStretch;
+PETSC_INTERN SamStretch SamStretchOf(const SamPair *pair, const SamControl *control);
+
+/*
   SamMotion - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
   displacement minus the stretch. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
 */
 typedef struct {
-  SamFrame  normal, tangential; /* frames with all rigid displacements given */
-  PetscReal stretch[3];
+  SamFrame   normal, tangential; /* frames with all rigid displacements given */
+  SamStretch stretch;
 } SamMotion;
 typedef struct {
   double a, b;
 } SamMotionRow;
-PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamGrid grid, const SamSolution *solution);
+PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamProblem problem, const SamSolution *solution);
 PETSC_INTERN SamMotionRow   SamMotionOfGap(const SamMotion *motion, PetscInt j);
 PETSC_INTERN SamMotionRow   SamMotionOfSlip(const SamMotion *motion, PetscInt component, PetscInt j);
 /* value = u - a - b xi along a row of the grid. */
@@ -76,7 +85,7 @@ PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, c
 PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
                                double value[]);
 /* SamSolutionComputeSlip - a component of the slip (m) of this rank's cells. Not collective. */
-PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *solution, PetscInt component,
+PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *solution, PetscInt component,
                                                    double slip[]);
 
 /*
@@ -91,7 +100,7 @@ typedef struct {
   const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double       *row[2], *scratch;
 } SamIncrement;
-PETSC_INTERN PetscErrorCode SamIncrementCreate(SamGrid grid, const SamSolution *before, const SamSolution *now,
+PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
 PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
 PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);

@@ -6,16 +6,36 @@
 */
 #include "contactimpl.h"
 
-PetscErrorCode SamMotionSet(SamMotion *m, SamGrid grid, const SamSolution *s)
+SamStretch SamStretchOf(const SamPair *pair, const SamControl *control)
 {
-  SamBalance rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
+  SamStretch e = {0, 0, 0};
+
+  for (int body = 0; body < 2; body++) {
+    const PetscReal *s = control->bulk_stress[body], nu = pair->poisson[body], sign = body ? 1 : -1;
+
+    e.xx += sign * (s[SAM_BULK_XX] - nu * s[SAM_BULK_YY]) / pair->young[body];
+    e.yy += sign * (s[SAM_BULK_YY] - nu * s[SAM_BULK_XX]) / pair->young[body];
+    e.xy += sign * (1 + nu) * s[SAM_BULK_XY] / pair->young[body];
+  }
+  return e;
+}
+
+PetscErrorCode SamMotionSet(SamMotion *m, SamProblem problem, const SamSolution *s)
+{
+  SamBalance     rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
+  SamElasticity  elasticity;
+  SamGrid        grid;
+  const SamPair *pair;
 
   PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamElasticityGetPair(elasticity, &pair));
   for (PetscInt kind = 0; kind < 2; kind++)
     for (PetscInt k = 0; k < 3; k++) rigid[kind].rigid[k] = s->rigid[SamComponentsOf[kind][k]];
   PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
   PetscCall(SamFrameSetGiven(&m->tangential, grid, &rigid[1]));
-  PetscCall(PetscArraycpy(m->stretch, s->control.stretch, 3));
+  m->stretch = SamStretchOf(pair, &s->control);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -26,14 +46,14 @@ SamMotionRow SamMotionOfGap(const SamMotion *m, PetscInt j)
   return (SamMotionRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
 }
 
-/* The rigid displacement minus the stretch, which moves a point at (x, y) by (xx x + xy y, xy x + yy y). */
+/* The rigid displacement minus the stretch. */
 SamMotionRow SamMotionOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
 {
   const SamGrid    grid = m->tangential.grid;
   const double    *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
-  const PetscReal *e    = m->stretch;
+  const SamStretch e    = m->stretch;
   const double     y    = grid->center[1] + eta * grid->length;
-  const double     at_x = component ? e[2] : e[0], at_y = component ? e[1] : e[2];
+  const double     at_x = component ? e.xy : e.xx, at_y = component ? e.yy : e.xy;
   SamMotionRow     row = component ? (SamMotionRow){a[1], a[2]} : (SamMotionRow){SamFrameX(a, eta), 0};
 
   row.a -= at_x * grid->center[0] + at_y * y;
@@ -69,13 +89,15 @@ void SamMotionGap(const SamMotion *m, SamMotionRow row, const double u[], const 
   GapRow(m->normal.grid->nx, u, h, row, m->normal.xi0, m->normal.dxi, value);
 }
 
-PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *s, PetscInt component, double slip[])
+PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *s, PetscInt component, double slip[])
 {
   SamMotion     motion;
+  SamGrid       grid;
   const double *u;
 
   PetscFunctionBegin;
-  PetscCall(SamMotionSet(&motion, grid, s));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamMotionSet(&motion, problem, s));
   PetscCall(VecGetArrayRead(s->displacement_t, &u));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
@@ -86,18 +108,22 @@ PetscErrorCode SamSolutionComputeSlip(SamGrid grid, const SamSolution *s, PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamIncrementCreate(SamGrid grid, const SamSolution *before, const SamSolution *now, SamIncrement *s)
+PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
+                                  SamIncrement *s)
 {
+  SamGrid grid;
+
   PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(PetscMemzero(s, sizeof(*s)));
   s->grid     = grid;
   s->v_now    = now->displacement_t;
   s->v_before = before ? before->displacement_t : NULL;
   PetscCall(PetscMalloc3(grid->nx, &s->row[0], grid->nx, &s->row[1], grid->nx, &s->scratch));
-  PetscCall(SamMotionSet(&s->now, grid, now));
+  PetscCall(SamMotionSet(&s->now, problem, now));
   PetscCall(VecGetArrayRead(s->v_now, &s->u_now));
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamMotionSet(&s->before, grid, before));
+  PetscCall(SamMotionSet(&s->before, problem, before));
   PetscCall(VecGetArrayRead(s->v_before, &s->u_before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -134,7 +160,7 @@ PetscErrorCode SamContactComputeSlip(SamContact c, PetscInt component, Vec slip)
   PetscCall(SamGridCheckVec(c->grid, 1, slip, "The slip"));
   PetscCall(SamContactGetSolution(c, &s));
   PetscCall(VecGetArrayWrite(slip, &slips));
-  PetscCall(SamSolutionComputeSlip(c->grid, s, component, slips));
+  PetscCall(SamSolutionComputeSlip(c->problem, s, component, slips));
   PetscCall(VecRestoreArrayWrite(slip, &slips));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -150,7 +176,7 @@ PetscErrorCode SamContactComputeGap(SamContact c, Vec gap)
   PetscFunctionBegin;
   PetscCall(SamGridCheckVec(c->grid, 1, gap, "The gap"));
   PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamMotionSet(&motion, c->grid, s));
+  PetscCall(SamMotionSet(&motion, c->problem, s));
   PetscCall(SamProblemGetGap(c->problem, &separation));
   PetscCall(VecGetArrayRead(separation, &h));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));

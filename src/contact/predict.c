@@ -26,30 +26,46 @@
 
 /* ---- how far to extrapolate ---- */
 
+/* The products of the last change `old` and the next one `new` of all that is prescribed, scaled. */
+typedef struct {
+  double old_old, old_new, new_new;
+} Changes;
+
+/* Adds those of a value, which is scaled by its largest size in the three steps. */
+static void AddChange(double before, double now, double next, Changes *c)
+{
+  const double scale = PetscMax(fabs(before), PetscMax(fabs(now), fabs(next)));
+  const double a = scale > 0 ? (now - before) / scale : 0, b = scale > 0 ? (next - now) / scale : 0;
+
+  c->old_old += a * a;
+  c->old_new += a * b;
+  c->new_new += b * b;
+}
+
 /*
   The length alpha of the change to the next step along the last change, in units of the last change; 0 when the
-  prescribed values do not change in nearly the same proportions. Each component is scaled by its largest value in the
-  three steps.
+  prescribed values do not change in nearly the same proportions.
 */
 static double Continuation(const SamControl *before, const SamControl *now, const SamControl *next)
 {
-  double along = 0, old = 0, change = 0, alpha;
+  Changes c = {0, 0, 0};
+  double  alpha, across;
 
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
-    const PetscInt k     = SamComponentsOf[n / 3][n % 3];
-    const double   v[3]  = {next->value[k], now->value[k], before->value[k]};
-    const double   scale = PetscMax(fabs(v[0]), PetscMax(fabs(v[1]), fabs(v[2])));
-    const double   a = scale > 0 ? (v[1] - v[2]) / scale : 0, b = scale > 0 ? (v[0] - v[1]) / scale : 0;
+    const PetscInt k = SamComponentsOf[n / 3][n % 3];
 
     if (next->force[k] != now->force[k] || now->force[k] != before->force[k]) return 0;
-    along += a * b;
-    old += a * a;
-    change += b * b;
+    AddChange(before->value[k], now->value[k], next->value[k], &c);
   }
-  if (old == 0 || along <= 0) return 0;
-  alpha = along / old;
-  /* |change|^2 - alpha along is the square of the part across the last change */
-  return (change - alpha * along <= PREDICT_ACROSS * PREDICT_ACROSS * change && alpha <= PREDICT_FARTHEST) ? alpha : 0;
+  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++) {
+    const PetscInt body = n / SAM_BULK_COMPONENTS, k = n % SAM_BULK_COMPONENTS;
+
+    AddChange(before->bulk_stress[body][k], now->bulk_stress[body][k], next->bulk_stress[body][k], &c);
+  }
+  if (c.old_old == 0 || c.old_new <= 0) return 0;
+  alpha  = c.old_new / c.old_old;
+  across = c.new_new - alpha * c.old_new; /* square of the part across the last change */
+  return (across <= PREDICT_ACROSS * PREDICT_ACROSS * c.new_new && alpha <= PREDICT_FARTHEST) ? alpha : 0;
 }
 
 /* ---- extrapolation ---- */

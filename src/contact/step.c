@@ -195,10 +195,9 @@ PetscErrorCode SamSolveJudgeTangential(SamSolve *w)
 }
 
 /* Adds the stretch of the surfaces by bulk stress to a field of tangential displacements. */
-static PetscErrorCode AddStretch(SamGrid grid, const SamControl *control, Vec field)
+static PetscErrorCode AddStretch(SamGrid grid, const SamStretch *e, Vec field)
 {
-  const PetscReal *e = control->stretch;
-  double          *u;
+  double *u;
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(field, &u));
@@ -209,8 +208,8 @@ static PetscErrorCode AddStretch(SamGrid grid, const SamControl *control, Vec fi
       const PetscReal x = SamGridX(grid, i);
       const ptrdiff_t k = (ptrdiff_t)j * grid->nx + i;
 
-      u[k] += e[0] * x + e[2] * y;
-      u[k + grid->cells] += e[2] * x + e[1] * y;
+      u[k] += e->xx * x + e->xy * y;
+      u[k + grid->cells] += e->xy * x + e->yy * y;
     }
   }
   PetscCall(VecRestoreArray(field, &u));
@@ -220,20 +219,24 @@ static PetscErrorCode AddStretch(SamGrid grid, const SamControl *control, Vec fi
 /* w - S of the tangential problem: what moves the surfaces besides the shear, less the slip so far; NULL for zero. */
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
-  const SamContact c         = w->c;
-  const PetscReal *e         = w->s->control.stretch;
-  const PetscBool  stretched = (e[0] != 0 || e[1] != 0 || e[2] != 0) ? PETSC_TRUE : PETSC_FALSE;
+  const SamContact c = w->c;
+  const SamPair   *pair;
+  SamStretch       e;
+  PetscBool        stretched;
   double          *slip;
   Vec              more;
 
   PetscFunctionBegin;
   *offset = NULL;
+  PetscCall(SamElasticityGetPair(c->elasticity, &pair));
+  e         = SamStretchOf(pair, &w->s->control);
+  stretched = (e.xx != 0 || e.yy != 0 || e.xy != 0) ? PETSC_TRUE : PETSC_FALSE;
   if (!w->coupled && !c->steps && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 2, offset));
   if (c->steps) {
     PetscCall(VecGetArray(*offset, &slip));
     for (PetscInt k = 0; k < 2; k++)
-      PetscCall(SamSolutionComputeSlip(c->grid, &c->committed.solution, k, slip + k * c->grid->cells));
+      PetscCall(SamSolutionComputeSlip(c->problem, &c->committed.solution, k, slip + k * c->grid->cells));
     PetscCall(VecRestoreArray(*offset, &slip));
     PetscCall(VecScale(*offset, -1));
   }
@@ -243,7 +246,7 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
     PetscCall(VecAXPY(*offset, 1, more));
     PetscCall(VecDestroy(&more));
   }
-  if (stretched) PetscCall(AddStretch(c->grid, &w->s->control, *offset));
+  if (stretched) PetscCall(AddStretch(c->grid, &e, *offset));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -11,7 +11,7 @@
 
 #define OPTION "checkpoint"
 
-#define NUMBERS 29 /* numbers of a solution: control, loads, rigid displacements */
+#define NUMBERS 32 /* numbers of a solution: control, loads, rigid displacements */
 
 /* The fields and their names in the file. Those one step back are missing before the second step. */
 static const struct {
@@ -75,7 +75,8 @@ static void PackSolution(const SamSolution *s, double numbers[NUMBERS])
   }
   *n++ = s->control.time;
   *n++ = s->control.friction_scale;
-  for (PetscInt k = 0; k < 3; k++) *n++ = s->control.stretch[k];
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) *n++ = s->control.bulk_stress[body][k];
 }
 
 static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
@@ -90,7 +91,8 @@ static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
   }
   s->control.time           = *n++;
   s->control.friction_scale = *n++;
-  for (PetscInt k = 0; k < 3; k++) s->control.stretch[k] = *n++;
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) s->control.bulk_stress[body][k] = *n++;
 }
 
 static void WriteNumbers(SamFile f, const SamContactState *s)

@@ -66,12 +66,20 @@ static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, Found *fou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the history has its optional column. */
-static PetscBool HasOptional(SamOutput o)
+/* Whether the history has the columns of an option. */
+static PetscBool Has(SamOutput o, PetscInt option)
 {
   for (PetscInt c = 0; c < SamOutputColumnCount; c++)
-    if (SamOutputColumns[c].kind == SAM_COLUMN_OPTIONAL && o->columns[c] >= 0) return PETSC_TRUE;
-  return PETSC_FALSE;
+    if ((PetscInt)SamOutputColumns[c].option == option && o->columns[c] < 0) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* Whether the history has all columns that are asked for. */
+static PetscBool HasAllWanted(SamOutput o)
+{
+  for (PetscInt option = 0; option < SAM_OUTPUT_OPTIONS; option++)
+    if (o->set.with[option] && !Has(o, option)) return PETSC_FALSE;
+  return PETSC_TRUE;
 }
 
 /* Examines a file that is open. */
@@ -93,9 +101,7 @@ static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
   }
   PetscCall(CompareTimes(o, wanted, found));
   found->whole =
-    (found->steps == wanted->steps && found->saved == found->keep && (HasOptional(o) || !o->set.friction_scale))
-      ? PETSC_TRUE
-      : PETSC_FALSE;
+    (found->steps == wanted->steps && found->saved == found->keep && HasAllWanted(o)) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -223,7 +229,6 @@ static PetscErrorCode ReadStep(SamOutput o, hsize_t k, SamStep *step)
     if (o->columns[c] < 0) continue;
     switch (SamOutputColumns[c].kind) {
     case SAM_COLUMN_REAL:
-    case SAM_COLUMN_OPTIONAL:
       SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_DOUBLE, k, 1, &real);
       *(PetscReal *)place = (PetscReal)real;
       break;
@@ -327,8 +332,8 @@ static PetscErrorCode WriteCopy(SamOutput from, const SamOutputSettings *set, co
   PetscErrorCode    ierr;
 
   PetscFunctionBegin;
-  plain.xdmf           = PETSC_FALSE;
-  plain.friction_scale = set->friction_scale || HasOptional(from) ? PETSC_TRUE : PETSC_FALSE;
+  plain.xdmf = PETSC_FALSE;
+  for (PetscInt k = 0; k < SAM_OUTPUT_OPTIONS; k++) plain.with[k] = set->with[k] || Has(from, k);
   PetscCall(SamOutputCreateAs(from->f->grid, temporary, SAM_FILE_TEMPORARY, &plain, &to));
   ierr = CopyAll(from, wanted, keep, to);
   if (ierr) (void)SamOutputDestroy(&to);

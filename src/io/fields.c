@@ -51,20 +51,23 @@ const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputF
 
 #define REAL(name, units, text, member) \
   { \
-    {name, units, text}, SAM_COLUMN_REAL, offsetof(SamStep, member) \
+    {name, units, text}, SAM_COLUMN_REAL, offsetof(SamStep, member), SAM_OUTPUT_OPTIONS \
   }
 #define INT(name, text, member) \
   { \
-    {name, "1", text}, SAM_COLUMN_INT, offsetof(SamStep, member) \
+    {name, "1", text}, SAM_COLUMN_INT, offsetof(SamStep, member), SAM_OUTPUT_OPTIONS \
   }
 #define STATUS(name, text, member) \
   { \
-    {name, "1", text}, SAM_COLUMN_STATUS, offsetof(SamStep, member) \
+    {name, "1", text}, SAM_COLUMN_STATUS, offsetof(SamStep, member), SAM_OUTPUT_OPTIONS \
   }
-#define OPTIONAL(name, units, text, member) \
+#define OPTIONAL(option, name, units, text, member) \
   { \
-    {name, units, text}, SAM_COLUMN_OPTIONAL, offsetof(SamStep, member) \
+    {name, units, text}, SAM_COLUMN_REAL, offsetof(SamStep, member), option \
   }
+#define BULK(body, component, name) \
+  OPTIONAL(SAM_OUTPUT_BULK_STRESS, name, "Pa", "bulk stress of the body, tension positive", \
+           control.bulk_stress[body][component])
 
 /* The first column, the time, is the coordinate of the others. */
 const SamOutputColumn SamOutputColumns[] = {
@@ -81,7 +84,14 @@ const SamOutputColumn SamOutputColumns[] = {
   REAL("rot_x", "rad", "rotation about x", rigid[SAM_COMPONENT_MX]),
   REAL("rot_y", "rad", "rotation about y", rigid[SAM_COMPONENT_MY]),
   REAL("rot_z", "rad", "rotation about z", rigid[SAM_COMPONENT_MZ]),
-  OPTIONAL("friction_scale", "1", "factor on the coefficient of friction", control.friction_scale),
+  OPTIONAL(SAM_OUTPUT_FRICTION_SCALE, "friction_scale", "1", "factor on the coefficient of friction",
+           control.friction_scale),
+  BULK(0, SAM_BULK_XX, "bulk1_stress_xx"),
+  BULK(0, SAM_BULK_YY, "bulk1_stress_yy"),
+  BULK(0, SAM_BULK_XY, "bulk1_stress_xy"),
+  BULK(1, SAM_BULK_XX, "bulk2_stress_xx"),
+  BULK(1, SAM_BULK_YY, "bulk2_stress_yy"),
+  BULK(1, SAM_BULK_XY, "bulk2_stress_xy"),
   REAL("contact_area", "m2", "area in contact", contact_area),
   REAL("stick_area", "m2", "area in stick", stick_area),
   REAL("normal_residual", "1", "relative error of the normal problem, by the check", check.normal),

@@ -140,7 +140,7 @@ PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold,
 PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
 PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
 
-#define SAM_CHECKPOINT_FORMAT 3   /* version of a checkpoint's contents */
+#define SAM_CHECKPOINT_FORMAT 4   /* version of a checkpoint's contents */
 #define SAM_SEAL              512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
 /*
   SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
@@ -193,12 +193,13 @@ typedef struct {
   PetscInt component;
 } SamOutputField;
 
-/* A column of the history: a member of SamStep. An optional column is real, and only in files where it varies. */
-typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS, SAM_COLUMN_OPTIONAL } SamOutputColumnKind;
+/* A column of the history: a member of SamStep. One with an option is only in files that were asked for it. */
+typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS } SamOutputColumnKind;
 typedef struct {
   SamOutputLabel      label;
   SamOutputColumnKind kind;
   size_t              offset; /* in SamStep */
+  SamOutputOption     option; /* SAM_OUTPUT_OPTIONS: none, the column is always there */
 } SamOutputColumn;
 
 #define SAM_OUTPUT_MOST 64 /* most lines of each table */

@@ -157,7 +157,7 @@ static void CreateHistory(SamOutput o)
     const PetscBool        whole =
       (column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS) ? PETSC_TRUE : PETSC_FALSE;
 
-    if (column->kind == SAM_COLUMN_OPTIONAL && !o->set.friction_scale) continue;
+    if (column->option < SAM_OUTPUT_OPTIONS && !o->set.with[column->option]) continue;
     o->columns[c] = CreateDataset(o, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, &series, 0);
     (void)SamFileNote(o->f, H5DSattach_scale(o->columns[c], o->columns[0], 0));
     if (column->kind == SAM_COLUMN_STATUS) {
@@ -212,7 +212,7 @@ void SamOutputOpenLayout(SamOutput o)
   for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
     const char *name = SamOutputColumns[c].label.name;
 
-    if (SamOutputColumns[c].kind == SAM_COLUMN_OPTIONAL && history >= 0 &&
+    if (SamOutputColumns[c].option < SAM_OUTPUT_OPTIONS && history >= 0 &&
         SamFileNote(o->f, H5Lexists(history, name, H5P_DEFAULT)) == 0)
       continue;
     OpenDataset(o, history, name, &o->columns[c]);

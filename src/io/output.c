@@ -265,7 +265,6 @@ static void AppendHistory(SamOutput o, const SamStep *step)
     if (o->columns[c] < 0) continue; /* an optional column that this file does not have */
     switch (SamOutputColumns[c].kind) {
     case SAM_COLUMN_REAL:
-    case SAM_COLUMN_OPTIONAL:
       real = (double)*(const PetscReal *)place;
       AppendNumber(o, o->columns[c], H5T_NATIVE_DOUBLE, o->steps, &real);
       break;

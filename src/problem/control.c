@@ -1,4 +1,4 @@
-/* The names of the six components, and the control of a load step. */
+/* What a load step prescribes, and its names. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/control.h>
 #include <string.h>
@@ -10,6 +10,13 @@ const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
   {"load_mx", "N m", "moment about x", "rot_x", "rad", "rotation about x"},
   {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y"},
   {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z"}};
+
+const SamBulkName SamBulkNames[2][SAM_BULK_COMPONENTS] = {{{"bulk1_stress_xx", "bulk stress xx of body 1"},
+                                                           {"bulk1_stress_yy", "bulk stress yy of body 1"},
+                                                           {"bulk1_stress_xy", "bulk stress xy of body 1"}},
+                                                          {{"bulk2_stress_xx", "bulk stress xx of body 2"},
+                                                           {"bulk2_stress_yy", "bulk stress yy of body 2"},
+                                                           {"bulk2_stress_xy", "bulk stress xy of body 2"}}};
 
 PetscErrorCode SamControlInitialize(SamControl *control)
 {

@@ -161,6 +161,7 @@ static inline SamStep MakeStep(int step)
                .status            = step == 1 ? SAM_STATUS_EDGE_CONTACT : SAM_STATUS_CONVERGED,
                .dissipated_energy = 40 + step};
 
+  for (int n = 0; n < 6; n++) s.control.bulk_stress[n / 3][n % 3] = 100 * (n + 1) + step;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     s.load[k]  = 1000 + 10 * (double)k + step;
     s.rigid[k] = 2000 + 10 * (double)k + step;

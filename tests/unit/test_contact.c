@@ -183,8 +183,8 @@ static void test_controls_that_are_none_are_refused(void **state)
   bad[2].value[SAM_COMPONENT_MX] = INFINITY;
   bad[3].friction_scale          = -0.1;
   bad[4].friction_scale          = NAN;
-  bad[5].stretch[1]              = NAN;
-  bad[6].stretch[2]              = INFINITY;
+  bad[5].bulk_stress[0][1]       = NAN;
+  bad[6].bulk_stress[1][2]       = INFINITY;
   for (int k = 0; k < 7; k++) sam_fails(SamContactTry(c.contact, &bad[k], &step), PETSC_ERR_ARG_OUTOFRANGE);
   sam_fails(SamContactCommit(c.contact), PETSC_ERR_ORDER);
   step = Solve(&c, &good);

@@ -14,7 +14,8 @@ static void test_defaults_prescribe_no_load(void **state)
   sam_call(SamControlInitialize(&control));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) sam_assert(control.force[k] && control.value[k] == 0);
   sam_assert(control.time == 0 && control.friction_scale == 1);
-  for (PetscInt k = 0; k < 3; k++) sam_assert(control.stretch[k] == 0);
+  for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
+    sam_assert(control.bulk_stress[0][k] == 0 && control.bulk_stress[1][k] == 0);
 }
 
 /* A name changes only its component; of a load and its displacement the later one counts. */

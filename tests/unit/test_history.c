@@ -139,7 +139,7 @@ static void test_step_holds_nothing_but_time_and_control(void **state)
   (void)state;
   sam_assert(step.value[SAM_COMPONENT_TY] == 0 && step.value[SAM_COMPONENT_MX] == 0);
   sam_assert(step.friction_scale == 1);
-  sam_assert(step.stretch[0] == 0 && step.stretch[1] == 0 && step.stretch[2] == 0);
+  for (PetscInt n = 0; n < 6; n++) sam_assert(step.bulk_stress[n / 3][n % 3] == 0);
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -261,9 +261,9 @@ static void test_first_row_has_a_start(void **state)
 
 static PetscBool HasFrictionScale(SamHistory h)
 {
-  PetscBool has;
+  PetscBool has, bulk;
 
-  sam_call(SamHistoryHasFrictionScale(h, &has));
+  sam_call(SamHistoryHas(h, &has, &bulk));
   return has;
 }
 
@@ -293,6 +293,43 @@ static void test_friction_scale_is_interpolated_between_rows(void **state)
     sam_assert_close(StepOf(h, k).friction_scale, rows[k / 4] + t * (rows[k / 4 + 1] - rows[k / 4]), 1e-15);
   }
   sam_assert(StepOf(h, 7).friction_scale == 2 && StepOf(h, 11).friction_scale == 0); /* the rows' own */
+  sam_call(SamHistoryDestroy(&h));
+}
+
+/* ---- bulk stress ---- */
+
+static PetscBool HasBulkStress(SamHistory h)
+{
+  PetscBool friction, has;
+
+  sam_call(SamHistoryHas(h, &friction, &has));
+  return has;
+}
+
+/* It grows from zero, as loads do; one that is an option then stays. */
+static void test_bulk_stress_goes_from_row_to_row(void **state)
+{
+  static const double xy[4] = {0, 1e6, -3e6, 0};
+  SamHistory          h;
+
+  (void)state;
+  Write("time,bulk1_stress_xy\n1,1e6\n2,-3e6\n3,0\n");
+  h = Read("-history test_history.csv -steps 4 -load_n 1 -bulk2_stress_yy 8e6");
+  sam_assert(HasBulkStress(h));
+  for (PetscInt k = 0; k < 12; k++) {
+    const SamControl step = StepOf(h, k);
+    const double     t    = (double)(k % 4 + 1) / 4;
+
+    sam_assert_close(step.bulk_stress[0][SAM_BULK_XY], xy[k / 4] + t * (xy[k / 4 + 1] - xy[k / 4]), 1e-8);
+    sam_assert_close(step.bulk_stress[1][SAM_BULK_YY], k < 4 ? 8e6 * t : 8e6, 1e-8);
+    sam_assert(step.bulk_stress[0][SAM_BULK_XX] == 0 && step.bulk_stress[1][SAM_BULK_XY] == 0);
+  }
+  sam_call(SamHistoryDestroy(&h));
+  h = Read("-history test_history.csv -load_n 1");
+  sam_assert(HasBulkStress(h));
+  sam_call(SamHistoryDestroy(&h));
+  h = Read("-load_n 1 -bulk2_stress_yy 0");
+  sam_assert(!HasBulkStress(h));
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -415,6 +452,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_first_row_has_a_start),
     cmocka_unit_test(test_friction_scale_is_one_without_its_column),
     cmocka_unit_test(test_friction_scale_is_interpolated_between_rows),
+    cmocka_unit_test(test_bulk_stress_goes_from_row_to_row),
     cmocka_unit_test(test_option_has_a_second_name),
     cmocka_unit_test(test_options_have_the_prefix),
     cmocka_unit_test(test_file_is_not_written_to),

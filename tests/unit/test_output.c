@@ -137,23 +137,30 @@ static int ReadColumn(const char *name, int steps, double values[])
   return there;
 }
 
-static void test_friction_scale_is_a_column_when_asked_for(void **state)
+static void test_optional_columns_are_there_when_asked_for(void **state)
 {
   int good = 1;
 
   (void)state;
-  for (int asked = 0; asked < 2; asked++) {
+  for (int asked = 0; asked < 4; asked++) {
     SamOutputSettings set  = SettingsOf("");
     SamGrid           grid = CreateGrid(0);
 
-    set.friction_scale = asked ? PETSC_TRUE : PETSC_FALSE;
+    set.with[SAM_OUTPUT_FRICTION_SCALE] = asked & 1 ? PETSC_TRUE : PETSC_FALSE;
+    set.with[SAM_OUTPUT_BULK_STRESS]    = asked & 2 ? PETSC_TRUE : PETSC_FALSE;
     WriteFile(grid, filename, &set);
     sam_assert(IsGood(filename, grid, STEPS, SAVED));
     if (Rank() == 0) {
       double values[STEPS] = {0};
 
-      good = good && ReadColumn("friction_scale", STEPS, values) == asked;
-      for (int step = 0; step < STEPS && asked; step++) good = good && values[step] == 10 + step;
+      good = good && ReadColumn("friction_scale", STEPS, values) == (asked & 1);
+      for (int step = 0; step < STEPS && asked & 1; step++) good = good && values[step] == 10 + step;
+      for (int n = 0; n < 6; n++) {
+        const SamBulkName *name = &SamBulkNames[n / 3][n % 3];
+
+        good = good && ReadColumn(name->name, STEPS, values) == (asked & 2) / 2;
+        for (int step = 0; step < STEPS && asked & 2; step++) good = good && values[step] == 100 * (n + 1) + step;
+      }
     }
     sam_assert(good);
     sam_call(SamGridDestroy(&grid));
@@ -248,7 +255,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_root_has_the_attributes_that_were_set),
     cmocka_unit_test(test_file_without_steps_is_good),
     cmocka_unit_test(test_file_is_complete_after_each_step),
-    cmocka_unit_test(test_friction_scale_is_a_column_when_asked_for),
+    cmocka_unit_test(test_optional_columns_are_there_when_asked_for),
     cmocka_unit_test(test_numbers_that_do_not_exist_are_nan),
     cmocka_unit_test(test_fields_are_those_of_the_tried_step_else_of_the_committed_one),
   };

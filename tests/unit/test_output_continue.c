@@ -140,7 +140,7 @@ static void test_fields_before_the_checkpoint_stay_byte_by_byte(void **state)
         PetscInt          found[2];
         ino_t             inode;
 
-        set.friction_scale = PETSC_TRUE;
+        set.with[SAM_OUTPUT_FRICTION_SCALE] = PETSC_TRUE;
         WriteAndCopy(grid, &set);
         if (killed) sam_assert(CopyFile(copy, filename));
         inode = InodeOf(filename);

@@ -6,6 +6,22 @@
 #include <petsam/checkpoint.h>
 #include <unistd.h>
 
+/* Bulk stresses of body 2 that stretch it by that much more than body 1, which is stretched as well. */
+static void SetStretch(const Case *c, SamControl *control, double xx, double yy, double xy)
+{
+  const double E[2] = {c->s.pair.young[0], c->s.pair.young[1]}, nu[2] = {c->s.pair.poisson[0], c->s.pair.poisson[1]};
+  const double some    = 0.3 * (fabs(xx) + fabs(yy) + fabs(xy)); /* strain of body 1, alike in x and y */
+  const double e[2][3] = {{some, some, 0.5 * some}, {some + xx, some + yy, 0.5 * some + xy}};
+
+  for (int b = 0; b < 2; b++) {
+    PetscReal *s = control->bulk_stress[b];
+
+    s[SAM_BULK_XX] = E[b] / (1 - nu[b] * nu[b]) * (e[b][0] + nu[b] * e[b][1]);
+    s[SAM_BULK_YY] = E[b] / (1 - nu[b] * nu[b]) * (e[b][1] + nu[b] * e[b][0]);
+    s[SAM_BULK_XY] = E[b] / (1 + nu[b]) * e[b][2];
+  }
+}
+
 /* A strain of the size of Cattaneo's displacement over the contact radius, at which large parts of the contact slip. */
 static double StrainOf(const Case *c)
 {
@@ -16,9 +32,7 @@ static SamControl Stretched(const Case *c, double xx, double yy, double xy)
 {
   SamControl control = Loads(c, 1, 0, 0, 0);
 
-  control.stretch[0] = xx * StrainOf(c);
-  control.stretch[1] = yy * StrainOf(c);
-  control.stretch[2] = xy * StrainOf(c);
+  SetStretch(c, &control, xx * StrainOf(c), yy * StrainOf(c), xy * StrainOf(c));
   return control;
 }
 
@@ -83,6 +97,53 @@ static void test_shear_strain_exchanges_x_and_y(void **state)
   DestroyCase(&c);
 }
 
+/* Hertz's pressure over the largest one. */
+static double Cap(double x, double y, double a)
+{
+  const double r2 = (x * x + y * y) / (a * a);
+
+  return r2 < 1 ? sqrt(1 - r2) : 0;
+}
+
+/*
+  Without Poisson's ratio the shear displaces the surfaces as the pressure does, so that Cattaneo's solution holds with
+  its stick zone, of radius c, moved by e = strain R/mu along x: the difference of two paraboloids of slip is linear.
+*/
+static double ErrorOfMovedStickZone(PetscInt n, int body)
+{
+  const SamPair  pair   = NewPair(210e9, 0, 210e9, 0);
+  Case           c      = NewCase(pair, n, 1.5, MU, "");
+  const double   radius = 0.7, move = 0.2, a = c.s.a; /* c and e over a */
+  SamControl     control = Loads(&c, 1, 1 - radius * radius * radius, 0, 0);
+  const PetscInt all     = n * n;
+  double         sums[2] = {0, 0}, *q;
+  SamStep        step;
+
+  control.bulk_stress[body][SAM_BULK_XX] = (body ? 1 : -1) * move * a * MU / c.s.R * pair.young[body];
+  step                                   = Solve(&c, &control);
+  AssertGood(&step);
+  q = Whole(c.s.grid, 2, SolutionOf(&c)->shear);
+  for (PetscInt k = 0; k < all; k++) {
+    const double x = SamGridX(c.s.grid, k % n), y = SamGridY(c.s.grid, k / n);
+    const double shear = MU * c.s.p0 * (Cap(x, y, a) - radius * Cap(x - move * a, y, radius * a));
+
+    sums[0] += (q[k] - shear) * (q[k] - shear) + q[k + all] * q[k + all];
+    sums[1] += shear * shear;
+  }
+  free(q);
+  DestroyCase(&c);
+  return sqrt(sums[0] / sums[1]);
+}
+
+static void test_tension_moves_the_stick_zone(void **state)
+{
+  const double coarse = ErrorOfMovedStickZone(49, 1), fine = ErrorOfMovedStickZone(98, 1);
+
+  (void)state;
+  sam_assert(coarse < 0.025 && fine < 0.6 * coarse);
+  sam_assert_close(ErrorOfMovedStickZone(49, 0), coarse, 1e-4); /* compression of the other body does the same */
+}
+
 /* s - u_t is the stretch less the rigid displacement, everywhere. */
 static void test_slip_is_displacement_and_stretch_less_rigid(void **state)
 {
@@ -90,7 +151,7 @@ static void test_slip_is_displacement_and_stretch_less_rigid(void **state)
   const SamControl control = Stretched(&c, 0.5, -0.3, 0.2);
   const SamStep    step    = Solve(&c, &control);
   Vec              slip    = NewSlip(&c);
-  const double    *e = control.stretch, *d = step.rigid;
+  const double     strain = StrainOf(&c), e[3] = {0.5 * strain, -0.3 * strain, 0.2 * strain}, *d = step.rigid;
   double           error = 0, *s;
 
   (void)state;
@@ -133,9 +194,9 @@ static void test_rigid_displacement_takes_back_the_stretch_of_the_centre(void **
 
   (void)state;
   for (int k = 1; k < 3; k++) {
-    SamControl    one = Stretched(&here, 0.4 * k, -0.2 * k, 0.3 * k), other;
-    const double *e   = one.stretch;
-    SamStep       a, b;
+    SamControl   one    = Stretched(&here, 0.4 * k, -0.2 * k, 0.3 * k), other;
+    const double strain = k * StrainOf(&here), e[3] = {0.4 * strain, -0.2 * strain, 0.3 * strain};
+    SamStep      a, b;
 
     Displace(&one, SAM_COMPONENT_N, here.s.a * here.s.a / here.s.R);
     Displace(&one, SAM_COMPONENT_MX, 0);
@@ -206,6 +267,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_stretch_has_the_symmetry_of_its_strain),
     cmocka_unit_test(test_shear_strain_exchanges_x_and_y),
+    cmocka_unit_test(test_tension_moves_the_stick_zone),
     cmocka_unit_test(test_slip_is_displacement_and_stretch_less_rigid),
     cmocka_unit_test(test_rigid_displacement_takes_back_the_stretch_of_the_centre),
     cmocka_unit_test(test_stretch_that_stays_dissipates_nothing),

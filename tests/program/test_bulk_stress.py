@@ -1,0 +1,102 @@
+"""Bulk stress in the bodies: the stretch of their surfaces, its options and columns."""
+
+import h5py
+import numpy as np
+import pytest
+
+from support import SPHERE, assert_same, ball, slide_limit
+
+BALL = ball(48, load_tx=10.0)
+
+
+def history(path, header, *rows):
+    path.write_text(header + "\n" + "\n".join(",".join(map(repr, row)) for row in rows) + "\n")
+    return dict(history=path)
+
+
+@pytest.mark.parametrize("body", [1, 2])
+def test_stick_zone_of_a_long_contact_moves_as_nowell_and_hills_found(solve, body):
+    """Plane strain: e/a = sigma/(4 mu p0), towards +x under tension of body 2 and a positive shear on it."""
+    a, long, mu = 2e-4, 3.6e-3, 0.5
+    case = dict(
+        SPHERE, friction=mu, gap_type="ellipsoid", gap_radius_x=0.0105, gap_radius_y=0.9,
+        gap_radius1=None, gap_radius2=None, load_n=1500.0, load_tx=0.5 * mu * 1500.0,
+        grid_n=(200, 40), grid_size=(2.6 * a, 2.6 * long),
+    )  # fmt: skip
+    plain = solve(case)
+    middle, h = 20, plain.x[1] - plain.x[0]
+    half = np.count_nonzero(plain.pressure[middle]) * h / 2
+    p0 = plain.pressure[middle].max()
+    for part in (0.4, -0.7):
+        sigma = part * mu * p0 * (1 if body == 2 else -1)
+        bulk = {f"bulk{body}_stress_xx": sigma, f"bulk{body}_stress_yy": 0.3 * sigma}
+        stick = np.flatnonzero(solve(dict(case, **bulk)).state[middle] == 1)
+        center = (plain.x[stick[0]] + plain.x[stick[-1]]) / 2
+        assert center / half == pytest.approx(part / 4, abs=0.75 * h / half)
+
+
+def test_equal_stretches_of_both_bodies_do_nothing(solve):
+    plain = solve(BALL)
+    both = solve(dict(BALL, bulk1_stress_xx=3e7, bulk2_stress_xx=3e7, bulk1_stress_xy=-1e7, bulk2_stress_xy=-1e7))
+    assert_same(both, plain, 0)
+    other = solve(dict(BALL, bulk2_stress_xx=3e7))
+    assert abs(other.shear_x - plain.shear_x).max() > 1e-2 * abs(plain.shear_x).max()
+
+
+def test_history_and_attributes_tell_the_bulk_stress(petsam, tmp_path):
+    steps = history(tmp_path / "h.csv", "time,load_tx,bulk2_stress_xx", (1, 10, 2e7), (2, 5, -1e7))
+    petsam(dict(BALL, load_tx=None, bulk1_stress_yy=4e6), steps, dict(steps=2, output="with.h5"))
+    with h5py.File(tmp_path / "with.h5") as f:
+        assert f["history/bulk2_stress_xx"][:].tolist() == [1e7, 2e7, 5e6, -1e7]
+        assert f["history/bulk1_stress_yy"][:].tolist() == [2e6, 4e6, 4e6, 4e6]
+        assert not f["history/bulk1_stress_xy"][:].any() and f["history/bulk2_stress_xx"].attrs["units"] == "Pa"
+        assert f.attrs["bulk2_stress_xx"] == -1e7 and f.attrs["bulk1_stress_yy"] == 4e6
+    petsam(BALL, dict(output="without.h5"))
+    with h5py.File(tmp_path / "without.h5") as f:
+        assert "bulk2_stress_xx" not in f["history"] and "bulk2_stress_xx" not in f.attrs
+
+
+def test_restart_goes_on_with_the_same_bulk_stress_only(petsam, tmp_path):
+    def steps(second, *more):
+        return history(tmp_path / "h.csv", "time,bulk2_stress_xx", (1, 2e7), (2, second), *more)
+
+    def shear(name):
+        with h5py.File(tmp_path / name) as f:
+            return f["shear_x"][-1], f["history/bulk2_stress_xx"][:].tolist()
+
+    case, restart = ball(32, load_tx=8.0), dict(restart="c.h5", output="on.h5")
+    petsam(case, steps(1e7), dict(checkpoint="c.h5", checkpoint_every=1, output="on.h5"))
+    assert "bulk2_stress_xx" in petsam(case, steps(1.1e7, (3, 0.0)), restart, check=2).complaint[0]
+    petsam(case, steps(1e7, (3, 0.0)), restart)
+    petsam(case, steps(1e7, (3, 0.0)), dict(output="whole.h5"))
+    assert np.array_equal(shear("on.h5")[0], shear("whole.h5")[0])
+    assert shear("on.h5")[1] == shear("whole.h5")[1] == [2e7, 1e7, 0]
+
+
+@pytest.mark.parametrize(
+    "changes, words",
+    [
+        (dict(body1_young=float("inf"), bulk1_stress_xy=1.0), ("-bulk1_stress_xy", "rigid")),
+        (dict(elasticity="periodic", bulk2_stress_yy=1e6), ("-bulk2_stress_yy", "periodic")),
+        (dict(bulk2_stress_yy="much"), ("-bulk2_stress_yy",)),
+        (dict(bulk2_stress_xx=float("inf")), ("-bulk2_stress_xx",)),
+    ],
+)
+def test_bulk_stress_without_meaning_is_refused(petsam, changes, words):
+    complaint = petsam(dict(BALL, **changes), check=2).complaint[0]
+    assert all(word in complaint for word in words)
+
+
+def test_option_and_column_together_are_refused(petsam, tmp_path):
+    steps = history(tmp_path / "h.csv", "time,bulk2_stress_xx", (1, 2e7))
+    complaint = petsam(dict(BALL, bulk2_stress_xx=1e7), steps, check=2).complaint[0]
+    assert "-bulk2_stress_xx" in complaint and "h.csv" in complaint
+    steps = history(tmp_path / "h.csv", "time,bulk2_stress_zz", (1, 2e7))
+    assert "bulk2_stress_zz" in petsam(BALL, steps, check=2).complaint[0]
+
+
+def test_friction_limit_does_not_depend_on_the_bulk_stress(petsam):
+    """What the grid carries when all slides is mu N, whatever the stretch."""
+    limit = slide_limit(BALL)[0]
+    petsam(dict(BALL, load_tx=0.999 * limit, bulk2_stress_xx=3e7))
+    petsam(dict(BALL, load_tx=1.001 * limit, bulk2_stress_xx=3e7), check=11)
