@@ -148,7 +148,7 @@ check-format: $(B)/venv/tests-done ## check the format of C and Python
 	@$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
 
 lint: ## cppcheck over the sources
-	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) src/app/petsam.c
+	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) $(PROGRAMS:%=src/app/%.c)
 
 # what is installed for users; scripts that build and maintain petsam are not
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
@@ -168,4 +168,4 @@ install: all ## install program, library, headers, petsam.pc, scripts, examples:
 clean: ## remove what was built
 	rm -rf $(B)
 
--include $(LIB_OBJ:.o=.d) $(APP_OBJ:.o=.d) $(wildcard $(B)/obj/src/*.d $(B)/obj/tests/*/*.d)
+-include $(shell find $(B)/obj -name "*.d" 2>/dev/null)

@@ -12,6 +12,13 @@ typedef enum {
   SAM_QUANTITY_PRINCIPAL, /* principal_1 >= principal_2 >= principal_3, Pa */
   SAM_QUANTITY_SHEAR_MAX, /* shear_max, Pa: half the difference of the largest and the smallest principal stress */
   SAM_QUANTITY_STRAIN,    /* strain_xx ... strain_yz, tensor shear strains */
+  /* of all steps together, in the order of SamFatigueParameter: */
+  SAM_QUANTITY_CROSSLAND,    /* crossland, Pa */
+  SAM_QUANTITY_DANG_VAN,     /* dang_van, Pa */
+  SAM_QUANTITY_FINDLEY,      /* findley, Pa */
+  SAM_QUANTITY_SWT,          /* swt, Pa */
+  SAM_QUANTITY_FATEMI_SOCIE, /* fatemi_socie */
+  SAM_QUANTITY_RUIZ,         /* ruiz_1, J/m2; ruiz_2, Pa J/m2; on the surface, else NaN */
   SAM_QUANTITIES
 } SamQuantity;
 
@@ -26,9 +33,10 @@ typedef struct {
 } SamStressLayout;
 
 /*
-  SamStressFile - an HDF5 file with the datasets of the quantities, of shape (time, z, y, x), their coordinates, and the
-  largest values of each step in /history. Every dataset has the attributes `units` and `long_name` and its dimension
-  scales, so that h5py and xarray open it; an XDMF file beside it describes it to ParaView and VisIt as a volume.
+  SamStressFile - an HDF5 file with the datasets of the quantities, of shape (time, z, y, x), or (z, y, x) for those of
+  all steps together, their coordinates, and the largest values of each step in /history. Every dataset has the
+  attributes `units` and `long_name` and its dimension scales, so that h5py and xarray open it; an XDMF file beside it
+  describes it to ParaView and VisIt as a volume.
 */
 typedef struct _n_SamStressFile *SamStressFile;
 
@@ -39,15 +47,12 @@ typedef struct _n_SamStressFile *SamStressFile;
 PETSC_EXTERN PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const SamStressLayout *layout,
                                                 const SamParameters *parameters, SamStressFile *file);
 /*
-  SamStressFileWriteMap - values of a quantity's component on a plane, this rank's rows.
-  SamStressFileWriteSection - values at depths first ... first + count - 1, (count, length), of this rank.
-  Both are collective. Errors: SAM_ERR_FILE.
+  SamStressFileWrite - this rank's values of a quantity's component: of a map those of its rows at one depth (`depth`,
+  `depths` being 1), of a section those of `depths` depths from `depth` on, (depths, length). `step` does not matter for
+  a quantity of all steps together. Collective. Errors: SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamStressFileWriteMap(SamStressFile file, SamQuantity quantity, PetscInt component,
-                                                  PetscInt step, PetscInt depth, const double values[]);
-PETSC_EXTERN PetscErrorCode SamStressFileWriteSection(SamStressFile file, SamQuantity quantity, PetscInt component,
-                                                      PetscInt step, PetscInt first, PetscInt count,
-                                                      const double values[]);
+PETSC_EXTERN PetscErrorCode SamStressFileWrite(SamStressFile file, SamQuantity quantity, PetscInt component,
+                                               PetscInt step, PetscInt depth, PetscInt depths, const double values[]);
 /* SamStressFileSetHistory - a number for each step in /history, with its unit. Collective. Errors: SAM_ERR_FILE. */
 PETSC_EXTERN PetscErrorCode SamStressFileSetHistory(SamStressFile file, const char name[], const char units[],
                                                     const char long_name[], const double values[]);

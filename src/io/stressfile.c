@@ -12,7 +12,7 @@
 
 #define OPTION "output"
 
-enum { DATASETS = 2 * SAM_STRESS_COMPONENTS + 5, DIMENSIONS = 4, TIME = 0, Z, Y, X };
+enum { DATASETS = 2 * SAM_STRESS_COMPONENTS + 12, DIMENSIONS = 4, TIME = 0, Z, Y, X };
 
 typedef struct {
   SamOutputLabel label;
@@ -37,6 +37,13 @@ static const Dataset datasets[DATASETS] = {
   {{"strain_xy", "1", "strain xy, tensor shear strain"}, SAM_QUANTITY_STRAIN},
   {{"strain_xz", "1", "strain xz, tensor shear strain"}, SAM_QUANTITY_STRAIN},
   {{"strain_yz", "1", "strain yz, tensor shear strain"}, SAM_QUANTITY_STRAIN},
+  {{"crossland", "Pa", "Crossland's parameter of the cycle"}, SAM_QUANTITY_CROSSLAND},
+  {{"dang_van", "Pa", "Dang Van's parameter of the cycle"}, SAM_QUANTITY_DANG_VAN},
+  {{"findley", "Pa", "Findley's parameter of the cycle"}, SAM_QUANTITY_FINDLEY},
+  {{"swt", "Pa", "parameter of Smith, Watson and Topper of the cycle"}, SAM_QUANTITY_SWT},
+  {{"fatemi_socie", "1", "parameter of Fatemi and Socie of the cycle"}, SAM_QUANTITY_FATEMI_SOCIE},
+  {{"ruiz_1", "J/m2", "Ruiz's first parameter of the cycle: work of friction"}, SAM_QUANTITY_RUIZ},
+  {{"ruiz_2", "Pa J/m2", "Ruiz's second parameter of the cycle: tension times work of friction"}, SAM_QUANTITY_RUIZ},
 };
 
 struct _n_SamStressFile {
@@ -44,7 +51,7 @@ struct _n_SamStressFile {
   char     *filename, *temporary;
   SamHold   hold; /* of the temporary file */
   SamFile   f;
-  PetscInt  steps;
+  PetscBool section;
   hsize_t   shape[DIMENSIONS];
   hid_t     dataset[DATASETS], scale[DIMENSIONS], history, history_time;
   double   *coordinate[DIMENSIONS];
@@ -58,6 +65,12 @@ PetscInt SamQuantityComponents(SamQuantity quantity)
 
   for (PetscInt d = 0; d < DATASETS; d++) count += datasets[d].quantity == quantity;
   return count;
+}
+
+/* The first dimension of a dataset: those of all steps together have no time. */
+static int FirstDimension(PetscInt k)
+{
+  return datasets[k].quantity >= SAM_QUANTITY_CROSSLAND ? Z : TIME;
 }
 
 /* ---- creation ---- */
@@ -116,6 +129,8 @@ static PetscErrorCode SetCoordinates(SamStressFile s, const SamStressLayout *lay
 
 static void CreateAll(SamStressFile s, const SamParameters *parameters)
 {
+  int first;
+
   SamFileWriteTextAttribute(s->f, s->f->id, "Conventions", "CF-1.8");
   SamFileWriteTextAttribute(s->f, s->f->id, "title", "Stresses under a partial-slip contact");
   SamFileWriteTextAttribute(s->f, s->f->id, "source", "petsam-stress " PETSAM_VERSION ", semi-analytical method");
@@ -129,8 +144,10 @@ static void CreateAll(SamStressFile s, const SamParameters *parameters)
   }
   for (PetscInt k = 0; k < DATASETS; k++) {
     if (!s->wants[datasets[k].quantity]) continue;
-    s->dataset[k] = CreateDataset(s, s->f->id, &datasets[k].label, DIMENSIONS, s->shape);
-    for (unsigned d = 0; d < DIMENSIONS; d++) (void)SamFileNote(s->f, H5DSattach_scale(s->dataset[k], s->scale[d], d));
+    first         = FirstDimension(k);
+    s->dataset[k] = CreateDataset(s, s->f->id, &datasets[k].label, DIMENSIONS - first, s->shape + first);
+    for (int d = first; d < DIMENSIONS; d++)
+      (void)SamFileNote(s->f, H5DSattach_scale(s->dataset[k], s->scale[d], (unsigned)(d - first)));
   }
   s->history      = SamFileNote(s->f, H5Gcreate2(s->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   s->history_time = CreateDataset(s, s->history, &coordinate_labels[TIME], 1, &s->shape[TIME]);
@@ -141,11 +158,15 @@ static void CreateAll(SamStressFile s, const SamParameters *parameters)
 /* The size of all datasets, bytes. */
 static off_t Bytes(SamStressFile s)
 {
-  off_t bytes = (off_t)sizeof(double), count = 0;
+  off_t bytes = 0;
 
-  for (PetscInt k = 0; k < DATASETS; k++) count += s->wants[datasets[k].quantity];
-  for (int d = 0; d < DIMENSIONS; d++) bytes *= (off_t)s->shape[d];
-  return count * bytes;
+  for (PetscInt k = 0; k < DATASETS; k++) {
+    off_t size = s->wants[datasets[k].quantity] ? (off_t)sizeof(double) : 0;
+
+    for (int d = FirstDimension(k); d < DIMENSIONS; d++) size *= (off_t)s->shape[d];
+    bytes += size;
+  }
+  return bytes;
 }
 
 PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const SamStressLayout *layout,
@@ -162,8 +183,8 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
   for (PetscInt k = 0; k < DATASETS; k++) s->dataset[k] = -1;
   for (int d = 0; d < DIMENSIONS; d++) s->scale[d] = -1;
   PetscCall(SamGridReference(grid));
-  s->grid  = grid;
-  s->steps = layout->steps;
+  s->grid    = grid;
+  s->section = layout->section;
   PetscCall(PetscArraycpy(s->wants, layout->wants, SAM_QUANTITIES));
   PetscCall(PetscStrallocpy(filename, &s->filename));
   PetscCall(SamFileNameBeside(filename, ".tmp", &s->temporary));
@@ -180,23 +201,27 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
 
 /* ---- values ---- */
 
-static PetscErrorCode Write(SamStressFile s, SamQuantity quantity, PetscInt component, const hsize_t start[],
-                            const hsize_t count[], const double values[])
+PetscErrorCode SamStressFileWrite(SamStressFile s, SamQuantity quantity, PetscInt component, PetscInt step,
+                                  PetscInt depth, PetscInt depths, const double values[])
 {
-  hsize_t        size = 1;
+  const hsize_t row     = s->section ? 0 : (hsize_t)s->grid->row_start;
+  const hsize_t start[] = {(hsize_t)step, (hsize_t)depth, row, 0},
+                count[] = {1, (hsize_t)depths, s->section ? s->shape[Y] : (hsize_t)s->grid->rows, s->shape[X]};
+  hsize_t        size   = 1;
   hid_t          space, memory;
-  PetscInt       k = 0;
+  PetscInt       k = component;
+  int            first;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  while (k < DATASETS && datasets[k].quantity != quantity) k++;
-  k += component;
+  while (datasets[k - component].quantity != quantity) k++;
+  first = FirstDimension(k);
   for (int d = 0; d < DIMENSIONS; d++) size *= count[d];
   PetscCall(SamFileBegin(s->f));
   space  = SamFileNote(s->f, H5Dget_space(s->dataset[k]));
   memory = SamFileNote(s->f, H5Screate_simple(1, &size, NULL));
   if (size) {
-    (void)SamFileNote(s->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL));
+    (void)SamFileNote(s->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start + first, NULL, count + first, NULL));
   } else {
     (void)SamFileNote(s->f, H5Sselect_none(space));
     (void)SamFileNote(s->f, H5Sselect_none(memory));
@@ -207,27 +232,6 @@ static PetscErrorCode Write(SamStressFile s, SamQuantity quantity, PetscInt comp
   ierr = SamFileEnd(s->f);
   if (ierr) s->broken = PETSC_TRUE;
   PetscCall(ierr);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamStressFileWriteMap(SamStressFile s, SamQuantity quantity, PetscInt component, PetscInt step,
-                                     PetscInt depth, const double values[])
-{
-  const hsize_t start[] = {(hsize_t)step, (hsize_t)depth, (hsize_t)s->grid->row_start, 0},
-                count[] = {1, 1, (hsize_t)s->grid->rows, (hsize_t)s->grid->nx};
-
-  PetscFunctionBegin;
-  PetscCall(Write(s, quantity, component, start, count, values));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamStressFileWriteSection(SamStressFile s, SamQuantity quantity, PetscInt component, PetscInt step,
-                                         PetscInt first, PetscInt count, const double values[])
-{
-  const hsize_t start[] = {(hsize_t)step, (hsize_t)first, 0, 0}, size[] = {1, (hsize_t)count, s->shape[Y], s->shape[X]};
-
-  PetscFunctionBegin;
-  PetscCall(Write(s, quantity, component, start, size, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -258,21 +262,24 @@ static void WriteAxis(FILE *file, const char name[], const double values[], hsiz
   fprintf(file, "\n        </DataItem>\n");
 }
 
-/* One step of a dataset, taken from the HDF5 file. */
+/* A dataset of all steps together, or one step of another, taken from the HDF5 file. */
 static void WriteAttribute(FILE *file, const SamStressFile s, const char results[], PetscInt k, hsize_t step)
 {
   const unsigned long long t = step, n[3] = {s->shape[Z], s->shape[Y], s->shape[X]};
 
-  fprintf(file,
-          "      <Attribute Name=\"%s\" Center=\"Node\">\n"
-          "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"%llu %llu %llu\">\n"
-          "          <DataItem Dimensions=\"3 4\" Format=\"XML\">%llu 0 0 0 1 1 1 1 1 %llu %llu %llu</DataItem>\n"
-          "          <DataItem Dimensions=\"%llu %llu %llu %llu\" NumberType=\"Float\" Precision=\"8\" "
-          "Format=\"HDF\">%s:/%s</DataItem>\n"
-          "        </DataItem>\n"
-          "      </Attribute>\n",
-          datasets[k].label.name, n[0], n[1], n[2], t, n[0], n[1], n[2], (unsigned long long)s->shape[TIME], n[0], n[1],
-          n[2], results, datasets[k].label.name);
+  fprintf(file, "      <Attribute Name=\"%s\" Center=\"Node\">\n", datasets[k].label.name);
+  if (FirstDimension(k) == TIME)
+    fprintf(file,
+            "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"%llu %llu %llu\">\n"
+            "          <DataItem Dimensions=\"3 4\" Format=\"XML\">%llu 0 0 0 1 1 1 1 1 %llu %llu %llu</DataItem>\n"
+            "          <DataItem Dimensions=\"%llu %llu %llu %llu\"",
+            n[0], n[1], n[2], t, n[0], n[1], n[2], (unsigned long long)s->shape[TIME], n[0], n[1], n[2]);
+  else
+    fprintf(file, "          <DataItem Dimensions=\"%llu %llu %llu\"", n[0], n[1], n[2]);
+  fprintf(file, " NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">%s:/%s</DataItem>\n", results,
+          datasets[k].label.name);
+  if (FirstDimension(k) == TIME) fprintf(file, "        </DataItem>\n");
+  fprintf(file, "      </Attribute>\n");
 }
 
 /* The whole description; returns an errno or 0. */

@@ -6,7 +6,9 @@
 
 #define TEXT 4096 /* characters of a list */
 
-static const char *const quantities[] = {"stress", "mises", "principal", "shear_max", "strain"};
+#define NAMES      256 /* characters of a list of names */
+#define QUANTITIES "stress,mises,principal,shear_max,strain"
+#define FATIGUE    "crossland,dang_van,findley,swt,fatemi_socie,ruiz"
 
 /* ---- numbers ---- */
 
@@ -133,24 +135,84 @@ static PetscErrorCode ReadSteps(const SamOptions *from, SamStressRequest *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadQuantities(const SamOptions *from, SamStressRequest *r)
+/* Reads a list of names, each of which asks for a quantity: names[k] for quantity first + k. */
+static PetscErrorCode ReadNames(const SamOptions *from, const char option[], const char list[],
+                                const char *const names[], PetscInt first, int count, char text[], SamStressRequest *r)
 {
-  char text[256] = "stress,mises", whole[256], *parts[SAM_QUANTITIES];
-  int  count;
+  char whole[NAMES], *parts[SAM_QUANTITIES];
+  int  given;
 
   PetscFunctionBegin;
-  PetscCall(
-    SamOptionsString(from, "quantities", "some of stress,mises,principal,shear_max,strain", text, sizeof(text), NULL));
   PetscCall(PetscStrncpy(whole, text, sizeof(whole)));
-  count = Divide(text, ',', parts, SAM_QUANTITIES);
-  for (int k = 0; k < PetscMin(count, (int)SAM_QUANTITIES); k++) {
+  given = Divide(text, ',', parts, count);
+  for (int k = 0; k < PetscMin(given, count); k++) {
     int q = 0;
 
-    while (q < SAM_QUANTITIES && strcmp(parts[k], quantities[q])) q++;
-    PetscCheck(q < SAM_QUANTITIES && count <= SAM_QUANTITIES, from->comm, SAM_ERR_USER,
-               "-quantities %s: expected some of stress,mises,principal,shear_max,strain", whole);
-    r->wants[q] = PETSC_TRUE;
+    while (q < count && strcmp(parts[k], names[q])) q++;
+    PetscCheck(q < count && given <= count, from->comm, SAM_ERR_USER, "-%s %s: expected some of %s", option, whole,
+               list);
+    r->wants[first + q] = PETSC_TRUE;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadQuantities(const SamOptions *from, SamStressRequest *r)
+{
+  static const char *const names[]     = {"stress", "mises", "principal", "shear_max", "strain"};
+  char                     text[NAMES] = "stress,mises";
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsString(from, "quantities", "some of " QUANTITIES, text, sizeof(text), NULL));
+  PetscCall(ReadNames(from, "quantities", QUANTITIES, names, SAM_QUANTITY_STRESS, 5, text, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The constants of the fatigue parameters, each required by one of them. */
+static PetscErrorCode ReadConstants(const SamOptions *from, SamStressRequest *r)
+{
+  const struct {
+    SamQuantity quantity;
+    const char *parameter, *name, *help;
+    SamRange    range;
+    PetscReal  *value;
+  } all[] = {
+    {SAM_QUANTITY_CROSSLAND, "crossland", "fatigue_crossland_alpha", "its factor on the largest mean stress",
+     SAM_RANGE_NONNEGATIVE, &r->constants.crossland_alpha},
+    {SAM_QUANTITY_DANG_VAN, "dang_van", "fatigue_dang_van_alpha", "its factor on the mean stress",
+     SAM_RANGE_NONNEGATIVE, &r->constants.dang_van_alpha},
+    {SAM_QUANTITY_FINDLEY, "findley", "fatigue_findley_k", "its factor on the largest normal stress",
+     SAM_RANGE_NONNEGATIVE, &r->constants.findley_k},
+    {SAM_QUANTITY_FATEMI_SOCIE, "fatemi_socie", "fatigue_fatemi_socie_k", "its factor on the largest normal stress",
+     SAM_RANGE_NONNEGATIVE, &r->constants.fatemi_socie_k},
+    {SAM_QUANTITY_FATEMI_SOCIE, "fatemi_socie", "fatigue_yield", "yield stress for fatemi_socie, Pa",
+     SAM_RANGE_POSITIVE, &r->constants.yield},
+  };
+  PetscBool set, print;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&print));
+  for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) {
+    if (!r->wants[all[k].quantity] && !print) continue;
+    PetscCall(SamOptionsReal(from, all[k].name, all[k].help, all[k].range, all[k].value, &set));
+    PetscCheck(set || print, from->comm, SAM_ERR_USER, "-%s is missing: %s (-fatigue %s)", all[k].name, all[k].help,
+               all[k].parameter);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadFatigue(const SamOptions *from, SamStressRequest *r)
+{
+  static const char *const names[]     = {"crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz"};
+  char                     text[NAMES] = "";
+  PetscBool                set;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsString(from, "fatigue", "over the steps as one closed cycle: some of " FATIGUE, text,
+                             sizeof(text), &set));
+  if (set) PetscCall(ReadNames(from, "fatigue", FATIGUE, names, SAM_QUANTITY_CROSSLAND, 6, text, r));
+  PetscCheck(!r->wants[SAM_QUANTITY_RUIZ] || r->depth[0] == 0, from->comm, SAM_ERR_USER,
+             "-fatigue ruiz: is defined on the surface: 0 must be one of -depths");
+  PetscCall(ReadConstants(from, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -175,7 +237,18 @@ PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
   PetscCall(ReadSteps(from, r));
   PetscCall(SamOptionsHeading(from, "What"));
   PetscCall(ReadQuantities(from, r));
+  PetscCall(SamOptionsHeading(from, "Fatigue"));
+  PetscCall(ReadFatigue(from, r));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamFatigueConstants SamStressRequestConstants(const SamStressRequest *r, PetscReal young, PetscReal poisson)
+{
+  SamFatigueConstants constants = r->constants;
+
+  constants.young   = young;
+  constants.poisson = poisson;
+  return constants;
 }
 
 PetscErrorCode SamStressRequestFree(SamStressRequest *r)

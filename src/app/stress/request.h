@@ -2,6 +2,7 @@
 #ifndef PETSAM_APP_STRESS_REQUEST_H
 #define PETSAM_APP_STRESS_REQUEST_H
 
+#include <petsam/fatigue.h>
 #include <petsam/results.h>
 #include <petsam/stressfile.h>
 
@@ -16,11 +17,16 @@ typedef struct {
   PetscBool      all_steps, last_step;
   PetscInt       first, last, stride; /* load steps from 1, where neither is set */
   PetscBool      wants[SAM_QUANTITIES];
+
+  SamFatigueConstants constants; /* but for the body's */
 } SamStressRequest;
 
 /* SamStressRequestRead - reads all options. Collective. Errors: SAM_ERR_USER. */
 PETSC_INTERN PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *request);
-PETSC_INTERN PetscErrorCode SamStressRequestFree(SamStressRequest *request);
+/* SamStressRequestConstants - the constants of fatigue, with those of the body. Not collective. */
+PETSC_INTERN SamFatigueConstants SamStressRequestConstants(const SamStressRequest *request, PetscReal young,
+                                                           PetscReal poisson);
+PETSC_INTERN PetscErrorCode      SamStressRequestFree(SamStressRequest *request);
 /*
   SamStressRequestSteps - the saved steps that are asked for, as numbers of saved steps from 0 on; the caller frees
   them with PetscFree(). Collective. Errors: SAM_ERR_USER for steps that are not there or have not been saved.

@@ -4,6 +4,7 @@
 
 #include "../arguments.h"
 #include "request.h"
+#include <petsam/control.h>
 
 /* A largest value so far, and the number of its point, counted along x, y and z. */
 typedef struct {
@@ -19,8 +20,11 @@ typedef struct {
   PetscInt         index; /* of the section's line of cells */
   PetscInt         steps, *saved;
   PetscReal       *times;
-  SamLargest      *mises, *principal; /* of each step */
-  PetscBool        quiet, writing;
+  double (*bulk)[SAM_BULK_COMPONENTS];    /* bulk stress of the body in each step, Pa */
+  SamLargest    *mises, *principal;       /* of each step */
+  SamLargest     fatigue[SAM_QUANTITIES]; /* of the cycle */
+  PetscBool      quiet, writing;
+  PetscLogDouble told; /* when the last line was printed, s */
 
   SamFourierSettings transforms;
 } SamStressRun;
@@ -31,5 +35,47 @@ PETSC_INTERN PetscErrorCode SamStressRunSetUp(SamStressRun *run, const SamArgume
 PETSC_INTERN PetscErrorCode SamStressRunCompute(SamStressRun *run);
 /* SamStressRunTearDown - destroys all objects, also after an error. Collective. */
 PETSC_INTERN PetscErrorCode SamStressRunTearDown(SamStressRun *run);
+
+/* ---- its parts ---- */
+
+/*
+  SamPoints - the points of which a rank has the stresses: of a map its rows at one depth, of a section its depths. The
+  stress of step s is stress + s * SAM_STRESS_COMPONENTS * count, component after component.
+*/
+typedef struct {
+  PetscInt count;         /* points */
+  PetscInt depth, depths; /* first depth, number of depths */
+  double   first;         /* number of the first point */
+  double  *stress;        /* Pa */
+} SamPoints;
+
+/* SamMapsCompute - everything on whole planes, one depth after another (maps.c). Collective. */
+PETSC_INTERN PetscErrorCode SamMapsCompute(SamStressRun *run);
+/* SamLinesCompute - everything on a section, some steps at a time (lines.c). Collective. */
+PETSC_INTERN PetscErrorCode SamLinesCompute(SamStressRun *run);
+/* SamMapsMemory, SamLinesMemory - the memory of this rank, bytes. Not collective. */
+PETSC_INTERN double SamMapsMemory(const SamStressRun *run);
+PETSC_INTERN double SamLinesMemory(const SamStressRun *run);
+
+/* SamStressAddBulk - adds the bulk stress of a step to the stresses of n points. Not collective. */
+PETSC_INTERN void SamStressAddBulk(const SamStressRun *run, PetscInt step, PetscInt n, double stress[]);
+/* SamQuantitiesWrite - computes what is wanted of a step's stresses and writes it (quantities.c). Collective. */
+PETSC_INTERN PetscErrorCode SamQuantitiesWrite(SamStressRun *run, PetscInt step, const SamPoints *points,
+                                               const double stress[]);
+/* SamLargestKeep - keeps a value if it is the largest so far. Not collective. */
+PETSC_INTERN void SamLargestKeep(SamLargest *largest, double value, double point);
+
+/*
+  SamCycleWanted - whether a fatigue parameter is asked for: then the stresses of all steps are needed at a time.
+  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and writes them (cycle.c). Collective.
+*/
+PETSC_INTERN PetscBool      SamCycleWanted(const SamStressRun *run);
+PETSC_INTERN PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *points);
+
+/*
+  SamStressRunTell - prints a line on how far the run is, if the last one is some time ago: what part is done of the
+  work that began at `start` (PetscTime(), s), and the time left for it. Not collective: rank 0 prints what it knows.
+*/
+PETSC_INTERN PetscErrorCode SamStressRunTell(SamStressRun *run, const char work[], PetscLogDouble start, double part);
 
 #endif

@@ -1,0 +1,174 @@
+/* Fatigue parameters of the chosen steps, taken as one closed cycle, from the stresses of all of them. */
+#include "stressrun.h"
+#include <petsam/private/baseimpl.h>
+#include <petsctime.h>
+
+#define BLOCK 256 /* points between two looks at the clock */
+
+/* The states at one point, and what is made of them. */
+typedef struct {
+  const SamStressRun *run;
+  const SamPoints    *points;
+  PetscInt            surface;               /* points on the surface, the first ones */
+  const double       *slip;                  /* of these: (states, 2, surface) */
+  double             *stress, *shear, *path; /* of a point: [component][state] */
+} Cycle;
+
+static PetscBool IsCycle(SamQuantity quantity)
+{
+  return quantity >= SAM_QUANTITY_CROSSLAND && quantity <= SAM_QUANTITY_RUIZ ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscBool SamCycleWanted(const SamStressRun *run)
+{
+  for (PetscInt q = 0; q < SAM_QUANTITIES; q++)
+    if (run->request.wants[q] && IsCycle((SamQuantity)q)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* ---- slip on the surface ---- */
+
+/* A field's values in the section's line of cells, on all ranks. */
+static PetscErrorCode GatherLine(const SamStressRun *run, const double field[], PetscInt length, double line[])
+{
+  const SamGrid g = run->grid;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(line, length));
+  for (PetscInt k = 0; k < length; k++) {
+    const PetscBool row = run->request.axis == SAM_SECTION_X ? PETSC_TRUE : PETSC_FALSE;
+    const PetscInt  j = (row ? run->index : k) - g->row_start, i = row ? k : run->index;
+
+    if (j >= 0 && j < g->rows) line[k] = field[j * g->nx + i];
+  }
+  /* of each value all terms but one are zero */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, line, (PetscMPIInt)length, MPI_DOUBLE, MPI_SUM, g->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The slip of all states on the surface, in the order of Cycle.slip; `length`: cells of a map's rows or of the line. */
+static PetscErrorCode ReadSlip(const SamStressRun *run, PetscInt length, double slip[])
+{
+  static const SamResultsField fields[] = {SAM_RESULTS_SLIP_X, SAM_RESULTS_SLIP_Y};
+  double                      *field;
+
+  PetscFunctionBegin;
+  PetscCall(SamAllocate(sizeof(double) * (size_t)run->grid->cells, &field));
+  for (PetscInt s = 0; s < run->steps; s++)
+    for (PetscInt c = 0; c < 2; c++) {
+      double *const to = slip + (2 * s + c) * (ptrdiff_t)length;
+
+      PetscCall(SamResultsRead(run->results, run->saved[s], fields[c], run->request.section ? field : to));
+      if (run->request.section) PetscCall(GatherLine(run, field, length, to));
+    }
+  SamFree(field);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- points ---- */
+
+static void GatherStress(const Cycle *c, PetscInt point)
+{
+  const PetscInt states = c->run->steps, n = c->points->count;
+
+  for (PetscInt s = 0; s < states; s++)
+    for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++)
+      c->stress[k * states + s] = c->points->stress[(s * SAM_STRESS_COMPONENTS + k) * (ptrdiff_t)n + point];
+}
+
+/* Ruiz's parameters exist on the surface only. There the stress is the shear but for the sign, which does not count. */
+static void ComputeRuiz(const Cycle *c, PetscInt point, double value[2])
+{
+  const PetscInt states = c->run->steps;
+
+  value[0] = value[1] = NAN;
+  if (point >= c->surface) return;
+  for (PetscInt s = 0; s < states; s++)
+    for (PetscInt k = 0; k < 2; k++) {
+      c->shear[k * states + s] = c->stress[(k ? SAM_STRESS_YZ : SAM_STRESS_XZ) * states + s];
+      c->path[k * states + s]  = c->slip[(2 * s + k) * (ptrdiff_t)c->surface + point];
+    }
+  SamFatigueRuiz(states, c->stress, c->shear, c->path, &value[0], &value[1]);
+}
+
+/* Computes a quantity's components at all points, into value[component * count + point]. */
+static PetscErrorCode ComputeAll(SamStressRun *run, const Cycle *c, SamQuantity quantity, double values[])
+{
+  const PetscInt            n = c->points->count, components = SamQuantityComponents(quantity);
+  const SamFatigueConstants constants = SamStressRequestConstants(&run->request, run->young, run->poisson);
+  PetscLogDouble            start;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&start));
+  for (PetscInt i = 0; i < n; i++) {
+    double value[2] = {0, 0};
+
+    GatherStress(c, i);
+    if (quantity == SAM_QUANTITY_RUIZ)
+      ComputeRuiz(c, i, value);
+    else
+      PetscCall(SamFatigueCompute((SamFatigueParameter)(quantity - SAM_QUANTITY_CROSSLAND), &constants, run->steps,
+                                  c->stress, &value[0]));
+    for (PetscInt k = 0; k < components; k++) values[k * (ptrdiff_t)n + i] = value[k];
+    if (!isnan(value[0])) SamLargestKeep(&run->fatigue[quantity], value[0], c->points->first + (double)i);
+    if (i % BLOCK == BLOCK - 1) PetscCall(SamStressRunTell(run, "fatigue", start, (double)(i + 1) / (double)n));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Number of this rank's points that lie on the surface; `length`: cells of its rows or of the line. */
+static PetscInt Surface(const SamStressRun *run, const SamPoints *p, PetscInt length)
+{
+  return p->depth == 0 && p->depths > 0 && run->request.depth[0] == 0 ? length : 0;
+}
+
+static PetscErrorCode Create(SamStressRun *run, const SamPoints *p, Cycle *c)
+{
+  const PetscInt  length = !run->request.section                ? p->count
+                           : run->request.axis == SAM_SECTION_X ? run->grid->nx
+                                                                : run->grid->ny;
+  const PetscInt  states = run->steps;
+  const PetscBool slips =
+    run->request.wants[SAM_QUANTITY_RUIZ] && run->request.depth[0] == 0 && (run->request.section || p->depth == 0)
+      ? PETSC_TRUE
+      : PETSC_FALSE;
+  double *slip = NULL;
+
+  PetscFunctionBegin;
+  *c = (Cycle){.run = run, .points = p, .surface = Surface(run, p, length)};
+  if (slips) {
+    PetscCall(SamAllocate(sizeof(double) * (size_t)(2 * states) * (size_t)length, &slip));
+    PetscCall(ReadSlip(run, length, slip));
+  }
+  c->slip = slip;
+  PetscCall(PetscMalloc3(SAM_STRESS_COMPONENTS * states, &c->stress, 2 * states, &c->shear, 2 * states, &c->path));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(Cycle *c)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(c->stress, c->shear, c->path));
+  SamFree((void *)c->slip);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p)
+{
+  double *values;
+  Cycle   c;
+
+  PetscFunctionBegin;
+  PetscCall(Create(run, p, &c));
+  PetscCall(SamAllocate(sizeof(double) * 2 * (size_t)p->count, &values));
+  for (PetscInt q = 0; q < SAM_QUANTITIES; q++) {
+    if (!run->request.wants[q] || !IsCycle((SamQuantity)q)) continue;
+    PetscCall(ComputeAll(run, &c, (SamQuantity)q, values));
+    for (PetscInt k = 0; k < SamQuantityComponents((SamQuantity)q); k++)
+      PetscCall(
+        SamStressFileWrite(run->file, (SamQuantity)q, k, 0, p->depth, p->depths, values + k * (ptrdiff_t)p->count));
+  }
+  SamFree(values);
+  PetscCall(Destroy(&c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
