@@ -19,23 +19,50 @@ void SamLargestKeep(SamLargest *largest, double value, double point)
     *largest = (SamLargest){value, point};
 }
 
-/*
-  Largest von Mises and principal stress. The latter is at most the mean stress and two thirds of the former: few points
-  need more than that.
-*/
+/* The largest principal stress at a point is at most this, and reaches it under tension in one direction. */
+static double RoughBound(const double *const s[SAM_STRESS_COMPONENTS], double mises, PetscInt i)
+{
+  const double mean = (s[SAM_STRESS_XX][i] + s[SAM_STRESS_YY][i] + s[SAM_STRESS_ZZ][i]) / 3;
+
+  return mean + mises * (2. / 3) * (1 + 1e-12);
+}
+
+/* A bound that is nearly the largest principal stress: by the cubic equation, and its rounding. */
+static double FineBound(const double *const s[SAM_STRESS_COMPONENTS], double mises, PetscInt i)
+{
+  const double mean = (s[SAM_STRESS_XX][i] + s[SAM_STRESS_YY][i] + s[SAM_STRESS_ZZ][i]) / 3;
+  const double xx = s[SAM_STRESS_XX][i] - mean, yy = s[SAM_STRESS_YY][i] - mean, zz = s[SAM_STRESS_ZZ][i] - mean,
+               xy = s[SAM_STRESS_XY][i], xz = s[SAM_STRESS_XZ][i], yz = s[SAM_STRESS_YZ][i];
+  const double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  const double ratio = mises > 0 ? 13.5 * determinant / (mises * mises * mises) : 1;
+
+  return mean + mises * (2. / 3 * cos(acos(PetscMin(PetscMax(ratio, -1), 1)) / 3) + 1e-6);
+}
+
+static void KeepPrincipal(SamLargest *largest, const double *const s[SAM_STRESS_COMPONENTS], PetscInt i, double first)
+{
+  double  value[3];
+  double *to[3] = {&value[0], &value[1], &value[2]};
+
+  SamStressPrincipal(1, (const double *[]){&s[0][i], &s[1][i], &s[2][i], &s[3][i], &s[4][i], &s[5][i]}, to);
+  SamLargestKeep(largest, value[0], first + (double)i);
+}
+
+/* Largest von Mises and principal stress. The latter is found exactly only where the bounds allow the largest. */
 static void FindLargest(SamStressRun *run, PetscInt step, const SamPoints *p,
                         const double *const s[SAM_STRESS_COMPONENTS], const double mises[])
 {
-  for (PetscInt i = 0; i < p->count; i++) {
-    const double mean = (s[SAM_STRESS_XX][i] + s[SAM_STRESS_YY][i] + s[SAM_STRESS_ZZ][i]) / 3;
-    double       value[3];
-    double      *to[3] = {&value[0], &value[1], &value[2]};
+  SamLargest *const largest = &run->principal[step];
+  PetscInt          most    = 0;
 
+  for (PetscInt i = 0; i < p->count; i++) {
     SamLargestKeep(&run->mises[step], mises[i], p->first + (double)i);
-    if (mean + mises[i] * (2. / 3) * (1 + 1e-12) < run->principal[step].value) continue;
-    SamStressPrincipal(1, (const double *[]){&s[0][i], &s[1][i], &s[2][i], &s[3][i], &s[4][i], &s[5][i]}, to);
-    SamLargestKeep(&run->principal[step], value[0], p->first + (double)i);
+    if (RoughBound(s, mises[i], i) > RoughBound(s, mises[most], most)) most = i;
   }
+  if (p->count) KeepPrincipal(largest, s, most, p->first);
+  for (PetscInt i = 0; i < p->count; i++)
+    if (RoughBound(s, mises[i], i) >= largest->value && FineBound(s, mises[i], i) >= largest->value)
+      KeepPrincipal(largest, s, i, p->first);
 }
 
 static PetscErrorCode Write(SamStressRun *run, PetscInt step, const SamPoints *p, SamQuantity quantity, PetscInt k,
