@@ -37,7 +37,7 @@ class Petsam(MakefilePackage):
     with when("+scripts"):
         depends_on("python@3.9:", type=("build", "run"))
         depends_on("py-h5py@3:", type="run")
-        depends_on("py-matplotlib@3.5:", type="run")
+        depends_on("py-matplotlib@3.6:", type="run")
         depends_on("py-numpy@1.20:", type="run")
         depends_on("py-pyyaml@5.4:", type="run")
         depends_on("py-scipy@1.6:", type="run")

@@ -4,7 +4,7 @@
     results = petsam.open("sphere.h5")
     print(results.history["stick_area"][-1], results.field("pressure").max())
 
-open, Results   reading of results files (results.py)
+open            reading of files of petsam and petsam-stress: Results (results.py) or Stresses (stresses.py)
 closed          closed solutions of contact mechanics
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
@@ -19,10 +19,10 @@ import importlib
 
 from .errors import Error, Missing
 
-__all__ = ["Error", "Missing", "Results", "Snapshot", "open"]
+__all__ = ["Error", "Missing", "Results", "Snapshot", "Stresses", "open"]
 
 # names that need libraries: their modules are imported when they are first asked for
-_HOMES = {"Results": ".results", "Snapshot": ".results"}
+_HOMES = {"Results": ".results", "Snapshot": ".results", "Stresses": ".stresses"}
 
 
 def __getattr__(name):
@@ -32,7 +32,10 @@ def __getattr__(name):
 
 
 def open(path, label=None):
-    """The Results of a file of petsam; label names it in pictures (the file's name). Error where it cannot be read."""
-    from .results import Results
+    """The Results of a file of petsam, or the Stresses of one of petsam-stress; Error where it cannot be read.
 
-    return Results(path, label)
+    label names it in pictures (the file's name).
+    """
+    from .stresses import open_any
+
+    return open_any(path, label)

@@ -37,16 +37,8 @@ class Named(dict):
         raise Error(f"{self.path}: has no {name}")
 
 
-class Results:
-    """One results file, open for reading; Error where it cannot be read.
-
-    x, y        cell centres, m
-    times       of the saved fields, s
-    steps       numbers of the load steps, from 1, whose fields are saved
-    history     name: array with a value for every load step, all of /history; NaN where a step has no solution
-    units       name: unit, of the same
-    parameters  name of an option: value, all root attributes
-    """
+class Datafile:
+    """What files of petsam and of petsam-stress share; open for reading, Error where it cannot be read."""
 
     def __init__(self, path, label=None):
         self.path = str(path)
@@ -66,22 +58,18 @@ class Results:
                 self.close()
                 raise
 
-    def _read(self):
-        self.x, self.y, self.times = (self._row(_own(self.file, name), name) for name in ("x", "y", "time"))
-        for name, axis in (("x", self.x), ("y", self.y)):
-            if axis.size < 2 or not np.all(np.isfinite(axis)) or not np.all(np.diff(axis) > 0.0):
-                raise ValueError(f"/{name} is not two or more numbers that increase")
+    def _read_axes(self, names, least):
+        """The coordinates, each of at least so many numbers that increase; then /history and the parameters."""
+        axes = [self._row(_own(self.file, name), name) for name in names]
+        for name, axis in zip(names, axes):
+            if axis.size < least or not np.all(np.isfinite(axis)) or not np.all(np.diff(axis) > 0.0):
+                raise ValueError(f"/{name} is not {least} or more numbers that increase")
         history = _own(self.file, "history")
         history = {name: _own(history, name) for name in history}
         self.history = Named(self.path, {name: self._row(data, "history/" + name) for name, data in history.items()})
         self.units = {name: self._unit(data, "history/" + name) for name, data in history.items()}
         self.parameters = Named(self.path, self.file.attrs)
-        if "friction_file" not in self.parameters:
-            _ = self.parameters["friction"]  # which every other file has
-        time = self.history["time"]
-        if not time.size:
-            raise Error(f"{self.path}: has no load step yet")
-        self.steps = [int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
+        return axes
 
     @staticmethod
     def _row(data, name):
@@ -114,6 +102,36 @@ class Results:
         if isinstance(error, FileNotFoundError):
             return Missing(f"{self.path}: no such file")
         return Error(f"{self.path}: {_reason(error)}")
+
+    def nearest_time(self, times, time):
+        """Index of the time (s) that is nearest, between the first and the last."""
+        low, high = float(times[0]), float(times[-1])
+        slack = 1e-9 * max(abs(low), abs(high))
+        if not low - slack <= time <= high + slack:
+            raise NotSaved(self.path, f"time {time:g}", f"fields were saved from {low:g} to {high:g}")
+        return int(np.argmin(np.abs(times - time)))
+
+
+class Results(Datafile):
+    """One results file, open for reading; Error where it cannot be read.
+
+    x, y        cell centres, m
+    times       of the saved fields, s
+    steps       numbers of the load steps, from 1, whose fields are saved
+    history     name: array with a value for every load step, all of /history; NaN where a step has no solution
+    units       name: unit, of the same
+    parameters  name of an option: value, all root attributes
+    """
+
+    def _read(self):
+        self.x, self.y = self._read_axes(("x", "y"), 2)
+        self.times = self._row(_own(self.file, "time"), "time")
+        if "friction_file" not in self.parameters:
+            _ = self.parameters["friction"]  # which every other file has
+        time = self.history["time"]
+        if not time.size:
+            raise Error(f"{self.path}: has no load step yet")
+        self.steps = [int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
 
     # ------------------------------------------------------------ steps
 
@@ -151,11 +169,7 @@ class Results:
     def of_time(self, time):
         """Index into the fields of the saved step nearest to time (s), between the first and the last."""
         self._need_fields()
-        low, high = float(self.times[0]), float(self.times[-1])
-        slack = 1e-9 * max(abs(low), abs(high))
-        if not low - slack <= time <= high + slack:
-            raise NotSaved(self.path, f"time {time:g}", f"fields were saved from {low:g} to {high:g}")
-        return int(np.argmin(np.abs(self.times - time)))
+        return self.nearest_time(self.times, time)
 
     def of_last(self):
         """Index into the fields of the last saved step."""

@@ -1,11 +1,13 @@
-"""Draw what petsam has computed: maps, profiles, fretting loops, histories.
+"""Draw what petsam has computed: maps, profiles, fretting loops, histories; stresses and fatigue of petsam-stress.
 
     petsam-plot sphere.h5                          all pictures that the file is good for
     petsam-plot --loop -o loop.pdf a.h5 b.h5       one picture, two files compared
     petsam-plot --maps --step 20,-1 strokes.h5     two steps below each other
+    petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop
-and the history too. Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
+and the history too; of a file of petsam-stress its section or maps, the profile, and fatigue parameters if it has them.
+Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
 """
 
 import argparse
@@ -15,11 +17,14 @@ import warnings
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, short
 from ..files import need_replaceable, same
-from ..results import DAMAGED, NotSaved, Results
-from . import pictures
+from ..results import DAMAGED, NotSaved
+from ..stresses import Stresses, open_any
+from . import bodies, pictures
 from .style import STYLE, plt
 
-KINDS = ("maps", "profiles", "loop", "history")
+KINDS = ("maps", "sections", "profiles", "loop", "history", "fatigue")
+OF_RESULTS = ("maps", "profiles", "loop", "history")
+OF_STRESSES = ("maps", "sections", "profiles", "fatigue")
 FORMATS = (".png", ".pdf")
 DPI = (10, 1200)
 PIXELS = 300e6  # of a PNG at most: matplotlib holds them all
@@ -60,10 +65,17 @@ def resolution(text):
 def arguments():
     """Read the command line."""
     parser = Parser(prog="petsam-plot", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("files", nargs="+", metavar="FILE.h5", help="results of petsam; several are compared")
+    parser.add_argument("files", nargs="+", metavar="FILE.h5", help="of petsam or petsam-stress; several are compared")
     kinds = parser.add_argument_group("pictures")
-    kinds.add_argument("--maps", action="store_true", help="pressure, shear, slip and state over the surface")
-    kinds.add_argument("--profiles", action="store_true", help="pressure, shear and slip along x and y")
+    kinds.add_argument(
+        "--maps", action="store_true", help="pressure, shear, slip and state over the surface; stresses over planes"
+    )
+    kinds.add_argument(
+        "--profiles", action="store_true", help="pressure, shear and slip along x and y; a stress on the surface"
+    )
+    kinds.add_argument("--sections", action="store_true", help="von Mises and another stress over depth")
+    kinds.add_argument("--component", choices=bodies.COMPONENTS, default="xx", help="the other stress (xx)")
+    kinds.add_argument("--fatigue", action="store_true", help="fatigue parameters, with the place of the largest")
     kinds.add_argument("--loop", action="store_true", help="a load over its displacement")
     kinds.add_argument("--load", choices=tuple(pictures.PAIRS), help="the loop's load (that which does the most work)")
     kinds.add_argument("--history", action="store_true", help="scalars over time")
@@ -98,10 +110,29 @@ def chosen(options, results):
         for kind in KINDS
         if getattr(options, kind) or (kind == "loop" and options.load) or (kind == "history" and options.names)
     ]
+    stresses = isinstance(results[0], Stresses)
+    for one in results:
+        if isinstance(one, Stresses) != stresses:
+            raise Error(f"{one.path}: results of petsam and of petsam-stress do not go into one picture")
+    allowed = OF_STRESSES if stresses else OF_RESULTS
+    for kind in kinds:
+        if kind not in allowed:
+            program = "petsam-stress" if stresses else "petsam"
+            raise Error(f"{results[0].path}: --{kind}: a file of {program}, of which there are {', '.join(allowed)}")
     if kinds:
         return kinds
+    if stresses:
+        return stress_kinds(results)
     several = any(one.solved.size > 1 for one in results)
-    return [kind for kind in KINDS if kind in ("maps", "profiles") or several]
+    return [kind for kind in OF_RESULTS if kind in ("maps", "profiles") or several]
+
+
+def stress_kinds(files):
+    """What files of stresses are good for."""
+    kinds = [] if any(file.along for file in files) else ["maps"]
+    if all(file.z.size > 1 and file.along for file in files):
+        kinds.append("sections")
+    return [*kinds, "profiles"] + (["fatigue"] if len(files) == 1 and files[0].fatigue else [])
 
 
 def snapshots(options, results):
@@ -126,8 +157,22 @@ def path(options, kind, alone):
     return "{}{}{}".format(base, "" if alone and options.output else "_" + kind, ending)
 
 
+def draw_stresses(options, files, kind):
+    """One picture of stresses, a matplotlib figure."""
+    if kind == "fatigue":
+        if len(files) > 1:
+            raise Error(f"{files[1].path}: --fatigue: draws one file at a time")
+        return bodies.fatigue(files[0], options.at)
+    steps = snapshots(options, files)
+    if kind == "maps":
+        return bodies.maps(steps, options.component)
+    return getattr(bodies, kind)(steps, options.component, options.at)
+
+
 def draw(options, results, kind):
     """One picture, a matplotlib figure."""
+    if isinstance(results[0], Stresses):
+        return draw_stresses(options, results, kind)
     if kind == "maps":
         return pictures.maps(snapshots(options, results), options.whole_grid)
     if kind == "profiles":
@@ -154,7 +199,7 @@ def save(options, figure, name):
 def draw_all(options):
     """All pictures that are asked for."""
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
-    results = [Results(name, label) for name, label in zip(options.files, labels)]
+    results = [open_any(name, label) for name, label in zip(options.files, labels)]
     kinds = chosen(options, results)
     with plt.rc_context(STYLE):
         for kind in kinds:

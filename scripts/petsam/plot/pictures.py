@@ -28,7 +28,7 @@ SYMBOLS = {
 }  # fmt: skip
 
 
-def _need_few(count, what):
+def need_few(count, what):
     if count > PANELS:
         raise Error(f"{count} {what} in one picture; expected at most {PANELS}")
 
@@ -64,7 +64,7 @@ def _map(axes, data, name, factor, length, vmax):
 
 def maps(snapshots, whole=False):
     """Pressure, |q|, |s| and state: a row a snapshot, one scale a column."""
-    _need_few(len(snapshots), "steps and files")
+    need_few(len(snapshots), "steps and files")
     data = [_map_data(results, index, whole) for results, index in snapshots]
     length, unit = scale("m", largest(np.array(one["extent"]) for one in data))
     columns = (
@@ -291,7 +291,7 @@ def history(results, names=None):
                     )
                 )
     names = names or _varying(results)
-    _need_few(len(names), "datasets")
+    need_few(len(names), "datasets")
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
     figure, axes = plt.subplots(

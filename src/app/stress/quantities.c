@@ -34,7 +34,7 @@ static double FineBound(const double *const s[SAM_STRESS_COMPONENTS], double mis
   const double xx = s[SAM_STRESS_XX][i] - mean, yy = s[SAM_STRESS_YY][i] - mean, zz = s[SAM_STRESS_ZZ][i] - mean,
                xy = s[SAM_STRESS_XY][i], xz = s[SAM_STRESS_XZ][i], yz = s[SAM_STRESS_YZ][i];
   const double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-  const double ratio = mises > 0 ? 13.5 * determinant / (mises * mises * mises) : 1;
+  const double ratio       = mises > 0 ? 13.5 * determinant / (mises * mises * mises) : 1;
 
   return mean + mises * (2. / 3 * cos(acos(PetscMin(PetscMax(ratio, -1), 1)) / 3) + 1e-6);
 }

@@ -308,9 +308,9 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
   PetscCall(SamResultsGetSaved(run->results, run->saved[step], &load, NULL));
   GetPlace(run, run->mises[step].point, at);
   if (!run->quiet)
-    PetscCall(PetscPrintf(
-      run->grid->comm, "  largest     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
-      run->mises[step].value, at[0], at[1], at[2], load));
+    PetscCall(PetscPrintf(run->grid->comm,
+                          "  largest     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
+                          run->mises[step].value, at[0], at[1], at[2], load));
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
     if (!run->request.wants[q]) continue;
     PetscCall(Agree(run->grid->comm, &run->fatigue[q]));

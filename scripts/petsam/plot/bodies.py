@@ -1,0 +1,220 @@
+"""Pictures of the stresses in a body; each function takes stresses.Stresses and gives a matplotlib figure.
+
+A step is given as a pair (Stresses, index). Depth points down. Places of largest values are marked.
+"""
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from ..errors import Error
+from .pictures import PIXELS, need_few
+from .style import colors, extent, field, plt
+from .units import label, largest, plain, scale
+
+SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
+FATIGUE = {
+    "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "Smith, Watson and Topper",
+    "fatemi_socie": "Fatemi and Socie", "ruiz_1": "Ruiz, first", "ruiz_2": "Ruiz, second",
+}  # fmt: skip
+LEVELS = 24  # of colours
+LINES = 8  # contours with a number
+COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+
+
+def _line(file, at):
+    """A section of the file: along, its coordinates; slices of rows and columns; the other coordinate's name, place.
+
+    Of maps it is the row nearest to y of `at`.
+    """
+    everything = slice(None)
+    if file.along == "y":
+        return "y", file.y, everything, everything, ("x", file.x[0])
+    row = int(np.argmin(np.abs(file.y - at[1])))
+    return "x", file.x, slice(row, row + 1), everything, ("y", file.y[row])
+
+
+def _at(where, length, unit):
+    return f"  at ${where[0]}$ = {length * where[1]:.4g} {unit}"
+
+
+def _section(file, name, index, at, depths=slice(None)):
+    """Values (z, along) of a quantity on a section."""
+    _, _, rows, columns, _ = _line(file, at)
+    values = file.field(name, index, depths, rows, columns)
+    return values.reshape(values.shape[0], -1)
+
+
+def _contours(axes, along, z, values, low, high, color_map):
+    """Colours and lines of values (z, along) between limits; one depth is a line."""
+    axes.grid(False)
+    if not high > low:
+        high = low + 1.0
+    levels = np.linspace(low, high, LEVELS + 1)
+    image = axes.contourf(along, z, np.clip(values, low, high), levels=levels, cmap=color_map)
+    lines = axes.contour(
+        along, z, values, levels=np.linspace(low, high, LINES + 2)[1:-1], colors="0.25", linewidths=0.5
+    )
+    axes.clabel(lines, fmt="%.3g", fontsize=6.5)
+    axes.set_ylim(z[-1], z[0])
+    return image
+
+
+def _bar(figure, axes, image, unit):
+    figure.colorbar(image, ax=axes, aspect=25, label=unit, ticks=MaxNLocator(7), format="%.4g")
+
+
+def _mark(axes, x, y):
+    axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6)
+    axes.plot(x, y, "+", color="black", markersize=9, markeredgewidth=1.2)
+
+
+def _annotate(axes, text):
+    axes.annotate(
+        plain(text),
+        (0.02, 0.03),
+        xycoords="axes fraction",
+        fontsize=8,
+        color="white",
+        bbox={"facecolor": "black", "alpha": 0.45, "linewidth": 0, "pad": 2},
+    )
+
+
+def sections(steps, component="xx", at=(0.0, 0.0)):
+    """Von Mises and a component of the stress over depth: a row a step, one scale a column."""
+    need_few(len(steps), "steps and files")
+    for file, _ in steps:
+        if file.z.size < 2:
+            raise Error(f"{file.path}: has one depth; a section needs several")
+    columns = (("mises", "von Mises stress"), ("stress_" + component, f"stress {SYMBOLS[component]}"))
+    length, unit = scale("m", max(np.ptp(_line(file, at)[1]) for file, _ in steps) / 2)
+    figure, axes = plt.subplots(
+        len(steps), 2, figsize=(12.0, 3.3 * len(steps) + 0.3), squeeze=False, constrained_layout=True
+    )
+    for column, (name, text) in enumerate(columns):
+        data = [_section(file, name, index, at) for file, index in steps]
+        top = largest(data)
+        factor, prefixed = scale("Pa", top)
+        low, colours = (0.0, "viridis") if name == "mises" else (-factor * top, "RdBu_r")
+        for row, ((file, index), values) in enumerate(zip(steps, data)):
+            panel, (axis, along, _, _, where) = axes[row, column], _line(file, at)
+            image = _contours(panel, length * along, length * file.z, factor * values, low, factor * top, colours)
+            k, i = np.unravel_index(np.argmax(values), values.shape)
+            _mark(panel, length * along[i], length * file.z[k])
+            panel.set(
+                xlabel=label(f"${axis}$", unit) + _at(where, length, unit),
+                ylabel=label("depth $z$", unit) if column == 0 else "",
+                title=text if row == 0 else "",
+            )
+            _bar(figure, panel, image, prefixed)
+            _annotate(panel, f"{file.title(index)}: largest {factor * values[k, i]:.4g} {prefixed}")
+    return figure
+
+
+def profiles(steps, component="xx", at=(0.0, 0.0)):
+    """A component of the stress along the section at its first depth, the surface if it has it."""
+    figure, axes = plt.subplots(figsize=(7.6, 4.4), constrained_layout=True)
+    data = [_section(file, "stress_" + component, index, at, slice(0, 1))[0] for file, index in steps]
+    length, unit = scale("m", max(np.ptp(_line(file, at)[1]) for file, _ in steps) / 2)
+    factor, prefixed = scale("Pa", largest(data))
+    for (file, index), values, tint in zip(steps, data, colors(len(steps))):
+        axis, along, _, _, where = _line(file, at)
+        axes.plot(length * along, factor * values, color=tint, linewidth=1.3, label=plain(file.title(index)))
+    axes.axhline(0.0, color="0.6", linewidth=0.8)
+    depth = "on the surface" if file.z[0] == 0 else f"at z = {file.z[0]:.4g} m"
+    axes.set(
+        xlabel=label(f"${axis}$", unit) + _at(where, length, unit),
+        ylabel=label(SYMBOLS[component], prefixed),
+        title=f"stress {SYMBOLS[component]} {depth}",
+    )
+    axes.legend(loc="best")
+    return figure
+
+
+def _stride(file):
+    return max(1, -(-max(file.y.size, file.x.size) // PIXELS))
+
+
+def maps(steps, component="xx"):
+    """Von Mises and a component of the stress over planes: a row a step and depth, one scale a column."""
+    rows = [(file, index, k) for file, index in steps for k in range(file.z.size)]
+    for file, _ in steps:
+        if file.along:
+            raise Error(f"{file.path}: holds a section; maps need whole planes")
+    need_few(len(rows), "steps, depths and files")
+    length, unit = scale("m", max(np.ptp(file.x) for file, _ in steps) / 2)
+    figure, axes = plt.subplots(len(rows), 2, figsize=(10.0, 3.8 * len(rows) + 0.3), squeeze=False, layout="compressed")
+    for column, (name, text) in enumerate(
+        (("mises", "von Mises stress"), ("stress_" + component, f"stress {SYMBOLS[component]}"))
+    ):
+        data = []
+        for file, index, k in rows:
+            part = slice(None, None, _stride(file))
+            data.append(file.field(name, index, slice(k, k + 1), part, part)[0])
+        top = largest(data)
+        factor, prefixed = scale("Pa", top)
+        low, colours = (0.0, "viridis") if name == "mises" else (-factor * top, "RdBu_r")
+        for row, ((file, index, k), values) in enumerate(zip(rows, data)):
+            panel = axes[row, column]
+            edges = extent(file.x, file.y, 1.0 / length, _stride(file))
+            image = field(panel, factor * values, edges, low, factor * top, colours)
+            panel.set(
+                xlabel=label("$x$", unit),
+                ylabel=label("$y$", unit) if column == 0 else "",
+                title=text if row == 0 else "",
+            )
+            _bar(figure, panel, image, prefixed)
+            _annotate(panel, f"{file.title(index)}, z = {file.z[k]:.4g} m")
+    return figure
+
+
+def fatigue(file, at=(0.0, 0.0)):
+    """Every fatigue parameter of a file: over a section, or over the first plane; the largest value is marked."""
+    names = file.fatigue
+    if not names:
+        raise Error(f"{file.path}: has no fatigue parameter (petsam-stress -fatigue)")
+    columns = min(2, len(names))
+    rows = -(-len(names) // columns)
+    size = (5.6 * columns, (4.6 if file.along is None else 3.6) * rows + 0.3)
+    figure, axes = plt.subplots(
+        rows, columns, figsize=size, squeeze=False, layout="compressed" if file.along is None else "constrained"
+    )
+    for panel, name in zip(axes.flat, names):
+        _fatigue_panel(figure, panel, file, name, at)
+    for panel in axes.flat[len(names) :]:
+        panel.set_axis_off()
+    figure.suptitle(plain(file.label), fontsize=9, color="0.35")
+    return figure
+
+
+def _fatigue_panel(figure, panel, file, name, at):
+    if file.along is None:
+        values = file.field(name, depths=slice(0, 1))[0]
+        axis, along, where, other, down = "x", file.x, ("z", file.z[0]), "y", file.y
+    else:
+        values = _section(file, name, 0, at)
+        axis, along, _, _, where = _line(file, at)
+        other, down = "z", file.z
+    some = np.isfinite(values)
+    k, i = np.unravel_index(np.argmax(np.where(some, values, -np.inf)), values.shape)
+    high, base = float(values[k, i]), file.unit(name)
+    factor, prefixed = scale(base.split()[0], abs(high))
+    prefixed = " ".join([prefixed, *base.split()[1:]]) if prefixed else ""
+    length, unit = scale("m", np.ptp(along) / 2)
+    limits = (min(0.0, factor * float(np.min(values[some]))), factor * high)
+    if file.along is None:
+        image = field(panel, factor * values, extent(file.x, file.y, 1.0 / length), *limits, "inferno")
+    elif some.all(axis=1).sum() > 1:
+        image = _contours(panel, length * along, length * down, factor * values, *limits, "inferno")
+    else:  # on one depth only
+        image = None
+        panel.plot(length * along, factor * values[k], color=colors(1)[0], linewidth=1.3)
+    if image is None:
+        _mark(panel, length * along[i], factor * high)
+        panel.set(ylabel=label(FATIGUE[name], prefixed))
+    else:
+        _mark(panel, length * along[i], length * down[k])
+        panel.set(ylabel=label("depth $z$" if other == "z" else "$y$", unit))
+        _bar(figure, panel, image, prefixed)
+    place = f"${axis}$ = {length * along[i]:.4g} {unit}, ${other}$ = {length * down[k]:.4g} {unit}"
+    panel.set_xlabel(label(f"${axis}$", unit) + _at(where, length, unit))
+    panel.set_title(f"{FATIGUE[name]}\nlargest {factor * high:.4g} {prefixed} at {place}", fontsize=9)

@@ -1,0 +1,85 @@
+"""Reading of petsam-stress's files: stresses in a body by step and depth, and fatigue parameters. SI units."""
+
+import numpy as np
+
+from .errors import Error
+from .isolation import reading
+from .results import DAMAGED, WHOLE, Datafile, NotSaved, Results, _own
+
+FATIGUE = ("crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz_1", "ruiz_2")
+AXES = ("time", "z", "y", "x")
+
+
+class Stresses(Datafile):
+    """One file of petsam-stress, open for reading; Error where it cannot be read.
+
+    x, y, z     points, m; z from the surface into the body; a section has one y or one x
+    times       of the load steps, s
+    along       "x" or "y", the direction of a section; None of maps
+    history     name: array with a value for every step, all of /history
+    units       name: unit, of the same
+    parameters  body, young (Pa), poisson, and the constants of the fatigue parameters
+    """
+
+    def _read(self):
+        self.times, self.z, self.y, self.x = self._read_axes(AXES, 1)
+        self.along = "x" if self.y.size == 1 else "y" if self.x.size == 1 else None
+        self.shape = (self.times.size, self.z.size, self.y.size, self.x.size)
+
+    def __contains__(self, name):
+        return name in self.file and name not in AXES
+
+    @property
+    def fatigue(self):
+        """Names of the fatigue parameters that the file has."""
+        return [name for name in FATIGUE if name in self]
+
+    def unit(self, name):
+        """Unit of a dataset."""
+        with reading(self.path):
+            return self._unit(_own(self.file, name), name)
+
+    def of_last(self):
+        """Index of the last step."""
+        return self.times.size - 1
+
+    def of_step(self, number):
+        """Index of a step of the file: from 1, or from the end, -1 being the last."""
+        count = self.times.size
+        if not 1 <= (count + 1 + number if number < 0 else number) <= count:
+            raise NotSaved(self.path, f"step {number}", f"there are {count} steps in this file")
+        return number % count if number < 0 else number - 1
+
+    def of_time(self, time):
+        """Index of the step nearest to time (s), between the first and the last."""
+        return self.nearest_time(self.times, time)
+
+    def title(self, index):
+        """What names a step: the label, and the time where there are several."""
+        return self.label if self.times.size == 1 else f"{self.label}, t = {self.times[index]:.4g} s"
+
+    def field(self, name, index=-1, depths=slice(None), rows=slice(None), columns=slice(None)):
+        """A quantity (z, y, x) of a step, or a fatigue parameter, which has no steps; on a window of slices."""
+        try:
+            with reading(self.path):
+                if name not in self:
+                    raise Error(f"{self.path}: has no {name}")
+                data = _own(self.file, name)
+                shape = self.shape[1:] if name in FATIGUE else self.shape
+                if data.shape != shape or data.dtype.kind != "f":
+                    raise ValueError(f"/{name} has the shape {data.shape}")
+                sizes = (len(range(*part.indices(n))) for part, n in zip((depths, rows, columns), shape[-3:]))
+                if np.prod(list(sizes)) > WHOLE:
+                    raise ValueError(f"/{name} is too large to be read whole: take a part of it")
+                where = (depths, rows, columns) if name in FATIGUE else (index % self.shape[0], depths, rows, columns)
+                return data[where]
+        except DAMAGED as error:
+            raise self._error(error) from error
+
+
+def open_any(path, label=None):
+    """The Stresses or the Results of a file, by what is in it."""
+    try:
+        return Stresses(path, label)
+    except Error:
+        return Results(path, label)  # which says what is wrong

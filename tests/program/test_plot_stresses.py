@@ -1,0 +1,125 @@
+"""petsam-plot of petsam-stress's files: pictures from true results, what they show, and refusals."""
+
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+import conftest
+import petsam
+from petsam.plot import bodies
+from support import ROOT, ball, slide_limit
+
+PROGRAM = ROOT / "scripts" / "petsam-plot"
+STRESS = conftest.PROGRAM.with_name("petsam-stress")
+
+
+@pytest.fixture(scope="module")
+def folder(launcher, tmp_path_factory):
+    """A folder with strokes of a ball, their stresses on a section (section.h5) and on planes (maps.h5)."""
+    folder = tmp_path_factory.mktemp("stresses")
+    case = ball(n=40)
+    t = float(0.8 * slide_limit(case)[0])
+    (folder / "h.csv").write_text(f"time,load_tx\n1,{t}\n2,{-t}\n3,{t}\n")
+    conftest.execute(launcher, folder, [case, dict(history="h.csv", steps=2, output="c.h5")], 1, 0)
+    common = dict(input="c.h5", steps="3:6", fatigue="swt,ruiz", quiet=True)
+    for options in (
+        dict(output="section.h5", section="y=0", depths="0:4e-4:9"),
+        dict(output="column.h5", section="x=1e-4", depths="0:4e-4:9"),
+        dict(output="maps.h5", depths="0,1e-4"),
+    ):
+        conftest.execute(launcher, folder, [dict(common, **options)], 1, 0, program=STRESS)
+    return folder
+
+
+@pytest.fixture
+def plot(folder):
+    def run(*words, check=0):
+        done = subprocess.run(
+            [sys.executable, str(PROGRAM), *map(str, words)], cwd=folder, capture_output=True, text=True, timeout=120
+        )
+        assert done.returncode == check, done.stdout + done.stderr
+        return done
+
+    return run
+
+
+@pytest.mark.parametrize(
+    "name, kinds",
+    [
+        ("section", ("sections", "profiles", "fatigue")),
+        ("column", ("sections", "profiles", "fatigue")),
+        ("maps", ("maps", "profiles", "fatigue")),
+    ],
+)
+def test_all_that_a_file_is_good_for_is_drawn(plot, folder, name, kinds):
+    done = plot(f"{name}.h5")
+    assert done.stdout.split() == [word for kind in kinds for word in ("wrote", f"{name}_{kind}.png")]
+    assert all((folder / f"{name}_{kind}.png").stat().st_size > 5000 for kind in kinds)
+
+
+def test_steps_and_components_are_chosen(plot, folder):
+    plot("--sections", "--component", "xz", "--step", "1,-1", "-o", "two.pdf", "section.h5")
+    assert (folder / "two.pdf").read_bytes().startswith(b"%PDF")
+    plot("--profiles", "--time", "2", "-o", "at.png", "section.h5", "maps.h5")
+
+
+def test_profile_is_the_stress_on_the_surface(folder):
+    file = petsam.open(folder / "maps.h5")
+    figure = bodies.profiles([(file, 1)], "yy", (0.0, 1e-4))
+    x, y = figure.axes[0].lines[0].get_data()
+    with h5py.File(folder / "maps.h5") as f:
+        row = int(np.argmin(abs(f["y"][:] - 1e-4)))
+        expected = f["stress_yy"][1, 0, row]
+        assert np.allclose(y / np.abs(y).max(), expected / np.abs(expected).max(), rtol=1e-12)
+        assert np.allclose(x / x.max(), f["x"][:] / f["x"][:].max())
+    assert "MPa" in figure.axes[0].get_ylabel() and abs(y).max() == pytest.approx(abs(expected).max() / 1e6)
+
+
+@pytest.mark.parametrize("name", ["section", "column", "maps"])
+def test_fatigue_names_the_largest_value_and_its_place(folder, name):
+    file = petsam.open(folder / f"{name}.h5")
+    figure = bodies.fatigue(file)
+    title = figure.axes[0].get_title()
+    with h5py.File(folder / f"{name}.h5") as f:
+        swt = f["swt"][:1] if name == "maps" else f["swt"][:]
+        z, y, x = np.unravel_index(np.argmax(swt), swt.shape)
+        along = f["y"][y] if name == "column" else f["x"][x]
+    assert f"{swt.max() / 1e3:.4g} kPa" in title and f"= {1e6 * along:.4g} µm" in title
+    assert "Ruiz" in figure.axes[1].get_title()
+
+
+def test_open_knows_the_file_by_its_content(folder):
+    assert isinstance(petsam.open(folder / "c.h5"), petsam.Results)
+    file = petsam.open(folder / "section.h5")
+    assert isinstance(file, petsam.Stresses) and file.along == "x" and file.fatigue == ["swt", "ruiz_1", "ruiz_2"]
+    assert file.field("mises").shape == (9, 1, 40) and file.field("swt").shape == (9, 1, 40)
+    assert file.field("mises", 0, slice(2, 4)).shape == (2, 1, 40) and file.unit("swt") == "Pa"
+    assert file.history["mises_max"].size == 4 and file.parameters["body"] == 2
+    with pytest.raises(petsam.Error, match="has no crossland"):
+        file.field("crossland")
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (("--loop", "section.h5"), "--loop"),
+        (("--sections", "c.h5"), "--sections"),
+        (("section.h5", "c.h5"), "do not go into one picture"),
+        (("--maps", "section.h5"), "holds a section"),
+        (("--step", "5", "section.h5"), "there are 4 steps"),
+        (("--time", "9", "section.h5"), "from 1.5 to 3"),
+        (("--fatigue", "section.h5", "maps.h5"), "one file at a time"),
+    ],
+)
+def test_pictures_that_cannot_be_are_refused(plot, words, says):
+    done = plot(*words, check=3)
+    assert says in done.stderr and len(done.stderr.splitlines()) == 1
+
+
+def test_damaged_file_is_named(plot, folder):
+    data = bytearray((folder / "section.h5").read_bytes())
+    (folder / "short.h5").write_bytes(data[: len(data) // 3])
+    assert "short.h5" in plot("short.h5", check=3).stderr
