@@ -62,6 +62,16 @@ solve_quietly() {
     tail -n 1 "$out/$name.log"
 }
 
+# stress CASE NAME OPTION...: petsam-stress of CASE.h5 to NAME.h5; the program lies beside petsam
+stress() {
+    stress_case=$1
+    stress_name=$2
+    shift 2
+    "$mpirun" ${oversubscribe:+"$oversubscribe"} -n "$ranks" "$petsam-stress" -quiet \
+        -input "$out/$stress_case.h5" -output "$out/$stress_name.h5" "$@" </dev/null || \
+        fail "stresses $stress_name failed"
+}
+
 evaluate() { # evaluate EXPRESSION: its value
     LC_ALL=C awk "BEGIN { printf \"%.10g\\n\", $1 }"
 }

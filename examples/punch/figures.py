@@ -1,7 +1,7 @@
 """Compare the punch example's results with the exact pressure and with Jaeger's principle, and draw them.
 
 Reads the HDF5 files that examples/punch/run.sh writes to a directory, takes the last saved step of each,
-draws pressure.png, tangential.png and torsion.png (profiles along y = 0 and maps), and prints tables.
+draws pressure.png, tangential.png, torsion.png (profiles along y = 0 and maps) and stress.png, and prints tables.
 
 Dimensionless: pressure p 2R/(E* c), shear q 2R/(mu E* c), lengths over the flat radius c; R is the edge radius.
 Error norms:
@@ -30,6 +30,7 @@ MOMENTS = ("0", "5e3", "1e4", "1.5e4", "2e4", "2.5e4", "3e4")
 RATIOS = ("0.10", "0.30", "0.50", "0.70", "0.90", "0.95")
 RATIOS_EXACT = ("0.30", "0.60", "0.90")
 TORQUES = ("300", "600", "900", "1200", "1500", "1700")
+RATIOS_STRESS = ("0.30", "0.70", "0.95")
 MAP_MOMENTS, MAP_RATIOS, MAP_TORQUES = ("0", "1e4", "2e4", "3e4"), ("0.30", "0.70", "0.95"), ("600", "1200", "1700")
 POINTS_ON_LINE = 72
 
@@ -314,6 +315,29 @@ def figure_torsion(directory, cases, gross, exact):
     finish(figure, directory, "torsion.png", gross, (unit, r"$\mu E^*c/2R$"), "white: stick zone, dotted: flat base")
 
 
+def figure_stress(directory, cases, stresses):
+    """Von Mises stress under T_x with M_y over depth, and s_xx along the surface, over p0 = E* c/2R."""
+    figure, axes = plt.subplots(1, 2, figsize=(12.0, 4.2), constrained_layout=True)
+    unit, c, last = cases[0].pressure_unit, cases[0].c, stresses[-1]
+    mises = last.field("mises")[:, 0] / unit
+    top = 1.02 * np.max(mises)
+    panel = axes[0]
+    panel.grid(False)
+    image = panel.contourf(last.x / c, last.z / c, mises, levels=np.linspace(0.0, top, 41), cmap="viridis")
+    lines = panel.contour(
+        last.x / c, last.z / c, mises, levels=np.linspace(0.0, top, 11), colors="0.15", linewidths=0.5
+    )
+    panel.clabel(lines, fmt="%.2f", fontsize=7)
+    figure.colorbar(image, ax=panel, label=r"$\sigma_M\,2R/(E^*c)$", format="%.2f")
+    frame(panel, f"von Mises, $T_x$ = {cases[-1].load_ratio:g} $\\mu N$", "$x/c$", "$z/c$", (-1.3, 1.3), (1.2, 0.0))
+    for case, one in zip(cases, stresses):
+        values = one.field("stress_xx")[0, 0] / unit
+        axes[1].plot(one.x / c, values, color=ratio_tint(case), linewidth=1.4, label=f"{case.load_ratio:g}")
+    legend(axes[1], r"$T_x/(\mu N)$", loc="lower center")
+    frame(axes[1], "stress along the surface, $y = 0$", "$x/c$", r"$\sigma_{xx}\,2R/(E^*c)$", (-1.3, 1.3))
+    save(figure, directory, "stress.png")
+
+
 # ---------------------------------------------------------------- program
 
 
@@ -329,6 +353,7 @@ class Comparison:
         self.tangential = load("tangential_nu0.3_t{}", RATIOS)
         self.exact_cases, self.less = load("tangential_nu0_t{}", RATIOS_EXACT), load("less_t{}", RATIOS_EXACT)
         self.exact = Exact(normal)
+        self.stresses = [petsam.open(os.path.join(directory, f"stress_t{ratio}.h5")) for ratio in RATIOS_STRESS]
         self.numbers = {
             "normal": normal_numbers(normal, self.gross, self.exact),
             "tilt": [tilt_numbers(case) for case in self.tilts],
@@ -384,10 +409,12 @@ class Comparison:
         )
 
     def draw(self, directory):
-        """The three pictures."""
+        """The four pictures."""
         figure_pressure(directory, self.tilts, self.exact)
         figure_tangential(directory, self.tangential, self.exact_cases, self.less)
         figure_torsion(directory, self.torsion, self.gross, self.exact)
+        loaded = [self.tangential[RATIOS.index(ratio)] for ratio in RATIOS_STRESS]
+        figure_stress(directory, loaded, self.stresses)
 
 
 if __name__ == "__main__":

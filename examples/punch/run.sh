@@ -23,6 +23,7 @@ default_n=512
 moments="0 5e3 1e4 1.5e4 2e4 2.5e4 3e4"
 ratios="0.10 0.30 0.50 0.70 0.90 0.95"
 ratios_exact="0.30 0.60 0.90"
+ratios_stress="0.30 0.70 0.95"
 torques="300 600 900 1200 1500 1700"
 force_limit=1e5
 # nu = 0 and E/(1 - nu^2) of the steel: same E*, so the same pressure.
@@ -59,7 +60,7 @@ refuse() {
         exit 1
     }
     printf '%s\n' "== $name: exit code $expected, as it should be"
-    grep '^petsam: ' "$out/$name.log"
+    grep -o 'petsam: .*' "$out/$name.log" # mpirun may put it behind a line of the printout
 }
 
 solve punch normal
@@ -82,6 +83,11 @@ for ratio in $ratios_exact; do
         "$out/$name.h5")
     solve punch "less_t$ratio" -load_n "$(evaluate "1e6 * (1 - $ratio)")" -rot_y "$tilt" \
         -body1_young "$young_exact" -body2_young "$young_exact" -body1_poisson 0 -body2_poisson 0
+done
+
+# What the body feels under these loads, on y = 0 down to 1.2 c.
+for ratio in $ratios_stress; do
+    stress "tangential_nu0.3_t$ratio" "stress_t$ratio" -section y=0 -depths 0:0.024:65
 done
 
 for torque in $torques; do

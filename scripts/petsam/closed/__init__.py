@@ -10,6 +10,7 @@ M_z, q_theta >= 0. All functions accept numpy arrays wherever the argument is a 
 
 materials  elastic constants
 sphere     Hertz; Cattaneo and Mindlin; Lubkin
+stress     stresses under a spherical contact: Hertz; sliding: Hamilton
 loop       tangential loops of a sphere and their energy: Mindlin and Deresiewicz
 spence     elastic sphere on a dissimilar flat with friction: Spence
 punch      flat circular punch with a rounded edge under normal load
@@ -24,4 +25,6 @@ from .materials import (  # isort: skip
 from .sphere import (  # isort: skip
     Hertz, Spheres, cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius, hertz, hertz_pressure,
     lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit)
+from .stress import (  # isort: skip
+    HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface)
 # fmt: on

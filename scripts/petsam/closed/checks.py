@@ -25,6 +25,7 @@ from .sphere import (
     lubkin_twist,
     torsion_limit,
 )
+from .stress import HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface
 
 
 def _displacement(x0, angle0, a, c, traction, poisson, directions=4000):
@@ -323,6 +324,59 @@ def _check_planes():
         yield from _check_strips(punch, 7.4e5, eccentricity, 0.6)
 
 
+def _check_axis(poisson):
+    """Errors of the stresses on the axis against the point loads of Boussinesq, a = p0 = 1."""
+    r, w = segments(np.array([0.0, 1.0]))
+    for z in (0.1, 0.5, 2.0):
+        far, load = np.hypot(r, z), w * r * hertz_pressure(r, 1.0, 1.0)
+        rr = np.sum(load * ((1.0 - 2.0 * poisson) * z / far**3 - 3.0 * r**2 * z / far**5)) / 2.0
+        zz = -np.sum(load * 3.0 * z**3 / far**5)
+        for name, exact, found in zip(("rr", "zz"), hertz_axis(z, 1.0, 1.0, poisson), (rr, zz)):
+            yield f"Hertz, axis, nu = {poisson:g}, z = {z:g}: s_{name}", found - exact, 1e-9
+
+
+def _check_surface(poisson):
+    """Errors of the surface stresses by Hooke's law from displacements, differences of quadratures; a = p0 = G = 1."""
+    young, h = 2.0 * (1.0 + poisson), 1e-4
+
+    def radial(r):  # the load within r presses inwards
+        s, w = segments(np.array([0.0, min(r, 1.0)]))
+        return -(1.0 - 2.0 * poisson) / 2.0 * np.sum(w * s * hertz_pressure(s, 1.0, 1.0)) / r
+
+    def hooke(along, across):
+        return young / (1.0 - poisson**2) * (along + poisson * across)
+
+    for r in (0.3, 0.8, 1.7):
+        e_r, e_t = (radial(r + h) - radial(r - h)) / (2.0 * h), radial(r) / r
+        pressed = poisson / (1.0 - poisson) * hertz_pressure(r, 1.0, 1.0)
+        exact = hertz_surface(r, 1.0, 1.0, poisson)
+        label = f"Hertz, surface, nu = {poisson:g}, r = {r:g}: "
+        yield label + "s_rr", hooke(e_r, e_t) - pressed - exact[0], 1e-6
+        yield label + "s_tt", hooke(e_t, e_r) - pressed - exact[1], 1e-6
+
+    def shear(x, y):
+        return hertz_pressure(np.hypot(x, y), 1.0, 1.0), np.zeros_like(x)
+
+    def shift(x, y):
+        return np.array(_displacement(np.hypot(x, y), np.arctan2(y, x), 1.0, 1.0, shear, poisson))
+
+    for x, y in ((0.4, 0.2), (-0.6, 0.3)):
+        by_x, by_y = ((shift(x + h * dx, y + h * dy) - shift(x - h * dx, y - h * dy)) / (2.0 * h)
+                      for dx, dy in ((1, 0), (0, 1)))  # fmt: skip
+        found = hooke(by_x[0], by_y[1]), hooke(by_y[1], by_x[0]), by_y[0] + by_x[1]
+        for name, exact, value in zip(("xx", "yy", "xy"), sliding_surface(x, y, 1.0, 1.0, poisson), found):
+            yield f"sliding, nu = {poisson:g}, ({x:g}, {y:g}): s_{name}", value - exact, 1e-5
+
+
+def _check_mises():
+    """Errors of the largest von Mises stress under Hertz's pressure and of its depth."""
+    z = np.linspace(0.4, 0.6, 200001)
+    rr, zz = hertz_axis(z, 1.0, 1.0, 0.3)
+    k = np.argmax(rr - zz)
+    yield "Hertz: largest von Mises stress", (rr - zz)[k] - HERTZ_MISES, 1e-9
+    yield "Hertz: its depth", z[k] - HERTZ_MISES_DEPTH, 1e-4
+
+
 def checks():
     """All checks."""
     yield from _check_hertz()
@@ -331,6 +385,10 @@ def checks():
             yield from _check_cattaneo(ratio, poisson)
         yield from _check_lubkin(ratio)
     yield from _check_lubkin_limits()
+    for poisson in (0.0, 0.3):
+        yield from _check_axis(poisson)
+        yield from _check_surface(poisson)
+    yield from _check_mises()
     yield from _check_rounded_punch()
     yield from _check_loops()
     yield from _check_spence()
