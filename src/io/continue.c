@@ -133,21 +133,10 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
 /* Whether all chunks of the steps that are kept lie within the file. */
 static void CheckChunks(SamOutput o, hsize_t keep)
 {
-  const hsize_t dx = (hsize_t)o->set.chunk[0], dy = (hsize_t)o->set.chunk[1];
-  hsize_t       size = 0, at[3];
+  const hsize_t extent[] = {keep, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
 
-  (void)SamFileNote(o->f, H5Fget_filesize(o->f->id, &size));
   for (PetscInt f = 0; f < SamOutputFieldCount && !o->f->failed; f++)
-    for (at[0] = 0; at[0] < keep; at[0]++)
-      for (at[1] = 0; at[1] < (hsize_t)o->f->grid->ny && dy; at[1] += dy)
-        for (at[2] = 0; at[2] < (hsize_t)o->f->grid->nx && dx && !o->f->failed; at[2] += dx) {
-          haddr_t  address = 0;
-          hsize_t  bytes   = 0;
-          unsigned filters = 0;
-
-          (void)SamFileNote(o->f, H5Dget_chunk_info_by_coord(o->fields[f], at, &filters, &address, &bytes));
-          if (address > size || bytes > size - address) (void)SamFileNote(o->f, -1);
-        }
+    if (!SamChunksAreWhole(o->f->id, o->fields[f], 3, extent, PETSC_TRUE)) (void)SamFileNote(o->f, -1);
 }
 
 typedef struct {

@@ -3,8 +3,8 @@
 #define PETSAM_IOIMPL_H
 
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/chunks.h>
 #include <petsam/output.h>
-#include <hdf5.h>
 #include <sys/types.h>
 
 /*

@@ -92,32 +92,6 @@ static PetscBool GetShape(Facts *f, hid_t file, const char name[], int rank, hsi
   return good;
 }
 
-/* Whether the data of the first `layers` layers of a field lie within the file. */
-static PetscBool HasLayers(hid_t file, const char name[], hsize_t layers, const hsize_t shape[3])
-{
-  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), creation = dataset >= 0 ? H5Dget_create_plist(dataset) : -1;
-  hsize_t     chunk[3] = {0, 0, 0}, size = 0, at[3] = {0, 0, 0};
-  PetscBool   good = creation >= 0 && H5Pget_layout(creation) == H5D_CHUNKED && H5Pget_chunk(creation, 3, chunk) == 3 &&
-                       chunk[0] && chunk[1] && chunk[2] && H5Fget_filesize(file, &size) >= 0
-                       ? PETSC_TRUE
-                       : PETSC_FALSE;
-
-  for (at[0] = 0; good && at[0] < layers; at[0] += chunk[0])
-    for (at[1] = 0; good && at[1] < shape[1]; at[1] += chunk[1])
-      for (at[2] = 0; good && at[2] < shape[2]; at[2] += chunk[2]) {
-        haddr_t  address = 0;
-        hsize_t  bytes   = 0;
-        unsigned filters = 0;
-
-        if (H5Dget_chunk_info_by_coord(dataset, at, &filters, &address, &bytes) < 0 || address == HADDR_UNDEF ||
-            address > size || bytes > size - address)
-          good = PETSC_FALSE;
-      }
-  if (creation >= 0) (void)H5Pclose(creation);
-  if (dataset >= 0) (void)H5Dclose(dataset);
-  return good;
-}
-
 static void ExamineFields(Facts *f, hid_t file)
 {
   hsize_t steps[1] = {0}, saved[1] = {0}, shape[3] = {0, 0, 0};
@@ -132,9 +106,14 @@ static void ExamineFields(Facts *f, hid_t file)
       Complain(f, "%s has %llu x %llu cells, not the %g x %g of -grid_n", fields[k], (unsigned long long)shape[2],
                (unsigned long long)shape[1], f->n[0], f->n[1]);
   }
-  for (int k = 0; k < SAM_RESULTS_FIELDS && !f->problem[0]; k++)
-    if (!HasLayers(file, fields[k], f->saved, shape))
+  shape[0] = f->saved;
+  for (int k = 0; k < SAM_RESULTS_FIELDS && !f->problem[0]; k++) {
+    const hid_t dataset = H5Dopen2(file, fields[k], H5P_DEFAULT);
+
+    if (!SamChunksAreWhole(file, dataset, 3, shape, PETSC_TRUE))
       Complain(f, "it is damaged: %s is not in it as a whole", fields[k]);
+    if (dataset >= 0) (void)H5Dclose(dataset);
+  }
 }
 
 static PetscBool IsPlausible(const Facts *f)

@@ -26,54 +26,41 @@ static int CompareExtents(const void *a, const void *b)
   return (one > other) - (one < other);
 }
 
-/* The extents of all chunks of a field, appended to a growing list; returns whether they could be found. */
-static PetscBool AddChunks(hid_t dataset, Extent **list, size_t *count, size_t *room)
+/* The extents of chunks, a list that grows. */
+typedef struct {
+  Extent *list;
+  size_t  count, room;
+} Extents;
+
+static PetscBool AddChunk(haddr_t address, hsize_t bytes, void *context)
 {
-  const hid_t space = H5Dget_space(dataset), creation = H5Dget_create_plist(dataset);
-  hsize_t     n[3] = {0, 0, 0}, chunk[3] = {0, 0, 0}, at[3];
-  PetscBool   good = H5Sget_simple_extent_ndims(space) == 3 && H5Sget_simple_extent_dims(space, n, NULL) == 3 &&
-                       H5Pget_chunk(creation, 3, chunk) == 3 && chunk[0] && chunk[1] && chunk[2]
-                       ? PETSC_TRUE
-                       : PETSC_FALSE;
+  Extents *e = (Extents *)context;
 
-  for (at[0] = 0; good && at[0] < n[0]; at[0] += chunk[0])
-    for (at[1] = 0; good && at[1] < n[1]; at[1] += chunk[1])
-      for (at[2] = 0; good && at[2] < n[2]; at[2] += chunk[2]) {
-        haddr_t  address = HADDR_UNDEF;
-        hsize_t  bytes   = 0;
-        unsigned filters = 0;
+  if (e->count == e->room) {
+    Extent *more = (Extent *)realloc(e->list, sizeof(Extent) * 2 * (e->room + 1024));
 
-        if (*count == *room) {
-          Extent *more = (Extent *)realloc(*list, sizeof(Extent) * 2 * (*room + 1024));
-
-          if (!more) good = PETSC_FALSE;
-          if (!more) break;
-          *list = more;
-          *room = 2 * (*room + 1024);
-        }
-        if (H5Dget_chunk_info_by_coord(dataset, at, &filters, &address, &bytes) < 0) good = PETSC_FALSE;
-        if (good && address != HADDR_UNDEF) (*list)[(*count)++] = (Extent){(off_t)address, (off_t)(address + bytes)};
-      }
-  if (creation >= 0) (void)H5Pclose(creation);
-  if (space >= 0) (void)H5Sclose(space);
-  return good;
+    if (!more) return PETSC_FALSE;
+    e->list = more;
+    e->room = 2 * (e->room + 1024);
+  }
+  if (address != HADDR_UNDEF) e->list[e->count++] = (Extent){(off_t)address, (off_t)(address + bytes)};
+  return PETSC_TRUE;
 }
 
 /* The extents of all values of fields, in order. */
-static PetscBool FindChunks(const char filename[], Extent **list, size_t *count)
+static PetscBool FindChunks(const char filename[], Extents *e)
 {
   const hid_t file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT);
-  size_t      room = 0;
   PetscBool   good = file >= 0 ? PETSC_TRUE : PETSC_FALSE;
 
   for (PetscInt f = 0; f < SamOutputFieldCount && good; f++) {
     const hid_t dataset = H5Dopen2(file, SamOutputFields[f].label.name, H5P_DEFAULT);
 
-    good = dataset >= 0 ? AddChunks(dataset, list, count, &room) : PETSC_FALSE;
+    good = dataset >= 0 ? SamChunksVisit(dataset, 3, NULL, AddChunk, e) : PETSC_FALSE;
     if (dataset >= 0) (void)H5Dclose(dataset);
   }
   if (file >= 0) (void)H5Fclose(file);
-  if (*count) qsort(*list, *count, sizeof(Extent), CompareExtents);
+  if (e->count) qsort(e->list, e->count, sizeof(Extent), CompareExtents);
   return good;
 }
 
@@ -95,18 +82,17 @@ static PetscBool HashRange(int file, off_t first, off_t end, uint64_t *hash)
 /* The line that the file should end with; its data end at `end`. */
 static PetscBool MakeLine(const char filename[], int file, off_t end, char line[LINE + 1])
 {
-  Extent   *list  = NULL;
-  size_t    count = 0;
-  off_t     at    = 0;
-  uint64_t  hash  = SamHashMix((uint64_t)end);
-  PetscBool good  = FindChunks(filename, &list, &count);
+  Extents   e    = {NULL, 0, 0};
+  off_t     at   = 0;
+  uint64_t  hash = SamHashMix((uint64_t)end);
+  PetscBool good = FindChunks(filename, &e);
 
-  for (size_t k = 0; k < count && good; k++) {
-    good = HashRange(file, at, PetscMin(list[k].first, end), &hash);
-    at   = PetscMax(at, list[k].end);
+  for (size_t k = 0; k < e.count && good; k++) {
+    good = HashRange(file, at, PetscMin(e.list[k].first, end), &hash);
+    at   = PetscMax(at, e.list[k].end);
   }
   good = good && HashRange(file, at, end, &hash) ? PETSC_TRUE : PETSC_FALSE;
-  free(list);
+  free(e.list);
   (void)snprintf(line, LINE + 1, TITLE "%016llx\n", (unsigned long long)hash);
   return good;
 }

@@ -6,9 +6,9 @@
   read their rows.
 */
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/chunks.h>
 #include <petsam/private/fieldfile.h>
 #include <errno.h>
-#include <hdf5.h>
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -103,30 +103,23 @@ static Verdict JudgeDataset(SamGrid grid, hid_t dataset)
   return verdict;
 }
 
-/* Whether all chunks of a dataset lie within the file; in a damaged one they may be anywhere. */
-static PetscBool HasAllChunks(hid_t file, hid_t dataset)
+/* Whether all data of a dataset lie within the file; in a damaged one they may be anywhere. */
+static PetscBool HasAllData(hid_t file, hid_t dataset)
 {
-  const hid_t space = H5Dget_space(dataset), creation = H5Dget_create_plist(dataset);
-  hsize_t     size = 0, bytes = 0, chunk[2] = {1, 1}, shape[2] = {0, 0}, at[2];
-  haddr_t     address = 0;
-  PetscBool   good    = space >= 0 && creation >= 0 && H5Fget_filesize(file, &size) >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  const hid_t creation = H5Dget_create_plist(dataset);
+  const int   chunked  = creation >= 0 && H5Pget_layout(creation) == H5D_CHUNKED,
+            plain      = creation >= 0 && H5Pget_layout(creation) == H5D_CONTIGUOUS && !H5Pget_external_count(creation);
+  hsize_t   size       = 0;
+  PetscBool good       = creation >= 0 && H5Fget_filesize(file, &size) >= 0 ? PETSC_TRUE : PETSC_FALSE;
 
-  if (good && H5Pget_layout(creation) == H5D_CHUNKED) {
-    good = H5Pget_chunk(creation, 2, chunk) == 2 && chunk[0] && chunk[1] &&
-               H5Sget_simple_extent_dims(space, shape, NULL) == 2
-             ? PETSC_TRUE
-             : PETSC_FALSE;
-    for (at[0] = 0; good && at[0] < shape[0]; at[0] += chunk[0])
-      for (at[1] = 0; good && at[1] < shape[1]; at[1] += chunk[1])
-        if (H5Dget_chunk_info_by_coord(dataset, at, NULL, &address, &bytes) < 0 ||
-            (address != HADDR_UNDEF && address + bytes > size))
-          good = PETSC_FALSE;
-  } else if (good && H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0) {
-    address = H5Dget_offset(dataset);
+  if (good && chunked) {
+    good = SamChunksAreWhole(file, dataset, 2, NULL, PETSC_FALSE);
+  } else if (good && plain) {
+    const haddr_t address = H5Dget_offset(dataset);
+
     if (address != HADDR_UNDEF && address + H5Dget_storage_size(dataset) > size) good = PETSC_FALSE;
   }
   if (creation >= 0) (void)H5Pclose(creation);
-  if (space >= 0) (void)H5Sclose(space);
   return good;
 }
 
@@ -148,7 +141,7 @@ static Verdict Judge(const SamFieldFile *source, SamGrid grid)
     verdict.kind = NO_DATASET;
   } else {
     verdict = JudgeDataset(grid, dataset);
-    if (verdict.kind == GOOD && !HasAllChunks(file, dataset)) verdict.kind = DAMAGED;
+    if (verdict.kind == GOOD && !HasAllData(file, dataset)) verdict.kind = DAMAGED;
     (void)H5Dclose(dataset);
   }
   (void)H5Fclose(file);
