@@ -294,6 +294,37 @@ static void SelectLayer(SamFile f, hid_t dataset, hsize_t layer, hid_t *space, h
   }
 }
 
+hid_t SamFileCreateDataset(SamFile f, hid_t where, const SamOutputLabel *label, hid_t type, const SamShape *shape,
+                           PetscInt compress)
+{
+  const hid_t space    = SamFileNote(f, H5Screate_simple(shape->rank, shape->size, shape->largest)),
+              creation = SamFileNote(f, H5Pcreate(H5P_DATASET_CREATE));
+  hid_t dataset;
+
+  if (shape->chunk[0]) (void)SamFileNote(f, H5Pset_chunk(creation, shape->rank, shape->chunk));
+  /* every value is written, so filling would only write them twice */
+  (void)SamFileNote(f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
+  if (compress > 0) {
+    (void)SamFileNote(f, H5Pset_shuffle(creation));
+    (void)SamFileNote(f, H5Pset_deflate(creation, (unsigned)compress));
+  }
+  dataset = SamFileNote(f, H5Dcreate2(where, label->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  SamFileWriteTextAttribute(f, dataset, "units", label->units);
+  SamFileWriteTextAttribute(f, dataset, "long_name", label->long_name);
+  (void)SamFileNote(f, H5Pclose(creation));
+  (void)SamFileNote(f, H5Sclose(space));
+  return dataset;
+}
+
+void SamFileWriteSeries(SamFile f, hid_t dataset, const double values[])
+{
+  const hid_t space = SamFileNote(f, H5Dget_space(dataset));
+
+  if (f->rank) (void)SamFileNote(f, H5Sselect_none(space));
+  (void)SamFileNote(f, H5Dwrite(dataset, H5T_NATIVE_DOUBLE, space, space, f->transfer, values));
+  (void)SamFileNote(f, H5Sclose(space));
+}
+
 void SamFileWriteLayer(SamFile f, hid_t dataset, hid_t type, hsize_t layer, const void *values)
 {
   const double nothing = 0;

@@ -162,6 +162,25 @@ PETSC_INTERN void SamFileWriteTextAttribute(SamFile file, hid_t object, const ch
 PETSC_INTERN void SamFileReadAttribute(SamFile file, hid_t object, const char name[], hid_t type, PetscInt count,
                                        void *values);
 PETSC_INTERN void SamFileReadTextAttribute(SamFile file, hid_t object, const char name[], char **text);
+/* A dataset's name, and two of its attributes. */
+typedef struct {
+  const char *name, *units, *long_name;
+} SamOutputLabel;
+
+/* The shape of a dataset: size when created, largest size, and size of a chunk (0: not chunked). */
+#define SAM_SHAPE_RANK 4 /* most dimensions */
+typedef struct {
+  int     rank;
+  hsize_t size[SAM_SHAPE_RANK], largest[SAM_SHAPE_RANK], chunk[SAM_SHAPE_RANK];
+} SamShape;
+/*
+  SamFileCreateDataset - creates a dataset with its attributes; every value must be written, for none is filled in.
+  `compress`: deflate level, 0 for none. To be closed with H5Dclose().
+  SamFileWriteSeries - writes all values of a dataset of one dimension, from rank 0.
+*/
+PETSC_INTERN hid_t SamFileCreateDataset(SamFile file, hid_t where, const SamOutputLabel *label, hid_t type,
+                                        const SamShape *shape, PetscInt compress);
+PETSC_INTERN void  SamFileWriteSeries(SamFile file, hid_t dataset, const double values[]);
 /* One layer of a dataset of shape (layers, ny, nx): each rank writes or reads its rows. */
 PETSC_INTERN void SamFileWriteLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, const void *values);
 PETSC_INTERN void SamFileReadLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, void *values);
@@ -174,11 +193,6 @@ PETSC_INTERN void SamFileReadLayer(SamFile file, hid_t dataset, hid_t type, hsiz
 */
 PETSC_INTERN void      SamParametersWrite(SamFile file, const SamParameters *parameters);
 PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *parameters, char message[], size_t size);
-
-/* A dataset's name, and two of its attributes. */
-typedef struct {
-  const char *name, *units, *long_name;
-} SamOutputLabel;
 
 /*
   A field of the results: a component of a vector of the solution, or what `compute` writes into a vector of one

@@ -15,41 +15,13 @@ static const SamOutputLabel time_label     = {"time", "s", "time of the saved fi
 static const char           state_words[]  = "open stick slip"; /* SamState */
 static const char           status_words[] = "converged not_converged no_equilibrium edge_contact";
 
-/* The shape of a dataset: size when created, largest size, and size of a chunk (0: not chunked). */
-typedef struct {
-  int     rank;
-  hsize_t size[3], largest[3], chunk[3];
-} Shape;
-
-static const Shape series = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
-
-static hid_t CreateDataset(SamOutput o, hid_t where, const SamOutputLabel *label, hid_t type, const Shape *shape,
-                           PetscInt compress)
-{
-  const hid_t space    = SamFileNote(o->f, H5Screate_simple(shape->rank, shape->size, shape->largest)),
-              creation = SamFileNote(o->f, H5Pcreate(H5P_DATASET_CREATE));
-  hid_t dataset;
-
-  if (shape->chunk[0]) (void)SamFileNote(o->f, H5Pset_chunk(creation, shape->rank, shape->chunk));
-  /* every value is written, so filling new chunks would only write them twice */
-  (void)SamFileNote(o->f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
-  if (compress > 0) {
-    (void)SamFileNote(o->f, H5Pset_shuffle(creation));
-    (void)SamFileNote(o->f, H5Pset_deflate(creation, (unsigned)compress));
-  }
-  dataset = SamFileNote(o->f, H5Dcreate2(where, label->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  SamFileWriteTextAttribute(o->f, dataset, "units", label->units);
-  SamFileWriteTextAttribute(o->f, dataset, "long_name", label->long_name);
-  (void)SamFileNote(o->f, H5Pclose(creation));
-  (void)SamFileNote(o->f, H5Sclose(space));
-  return dataset;
-}
+static const SamShape series = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
 
 /* A coordinate, marked by the CF attributes `axis` and `standard_name`. */
 static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const char axis[],
-                         const char standard_name[], const Shape *shape)
+                         const char standard_name[], const SamShape *shape)
 {
-  const hid_t scale = CreateDataset(o, where, label, H5T_IEEE_F64LE, shape, 0);
+  const hid_t scale = SamFileCreateDataset(o->f, where, label, H5T_IEEE_F64LE, shape, 0);
 
   SamFileWriteTextAttribute(o->f, scale, "axis", axis);
   SamFileWriteTextAttribute(o->f, scale, "standard_name", standard_name);
@@ -61,19 +33,15 @@ static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, 
 static PetscErrorCode CreateAxis(SamOutput o, const SamOutputLabel *label, PetscInt direction, hid_t *scale)
 {
   const PetscInt n     = direction ? o->f->grid->ny : o->f->grid->nx;
-  const Shape    shape = {1, {(hsize_t)n}, {(hsize_t)n}, {0}};
+  const SamShape shape = {1, {(hsize_t)n}, {(hsize_t)n}, {0}};
   double        *values;
-  hid_t          space;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &values));
   for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->f->grid, k) : SamGridX(o->f->grid, k);
   *scale = CreateScale(o, o->f->id, label, direction ? "Y" : "X",
                        direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape);
-  space  = SamFileNote(o->f, H5Dget_space(*scale));
-  if (o->f->rank) (void)SamFileNote(o->f, H5Sselect_none(space));
-  (void)SamFileNote(o->f, H5Dwrite(*scale, H5T_NATIVE_DOUBLE, space, space, o->f->transfer, values));
-  (void)SamFileNote(o->f, H5Sclose(space));
+  SamFileWriteSeries(o->f, *scale, values);
   PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -90,14 +58,14 @@ static hsize_t ChunkSize(hsize_t n, hsize_t most)
 }
 
 /* Chunks are one step deep. */
-static Shape FieldShape(SamOutput o)
+static SamShape FieldShape(SamOutput o)
 {
   const hsize_t ny = (hsize_t)o->f->grid->ny, nx = (hsize_t)o->f->grid->nx;
 
-  return (Shape){3,
-                 {0, ny, nx},
-                 {H5S_UNLIMITED, ny, nx},
-                 {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
+  return (SamShape){3,
+                    {0, ny, nx},
+                    {H5S_UNLIMITED, ny, nx},
+                    {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
 }
 
 static hid_t StoredType(const SamOutputField *field)
@@ -107,8 +75,8 @@ static hid_t StoredType(const SamOutputField *field)
 
 off_t SamOutputFieldBytes(SamOutput o)
 {
-  const Shape shape = FieldShape(o);
-  hsize_t     cells = 1, bytes = 0; /* cells in whole chunks; bytes of all fields in a cell */
+  const SamShape shape = FieldShape(o);
+  hsize_t        cells = 1, bytes = 0; /* cells in whole chunks; bytes of all fields in a cell */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
@@ -125,8 +93,8 @@ static void WriteFlags(SamOutput o, hid_t dataset)
 
 static PetscErrorCode CreateFields(SamOutput o)
 {
-  const Shape shape = FieldShape(o);
-  hid_t       scales[3]; /* of [time, y, x] */
+  const SamShape shape = FieldShape(o);
+  hid_t          scales[3]; /* of [time, y, x] */
 
   PetscFunctionBegin;
   PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
@@ -135,7 +103,7 @@ static PetscErrorCode CreateFields(SamOutput o)
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
     const SamOutputField *field = &SamOutputFields[f];
 
-    o->fields[f] = CreateDataset(o, o->f->id, &field->label, StoredType(field), &shape, o->set.compress);
+    o->fields[f] = SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field), &shape, o->set.compress);
     if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
     for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
   }
@@ -158,7 +126,8 @@ static void CreateHistory(SamOutput o)
       (column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS) ? PETSC_TRUE : PETSC_FALSE;
 
     if (column->option < SAM_OUTPUT_OPTIONS && !o->set.with[column->option]) continue;
-    o->columns[c] = CreateDataset(o, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, &series, 0);
+    o->columns[c] =
+      SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, &series, 0);
     (void)SamFileNote(o->f, H5DSattach_scale(o->columns[c], o->columns[0], 0));
     if (column->kind == SAM_COLUMN_STATUS) {
       SamFileWriteAttribute(o->f, o->columns[c], "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);

@@ -75,30 +75,13 @@ static int FirstDimension(PetscInt k)
 
 /* ---- creation ---- */
 
-static hid_t CreateDataset(SamStressFile s, hid_t where, const SamOutputLabel *label, int rank, const hsize_t shape[])
+/* A dataset of numbers, of `rank` of the file's dimensions from `first` on. */
+static hid_t CreateDataset(SamStressFile s, hid_t where, const SamOutputLabel *label, int first, int rank)
 {
-  const hid_t space    = SamFileNote(s->f, H5Screate_simple(rank, shape, NULL)),
-              creation = SamFileNote(s->f, H5Pcreate(H5P_DATASET_CREATE));
-  hid_t dataset;
+  SamShape shape = {.rank = rank};
 
-  (void)SamFileNote(s->f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER)); /* every value is written */
-  dataset =
-    SamFileNote(s->f, H5Dcreate2(where, label->name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  SamFileWriteTextAttribute(s->f, dataset, "units", label->units);
-  SamFileWriteTextAttribute(s->f, dataset, "long_name", label->long_name);
-  (void)SamFileNote(s->f, H5Pclose(creation));
-  (void)SamFileNote(s->f, H5Sclose(space));
-  return dataset;
-}
-
-/* Writes a series from rank 0. */
-static void WriteSeries(SamStressFile s, hid_t dataset, const double values[])
-{
-  const hid_t space = SamFileNote(s->f, H5Dget_space(dataset));
-
-  if (s->f->rank) (void)SamFileNote(s->f, H5Sselect_none(space));
-  (void)SamFileNote(s->f, H5Dwrite(dataset, H5T_NATIVE_DOUBLE, space, space, s->f->transfer, values));
-  (void)SamFileNote(s->f, H5Sclose(space));
+  for (int d = 0; d < rank; d++) shape.size[d] = shape.largest[d] = s->shape[first + d];
+  return SamFileCreateDataset(s->f, where, label, H5T_IEEE_F64LE, &shape, 0);
 }
 
 static const SamOutputLabel coordinate_labels[DIMENSIONS] = {{"time", "s", "time of the load steps"},
@@ -137,22 +120,22 @@ static void CreateAll(SamStressFile s, const SamParameters *parameters)
   SamFileWriteTextAttribute(s->f, s->f->id, "petsam_version", PETSAM_VERSION);
   SamParametersWrite(s->f, parameters);
   for (int d = 0; d < DIMENSIONS; d++) {
-    s->scale[d] = CreateDataset(s, s->f->id, &coordinate_labels[d], 1, &s->shape[d]);
+    s->scale[d] = CreateDataset(s, s->f->id, &coordinate_labels[d], d, 1);
     SamFileWriteTextAttribute(s->f, s->scale[d], "axis", axes[d]);
     (void)SamFileNote(s->f, H5DSset_scale(s->scale[d], coordinate_labels[d].name));
-    WriteSeries(s, s->scale[d], s->coordinate[d]);
+    SamFileWriteSeries(s->f, s->scale[d], s->coordinate[d]);
   }
   for (PetscInt k = 0; k < DATASETS; k++) {
     if (!s->wants[datasets[k].quantity]) continue;
     first         = FirstDimension(k);
-    s->dataset[k] = CreateDataset(s, s->f->id, &datasets[k].label, DIMENSIONS - first, s->shape + first);
+    s->dataset[k] = CreateDataset(s, s->f->id, &datasets[k].label, first, DIMENSIONS - first);
     for (int d = first; d < DIMENSIONS; d++)
       (void)SamFileNote(s->f, H5DSattach_scale(s->dataset[k], s->scale[d], (unsigned)(d - first)));
   }
   s->history      = SamFileNote(s->f, H5Gcreate2(s->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  s->history_time = CreateDataset(s, s->history, &coordinate_labels[TIME], 1, &s->shape[TIME]);
+  s->history_time = CreateDataset(s, s->history, &coordinate_labels[TIME], TIME, 1);
   (void)SamFileNote(s->f, H5DSset_scale(s->history_time, "time"));
-  WriteSeries(s, s->history_time, s->coordinate[TIME]);
+  SamFileWriteSeries(s->f, s->history_time, s->coordinate[TIME]);
 }
 
 /* The size of all datasets, bytes. */
@@ -243,9 +226,9 @@ PetscErrorCode SamStressFileSetHistory(SamStressFile s, const char name[], const
 
   PetscFunctionBegin;
   PetscCall(SamFileBegin(s->f));
-  dataset = CreateDataset(s, s->history, &label, 1, &s->shape[TIME]);
+  dataset = CreateDataset(s, s->history, &label, TIME, 1);
   (void)SamFileNote(s->f, H5DSattach_scale(dataset, s->history_time, 0));
-  WriteSeries(s, dataset, values);
+  SamFileWriteSeries(s->f, dataset, values);
   (void)SamFileNote(s->f, H5Dclose(dataset));
   PetscCall(SamFileEnd(s->f));
   PetscFunctionReturn(PETSC_SUCCESS);
