@@ -1,49 +1,29 @@
-/*
-  The names of all files of a run, so that none that it writes replaces one that it reads, or another that it writes.
-  Names that petsam derives count too: the XDMF file beside the results, a checkpoint's file.1 and file.tmp; and files
-  that PETSc writes for its viewers.
-*/
+/* The names of all files of a program, and of those that PETSc writes for its viewers. */
 #include "files.h"
-#include "runimpl.h"
+#include <petsam/private/baseimpl.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-typedef struct {
-  const char *option; /* with dash */
-  char       *name;
-  PetscBool   derived; /* from the value of the option */
-} File;
-
-#define MOST 64
-typedef struct {
-  PetscInt count;
-  File     list[MOST];
-} Files;
-
-/* Takes over the name; NULL is none. */
-static void Add(Files *files, const char option[], char *name, PetscBool derived)
+PetscErrorCode SamFilesAdd(SamFiles *f, SamFileRole role, const char option[], const char name[], PetscBool derived)
 {
-  if (name && files->count < MOST) files->list[files->count++] = (File){option, name, derived};
-}
-
-static PetscErrorCode AddCopy(Files *files, const char option[], const char name[])
-{
-  char *copy;
+  SamNamedFile *file = &f->list[f->count];
 
   PetscFunctionBegin;
-  PetscCall(PetscStrallocpy(name, &copy));
-  Add(files, option, copy, PETSC_FALSE);
+  PetscCheck(f->count < SAM_FILES, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "More than %d files", SAM_FILES);
+  *file = (SamNamedFile){.role = role, .option = option, .derived = derived};
+  PetscCall(PetscStrallocpy(name, &file->name));
+  f->count++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FreeFiles(Files *files)
+PetscErrorCode SamFilesFree(SamFiles *f)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < files->count; k++) PetscCall(PetscFree(files->list[k].name));
-  files->count = 0;
+  for (PetscInt k = 0; k < f->count; k++) PetscCall(PetscFree(f->list[k].name));
+  f->count = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -112,7 +92,7 @@ static PetscErrorCode CheckOptionsView(MPI_Comm comm)
 }
 
 /* The value of a viewer's option is type:file:format:mode, each of which may be missing. The type is ascii. */
-static PetscErrorCode AddViewer(MPI_Comm comm, const char option[], Files *files)
+static PetscErrorCode AddViewer(MPI_Comm comm, const char option[], SamFiles *files)
 {
   char        value[PETSC_MAX_PATH_LEN] = "", *part[4] = {value, NULL, NULL, NULL};
   char        shown[PETSC_MAX_PATH_LEN];
@@ -139,97 +119,59 @@ static PetscErrorCode AddViewer(MPI_Comm comm, const char option[], Files *files
   if (rank == 0) error = CheckPlace(part[1]);
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
   PetscCheck(!error, comm, SAM_ERR_FILE, "%s %s: cannot be written: %s", option, part[1], strerror(error));
-  PetscCall(AddCopy(files, option, part[1]));
+  PetscCall(SamFilesAdd(files, SAM_FILE_WRITTEN, option, part[1], PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- all files ---- */
 
-static PetscErrorCode CollectRead(const SamArguments *arguments, Files *files)
+/* Files of options, and those of viewers. */
+static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *arguments)
 {
-  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-friction_file",
-                                       "-load_history", "-restart",        NULL};
-  static const char *const names[]  = {"-gap_file", "-gap_rough_file", "-friction_file", "-history", "-restart"};
-
   PetscFunctionBegin;
-  for (PetscInt k = 0; inputs[k]; k++) {
-    char      name[PETSC_MAX_PATH_LEN];
-    PetscBool set;
-
-    PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
-    if (set) PetscCall(AddCopy(files, names[k], name));
-  }
-  for (int k = 0; k < arguments->count; k++) PetscCall(AddCopy(files, "-options_file", arguments->files[k]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CollectWritten(const SamRun *run, MPI_Comm comm, Files *files)
-{
-  const char *checkpoint, *restart;
-  char       *before, *temporary;
-
-  PetscFunctionBegin;
-  PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
-  if (run->has_output) {
-    PetscCall(AddCopy(files, "-output", run->filename));
-    PetscCall(SamOutputNames(run->filename, &before, &temporary));
-    if (!run->output_settings.xdmf) PetscCall(PetscFree(before));
-    if (!restart) PetscCall(PetscFree(temporary));
-    Add(files, "-output", before, PETSC_TRUE);
-    Add(files, "-output", temporary, PETSC_TRUE);
-  }
-  if (checkpoint) {
-    PetscCall(AddCopy(files, "-checkpoint", checkpoint));
-    PetscCall(SamCheckpointNames(checkpoint, &before, &temporary));
-    Add(files, "-checkpoint", before, PETSC_TRUE);
-    Add(files, "-checkpoint", temporary, PETSC_TRUE);
-  }
+  for (int k = 0; k < arguments->count; k++)
+    PetscCall(SamFilesAdd(f, SAM_FILE_READ_ONLY, "-options_file", arguments->files[k], PETSC_FALSE));
   PetscCall(CheckOptionsView(comm));
-  for (PetscInt k = 0; viewers[k]; k++) PetscCall(AddViewer(comm, viewers[k], files));
+  for (PetscInt k = 0; viewers[k]; k++) PetscCall(AddViewer(comm, viewers[k], f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Whether one of two files may replace the other: checkpoints go on where the run restarts. */
-static PetscBool MayMeet(const File *one, const File *other)
+static PetscBool MayMeet(const SamNamedFile *one, const SamNamedFile *other)
 {
   if (!strcmp(one->option, other->option)) return PETSC_TRUE;
   return !strcmp(one->option, "-checkpoint") && !strcmp(other->option, "-restart") ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Says which written file would replace another one; empty if none does. */
-static void Compare(const Files *written, const Files *read, char message[], size_t size)
+static void Compare(const SamFiles *f, char message[], size_t size)
 {
   message[0] = '\0';
-  for (PetscInt w = 0; w < written->count && !message[0]; w++) {
-    const File *one = &written->list[w];
+  for (PetscInt w = 0; w < f->count && !message[0]; w++) {
+    const SamNamedFile *one = &f->list[w];
 
-    for (PetscInt k = 0; k < read->count + w && !message[0]; k++) {
-      const File *other = k < read->count ? &read->list[k] : &written->list[k - read->count];
+    for (PetscInt k = 0; k < f->count && !message[0] && one->role == SAM_FILE_WRITTEN; k++) {
+      const SamNamedFile *other   = &f->list[k];
+      const PetscBool     written = other->role == SAM_FILE_WRITTEN ? PETSC_TRUE : PETSC_FALSE;
 
+      if (written && k >= w) continue;
       if (!MayMeet(one, other) && SamIsSameFile(one->name, other->name))
         (void)snprintf(message, size, "%s %s: %s the %sfile of %s", one->option, one->name,
-                       k >= read->count ? "is also" : "would overwrite", other->derived ? "second " : "",
-                       other->option);
+                       written ? "is also" : "would overwrite", other->derived ? "second " : "", other->option);
     }
   }
 }
 
-PetscErrorCode SamRunCheckFiles(const SamRun *run, MPI_Comm comm, const SamArguments *arguments)
+PetscErrorCode SamFilesCheck(SamFiles *f, MPI_Comm comm, const SamArguments *arguments)
 {
-  Files          read = {.count = 0}, written = {.count = 0};
-  char           message[512] = "";
-  PetscMPIInt    rank;
-  PetscErrorCode ierr;
+  char        message[512] = "";
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
-  PetscCall(CollectRead(arguments, &read));
-  ierr = CollectWritten(run, comm, &written);
+  PetscCall(AddCommon(f, comm, arguments));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (!ierr && rank == 0) Compare(&written, &read, message, sizeof(message));
+  if (rank == 0) Compare(f, message, sizeof(message));
   PetscCallMPI(MPI_Bcast(message, (PetscMPIInt)sizeof(message), MPI_CHAR, 0, comm));
-  PetscCall(FreeFiles(&read));
-  PetscCall(FreeFiles(&written));
-  PetscCall(ierr);
   PetscCheck(!message[0], comm, SAM_ERR_USER, "%s", message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

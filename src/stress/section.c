@@ -108,7 +108,7 @@ PetscErrorCode SamSectionCreate(SamGrid grid, PetscInt body, PetscReal poisson, 
   s->length = cells[along];
   s->lines  = cells[across];
   s->source = (SamStressSource){{sides[along], sides[across]}, 0, (double)poisson};
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) s->sign[t] = t != SAM_STRESS_P && body == 1 ? -1 : 1;
+  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) s->sign[t] = SamStressSign(body, t);
   PetscCall(DivideDepths(s, n, depths));
   PetscCall(CreateTransforms(s));
   *section = s;

@@ -50,7 +50,7 @@ PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings,
   PetscCall(SamGridReference(grid));
   s->grid   = grid;
   s->source = (SamStressSource){{(double)grid->dx, (double)grid->dy}, -1, (double)poisson};
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) s->sign[t] = t != SAM_STRESS_P && body == 1 ? -1 : 1;
+  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) s->sign[t] = SamStressSign(body, t);
   PetscCall(SamFourierCreate(grid, SAM_FOURIER_FAST, settings, &s->fourier));
   *stress = s;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -123,6 +123,7 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
         (dict(input="other.h5"), 3, "other.h5: cannot be read: it lacks the attribute"),
         (dict(input="cut.h5"), 3, "cut.h5: cannot be read"),
         (dict(output="c.h5"), 2, "-output c.h5"),
+        (dict(log_view=":c.h5"), 2, "-log_view c.h5: would overwrite the file of -input"),
         (dict(output="h.csv"), 3, "not written"),
         (dict(body=3), 2, "-body 3"),
         (dict(depths="-1e-6"), 2, "-depths -1e-6"),

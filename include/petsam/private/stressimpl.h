@@ -45,6 +45,15 @@ typedef struct {
 PETSC_EXTERN void SamStressRow(const SamStressSource *source, SamStressGroup group, PetscInt j, PetscInt n,
                                double *const values[SAM_STRESS_GROUP]);
 
+/*
+  SamStressSign - the sign of a traction on body 1 or 2, seen from inside of it: the shear on body 1 is the opposite of
+  that on body 2. Not collective.
+*/
+static inline double SamStressSign(PetscInt body, PetscInt traction)
+{
+  return traction != SAM_STRESS_P && body == 1 ? -1 : 1;
+}
+
 /* SamStressCheckBody, SamStressCheckDepth - raise PETSC_ERR_ARG_OUTOFRANGE for what cannot be. Collective. */
 PETSC_EXTERN PetscErrorCode SamStressCheckBody(MPI_Comm comm, PetscInt body, PetscReal poisson);
 PETSC_EXTERN PetscErrorCode SamStressCheckDepth(MPI_Comm comm, PetscReal depth);

@@ -102,26 +102,24 @@ static double Memory(const SamStressRun *run)
   return run->request.section ? SamLinesMemory(run) : SamMapsMemory(run);
 }
 
-/* Refuses an output that would replace a file that is read; so would the XDMF file beside it. */
-static PetscErrorCode CheckNames(const SamStressRequest *r, const SamArguments *arguments)
+/* The output, its XDMF file and its temporary file must not replace a file that is read. */
+static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *arguments)
 {
-  char       *names[3] = {NULL, NULL, NULL}, clash[PETSC_MAX_PATH_LEN] = "";
-  PetscMPIInt rank;
+  SamFiles       files = {.count = 0};
+  char          *xdmf, *temporary;
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrallocpy(r->output, &names[0]));
-  PetscCall(SamOutputNames(r->output, &names[1], &names[2]));
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  for (int k = 0; k < 3 && rank == 0; k++) {
-    if (SamIsSameFile(names[k], r->input)) PetscCall(PetscStrncpy(clash, r->input, sizeof(clash)));
-    for (int f = 0; f < arguments->count; f++)
-      if (SamIsSameFile(names[k], arguments->files[f]))
-        PetscCall(PetscStrncpy(clash, arguments->files[f], sizeof(clash)));
-  }
-  PetscCallMPI(MPI_Bcast(clash, (PetscMPIInt)sizeof(clash), MPI_CHAR, 0, PETSC_COMM_WORLD));
-  for (int k = 0; k < 3; k++) PetscCall(PetscFree(names[k]));
-  PetscCheck(!clash[0], PETSC_COMM_WORLD, SAM_ERR_USER, "-output %s: would replace %s, which is read", r->output,
-             clash);
+  PetscCall(SamOutputNames(r->output, &xdmf, &temporary));
+  PetscCall(SamFilesAdd(&files, SAM_FILE_READ_ONLY, "-input", r->input, PETSC_FALSE));
+  PetscCall(SamFilesAdd(&files, SAM_FILE_WRITTEN, "-output", r->output, PETSC_FALSE));
+  PetscCall(SamFilesAdd(&files, SAM_FILE_WRITTEN, "-output", xdmf, PETSC_TRUE));
+  PetscCall(SamFilesAdd(&files, SAM_FILE_WRITTEN, "-output", temporary, PETSC_TRUE));
+  PetscCall(PetscFree(xdmf));
+  PetscCall(PetscFree(temporary));
+  ierr = SamFilesCheck(&files, PETSC_COMM_WORLD, arguments);
+  PetscCall(SamFilesFree(&files));
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -137,7 +135,7 @@ PetscErrorCode SamStressRunSetUp(SamStressRun *run, const SamArguments *argument
   PetscCall(SamOptionsBool(&from, "quiet", "print warnings and errors only", &run->quiet, NULL));
   PetscCall(SamPrintHelp(&help));
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(CheckNames(&run->request, arguments));
+  PetscCall(CheckFiles(&run->request, arguments));
   PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
   PetscCall(SamResultsGetGrid(run->results, &run->grid));
   PetscCall(CheckBodies(run));
