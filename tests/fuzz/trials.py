@@ -40,6 +40,7 @@ SPHERE = (
     "-body1_young 210e9 -body1_poisson 0.3 -body2_young 70e9 -body2_poisson 0.3 -friction 0.3 -gap_type sphere "
     "-gap_radius1 0.2 -gap_radius2 0.2 -load_n 1000 -load_tx 60 -grid_n 24 -grid_size 3.2e-3"
 )
+FATIGUE = "-fatigue swt,ruiz,crossland -fatigue_crossland_alpha 0.3"
 KILLED = "-history history.csv -output out.h5 -checkpoint state.h5 -checkpoint_every 1"
 
 
@@ -69,11 +70,12 @@ class Trials:
         for path in self.folder.iterdir():
             shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
 
-    def start(self, words, ranks, file_limit=None):
-        """`file_limit`: largest size of a file, KiB."""
+    def start(self, words, ranks, file_limit=None, program=None):
+        """`file_limit`: largest size of a file, KiB; `program`: another one of the same folder."""
+        binary = self.program.with_name(program) if program else self.program
         limited = [] if file_limit is None else ["bash", "-c", f'ulimit -f {file_limit}; exec "$@"', "bash"]
         launched = [*self.launcher, "-n", str(ranks)] if ranks > 1 else []
-        command = [*launched, *limited, str(self.program), *words]
+        command = [*launched, *limited, str(binary), *words]
         self.command = shlex.join(command)
         return subprocess.Popen(
             command,
@@ -97,8 +99,8 @@ class Trials:
         demand(not any(word in err or word in out for word in TRACES), "a trace:", err[-1500:])
         return run.returncode, out, err
 
-    def run(self, words, ranks, file_limit=None):
-        return self.end(self.start(words, ranks, file_limit))
+    def run(self, words, ranks, file_limit=None, program=None):
+        return self.end(self.start(words, ranks, file_limit, program))
 
     def contents(self):
         return {path.name: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
@@ -135,7 +137,51 @@ class Trials:
                 demand(np.all(np.isfinite(p)) and p.min() >= 0, "pressure of step", step)
                 demand(abs(p.sum() * area - load[step]) <= 1e-8 * abs(load[step]), "load of step", step)
 
+    def judge_stress(self, words, ranks, file_limit=None, finite=True):
+        """The same for a run of petsam-stress, after which there is a whole file of stresses, or nothing new."""
+        before = self.contents()
+        code, out, err = self.run(words, ranks, file_limit, "petsam-stress")
+        demand(code in (0, 2, 3, MEMORY), "exit code", code, err[-1500:])
+        lines = [line for line in err.splitlines() if line.startswith("petsam-stress: ")]
+        demand(code not in (2, 3) or 1 <= len(lines) <= 3, "complaints:", err[-1500:])
+        after = self.contents()
+        demand(code == 0 or after == before, "files have changed:", set(after) ^ set(before))
+        if code == 0 and (self.folder / "stress.h5").exists():
+            with h5py.File(self.folder / "stress.h5") as f:
+                for name in f:
+                    if finite and isinstance(f[name], h5py.Dataset) and not name.startswith("ruiz"):
+                        demand(np.isfinite(f[name][:]).all(), name, "is not finite")
+        return code
+
+    def make_results(self):
+        rows = [f"{k + 1}, {60 * math.sin(k)!r}, {1e6 * k!r}" for k in range(5)]
+        (self.folder / "history.csv").write_text("time, load_tx, bulk2_stress_xx\n" + "\n".join(rows) + "\n")
+        words = SPHERE.replace("-load_tx 60", "-history history.csv").split()
+        code, _, err = self.run([*words, "-output", "out.h5", "-output_every", "2"], 1)
+        demand(code == 0, "exit code", code, err)
+
     # ---- trials: each is given chance and ranks
+
+    def trial_stress_options(self, chance, ranks):
+        self.make_results()
+        section = chance.choice(("", "-section y=0", "-section x=2e-4"))
+        words = f"-depths {chance.choice(('0', '0,1e-4', '0:3e-4:4'))} -steps {chance.choice(('all', 'last', '2:4:2'))}"
+        more = chance.choice(("", FATIGUE, "-quantities stress,mises,principal,shear_max,strain"))
+        words = f"-input out.h5 -output stress.h5 {words} {section} {more}".split()
+        return self.judge_stress(mutations.spoil_words(chance, words), ranks)
+
+    def trial_stress_input(self, chance, ranks):
+        self.make_results()
+        path = self.folder / "out.h5"
+        path.write_bytes(mutations.spoil_bytes(chance, path.read_bytes()))
+        section = chance.choice(([], ["-section", "y=0"]))
+        words = f"-input out.h5 -output stress.h5 -depths 0,1e-4 -steps all {FATIGUE}".split()
+        return self.judge_stress([*words, *section], ranks, finite=False)  # tractions may have been changed
+
+    def trial_stress_full(self, chance, ranks):
+        self.make_results()
+        words = f"-input out.h5 -output stress.h5 -depths 0:3e-4:8 -steps all {FATIGUE}".split()
+        return self.judge_stress(words, ranks, file_limit=chance.randint(0, 4000))
 
     def trial_options(self, chance, ranks):
         words = mutations.spoil_words(chance, [*SPHERE.split(), "-output", "out.h5"])
