@@ -328,7 +328,7 @@ def figure_stress(directory, cases, stresses):
         last.x / c, last.z / c, mises, levels=np.linspace(0.0, top, 11), colors="0.15", linewidths=0.5
     )
     panel.clabel(lines, fmt="%.2f", fontsize=7)
-    figure.colorbar(image, ax=panel, label=r"$\sigma_M\,2R/(E^*c)$", format="%.2f")
+    figure.colorbar(image, ax=panel, label=r"$\sigma_M\,2R/(E^*c)$", format="%.3f")
     frame(panel, f"von Mises, $T_x$ = {cases[-1].load_ratio:g} $\\mu N$", "$x/c$", "$z/c$", (-1.3, 1.3), (1.2, 0.0))
     for case, one in zip(cases, stresses):
         values = one.field("stress_xx")[0, 0] / unit

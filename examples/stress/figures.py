@@ -131,8 +131,8 @@ def draw_section(axes, case, title):
     lines = axes.contour(case.x, case.z, mises, levels=LINES, colors="0.15", linewidths=0.6)
     axes.clabel(lines, fmt="%.1f", fontsize=7)
     z, x = np.unravel_index(np.argmax(mises), mises.shape)
-    axes.plot(case.x[x], case.z[z], "+", color="white", markersize=10, markeredgewidth=2)
-    frame(axes, f"{title}: {mises[z, x]:.3f} $p_0$", "$x/a$", "$z/a$")
+    axes.plot(case.x[x], case.z[z], "+", color="white", markersize=10, markeredgewidth=2, clip_on=False, zorder=5)
+    frame(axes, f"{title}: largest {mises[z, x]:.3f} $p_0$", "$x/a$", "$z/a$")
     axes.set_ylim(case.z[-1], case.z[0])
 
 

@@ -27,12 +27,14 @@ typedef struct {
 
 /*
   SamFatigueCompute - a parameter of the states of a cycle at one point: stress[c * states + k] is component c (Pa) in
-  state k. Planes are searched by 10 degrees, then around the best of them down to a third of a degree. Not collective.
+  state k. Planes are searched by 10 degrees, then around the best of them down to a third of a degree. The normal of
+  the best one, its z not negative, goes to `normal`, which may be NULL; it is NaN for a parameter without planes, and
+  where no plane is under tension (SWT). Not collective.
   Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.
   11, 149; Papadopoulos 1997, Int. J. Fatigue 19, 219 (measures of the shear's path).
 */
 PETSC_EXTERN PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants,
-                                              PetscInt states, const double stress[], double *value);
+                                              PetscInt states, const double stress[], double *value, double normal[3]);
 
 /*
   SamFatigueRuiz - Ruiz's parameters on the surface. D1 = a quarter of the closed integral of |q . ds| (J/m2), which for

@@ -30,6 +30,7 @@ PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
   SamResultsGetGrid - the grid of the run, distributed over the ranks that are there now; borrowed.
   SamResultsGetPair - the materials.
   SamResultsGetElasticity - the type of the bodies, as -elasticity names it; borrowed.
+  SamResultsGetOptions - the options of the run, as far as they are known; borrowed.
   SamResultsGetSteps - number of load steps, and of those whose fields have been saved.
   SamResultsGetSaved - load step (from 1) and time (s) of the k-th saved one (from 0).
   None is collective.
@@ -37,6 +38,7 @@ PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
 PETSC_EXTERN PetscErrorCode SamResultsGetGrid(SamResults results, SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamResultsGetPair(SamResults results, SamPair *pair);
 PETSC_EXTERN PetscErrorCode SamResultsGetElasticity(SamResults results, const char **type);
+PETSC_EXTERN PetscErrorCode SamResultsGetOptions(SamResults results, const char **options);
 PETSC_EXTERN PetscErrorCode SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
 PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
 /* SamResultsRead - a field of the k-th saved step: this rank's rows. Collective. Errors: SAM_ERR_FILE. */

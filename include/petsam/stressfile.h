@@ -15,7 +15,7 @@ typedef enum {
   /* of all steps together, in the order of SamFatigueParameter: */
   SAM_QUANTITY_CROSSLAND,    /* crossland, Pa */
   SAM_QUANTITY_DANG_VAN,     /* dang_van, Pa */
-  SAM_QUANTITY_FINDLEY,      /* findley, Pa */
+  SAM_QUANTITY_FINDLEY,      /* findley, Pa; findley_normal_x, _y, _z of the critical plane, as the next two have */
   SAM_QUANTITY_SWT,          /* swt, Pa */
   SAM_QUANTITY_FATEMI_SOCIE, /* fatemi_socie */
   SAM_QUANTITY_RUIZ,         /* ruiz_1, J/m2; ruiz_2, Pa J/m2; on the surface, else NaN */
@@ -53,6 +53,14 @@ PETSC_EXTERN PetscErrorCode SamStressFileCreate(SamGrid grid, const char filenam
 */
 PETSC_EXTERN PetscErrorCode SamStressFileWrite(SamStressFile file, SamQuantity quantity, PetscInt component,
                                                PetscInt step, PetscInt depth, PetscInt depths, const double values[]);
+/*
+  SamStressFileSetLargest - the largest value of a quantity of all steps together, and its x, y and z (m): attributes of
+  its first dataset. Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_EXTERN PetscErrorCode SamStressFileSetLargest(SamStressFile file, SamQuantity quantity, double value,
+                                                    const double place[3]);
+/* SamStressFileSetText - an attribute of the root group. Collective. Errors: SAM_ERR_FILE. */
+PETSC_EXTERN PetscErrorCode SamStressFileSetText(SamStressFile file, const char name[], const char text[]);
 /* SamStressFileSetHistory - a number for each step in /history, with its unit. Collective. Errors: SAM_ERR_FILE. */
 PETSC_EXTERN PetscErrorCode SamStressFileSetHistory(SamStressFile file, const char name[], const char units[],
                                                     const char long_name[], const double values[]);

@@ -160,7 +160,7 @@ class Results(Datafile):
         step = count + 1 + number if number < 0 else number
         self._need_fields()
         if not 1 <= step <= count:
-            raise NotSaved(self.path, f"step {number}", f"there are {count} steps")
+            raise NotSaved(self.path, f"step {number}", "there is 1 step" if count == 1 else f"there are {count} steps")
         if step in self.steps:
             return self.steps.index(step)
         reason = f"its fields were not saved, those of steps {_some(self.steps)} were"
@@ -238,6 +238,8 @@ class Snapshot:
     """
 
     def __init__(self, results, index=-1):
+        if not isinstance(results, Results):
+            raise Error(f"{results.path}: holds no results of petsam")
         self.results, self._fields = results, {}
         self.index = results.of_last() if index == -1 else index
         self.x, self.y, self.parameters = results.x, results.y, results.parameters

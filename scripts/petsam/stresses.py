@@ -4,8 +4,9 @@ import numpy as np
 
 from .errors import Error
 from .isolation import reading
-from .results import DAMAGED, WHOLE, Datafile, NotSaved, Results, _own
+from .results import DAMAGED, WHOLE, Datafile, NotSaved, Results, _own, _some
 
+# parameters of a cycle; the critical plane's normal is in NAME_normal_x, _y, _z
 FATIGUE = ("crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz_1", "ruiz_2")
 AXES = ("time", "z", "y", "x")
 
@@ -16,6 +17,7 @@ class Stresses(Datafile):
     x, y, z     points, m; z from the surface into the body; a section has one y or one x
     times       of the load steps, s
     along       "x" or "y", the direction of a section; None of maps
+    steps       numbers of the load steps, as petsam counts them
     history     name: array with a value for every step, all of /history
     units       name: unit, of the same
     parameters  body, young (Pa), poisson, and the constants of the fatigue parameters
@@ -24,6 +26,7 @@ class Stresses(Datafile):
     def _read(self):
         self.times, self.z, self.y, self.x = self._read_axes(AXES, 1)
         self.along = "x" if self.y.size == 1 else "y" if self.x.size == 1 else None
+        self.steps = [int(number) for number in self.history["step"]]
         self.shape = (self.times.size, self.z.size, self.y.size, self.x.size)
 
     def __contains__(self, name):
@@ -44,11 +47,12 @@ class Stresses(Datafile):
         return self.times.size - 1
 
     def of_step(self, number):
-        """Index of a step of the file: from 1, or from the end, -1 being the last."""
-        count = self.times.size
-        if not 1 <= (count + 1 + number if number < 0 else number) <= count:
-            raise NotSaved(self.path, f"step {number}", f"there are {count} steps in this file")
-        return number % count if number < 0 else number - 1
+        """Index of the load step number, as petsam counts them; or from the end, -1 being the last."""
+        if -len(self.steps) <= number < 0:
+            return len(self.steps) + number
+        if number not in self.steps:
+            raise NotSaved(self.path, f"step {number}", f"this file has the steps {_some(self.steps)}")
+        return self.steps.index(number)
 
     def of_time(self, time):
         """Index of the step nearest to time (s), between the first and the last."""
@@ -56,7 +60,26 @@ class Stresses(Datafile):
 
     def title(self, index):
         """What names a step: the label, and the time where there are several."""
-        return self.label if self.times.size == 1 else f"{self.label}, t = {self.times[index]:.4g} s"
+        return f"{self.label}, step {self.steps[index]}, t = {self.times[index]:.4g} s"
+
+    def nearest_row(self, y):
+        """Number of the row of cells nearest to y (m); of two that are as near the upper one, as in petsam-stress."""
+        if self.y.size == 1:
+            return 0
+        step = self.y[1] - self.y[0]
+        if not self.y[0] - step / 2 <= y <= self.y[-1] + step / 2:
+            raise Error(f"{self.path}: y = {y:g} m is not on the grid")
+        return int(np.clip(np.floor((y - self.y[0]) / step + 0.5), 0, self.y.size - 1))
+
+    def nearest_plane(self, z):
+        """Number of the depth nearest to z (m)."""
+        return int(np.argmin(np.abs(self.z - z)))
+
+    def need(self, *names):
+        """Error where the file lacks one of the datasets."""
+        for name in names:
+            if name not in self:
+                raise Error(f"{self.path}: has no {name} (petsam-stress -quantities)")
 
     def field(self, name, index=-1, depths=slice(None), rows=slice(None), columns=slice(None)):
         """A quantity (z, y, x) of a step, or a fatigue parameter, which has no steps; on a window of slices."""
@@ -65,14 +88,15 @@ class Stresses(Datafile):
                 if name not in self:
                     raise Error(f"{self.path}: has no {name}")
                 data = _own(self.file, name)
-                shape = self.shape[1:] if name in FATIGUE else self.shape
+                timeless = name in FATIGUE or "_normal_" in name
+                shape = self.shape[1:] if timeless else self.shape
                 if data.shape != shape or data.dtype.kind != "f":
                     raise ValueError(f"/{name} has the shape {data.shape}")
                 sizes = (len(range(*part.indices(n))) for part, n in zip((depths, rows, columns), shape[-3:]))
                 if np.prod(list(sizes)) > WHOLE:
                     raise ValueError(f"/{name} is too large to be read whole: take a part of it")
-                where = (depths, rows, columns) if name in FATIGUE else (index % self.shape[0], depths, rows, columns)
-                return data[where]
+                part = (depths, rows, columns)
+                return data[part if timeless else (index % self.shape[0], *part)]
         except DAMAGED as error:
             raise self._error(error) from error
 

@@ -14,7 +14,7 @@ static const char *const fields[SAM_RESULTS_FIELDS] = {"/pressure", "/shear_x", 
 /* What the file says of its run. */
 typedef struct {
   double  n[2], width[2], center[2], young[2], poisson[2];
-  char    elasticity[64];
+  char    elasticity[64], options[4096]; /* options: empty if they are longer */
   hsize_t steps, saved;
   char    problem[SAM_MESSAGE]; /* empty: none */
 } Facts;
@@ -53,8 +53,8 @@ static void GetNumbers(Facts *f, hid_t file, const char name[], hssize_t count, 
   if (attribute >= 0) (void)H5Aclose(attribute);
 }
 
-/* A root attribute that is a text of fixed length. */
-static void GetText(Facts *f, hid_t file, const char name[], size_t size, char text[])
+/* A root attribute that is a text shorter than `size`; empty if it is not there. */
+static void GetText(hid_t file, const char name[], size_t size, char text[])
 {
   const hid_t attribute = H5Aexists(file, name) > 0 ? H5Aopen(file, name, H5P_DEFAULT) : -1;
   const hid_t type      = attribute >= 0 ? H5Aget_type(attribute) : -1;
@@ -65,8 +65,7 @@ static void GetText(Facts *f, hid_t file, const char name[], size_t size, char t
   if (type >= 0 && H5Tget_class(type) == H5T_STRING && !variable && H5Tget_size(type) < size)
     (void)H5Aread(attribute, type, text);
   else if (variable && H5Aread(attribute, type, &value) >= 0 && value)
-    (void)snprintf(text, size, "%s", value);
-  if (!text[0]) Complain(f, "it lacks the attribute %s of a results file of petsam", name);
+    (void)snprintf(text, size, "%s", strlen(value) < size ? value : "");
   if (value) (void)H5free_memory(value);
   if (type >= 0) (void)H5Tclose(type);
   if (attribute >= 0) (void)H5Aclose(attribute);
@@ -151,7 +150,9 @@ static void ExamineInChild(void *data)
   GetNumbers(f, file, "body2_young", 1, &f->young[1]);
   GetNumbers(f, file, "body1_poisson", 1, &f->poisson[0]);
   GetNumbers(f, file, "body2_poisson", 1, &f->poisson[1]);
-  GetText(f, file, "elasticity", sizeof(f->elasticity), f->elasticity);
+  GetText(file, "elasticity", sizeof(f->elasticity), f->elasticity);
+  GetText(file, "options", sizeof(f->options), f->options);
+  if (!f->elasticity[0]) Complain(f, "it lacks the attribute elasticity of a results file of petsam");
   if (!f->problem[0] && !IsPlausible(f)) Complain(f, "its parameters are not those of a run of petsam");
   if (!f->problem[0]) ExamineFields(f, file);
   if (!f->problem[0] && f->saved == 0) Complain(f, "no step has been saved in it");
@@ -288,6 +289,13 @@ PetscErrorCode SamResultsGetElasticity(SamResults r, const char **type)
 {
   PetscFunctionBegin;
   *type = r->facts.elasticity;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResultsGetOptions(SamResults r, const char **options)
+{
+  PetscFunctionBegin;
+  *options = r->facts.options;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

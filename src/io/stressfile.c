@@ -12,12 +12,20 @@
 
 #define OPTION "output"
 
-enum { DATASETS = 2 * SAM_STRESS_COMPONENTS + 12, DIMENSIONS = 4, TIME = 0, Z, Y, X };
+enum { DATASETS = 2 * SAM_STRESS_COMPONENTS + 21, DIMENSIONS = 4, TIME = 0, Z, Y, X };
 
 typedef struct {
   SamOutputLabel label;
   SamQuantity    quantity;
 } Dataset;
+
+/* The normal of the plane on which a parameter is largest. */
+#define NORMAL(name, quantity) \
+  {{name "_normal_x", "1", "normal of the critical plane, x"}, quantity}, \
+    {{name "_normal_y", "1", "normal of the critical plane, y"}, quantity}, \
+  { \
+    {name "_normal_z", "1", "normal of the critical plane, z"}, quantity \
+  }
 
 static const Dataset datasets[DATASETS] = {
   {{"stress_xx", "Pa", "stress xx, tension positive"}, SAM_QUANTITY_STRESS},
@@ -40,8 +48,11 @@ static const Dataset datasets[DATASETS] = {
   {{"crossland", "Pa", "Crossland's parameter of the cycle"}, SAM_QUANTITY_CROSSLAND},
   {{"dang_van", "Pa", "Dang Van's parameter of the cycle"}, SAM_QUANTITY_DANG_VAN},
   {{"findley", "Pa", "Findley's parameter of the cycle"}, SAM_QUANTITY_FINDLEY},
+  NORMAL("findley", SAM_QUANTITY_FINDLEY),
   {{"swt", "Pa", "parameter of Smith, Watson and Topper of the cycle"}, SAM_QUANTITY_SWT},
+  NORMAL("swt", SAM_QUANTITY_SWT),
   {{"fatemi_socie", "1", "parameter of Fatemi and Socie of the cycle"}, SAM_QUANTITY_FATEMI_SOCIE},
+  NORMAL("fatemi_socie", SAM_QUANTITY_FATEMI_SOCIE),
   {{"ruiz_1", "J/m2", "Ruiz's first parameter of the cycle: work of friction"}, SAM_QUANTITY_RUIZ},
   {{"ruiz_2", "Pa J/m2", "Ruiz's second parameter of the cycle: tension times work of friction"}, SAM_QUANTITY_RUIZ},
 };
@@ -215,6 +226,28 @@ PetscErrorCode SamStressFileWrite(SamStressFile s, SamQuantity quantity, PetscIn
   ierr = SamFileEnd(s->f);
   if (ierr) s->broken = PETSC_TRUE;
   PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStressFileSetLargest(SamStressFile s, SamQuantity quantity, double value, const double place[3])
+{
+  PetscInt k = 0;
+
+  PetscFunctionBegin;
+  while (datasets[k].quantity != quantity) k++;
+  PetscCall(SamFileBegin(s->f));
+  SamFileWriteAttribute(s->f, s->dataset[k], "largest", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &value);
+  SamFileWriteAttribute(s->f, s->dataset[k], "largest_at", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3, place);
+  PetscCall(SamFileEnd(s->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStressFileSetText(SamStressFile s, const char name[], const char text[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(s->f));
+  SamFileWriteTextAttribute(s->f, s->f->id, name, text);
+  PetscCall(SamFileEnd(s->f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -130,6 +130,15 @@ static void Climb(const Cycle *c, Plane *at)
   }
 }
 
+/* The normal of a plane, or its opposite, so that its z is not negative. */
+static void GetNormal(const Plane *plane, double normal[3])
+{
+  double u[3], v[3];
+
+  SetFrame(plane->theta, plane->phi, normal, u, v);
+  for (int d = 0; d < 3 && cos(plane->theta) < 0; d++) normal[d] = -normal[d];
+}
+
 static PetscBool IsElsewhere(const Plane *a, const Plane *b)
 {
   double n[2][3], u[3], v[3];
@@ -161,11 +170,12 @@ static void Offer(Plane starts[STARTS], PetscInt *count, Plane plane)
   starts[place] = plane;
 }
 
-static double LargestOverPlanes(const Cycle *c)
+/* The parameter of the best plane, and its normal if that is not NULL. */
+static double LargestOverPlanes(const Cycle *c, double normal[3])
 {
   Plane    starts[STARTS];
-  PetscInt count = 0;
-  double   best  = -INFINITY;
+  PetscInt count = 0, winner = 0;
+  double   best = -INFINITY;
 
   for (int t = 0; t <= 90; t += COARSE) {
     const int turns = t == 0 ? 1 : (int)ceil(360 / COARSE * sin(t * DEGREE)), last = t == 90 ? turns / 2 : turns;
@@ -182,9 +192,10 @@ static double LargestOverPlanes(const Cycle *c)
   for (PetscInt k = 0; k < count; k++) {
     if (!(starts[k].value >= NEARLY * best)) continue;
     Climb(c, &starts[k]);
-    best = fmax(best, starts[k].value);
+    if (starts[k].value >= starts[winner].value) winner = k;
   }
-  return best;
+  if (normal) GetNormal(&starts[winner], normal);
+  return starts[winner].value;
 }
 
 /* ---- without planes ---- */
@@ -242,7 +253,7 @@ static double OfDeviators(const Cycle *c, double points[])
 }
 
 PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants, PetscInt states,
-                                 const double stress[], double *value)
+                                 const double stress[], double *value, double normal[3])
 {
   Cycle         c = {.parameter = parameter, .constants = constants, .states = states, .stress = stress};
   double       *scratch, *strain, *e[COMPONENTS];
@@ -258,8 +269,9 @@ PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigue
   c.path   = scratch;
   c.strain = strain;
   if (parameter == SAM_FATIGUE_SWT) SamStressStrain(states, constants->young, constants->poisson, s, e);
+  for (int d = 0; d < 3 && normal; d++) normal[d] = NAN;
   *value = parameter == SAM_FATIGUE_CROSSLAND || parameter == SAM_FATIGUE_DANG_VAN ? OfDeviators(&c, scratch)
-                                                                                   : LargestOverPlanes(&c);
+                                                                                   : LargestOverPlanes(&c, normal);
   PetscCall(PetscFree2(scratch, strain));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

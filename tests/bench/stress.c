@@ -183,7 +183,7 @@ static PetscErrorCode TimeFatigue(SamGrid grid, PetscInt depths, PetscInt states
     for (PetscInt s = 0; s < states; s++)
       for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++)
         one[c * states + s] = stress[(s * SAM_STRESS_COMPONENTS + c) * points + i];
-    PetscCall(SamFatigueCompute(SAM_FATIGUE_SWT, &constants, states, one, &value));
+    PetscCall(SamFatigueCompute(SAM_FATIGUE_SWT, &constants, states, one, &value, NULL));
   }
   *seconds = MPI_Wtime() - start;
   PetscCall(PetscFree2(stress, one));
@@ -237,7 +237,8 @@ int main(int argc, char **argv)
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-states", &states, NULL));
   repeats = PetscMax(1, PetscMin(repeats, 64));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-                        " cells  convolution      map  further  direct map  section  further  direct section  "
+                        " [seconds]          map of six stresses              section of all depths\n"
+                        " cells  convolution      new  further       direct      new  further       direct      "
                         "SWT  bytes a cell\n"));
   for (PetscInt k = 0; k < count; k++) PetscCall(Measure(sizes[k], repeats, depths, states, !k));
   PetscCall(SamFinalize());

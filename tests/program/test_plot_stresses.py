@@ -61,9 +61,19 @@ def test_all_that_a_file_is_good_for_is_drawn(plot, folder, name, kinds):
 
 
 def test_steps_and_components_are_chosen(plot, folder):
-    plot("--sections", "--component", "xz", "--step", "1,-1", "-o", "two.pdf", "section.h5")
+    plot("--sections", "--component", "xz", "--step", "3,-1", "-o", "two.pdf", "section.h5")
     assert (folder / "two.pdf").read_bytes().startswith(b"%PDF")
     plot("--profiles", "--time", "2", "-o", "at.png", "section.h5", "maps.h5")
+
+
+def test_planes_are_chosen_and_principal_stresses_drawn(plot, launcher, folder):
+    run = dict(input="c.h5", output="many.h5", depths="0:3e-4:9", quantities="principal,shear_max", quiet=True)
+    conftest.execute(launcher, folder, [run], 1, 0, program=STRESS)
+    file = petsam.open(folder / "many.h5")
+    assert len(bodies.maps([(file, 0)], "principal_1").axes) == 2 * bodies.PLANES  # and colour bars
+    assert len(bodies.maps([(file, 0)], "shear_max", [1e-4, 2e-4]).axes) == 4
+    assert "has no stress_xx" in plot("--maps", "many.h5", check=3).stderr
+    plot("--sections", "--component", "shear_max", "many.h5")
 
 
 def test_profile_is_the_stress_on_the_surface(folder):
@@ -100,6 +110,8 @@ def test_open_knows_the_file_by_its_content(folder):
     assert file.history["mises_max"].size == 4 and file.parameters["body"] == 2
     with pytest.raises(petsam.Error, match="has no crossland"):
         file.field("crossland")
+    with pytest.raises(petsam.Error, match="holds no results"):
+        petsam.Snapshot(file)
 
 
 @pytest.mark.parametrize(
@@ -109,7 +121,7 @@ def test_open_knows_the_file_by_its_content(folder):
         (("--sections", "c.h5"), "--sections"),
         (("section.h5", "c.h5"), "do not go into one picture"),
         (("--maps", "section.h5"), "holds a section"),
-        (("--step", "5", "section.h5"), "there are 4 steps"),
+        (("--step", "2", "section.h5"), "has the steps 3, 4, 5, 6"),
         (("--time", "9", "section.h5"), "from 1.5 to 3"),
         (("--fatigue", "section.h5", "maps.h5"), "one file at a time"),
     ],

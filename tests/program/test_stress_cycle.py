@@ -20,7 +20,7 @@ ALL = dict(
 NAMES = ("crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz_1", "ruiz_2")
 # Cattaneo's stick radius is 0.6 of the contact's under this part of the largest shear
 PART = 1 - 0.6**3
-CYCLE = "25:40"  # of 40 steps
+CYCLE = "41:56"  # of 56 steps
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +29,7 @@ def contact(launcher, tmp_path_factory):
     folder = tmp_path_factory.mktemp("cycle")
     case = dict(SPHERE, friction=0.5, grid_n=(96, 95), history="h.csv", steps=8)
     t = PART * slide_limit(case)[0]
-    rows = [(k + 1, *((-t, -1e7) if k % 2 else (t, 3e7))) for k in range(5)]
+    rows = [(k + 1, *((-t, -1e7) if k % 2 else (t, 3e7))) for k in range(7)]
     (folder / "h.csv").write_text("time,load_tx,bulk2_stress_xx\n" + "\n".join(",".join(map(repr, r)) for r in rows))
     conftest.execute(launcher, folder, [case, dict(output="c.h5")], 1, 0)
     return folder
@@ -109,6 +109,14 @@ def test_swt_is_the_largest_over_all_planes(stress, contact):
             s, e = (np.einsum("pi,ijt,pj->pt", n, tensor[k], n) for k in ("stress", "strain"))
             search = np.max(np.maximum(s.max(1), 0) * (e.max(1) - e.min(1)) / 2)
             assert search * (1 - 1e-9) <= w["swt"][z, 0, x] <= search * 1.004 + 1e-9 * w["swt"].max()
+            normal = np.array([w[f"swt_normal_{c}"][z, 0, x] for c in "xyz"])
+            if w["swt"][z, 0, x] == 0:
+                assert np.isnan(normal).all()
+                continue
+            on_plane = {k: np.einsum("i,ijt,j->t", normal, t, normal) for k, t in tensor.items()}
+            swt = on_plane["stress"].max() * np.ptp(on_plane["strain"]) / 2
+            assert np.linalg.norm(normal) == pytest.approx(1) and normal[2] >= 0
+            assert swt == pytest.approx(w["swt"][z, 0, x], rel=1e-12)
 
 
 def test_first_parameter_of_ruiz_is_the_work_of_friction(stress, contact):
@@ -116,8 +124,8 @@ def test_first_parameter_of_ruiz_is_the_work_of_friction(stress, contact):
     stress(dict(input="c.h5", output="r.h5", depths="0,1e-4", steps=CYCLE, fatigue="ruiz"))
     r = read(contact / "r.h5")
     with h5py.File(contact / "c.h5") as f:
-        energy = f["history/dissipated_energy"][24:40].sum()
-        q, s = (np.array([f[f"{name}_{c}"][24:40] for c in "xy"]) for name in ("shear", "slip"))
+        energy = f["history/dissipated_energy"][40:56].sum()
+        q, s = (np.array([f[f"{name}_{c}"][40:56] for c in "xy"]) for name in ("shear", "slip"))
     work = abs((q * (s - np.roll(s, 1, axis=1))).sum(0)).sum(0) / 4
     area = (r["x"][1] - r["x"][0]) * (r["y"][1] - r["y"][0])
     assert np.allclose(r["ruiz_1"][0], work, rtol=0, atol=1e-9 * work.max())
@@ -128,6 +136,26 @@ def test_first_parameter_of_ruiz_is_the_work_of_friction(stress, contact):
     tension = r["stress_xx"][:, 0, row].max(0).clip(0)
     assert tension[slipping].max() > 1e7
     assert np.allclose(r["ruiz_2"][0, row, slipping], (r["ruiz_1"][0, row] * tension)[slipping], rtol=0.01)
+
+
+def test_largest_values_are_told_with_their_places(stress, contact):
+    stress(dict(input="c.h5", output="l.h5", depths="0,1e-4", steps="9:40", quantities="mises,principal", **ALL))
+    with h5py.File(contact / "l.h5") as f:
+        for name in ("crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz_1"):
+            values = f[name][:]
+            place = np.unravel_index(np.nanargmax(values), values.shape)
+            assert f[name].attrs["largest"] == values[place]
+            assert f[name].attrs["largest_at"].tolist() == [f[c][k] for c, k in zip("xyz", place[::-1])]
+        for name in ("mises", "principal_1"):
+            assert f[f"history/{name}_max"][:].tolist() == f[name][:].max(axis=(1, 2, 3)).tolist()
+        assert f["history/step"][:].tolist() == list(range(9, 41))
+        assert f.attrs["input"] == "c.h5" and "-grid_n 96,95" in f.attrs["input_options"]
+
+
+def test_cycle_that_is_not_closed_is_warned_of(stress):
+    common = dict(input="c.h5", output="w.h5", section="y=0", fatigue="swt", quantities="none")
+    assert "not a closed cycle" in stress(dict(common, steps="41:48")).stderr  # half of one
+    assert "shear of step 24" in stress(dict(common, steps="9:24")).stderr  # not yet steady
 
 
 @pytest.mark.parametrize("ranks", [2, 3])
@@ -164,7 +192,7 @@ def test_cycle_in_body_1_of_equal_materials_is_that_in_body_2(launcher, tmp_path
     conftest.execute(launcher, tmp_path, [case], 1, 0)
     for body in (1, 2):
         run = dict(input="c.h5", output=f"{body}.h5", depths="0,1e-4", steps="9:12", body=body, **ALL)
-        conftest.execute(launcher, tmp_path, [run], 1, 0, program=PROGRAM)
+        assert conftest.execute(launcher, tmp_path, [run], 1, 0, program=PROGRAM).stderr == ""  # it is steady
     one, two = read(tmp_path / "1.h5"), read(tmp_path / "2.h5")
     for name in NAMES:
         if name != "ruiz_1":

@@ -164,7 +164,7 @@ static double Compute(SamFatigueParameter parameter, PetscInt states, const doub
 {
   double value;
 
-  sam_call(SamFatigueCompute(parameter, &constants, states, stress, &value));
+  sam_call(SamFatigueCompute(parameter, &constants, states, stress, &value, NULL));
   return value;
 }
 

@@ -18,7 +18,36 @@ FATIGUE = {
 }  # fmt: skip
 LEVELS = 24  # of colours
 LINES = 8  # contours with a number
-COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+STRESSES = ("xx", "yy", "zz", "xy", "xz", "yz")
+OTHERS = {
+    "principal_1": "$\\sigma_1$", "principal_2": "$\\sigma_2$", "principal_3": "$\\sigma_3$",
+    "shear_max": "$\\tau_{max}$", "mises": "$\\sigma_M$",
+}  # fmt: skip
+COMPONENTS = (*STRESSES, *OTHERS)
+PLANES = 4  # of maps in a picture, unless --depth asks for some
+
+
+def _dataset(component):
+    return "stress_" + component if component in STRESSES else component
+
+
+def _symbol(component):
+    return SYMBOLS.get(component) or OTHERS[component]
+
+
+def _columns(files, component):
+    """Datasets of a picture and their titles: von Mises, if it is there, and the component."""
+    columns = [("mises", "von Mises stress")] if all("mises" in file for file in files) else []
+    name = _dataset(component)
+    if name != "mises" or not columns:
+        for file in files:
+            file.need(name)
+        columns.append((name, f"stress {_symbol(component)}"))
+    return columns
+
+
+def _is_signed(name):
+    return name not in ("mises", "shear_max")
 
 
 def _line(file, at):
@@ -29,7 +58,7 @@ def _line(file, at):
     everything = slice(None)
     if file.along == "y":
         return "y", file.y, everything, everything, ("x", file.x[0])
-    row = int(np.argmin(np.abs(file.y - at[1])))
+    row = file.nearest_row(at[1])
     return "x", file.x, slice(row, row + 1), everything, ("y", file.y[row])
 
 
@@ -52,7 +81,7 @@ def _contours(axes, along, z, values, low, high, color_map):
     levels = np.linspace(low, high, LEVELS + 1)
     image = axes.contourf(along, z, np.clip(values, low, high), levels=levels, cmap=color_map)
     lines = axes.contour(
-        along, z, values, levels=np.linspace(low, high, LINES + 2)[1:-1], colors="0.25", linewidths=0.5
+        along, z, values, levels=MaxNLocator(LINES).tick_values(low, high)[1:-1], colors="0.25", linewidths=0.5
     )
     axes.clabel(lines, fmt="%.3g", fontsize=6.5)
     axes.set_ylim(z[-1], z[0])
@@ -64,13 +93,19 @@ def _bar(figure, axes, image, unit):
 
 
 def _mark(axes, x, y):
-    axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6)
-    axes.plot(x, y, "+", color="black", markersize=9, markeredgewidth=1.2)
+    axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6, clip_on=False, zorder=5)
+    axes.plot(x, y, "+", color="black", markersize=9, markeredgewidth=1.2, clip_on=False, zorder=6)
+
+
+def _extremes(name, values):
+    """The largest value, and the smallest one of a stress that has a sign."""
+    high = f"largest {np.max(values):.4g}"
+    return f"{high}, smallest {np.min(values):.4g}" if _is_signed(name) else high
 
 
 def _annotate(axes, text):
     axes.annotate(
-        plain(text),
+        "\n".join(plain(line) for line in text.split("\n")),
         (0.02, 0.03),
         xycoords="axes fraction",
         fontsize=8,
@@ -85,20 +120,19 @@ def sections(steps, component="xx", at=(0.0, 0.0)):
     for file, _ in steps:
         if file.z.size < 2:
             raise Error(f"{file.path}: has one depth; a section needs several")
-    columns = (("mises", "von Mises stress"), ("stress_" + component, f"stress {SYMBOLS[component]}"))
+    columns = _columns([file for file, _ in steps], component)
     length, unit = scale("m", max(np.ptp(_line(file, at)[1]) for file, _ in steps) / 2)
-    figure, axes = plt.subplots(
-        len(steps), 2, figsize=(12.0, 3.3 * len(steps) + 0.3), squeeze=False, constrained_layout=True
-    )
+    size = (6.0 * len(columns), 3.3 * len(steps) + 0.3)
+    figure, axes = plt.subplots(len(steps), len(columns), figsize=size, squeeze=False, constrained_layout=True)
     for column, (name, text) in enumerate(columns):
         data = [_section(file, name, index, at) for file, index in steps]
         top = largest(data)
         factor, prefixed = scale("Pa", top)
-        low, colours = (0.0, "viridis") if name == "mises" else (-factor * top, "RdBu_r")
+        low, colours = (-factor * top, "RdBu_r") if _is_signed(name) else (0.0, "viridis")
         for row, ((file, index), values) in enumerate(zip(steps, data)):
             panel, (axis, along, _, _, where) = axes[row, column], _line(file, at)
             image = _contours(panel, length * along, length * file.z, factor * values, low, factor * top, colours)
-            k, i = np.unravel_index(np.argmax(values), values.shape)
+            k, i = np.unravel_index(np.argmax(np.abs(values)), values.shape)
             _mark(panel, length * along[i], length * file.z[k])
             panel.set(
                 xlabel=label(f"${axis}$", unit) + _at(where, length, unit),
@@ -106,14 +140,16 @@ def sections(steps, component="xx", at=(0.0, 0.0)):
                 title=text if row == 0 else "",
             )
             _bar(figure, panel, image, prefixed)
-            _annotate(panel, f"{file.title(index)}: largest {factor * values[k, i]:.4g} {prefixed}")
+            _annotate(panel, f"{file.title(index)}: {_extremes(name, factor * values)} {prefixed}")
     return figure
 
 
 def profiles(steps, component="xx", at=(0.0, 0.0)):
     """A component of the stress along the section at its first depth, the surface if it has it."""
     figure, axes = plt.subplots(figsize=(7.6, 4.4), constrained_layout=True)
-    data = [_section(file, "stress_" + component, index, at, slice(0, 1))[0] for file, index in steps]
+    for file, _ in steps:
+        file.need(_dataset(component))
+    data = [_section(file, _dataset(component), index, at, slice(0, 1))[0] for file, index in steps]
     length, unit = scale("m", max(np.ptp(_line(file, at)[1]) for file, _ in steps) / 2)
     factor, prefixed = scale("Pa", largest(data))
     for (file, index), values, tint in zip(steps, data, colors(len(steps))):
@@ -123,8 +159,8 @@ def profiles(steps, component="xx", at=(0.0, 0.0)):
     depth = "on the surface" if file.z[0] == 0 else f"at z = {file.z[0]:.4g} m"
     axes.set(
         xlabel=label(f"${axis}$", unit) + _at(where, length, unit),
-        ylabel=label(SYMBOLS[component], prefixed),
-        title=f"stress {SYMBOLS[component]} {depth}",
+        ylabel=label(_symbol(component), prefixed),
+        title=f"stress {_symbol(component)} {depth}",
     )
     axes.legend(loc="best")
     return figure
@@ -134,25 +170,32 @@ def _stride(file):
     return max(1, -(-max(file.y.size, file.x.size) // PIXELS))
 
 
-def maps(steps, component="xx"):
+def _planes(file, depths):
+    """Numbers of the planes that are drawn: those nearest to depths (m), or some from the first to the last."""
+    if depths:
+        return [file.nearest_plane(z) for z in depths]
+    return sorted({round(k) for k in np.linspace(0, file.z.size - 1, min(PLANES, file.z.size))})
+
+
+def maps(steps, component="xx", depths=None):
     """Von Mises and a component of the stress over planes: a row a step and depth, one scale a column."""
-    rows = [(file, index, k) for file, index in steps for k in range(file.z.size)]
+    rows = [(file, index, k) for file, index in steps for k in _planes(file, depths)]
     for file, _ in steps:
         if file.along:
             raise Error(f"{file.path}: holds a section; maps need whole planes")
     need_few(len(rows), "steps, depths and files")
+    columns = _columns([file for file, _ in steps], component)
     length, unit = scale("m", max(np.ptp(file.x) for file, _ in steps) / 2)
-    figure, axes = plt.subplots(len(rows), 2, figsize=(10.0, 3.8 * len(rows) + 0.3), squeeze=False, layout="compressed")
-    for column, (name, text) in enumerate(
-        (("mises", "von Mises stress"), ("stress_" + component, f"stress {SYMBOLS[component]}"))
-    ):
+    size = (5.0 * len(columns), 3.8 * len(rows) + 0.3)
+    figure, axes = plt.subplots(len(rows), len(columns), figsize=size, squeeze=False, layout="compressed")
+    for column, (name, text) in enumerate(columns):
         data = []
         for file, index, k in rows:
             part = slice(None, None, _stride(file))
             data.append(file.field(name, index, slice(k, k + 1), part, part)[0])
         top = largest(data)
         factor, prefixed = scale("Pa", top)
-        low, colours = (0.0, "viridis") if name == "mises" else (-factor * top, "RdBu_r")
+        low, colours = (-factor * top, "RdBu_r") if _is_signed(name) else (0.0, "viridis")
         for row, ((file, index, k), values) in enumerate(zip(rows, data)):
             panel = axes[row, column]
             edges = extent(file.x, file.y, 1.0 / length, _stride(file))
@@ -163,7 +206,7 @@ def maps(steps, component="xx"):
                 title=text if row == 0 else "",
             )
             _bar(figure, panel, image, prefixed)
-            _annotate(panel, f"{file.title(index)}, z = {file.z[k]:.4g} m")
+            _annotate(panel, f"{file.title(index)}, z = {file.z[k]:.4g} m\n{_extremes(name, factor * values)}")
     return figure
 
 

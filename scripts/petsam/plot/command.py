@@ -74,7 +74,7 @@ def arguments():
         "--profiles", action="store_true", help="pressure, shear and slip along x and y; a stress on the surface"
     )
     kinds.add_argument("--sections", action="store_true", help="von Mises and another stress over depth")
-    kinds.add_argument("--component", choices=bodies.COMPONENTS, default="xx", help="the other stress (xx)")
+    kinds.add_argument("--component", choices=bodies.COMPONENTS, default="xx", help="that other stress (xx)")
     kinds.add_argument("--fatigue", action="store_true", help="fatigue parameters, with the place of the largest")
     kinds.add_argument("--loop", action="store_true", help="a load over its displacement")
     kinds.add_argument("--load", choices=tuple(pictures.PAIRS), help="the loop's load (that which does the most work)")
@@ -82,11 +82,12 @@ def arguments():
     kinds.add_argument("--names", metavar="NAME,...", help="the history's datasets (loads that vary, areas, energy)")
     which = parser.add_argument_group("steps (the last saved)").add_mutually_exclusive_group()
     which.add_argument(
-        "--step", type=numbers(int), metavar="K,...", help="load steps from 1, as the run prints them; -1 is the last"
+        "--step", type=numbers(int), metavar="K,...", help="load steps from 1, as petsam prints them; -1 is the last"
     )
     which.add_argument("--time", type=numbers(float), metavar="T,...", help="the saved steps nearest to times, s")
     look = parser.add_argument_group("look")
     look.add_argument("--at", type=point, default=(0.0, 0.0), metavar="X,Y", help="where profiles cross, m (0,0)")
+    look.add_argument("--depth", type=numbers(float), metavar="Z,...", help="planes of stresses nearest to z, m (some)")
     look.add_argument("--whole-grid", action="store_true", help="maps and profiles of the grid, not of the contact")
     look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png or .pdf")
@@ -165,7 +166,7 @@ def draw_stresses(options, files, kind):
         return bodies.fatigue(files[0], options.at)
     steps = snapshots(options, files)
     if kind == "maps":
-        return bodies.maps(steps, options.component)
+        return bodies.maps(steps, options.component, options.depth)
     return getattr(bodies, kind)(steps, options.component, options.at)
 
 

@@ -76,6 +76,8 @@ static void GatherStress(const Cycle *c, PetscInt point)
       c->stress[k * states + s] = c->points->stress[(s * SAM_STRESS_COMPONENTS + k) * (ptrdiff_t)n + point];
 }
 
+#define MOST 4 /* components of a quantity: the value, and the normal of its plane */
+
 /* Ruiz's parameters exist on the surface only. There the stress is the shear but for the sign, which does not count. */
 static void ComputeRuiz(const Cycle *c, PetscInt point, double value[2])
 {
@@ -101,14 +103,14 @@ static PetscErrorCode ComputeAll(SamStressRun *run, const Cycle *c, SamQuantity 
   PetscFunctionBegin;
   PetscCall(PetscTime(&start));
   for (PetscInt i = 0; i < n; i++) {
-    double value[2] = {0, 0};
+    double value[MOST] = {0, 0, 0, 0};
 
     GatherStress(c, i);
     if (quantity == SAM_QUANTITY_RUIZ)
       ComputeRuiz(c, i, value);
     else
       PetscCall(SamFatigueCompute((SamFatigueParameter)(quantity - SAM_QUANTITY_CROSSLAND), &constants, run->steps,
-                                  c->stress, &value[0]));
+                                  c->stress, &value[0], &value[1]));
     for (PetscInt k = 0; k < components; k++) values[k * (ptrdiff_t)n + i] = value[k];
     if (!isnan(value[0])) SamLargestKeep(&run->fatigue[quantity], value[0], c->points->first + (double)i);
     if (i % BLOCK == BLOCK - 1) PetscCall(SamStressRunTell(run, "fatigue", start, (double)(i + 1) / (double)n));
@@ -160,7 +162,7 @@ PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p)
 
   PetscFunctionBegin;
   PetscCall(Create(run, p, &c));
-  PetscCall(SamAllocate(sizeof(double) * 2 * (size_t)p->count, &values));
+  PetscCall(SamAllocate(sizeof(double) * MOST * (size_t)p->count, &values));
   for (PetscInt q = 0; q < SAM_QUANTITIES; q++) {
     if (!run->request.wants[q] || !IsCycle((SamQuantity)q)) continue;
     PetscCall(ComputeAll(run, &c, (SamQuantity)q, values));
@@ -170,5 +172,47 @@ PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p)
   }
   SamFree(values);
   PetscCall(Destroy(&c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- whether it is closed ---- */
+
+/* The part of the largest traction by which the ends of a cycle may differ. */
+#define CLOSED 0.01
+
+PetscErrorCode SamCycleCheckClosed(SamStressRun *run)
+{
+  static const SamResultsField fields[] = {SAM_RESULTS_PRESSURE, SAM_RESULTS_SHEAR_X, SAM_RESULTS_SHEAR_Y};
+  const PetscInt before = run->saved[0] - (run->saved[1] - run->saved[0]), last = run->saved[run->steps - 1];
+  PetscReal      most[4] = {0, 0, 0, 0}; /* difference and size: of the pressure, of the shear */
+  PetscInt       step[2];
+  PetscMPIInt    rank;
+  double        *one, *other;
+
+  PetscFunctionBegin;
+  if (before < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(run->grid->cells, &one, run->grid->cells, &other));
+  for (int f = 0; f < 3; f++) {
+    PetscReal *const m = most + (f ? 2 : 0);
+
+    PetscCall(SamResultsRead(run->results, before, fields[f], one));
+    PetscCall(SamResultsRead(run->results, last, fields[f], other));
+    for (PetscInt k = 0; k < run->grid->cells; k++) {
+      m[0] = PetscMax(m[0], fabs(one[k] - other[k]));
+      m[1] = PetscMax(m[1], PetscMax(fabs(one[k]), fabs(other[k])));
+    }
+  }
+  PetscCall(PetscFree2(one, other));
+  PetscCall(SamMax(run->grid->comm, 4, most));
+  PetscCall(SamResultsGetSaved(run->results, before, &step[0], NULL));
+  PetscCall(SamResultsGetSaved(run->results, last, &step[1], NULL));
+  PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
+  for (int f = 0; f < 2 && rank == 0; f++)
+    if (most[2 * f] > CLOSED * most[2 * f + 1])
+      fprintf(
+        stderr,
+        "petsam-stress: warning: -steps: not a closed cycle, or not a steady one: the %s of step %ld, the last one, "
+        "differs from that of step %ld, before the first, by up to %.0f %% of the largest\n",
+        f ? "shear" : "pressure", (long)step[1], (long)step[0], 100 * (double)(most[2 * f] / most[2 * f + 1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,7 +7,7 @@
 #define TEXT 4096 /* characters of a list */
 
 #define NAMES      256 /* characters of a list of names */
-#define QUANTITIES "stress,mises,principal,shear_max,strain"
+#define QUANTITIES "stress,mises,principal,shear_max,strain, or none"
 #define FATIGUE    "crossland,dang_van,findley,swt,fatemi_socie,ruiz"
 
 /* ---- numbers ---- */
@@ -163,7 +163,8 @@ static PetscErrorCode ReadQuantities(const SamOptions *from, SamStressRequest *r
 
   PetscFunctionBegin;
   PetscCall(SamOptionsString(from, "quantities", "some of " QUANTITIES, text, sizeof(text), NULL));
-  PetscCall(ReadNames(from, "quantities", QUANTITIES, names, SAM_QUANTITY_STRESS, 5, text, r));
+  if (strcmp(text, "none"))
+    PetscCall(ReadNames(from, "quantities", QUANTITIES, names, SAM_QUANTITY_STRESS, 5, text, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -172,20 +173,21 @@ static PetscErrorCode ReadConstants(const SamOptions *from, SamStressRequest *r)
 {
   const struct {
     SamQuantity quantity;
-    const char *parameter, *name, *help;
+    const char *name, *help;
     SamRange    range;
     PetscReal  *value;
   } all[] = {
-    {SAM_QUANTITY_CROSSLAND, "crossland", "fatigue_crossland_alpha", "its factor on the largest mean stress",
+    {SAM_QUANTITY_CROSSLAND, "fatigue_crossland_alpha", "factor on the largest mean stress, required by crossland",
      SAM_RANGE_NONNEGATIVE, &r->constants.crossland_alpha},
-    {SAM_QUANTITY_DANG_VAN, "dang_van", "fatigue_dang_van_alpha", "its factor on the mean stress",
+    {SAM_QUANTITY_DANG_VAN, "fatigue_dang_van_alpha", "factor on the mean stress, required by dang_van",
      SAM_RANGE_NONNEGATIVE, &r->constants.dang_van_alpha},
-    {SAM_QUANTITY_FINDLEY, "findley", "fatigue_findley_k", "its factor on the largest normal stress",
+    {SAM_QUANTITY_FINDLEY, "fatigue_findley_k", "factor on the largest normal stress, required by findley",
      SAM_RANGE_NONNEGATIVE, &r->constants.findley_k},
-    {SAM_QUANTITY_FATEMI_SOCIE, "fatemi_socie", "fatigue_fatemi_socie_k", "its factor on the largest normal stress",
-     SAM_RANGE_NONNEGATIVE, &r->constants.fatemi_socie_k},
-    {SAM_QUANTITY_FATEMI_SOCIE, "fatemi_socie", "fatigue_yield", "yield stress for fatemi_socie, Pa",
-     SAM_RANGE_POSITIVE, &r->constants.yield},
+    {SAM_QUANTITY_FATEMI_SOCIE, "fatigue_fatemi_socie_k",
+     "factor on the largest normal stress, required by fatemi_socie", SAM_RANGE_NONNEGATIVE,
+     &r->constants.fatemi_socie_k},
+    {SAM_QUANTITY_FATEMI_SOCIE, "fatigue_yield", "yield stress, Pa, required by fatemi_socie", SAM_RANGE_POSITIVE,
+     &r->constants.yield},
   };
   PetscBool set, print;
 
@@ -194,8 +196,7 @@ static PetscErrorCode ReadConstants(const SamOptions *from, SamStressRequest *r)
   for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) {
     if (!r->wants[all[k].quantity] && !print) continue;
     PetscCall(SamOptionsReal(from, all[k].name, all[k].help, all[k].range, all[k].value, &set));
-    PetscCheck(set || print, from->comm, SAM_ERR_USER, "-%s is missing: %s (-fatigue %s)", all[k].name, all[k].help,
-               all[k].parameter);
+    PetscCheck(set || print, from->comm, SAM_ERR_USER, "-%s is missing: %s", all[k].name, all[k].help);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -285,7 +286,7 @@ PetscErrorCode SamStressRequestSteps(const SamStressRequest *r, SamResults resul
   PetscCall(SamResultsGetSteps(results, &steps, &saved));
   *count = r->all_steps ? saved : r->last_step ? 1 : (r->last - r->first) / r->stride + 1;
   PetscCheck(r->all_steps || r->last_step || r->last <= steps, grid->comm, SAM_ERR_USER,
-             "-steps: %s has %" PetscInt_FMT " steps, there is no step %" PetscInt_FMT, r->input, steps, r->last);
+             "-steps: there is no step %" PetscInt_FMT " in %s, the last is %" PetscInt_FMT, r->last, r->input, steps);
   PetscCall(PetscMalloc1(*count, list));
   for (PetscInt k = 0; k < *count; k++) {
     const PetscInt step = r->first + k * r->stride;

@@ -134,6 +134,7 @@ PetscErrorCode SamStressRunSetUp(SamStressRun *run, const SamArguments *argument
   PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
   PetscCall(SamOptionsBool(&from, "quiet", "print warnings and errors only", &run->quiet, NULL));
   PetscCall(SamPrintHelp(&help));
+  if (help) PetscCall(SamMemoryRefuse(PETSC_COMM_WORLD, 0, "", "", &from)); /* for its option */
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CheckFiles(&run->request, arguments));
   PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
@@ -206,6 +207,8 @@ static PetscErrorCode CreateFile(SamStressRun *run)
                                 .index   = run->index};
   SamParameters   parameters = {.count = 0};
   const PetscReal body       = (PetscReal)run->request.body;
+  const char     *of_run;
+  char           *options;
 
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(layout.wants, run->request.wants, SAM_QUANTITIES));
@@ -214,6 +217,30 @@ static PetscErrorCode CreateFile(SamStressRun *run)
   PetscCall(SamParametersAddReals(&parameters, "poisson", PETSC_TRUE, 1, &run->poisson));
   PetscCall(AddConstants(run, &parameters));
   PetscCall(SamStressFileCreate(run->grid, run->request.output, &layout, &parameters, &run->file));
+  PetscCall(SamStressFileSetText(run->file, "input", run->request.input));
+  PetscCall(PetscOptionsGetAll(NULL, &options));
+  PetscCall(SamStressFileSetText(run->file, "options", options));
+  PetscCall(PetscFree(options));
+  PetscCall(SamResultsGetOptions(run->results, &of_run));
+  PetscCall(SamStressFileSetText(run->file, "input_options", of_run));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The numbers of the load steps, as petsam counts them. */
+static PetscErrorCode WriteStepNumbers(SamStressRun *run)
+{
+  double *numbers;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(run->steps, &numbers));
+  for (PetscInt k = 0; k < run->steps; k++) {
+    PetscInt step;
+
+    PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, NULL));
+    numbers[k] = (double)step;
+  }
+  PetscCall(SamStressFileSetHistory(run->file, "step", "1", "number of the load step, from 1", numbers));
+  PetscCall(PetscFree(numbers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -275,6 +302,21 @@ static PetscErrorCode WriteLargest(SamStressRun *run, const char name[], const c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The same of the fatigue parameters. */
+static PetscErrorCode WriteLargestOfCycle(SamStressRun *run)
+{
+  double place[3];
+
+  PetscFunctionBegin;
+  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
+    if (!run->request.wants[q]) continue;
+    PetscCall(Agree(run->grid->comm, &run->fatigue[q]));
+    GetPlace(run, run->fatigue[q].point, place);
+    PetscCall(SamStressFileSetLargest(run->file, (SamQuantity)q, run->fatigue[q].value, place));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintBanner(SamStressRun *run)
 {
   const SamGrid g = run->grid;
@@ -310,13 +352,11 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
                           "  largest     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
                           run->mises[step].value, at[0], at[1], at[2], load));
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
-    if (!run->request.wants[q]) continue;
-    PetscCall(Agree(run->grid->comm, &run->fatigue[q]));
+    if (!run->request.wants[q] || run->quiet) continue;
     GetPlace(run, run->fatigue[q].point, at);
-    if (!run->quiet)
-      PetscCall(PetscPrintf(run->grid->comm, "              %s %.6g%s at (%.4g, %.4g, %.4g) m\n",
-                            names[q - SAM_QUANTITY_CROSSLAND], run->fatigue[q].value, units[q - SAM_QUANTITY_CROSSLAND],
-                            at[0], at[1], at[2]));
+    PetscCall(PetscPrintf(run->grid->comm, "              %s %.6g%s at (%.4g, %.4g, %.4g) m\n",
+                          names[q - SAM_QUANTITY_CROSSLAND], run->fatigue[q].value, units[q - SAM_QUANTITY_CROSSLAND],
+                          at[0], at[1], at[2]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -331,9 +371,12 @@ PetscErrorCode SamStressRunCompute(SamStressRun *run)
   run->told    = start;
   run->writing = PETSC_TRUE;
   PetscCall(CreateFile(run));
+  if (SamCycleWanted(run)) PetscCall(SamCycleCheckClosed(run));
   PetscCall(run->request.section ? SamLinesCompute(run) : SamMapsCompute(run));
+  PetscCall(WriteStepNumbers(run));
   PetscCall(WriteLargest(run, "mises", "largest von Mises stress", run->mises));
   PetscCall(WriteLargest(run, "principal_1", "largest principal stress", run->principal));
+  PetscCall(WriteLargestOfCycle(run));
   PetscCall(SamStressFileFinish(run->file));
   run->writing = PETSC_FALSE;
   PetscCall(PetscTime(&end));

@@ -71,6 +71,11 @@ PETSC_INTERN void SamLargestKeep(SamLargest *largest, double value, double point
 */
 PETSC_INTERN PetscBool      SamCycleWanted(const SamStressRun *run);
 PETSC_INTERN PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *points);
+/*
+  SamCycleCheckClosed - warns if the step before the first one has been saved and has not the tractions of the last: the
+  steps are not a closed cycle then, or it has not become steady. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamStressRun *run);
 
 /*
   SamStressRunTell - prints a line on how far the run is, if the last one is some time ago: what part is done of the
