@@ -35,14 +35,25 @@ def _symbol(component):
     return SYMBOLS.get(component) or OTHERS[component]
 
 
+def _have(files, name):
+    return all(name in file for file in files)
+
+
+def _one(files, component):
+    """The component that is asked for, and is there; None stands for xx, or else von Mises."""
+    if component is None:
+        component = "xx" if _have(files, "stress_xx") or not _have(files, "mises") else "mises"
+    for file in files:
+        file.need(_dataset(component))
+    return component
+
+
 def _columns(files, component):
     """Datasets of a picture and their titles: von Mises, if it is there, and the component."""
-    columns = [("mises", "von Mises stress")] if all("mises" in file for file in files) else []
-    name = _dataset(component)
-    if name != "mises" or not columns:
-        for file in files:
-            file.need(name)
-        columns.append((name, f"stress {_symbol(component)}"))
+    columns = [("mises", "von Mises stress")] if _have(files, "mises") else []
+    component = _one(files, component)
+    if component != "mises" or not columns:
+        columns.append((_dataset(component), f"stress {_symbol(component)}"))
     return columns
 
 
@@ -114,7 +125,7 @@ def _annotate(axes, text):
     )
 
 
-def sections(steps, component="xx", at=(0.0, 0.0)):
+def sections(steps, component=None, at=(0.0, 0.0)):
     """Von Mises and a component of the stress over depth: a row a step, one scale a column."""
     need_few(len(steps), "steps and files")
     for file, _ in steps:
@@ -144,11 +155,10 @@ def sections(steps, component="xx", at=(0.0, 0.0)):
     return figure
 
 
-def profiles(steps, component="xx", at=(0.0, 0.0)):
+def profiles(steps, component=None, at=(0.0, 0.0)):
     """A component of the stress along the section at its first depth, the surface if it has it."""
     figure, axes = plt.subplots(figsize=(7.6, 4.4), constrained_layout=True)
-    for file, _ in steps:
-        file.need(_dataset(component))
+    component = _one([file for file, _ in steps], component)
     data = [_section(file, _dataset(component), index, at, slice(0, 1))[0] for file, index in steps]
     length, unit = scale("m", max(np.ptp(_line(file, at)[1]) for file, _ in steps) / 2)
     factor, prefixed = scale("Pa", largest(data))
@@ -177,7 +187,7 @@ def _planes(file, depths):
     return sorted({round(k) for k in np.linspace(0, file.z.size - 1, min(PLANES, file.z.size))})
 
 
-def maps(steps, component="xx", depths=None):
+def maps(steps, component=None, depths=None):
     """Von Mises and a component of the stress over planes: a row a step and depth, one scale a column."""
     rows = [(file, index, k) for file, index in steps for k in _planes(file, depths)]
     for file, _ in steps:

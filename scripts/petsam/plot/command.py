@@ -74,7 +74,7 @@ def arguments():
         "--profiles", action="store_true", help="pressure, shear and slip along x and y; a stress on the surface"
     )
     kinds.add_argument("--sections", action="store_true", help="von Mises and another stress over depth")
-    kinds.add_argument("--component", choices=bodies.COMPONENTS, default="xx", help="that other stress (xx)")
+    kinds.add_argument("--component", choices=bodies.COMPONENTS, help="that other stress (xx)")
     kinds.add_argument("--fatigue", action="store_true", help="fatigue parameters, with the place of the largest")
     kinds.add_argument("--loop", action="store_true", help="a load over its displacement")
     kinds.add_argument("--load", choices=tuple(pictures.PAIRS), help="the loop's load (that which does the most work)")
@@ -129,11 +129,17 @@ def chosen(options, results):
 
 
 def stress_kinds(files):
-    """What files of stresses are good for."""
-    kinds = [] if any(file.along for file in files) else ["maps"]
-    if all(file.z.size > 1 and file.along for file in files):
-        kinds.append("sections")
-    return [*kinds, "profiles"] + (["fatigue"] if len(files) == 1 and files[0].fatigue else [])
+    """What files of stresses are good for; of one that lacks stresses, a picture whose message says so."""
+    kinds = []
+    if any(name in file for file in files for name in ("stress_xx", "mises")):
+        if not any(file.along for file in files):
+            kinds.append("maps")
+        elif all(file.along and file.z.size > 1 for file in files):
+            kinds.append("sections")
+        kinds.append("profiles")
+    if len(files) == 1 and files[0].fatigue:
+        kinds.append("fatigue")
+    return kinds or ["profiles"]
 
 
 def snapshots(options, results):
