@@ -16,6 +16,7 @@
 #include <petsam/control.h>
 #include <petsam/problem.h>
 #include <petsam/contact.h>
+#include <petsam/wear.h>
 #include <petsam/output.h>
 #include <petsam/checkpoint.h>
 #include <petsam/results.h>

@@ -183,6 +183,18 @@ PETSC_EXTERN PetscErrorCode SamContactComputeSlip(SamContact contact, PetscInt c
 PETSC_EXTERN PetscErrorCode SamContactComputeState(SamContact contact, Vec state);
 
 /*
+  SamContactComputeFriction - what friction does in the tried step; each field of one component, NULL for one that is
+  not wanted:
+    path     |ds|, the length of the slip of the step, m, in all cells; outside of the contact it is how far the
+             surfaces have moved over each other
+    pressed  p |ds|, Pa m, in cells that slip, else 0; p is the mean of the pressures before and after the step
+    work     -q.ds, J/m2, in cells that slip, else 0; where the pressure changes, by the mean of the bounds before and
+             after, as SamStep's dissipated energy
+  Collective. Errors: PETSC_ERR_ORDER without a tried step.
+*/
+PETSC_EXTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
+
+/*
   SamContactState - the committed state: all that later steps depend on. A contact of the same problem that is given the
   state of another goes on as that one would, to the last bit, on any number of ranks.
 */

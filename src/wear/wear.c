@@ -1,0 +1,109 @@
+/* The wear of two bodies: laws, depths, and the gap that follows. */
+#include <petsam/private/baseimpl.h>
+#include <petsam/wear.h>
+
+struct _n_SamWear {
+  SamContact contact; /* borrowed */
+  SamProblem problem;
+  SamGrid    grid; /* borrowed */
+  SamWearLaw law;
+  PetscReal  coefficient[2]; /* of the bodies: 1/Pa, or m3/J */
+  Vec        unworn;         /* gap without wear, m */
+  Vec        load;           /* wear load that has been applied, Pa m or J/m2 */
+  Vec        cycle;          /* wear load of the cycle so far */
+  Vec        step;           /* scratch */
+};
+
+PetscErrorCode SamWearCreate(SamContact contact, SamWearLaw law, const PetscReal coefficient[2], SamWear *wear)
+{
+  SamWear w;
+  SamGrid grid;
+  Vec     gap;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(SamContactGetGrid(contact, &grid));
+  for (int body = 0; body < 2; body++)
+    PetscCheck(coefficient[body] >= 0 && isfinite(coefficient[body]), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+               "wear coefficient %g of body %d: expected a finite number >= 0", (double)coefficient[body], body + 1);
+  PetscCall(PetscNew(&w));
+  PetscCall(SamContactGetProblem(contact, &w->problem));
+  PetscCall(SamProblemReference(w->problem));
+  PetscCall(PetscArraycpy(w->coefficient, coefficient, 2));
+  w->grid    = grid;
+  w->contact = contact;
+  w->law     = law;
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->unworn));
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->load));
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->cycle));
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->step));
+  PetscCall(SamProblemGetGap(w->problem, &gap));
+  PetscCall(VecCopy(gap, w->unworn));
+  *wear = w;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearDestroy(SamWear *wear)
+{
+  SamWear w = *wear;
+
+  PetscFunctionBegin;
+  *wear = NULL;
+  if (!w) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDestroy(&w->unworn));
+  PetscCall(VecDestroy(&w->load));
+  PetscCall(VecDestroy(&w->cycle));
+  PetscCall(VecDestroy(&w->step));
+  PetscCall(SamProblemDestroy(&w->problem));
+  PetscCall(PetscFree(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearCountStep(SamWear w)
+{
+  PetscFunctionBegin;
+  if (w->law == SAM_WEAR_ARCHARD)
+    PetscCall(SamContactComputeFriction(w->contact, NULL, w->step, NULL));
+  else
+    PetscCall(SamContactComputeFriction(w->contact, NULL, NULL, w->step));
+  PetscCall(VecAbs(w->step));
+  PetscCall(VecAXPY(w->cycle, 1, w->step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearApply(SamWear w, PetscReal times)
+{
+  Vec gap;
+
+  PetscFunctionBegin;
+  PetscCall(VecAXPY(w->load, times, w->cycle));
+  PetscCall(VecSet(w->cycle, 0));
+  PetscCall(SamProblemGetGap(w->problem, &gap));
+  PetscCall(VecWAXPY(gap, w->coefficient[0] + w->coefficient[1], w->load, w->unworn));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearGetDepth(SamWear w, PetscInt body, Vec depth)
+{
+  PetscFunctionBegin;
+  PetscCheck(body == 0 || body == 1, w->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": expected 0 or 1",
+             body);
+  PetscCall(SamGridCheckVec(w->grid, 1, depth, "The depth"));
+  PetscCall(VecCopy(w->load, depth));
+  PetscCall(VecScale(depth, w->coefficient[body]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearGetVolumes(SamWear w, PetscReal volume[2], PetscReal depth[2])
+{
+  PetscReal sum, most;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridNorm(w->grid, w->load, NORM_1, &sum)); /* it is never negative */
+  PetscCall(VecMax(w->load, NULL, &most));
+  for (int body = 0; body < 2; body++) {
+    volume[body] = w->coefficient[body] * sum * w->grid->dx * w->grid->dy;
+    depth[body]  = w->coefficient[body] * most;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
