@@ -27,7 +27,7 @@ typedef struct {
 
 /*
   SamFatigueCompute - a parameter of the states of a cycle at one point: stress[c * states + k] is component c (Pa) in
-  state k. Planes are searched by 10 degrees, then around the best of them down to a third of a degree. The normal of
+  state k. Planes are searched by 10 degrees, then around the best of them down to a sixth of a degree. The normal of
   the best one, its z not negative, goes to `normal`, which may be NULL; it is NaN for a parameter without planes, and
   where no plane is under tension (SWT). Not collective.
   Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.

@@ -41,13 +41,16 @@ PETSC_EXTERN PetscErrorCode SamResultsGetElasticity(SamResults results, const ch
 PETSC_EXTERN PetscErrorCode SamResultsGetOptions(SamResults results, const char **options);
 PETSC_EXTERN PetscErrorCode SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
 PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
-/* SamResultsRead - a field of the k-th saved step: this rank's rows. Collective. Errors: SAM_ERR_FILE. */
+/*
+  SamResultsRead - a field of the k-th saved step: this rank's rows. Collective. Errors: SAM_ERR_FILE, also for a field
+  that the file does not have (only the slip may be missing), and for values that are no finite numbers.
+*/
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
-  SamResultsReadHistory - a column of /history at a load step (from 1); `otherwise` where the file does not have the
-  column. Collective. Errors: SAM_ERR_FILE.
+  SamResultsReadHistory - a bulk stress in /history (SamBulkNames) at a load step (from 1), 0 where the file does not
+  have the column. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite number.
 */
 PETSC_EXTERN PetscErrorCode SamResultsReadHistory(SamResults results, PetscInt step, const char column[],
-                                                  PetscReal otherwise, PetscReal *value);
+                                                  PetscReal *value);
 
 #endif

@@ -6,6 +6,7 @@
 #include "program.h"
 #include "stress/stressrun.h"
 #include <petsam/private/baseimpl.h>
+#include <signal.h>
 
 static const char usage[] =
   "petsam-stress " PETSAM_VERSION ": stresses in a body under the tractions that petsam has found.\n"
@@ -23,9 +24,28 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static SamStressRun run;
+
+/* A signal that ends the program leaves no temporary file: it may be large. */
+static void EndOnSignal(int number)
+{
+  SamStressFileAbandon(run.file);
+  (void)signal(number, SIG_DFL);
+  (void)raise(number);
+}
+
+static void CatchSignals(void)
+{
+  static const int numbers[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2};
+
+  for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); k++)
+    if (signal(numbers[k], EndOnSignal) == SIG_IGN) (void)signal(numbers[k], SIG_IGN);
+}
+
 static PetscErrorCode Compute(void *context)
 {
   PetscFunctionBegin;
+  CatchSignals();
   PetscCall(SamStressRunCompute((SamStressRun *)context));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -56,16 +76,15 @@ static void Abandon(void *context)
 
 int main(int argc, char **argv)
 {
-  static SamStressRun run;
-  const SamProgram    program = {.name     = "petsam-stress",
-                                 .usage    = usage,
-                                 .setup    = SetUp,
-                                 .run      = Compute,
-                                 .teardown = TearDown,
-                                 .status   = GetStatus,
-                                 .writing  = IsWriting,
-                                 .abandon  = Abandon,
-                                 .context  = &run};
+  const SamProgram program = {.name     = "petsam-stress",
+                              .usage    = usage,
+                              .setup    = SetUp,
+                              .run      = Compute,
+                              .teardown = TearDown,
+                              .status   = GetStatus,
+                              .writing  = IsWriting,
+                              .abandon  = Abandon,
+                              .context  = &run};
 
   return SamProgramMain(&program, argc, argv);
 }

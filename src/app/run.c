@@ -34,14 +34,20 @@ static PetscErrorCode CheckBulkStress(const SamRun *run, const SamControl *contr
   PetscFunctionBegin;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const double stress = (double)control->bulk_stress[body][k];
+      const double stress = (double)control->bulk_stress[body][k], young = (double)run->pair.young[body];
+
+      PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
+                 "-%s%s, or its column in -history: %g is more than Young's modulus, %g", prefix,
+                 SamBulkNames[body][k].name, stress, young);
 
       PetscCheck(stress == 0 || !isinf(run->pair.young[body]), from->comm, SAM_ERR_USER,
-                 "-%s%s %g: -%sbody%" PetscInt_FMT "_young is inf: a rigid body does not stretch", prefix,
-                 SamBulkNames[body][k].name, stress, prefix, body + 1);
+                 "-%s%s, or its column in -history: %g: -%sbody%" PetscInt_FMT
+                 "_young is inf: a rigid body does not stretch",
+                 prefix, SamBulkNames[body][k].name, stress, prefix, body + 1);
       PetscCheck(stress == 0 || !periodic, from->comm, SAM_ERR_USER,
-                 "-%s%s %g: has no meaning with -%selasticity periodic: stretched bodies are not periodic", prefix,
-                 SamBulkNames[body][k].name, stress, prefix);
+                 "-%s%s, or its column in -history: %g: has no meaning with -%selasticity periodic: stretched bodies "
+                 "are not periodic",
+                 prefix, SamBulkNames[body][k].name, stress, prefix);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

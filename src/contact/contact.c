@@ -241,6 +241,8 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
       PetscCheck(isfinite(stress), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
       PetscCheck(stress == 0 || !isinf(pair->young[body]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %g: expected 0: a rigid body does not stretch", name, stress);
+      PetscCheck(fabs(stress) <= pair->young[body], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+                 "%s = %g: expected at most Young's modulus, %g", name, stress, (double)pair->young[body]);
       PetscCheck(stress == 0 || c->traits.rotations, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %g: expected 0: stretched bodies are not periodic", name, stress);
     }

@@ -5,6 +5,7 @@
   damaged file ends in a message, on all ranks alike. Then all ranks open it and read their rows.
 */
 #include "ioimpl.h"
+#include <petsam/control.h>
 #include <petsam/results.h>
 #include <stdarg.h>
 #include <string.h>
@@ -16,6 +17,7 @@ typedef struct {
   double  n[2], width[2], center[2], young[2], poisson[2];
   char    elasticity[64], options[4096]; /* options: empty if they are longer */
   hsize_t steps, saved;
+  int     has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS];
   char    problem[SAM_MESSAGE]; /* empty: none */
 } Facts;
 
@@ -99,6 +101,8 @@ static void ExamineFields(Facts *f, hid_t file)
   f->steps = steps[0];
   f->saved = saved[0];
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++) {
+    f->has[k] = k < SAM_RESULTS_SLIP_X || H5Lexists(file, fields[k], H5P_DEFAULT) > 0;
+    if (!f->has[k]) continue;
     if (!GetShape(f, file, fields[k], 3, shape)) return;
     f->saved = PetscMin(f->saved, shape[0]);
     if ((double)shape[1] != f->n[1] || (double)shape[2] != f->n[0])
@@ -107,12 +111,28 @@ static void ExamineFields(Facts *f, hid_t file)
   }
   shape[0] = f->saved;
   for (int k = 0; k < SAM_RESULTS_FIELDS && !f->problem[0]; k++) {
+    if (!f->has[k]) continue;
     const hid_t dataset = H5Dopen2(file, fields[k], H5P_DEFAULT);
 
     if (!SamChunksAreWhole(file, dataset, 3, shape, PETSC_TRUE))
       Complain(f, "it is damaged: %s is not in it as a whole", fields[k]);
     if (dataset >= 0) (void)H5Dclose(dataset);
   }
+}
+
+/* The columns of bulk stress, as far as they are there. */
+static void ExamineBulkStress(Facts *f, hid_t file)
+{
+  for (int body = 0; body < 2; body++)
+    for (int k = 0; k < SAM_BULK_COMPONENTS; k++) {
+      hsize_t shape[1] = {0};
+      char    name[64];
+
+      (void)snprintf(name, sizeof(name), "/history/%s", SamBulkNames[body][k].name);
+      f->bulk[body][k] = H5Lexists(file, name, H5P_DEFAULT) > 0;
+      if (!f->bulk[body][k] || !GetShape(f, file, name, 1, shape)) continue;
+      if (shape[0] < f->steps) Complain(f, "%s has %llu values", name, (unsigned long long)shape[0]);
+    }
 }
 
 static PetscBool IsPlausible(const Facts *f)
@@ -155,6 +175,7 @@ static void ExamineInChild(void *data)
   if (!f->elasticity[0]) Complain(f, "it lacks the attribute elasticity of a results file of petsam");
   if (!f->problem[0] && !IsPlausible(f)) Complain(f, "its parameters are not those of a run of petsam");
   if (!f->problem[0]) ExamineFields(f, file);
+  if (!f->problem[0]) ExamineBulkStress(f, file);
   if (!f->problem[0] && f->saved == 0) Complain(f, "no step has been saved in it");
   (void)H5Fclose(file);
 }
@@ -206,7 +227,7 @@ static PetscErrorCode ReadTimes(SamResults r)
   ReadSeries(r->file, "/history/time", 0, steps, times);
   ReadSeries(r->file, "/time", 0, saved, r->saved_time);
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
-    r->field[k] = SamFileNote(r->file, H5Dopen2(r->file->id, fields[k], H5P_DEFAULT));
+    if (r->facts.has[k]) r->field[k] = SamFileNote(r->file, H5Dopen2(r->file->id, fields[k], H5P_DEFAULT));
   PetscCall(SamFileEnd(r->file));
   for (hsize_t k = 0; k < saved; k++) {
     while (step < steps && times[step] < r->saved_time[k]) step++;
@@ -317,27 +338,49 @@ PetscErrorCode SamResultsGetSaved(SamResults r, PetscInt k, PetscInt *step, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, double values[])
+/* Raises an error if a value on any rank is no finite number. */
+static PetscErrorCode CheckFinite(SamResults r, PetscInt n, const double values[], const char name[], PetscInt step)
 {
+  PetscReal wrong = 0;
+
   PetscFunctionBegin;
-  PetscCall(SamFileBegin(r->file));
-  SamFileReadLayer(r->file, r->field[field], H5T_NATIVE_DOUBLE, (hsize_t)k, values);
-  PetscCall(SamFileEnd(r->file));
+  for (PetscInt k = 0; k < n && wrong == 0; k++) wrong = isfinite(values[k]) ? 0 : 1;
+  PetscCall(SamMax(r->grid->comm, 1, &wrong));
+  PetscCheck(wrong == 0, r->grid->comm, SAM_ERR_FILE,
+             "-%s %s: %s of step %" PetscInt_FMT " has values that are no finite numbers", r->file->option,
+             r->file->filename, name, step);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsReadHistory(SamResults r, PetscInt step, const char column[], PetscReal otherwise,
-                                     PetscReal *value)
+PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, double values[])
 {
-  char   name[128];
-  double number = (double)otherwise;
+  PetscFunctionBegin;
+  PetscCheck(r->facts.has[field], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s", r->file->option,
+             r->file->filename, fields[field]);
+  PetscCall(SamFileBegin(r->file));
+  SamFileReadLayer(r->file, r->field[field], H5T_NATIVE_DOUBLE, (hsize_t)k, values);
+  PetscCall(SamFileEnd(r->file));
+  PetscCall(CheckFinite(r, r->grid->cells, values, fields[field], r->saved_step[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResultsReadHistory(SamResults r, PetscInt step, const char column[], PetscReal *value)
+{
+  char      name[128];
+  double    number = 0;
+  PetscBool there  = PETSC_FALSE;
 
   PetscFunctionBegin;
+  for (int body = 0; body < 2; body++)
+    for (int k = 0; k < SAM_BULK_COMPONENTS; k++)
+      if (r->facts.bulk[body][k] && !strcmp(column, SamBulkNames[body][k].name)) there = PETSC_TRUE;
   PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", column));
-  PetscCall(SamFileBegin(r->file));
-  if (SamFileNote(r->file, H5Lexists(r->file->id, name, H5P_DEFAULT)) > 0)
+  if (there) {
+    PetscCall(SamFileBegin(r->file));
     ReadSeries(r->file, name, (hsize_t)step - 1, 1, &number);
-  PetscCall(SamFileEnd(r->file));
+    PetscCall(SamFileEnd(r->file));
+    PetscCall(CheckFinite(r, 1, &number, name, step));
+  }
   *value = (PetscReal)number;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

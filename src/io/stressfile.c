@@ -167,6 +167,7 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
                                    const SamParameters *parameters, SamStressFile *file)
 {
   SamStressFile s;
+  char         *xdmf;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
@@ -183,7 +184,10 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
   PetscCall(PetscStrallocpy(filename, &s->filename));
   PetscCall(SamFileNameBeside(filename, ".tmp", &s->temporary));
   PetscCall(SetCoordinates(s, layout));
+  PetscCall(SamXdmfMakeName(filename, &xdmf));
   PetscCall(SamFileCheckName(grid, OPTION, filename, SAM_FILE_RESULTS));
+  PetscCall(SamFileCheckName(grid, OPTION, xdmf, SAM_FILE_XDMF));
+  PetscCall(PetscFree(xdmf));
   PetscCall(SamHoldTake(grid, OPTION, s->temporary, SAM_FILE_TEMPORARY, &s->hold));
   PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, OPTION, s->temporary, SAM_FILE_CREATE, &s->f));
   PetscCall(SamFileReserve(s->f, Bytes(s)));

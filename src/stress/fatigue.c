@@ -2,8 +2,9 @@
   Fatigue parameters of a cycle of stresses at one point.
 
   Planes: a parameter that is the largest over planes is looked for on a hemisphere of normals by 10 degrees, and from
-  there, and from other normals that are nearly as good and point elsewhere, by steps in angle that are halved down to a
-  third of a degree. Near its maximum a parameter is at most quadratic in the angle but for kinks.
+  there, from other normals that are nearly as good and point elsewhere, and from the plane of the largest tension, by
+  steps in angle that are halved down to a sixth of a degree. Near its maximum a parameter is at most quadratic in the
+  angle but for kinks.
 
   The circle about the path of the shear stress in a plane is looked for only where a larger one, about the path's
   rectangle, would make the plane the best so far.
@@ -15,12 +16,15 @@ enum { XX = SAM_STRESS_XX, YY = SAM_STRESS_YY, ZZ = SAM_STRESS_ZZ };
 enum { XY = SAM_STRESS_XY, XZ = SAM_STRESS_XZ, YZ = SAM_STRESS_YZ, COMPONENTS = SAM_STRESS_COMPONENTS };
 
 /* Degrees between the first normals; largest and smallest step around the best; angle to others that are tried. */
-enum { COARSE = 10, STARTS = 3 };
+enum { COARSE = 10, STARTS = 5 };
 #define FIRST_STEP 5.0
-#define LAST_STEP  0.3
-#define ELSEWHERE  25.0
+#define LAST_STEP  0.15
+#define ELSEWHERE  20.0
 /* The part of the best value from which on another start is tried. */
-#define NEARLY 0.93
+#define NEARLY 0.9
+
+/* The part by which a step up must lead up. */
+#define CLIMB 1e-6
 
 #define DEGREE (PETSC_PI / 180)
 
@@ -55,14 +59,35 @@ static void FindEnds(PetscInt n, const double x[], PetscInt stride, double *leas
   }
 }
 
-/* The parameter of a plane whose shear stress has that amplitude. */
-static double Combine(const Cycle *c, double amplitude, double normal)
+/* What the shear amplitude of a plane with that normal stress is multiplied by. */
+static double Factor(const Cycle *c, double normal)
 {
   const SamFatigueConstants *k = c->constants;
   const double               G = (double)k->young / (2 * (1 + (double)k->poisson));
 
-  if (c->parameter == SAM_FATIGUE_FINDLEY) return amplitude + (double)k->findley_k * normal;
-  return amplitude / G * (1 + (double)k->fatemi_socie_k * normal / (double)k->yield);
+  if (c->parameter == SAM_FATIGUE_FINDLEY) return 1;
+  return (1 + (double)k->fatemi_socie_k * normal / (double)k->yield) / G;
+}
+
+/* The parameter of a plane whose shear stress has that amplitude. */
+static double Combine(const Cycle *c, double amplitude, double normal)
+{
+  const double more = c->parameter == SAM_FATIGUE_FINDLEY ? (double)c->constants->findley_k * normal : 0;
+
+  return Factor(c, normal) * amplitude + more;
+}
+
+/* The size that the parameter would have if all of the stress were on one plane: what differences are compared with. */
+static double Scale(const Cycle *c)
+{
+  double least, most, range = 0, size = 0;
+
+  for (PetscInt k = 0; k < COMPONENTS; k++) {
+    FindEnds(c->states, c->stress + k * c->states, 1, &least, &most);
+    range = fmax(range, most - least);
+    size  = fmax(size, fmax(fabs(least), fabs(most)));
+  }
+  return Combine(c, 0.5 * range, size);
 }
 
 /* A plane's normal and two directions in it. */
@@ -98,7 +123,10 @@ static double OnPlane(const Cycle *c, double theta, double phi, double best)
   Project(c->states, c->stress, n, u, 2, c->path);
   Project(c->states, c->stress, n, v, 2, c->path + 1);
   for (int d = 0; d < 2; d++) FindEnds(c->states, c->path + d, 2, &ends[d][0], &ends[d][1]);
-  most = Combine(c, 0.5 * hypot(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0]), normal);
+  /* the amplitude is at least half the longer side of the path's rectangle, and at most half its diagonal */
+  most = Factor(c, normal) < 0 ? fmax(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0])
+                               : hypot(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0]);
+  most = Combine(c, 0.5 * most, normal);
   if (most <= best) return most;
   return Combine(c, SamSmallestBall(2, c->states, c->path, center), normal);
 }
@@ -123,7 +151,7 @@ static void Climb(const Cycle *c, Plane *at)
       next.value = OnPlane(c, next.theta, next.phi, best.value);
       if (next.value > best.value) best = next;
     }
-    if (best.value > at->value * (1 + 1e-6))
+    if (best.value > at->value + CLIMB * fabs(at->value))
       *at = best;
     else
       step *= 0.5;
@@ -170,27 +198,57 @@ static void Offer(Plane starts[STARTS], PetscInt *count, Plane plane)
   starts[place] = plane;
 }
 
-/* The parameter of the best plane, and its normal if that is not NULL. */
-static double LargestOverPlanes(const Cycle *c, double normal[3])
+/* The plane across the direction of the largest principal stress of all states: there it is under tension if any is. */
+static Plane TensilePlane(const Cycle *c)
 {
-  Plane    starts[STARTS];
-  PetscInt count = 0, winner = 0;
-  double   best = -INFINITY;
+  double   p[3], s[COMPONENTS], n[3], most = -INFINITY;
+  PetscInt state = 0;
 
+  for (PetscInt k = 0; k < c->states; k++) {
+    for (PetscInt d = 0; d < COMPONENTS; d++) s[d] = c->stress[d * c->states + k];
+    SamPrincipalOf(s, p);
+    if (p[0] > most) state = k;
+    most = fmax(most, p[0]);
+  }
+  for (PetscInt d = 0; d < COMPONENTS; d++) s[d] = c->stress[d * c->states + state];
+  SamPrincipalDirection(s, most, n);
+  return (Plane){acos(PetscMin(PetscMax(n[2], -1), 1)), atan2(n[1], n[0]), 0};
+}
+
+/* The planes to climb from: the best ones of a search by 10 degrees, and one under tension; returns the best value. */
+static double FindStarts(const Cycle *c, double margin, Plane starts[STARTS], PetscInt *count)
+{
+  Plane  plane = TensilePlane(c);
+  double best;
+
+  plane.value = best = OnPlane(c, plane.theta, plane.phi, -INFINITY);
+  Offer(starts, count, plane);
   for (int t = 0; t <= 90; t += COARSE) {
     const int turns = t == 0 ? 1 : (int)ceil(360 / COARSE * sin(t * DEGREE)), last = t == 90 ? turns / 2 : turns;
 
     for (int k = 0; k < last || k == 0; k++) {
-      Plane plane = {t * DEGREE, 2 * PETSC_PI * k / turns, 0};
-
-      plane.value = OnPlane(c, plane.theta, plane.phi, NEARLY * best);
-      best        = fmax(best, plane.value);
-      Offer(starts, &count, plane);
+      plane       = (Plane){t * DEGREE, 2 * PETSC_PI * k / turns, 0};
+      plane.value = OnPlane(c, plane.theta, plane.phi, best - margin);
+      if (plane.value < best - margin) continue;
+      best = fmax(best, plane.value);
+      Offer(starts, count, plane);
     }
   }
-  if (c->parameter == SAM_FATIGUE_SWT && best <= 0) return 0;
+  return best;
+}
+
+/* The parameter of the best plane, and its normal if that is not NULL. */
+static double LargestOverPlanes(const Cycle *c, double normal[3])
+{
+  const PetscBool swt    = c->parameter == SAM_FATIGUE_SWT ? PETSC_TRUE : PETSC_FALSE; /* never negative */
+  const double    margin = swt ? INFINITY : (1 - NEARLY) * Scale(c);
+  Plane           starts[STARTS];
+  PetscInt        count = 0, winner = 0;
+  const double    best = FindStarts(c, margin, starts, &count);
+
+  if (swt && best <= 0) return 0;
   for (PetscInt k = 0; k < count; k++) {
-    if (!(starts[k].value >= NEARLY * best)) continue;
+    if (starts[k].value < (swt ? NEARLY * best : best - margin)) continue;
     Climb(c, &starts[k]);
     if (starts[k].value >= starts[winner].value) winner = k;
   }

@@ -58,6 +58,25 @@ void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3])
   p[1] = fmax(fmin(a[0][0], a[1][1]), fmin(fmax(a[0][0], a[1][1]), a[2][2]));
 }
 
+void SamPrincipalDirection(const double s[SAM_STRESS_COMPONENTS], double principal, double n[3])
+{
+  const double a[3][3] = {
+    {s[XX] - principal, s[XY], s[XZ]}, {s[XY], s[YY] - principal, s[YZ]}, {s[XZ], s[YZ], s[ZZ] - principal}};
+  double most = 0;
+
+  n[0] = n[1] = 0;
+  n[2]        = 1;
+  /* across two rows of s - principal: the longest of their cross products */
+  for (int k = 0; k < 3; k++) {
+    const double *u = a[k], *v = a[(k + 1) % 3];
+    const double  w[3]   = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double  length = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+
+    for (int d = 0; d < 3 && length > most; d++) n[d] = w[d] / length;
+    most = fmax(most, length);
+  }
+}
+
 void SamStressPrincipal(PetscInt n, const double *const s[], double *const p[3])
 {
   for (PetscInt i = 0; i < n; i++) {

@@ -78,6 +78,7 @@ def test_restart_goes_on_with_the_same_bulk_stress_only(petsam, tmp_path):
     [
         (dict(body1_young=float("inf"), bulk1_stress_xy=1.0), ("-bulk1_stress_xy", "rigid")),
         (dict(elasticity="periodic", bulk2_stress_yy=1e6), ("-bulk2_stress_yy", "periodic")),
+        (dict(bulk1_stress_xx=1e200), ("-bulk1_stress_xx", "Young")),
         (dict(bulk2_stress_yy="much"), ("-bulk2_stress_yy",)),
         (dict(bulk2_stress_xx=float("inf")), ("-bulk2_stress_xx",)),
     ],

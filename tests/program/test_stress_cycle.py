@@ -1,11 +1,16 @@
 """petsam-stress over a cycle: fatigue parameters and bulk stress, against closed solutions and an own search."""
 
+import shutil
+import signal
+import subprocess
+import time
+
 import h5py
 import numpy as np
 import pytest
 
 import conftest
-from support import SPHERE, hertz, slide_limit
+from support import SPHERE, flatten, hertz, slide_limit
 
 PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
@@ -201,6 +206,69 @@ def test_cycle_in_body_1_of_equal_materials_is_that_in_body_2(launcher, tmp_path
     assert np.array_equal(one["ruiz_1"], two["ruiz_1"], equal_nan=True)
 
 
+def spoilt(contact, name, change):
+    """A copy of the results, changed by change(file)."""
+    shutil.copy(contact / "c.h5", contact / name)
+    with h5py.File(contact / name, "r+") as f:
+        change(f)
+
+
+def test_numbers_that_are_none_are_refused(stress, contact):
+    def put(name, where):
+        def change(f):
+            f[name][where] = np.nan
+
+        return change
+
+    for name, where in (("pressure", (10, 40, 40)), ("slip_x", (20, 3, 3)), ("history/bulk2_stress_xx", 20)):
+        spoilt(contact, "nan.h5", put(name, where))
+        done = stress(dict(input="nan.h5", output="no.h5", section="y=0", steps="9:24", fatigue="ruiz"), check=3)
+        assert f"/{name} of step" in done.stderr and not (contact / "no.h5").exists()
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_damaged_columns_are_named(stress, contact, ranks):
+    for values in ([0.0, 0.0, 0.0], 1.0, np.zeros((56, 2)), ["a"] * 56):
+
+        def change(f, values=values):
+            del f["history/bulk2_stress_xx"]
+            f["history/bulk2_stress_xx"] = values
+
+        spoilt(contact, "column.h5", change)
+        done = stress(dict(input="column.h5", output="no.h5"), ranks=ranks, check=3)
+        assert "/history/bulk2_stress_xx" in done.stderr
+
+
+def test_slip_is_needed_by_ruiz_only(stress, contact):
+    def change(f):
+        del f["slip_x"], f["slip_y"]
+
+    spoilt(contact, "noslip.h5", change)
+    stress(dict(input="noslip.h5", output="s.h5", section="y=0", steps="9:24", fatigue="swt"))
+    done = stress(dict(input="noslip.h5", output="no.h5", section="y=0", steps="9:24", fatigue="ruiz"), check=3)
+    assert "/slip_x" in done.stderr and not (contact / "no.h5").exists()
+
+
+def test_foreign_description_is_noticed_at_once(stress, contact):
+    (contact / "f.xdmf").write_text("hello")
+    done = stress(dict(input="c.h5", output="f.h5", depths="0:1e-3:2000", steps="all"), check=3)
+    assert "f.xdmf" in done.stderr and "%" not in done.stdout
+    assert (contact / "f.xdmf").read_text() == "hello" and not list(contact.glob("f.h5*"))
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1])
+def test_signal_leaves_no_file(contact, number):
+    words = flatten([dict(input="c.h5", output="long.h5", depths="0:1e-3:400", steps="all", **ALL)])
+    run = subprocess.Popen([str(PROGRAM), *words], cwd=contact, env=conftest.environment(), stdout=subprocess.DEVNULL)
+    for _ in range(200):
+        time.sleep(0.05)
+        if list(contact.glob("long.h5*")):
+            break
+    time.sleep(0.3)
+    run.send_signal(number)
+    assert run.wait(30) == -number and not list(contact.glob("long.*"))
+
+
 REFUSED = [
     (dict(fatigue="crossland", steps="all"), "-fatigue_crossland_alpha is missing"),
     (dict(fatigue="fatemi_socie", fatigue_fatemi_socie_k=1, steps="all"), "-fatigue_yield is missing"),
@@ -211,6 +279,7 @@ REFUSED = [
     (dict(fatigue="swt", steps="5"), "-fatigue needs the steps of a cycle"),
     (dict(fatigue="ruiz", depths=1e-4, steps="all"), "0 must be one of -depths"),
     (dict(fatigue="swt", fatigue_yield=4e8, steps="all"), "-fatigue_yield"),
+    (dict(depths="0:1e-3:999999999"), "-depths 0:1e-3:999999999: expected at most 100000 depths"),
 ]
 
 

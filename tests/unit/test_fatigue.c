@@ -245,6 +245,46 @@ static void test_parameters_do_not_depend_on_the_axes(void **state)
   }
 }
 
+/* Under strong compression Findley's parameter is negative; there too it is that of the best plane. */
+static void test_negative_parameters_do_not_depend_on_the_axes(void **state)
+{
+  (void)state;
+  for (PetscInt seed = 0; seed < 25; seed++) {
+    double path[COMPONENTS * STATES], turned[COMPONENTS * STATES], a, b;
+
+    for (int k = 0; k < STATES; k++) {
+      double s[COMPONENTS];
+
+      for (int c = 0; c < COMPONENTS; c++)
+        s[c] = path[c * STATES + k] = Part(seed, 7 * k + c) - 0.3 - (c == XX || c == YY || c == ZZ ? 10 : 0);
+      for (int axis = 0; axis < 3; axis++) Rotate(0.3 + 0.7 * seed * (axis + 1), axis, s);
+      for (int c = 0; c < COMPONENTS; c++) turned[c * STATES + k] = s[c];
+    }
+    a = Compute(SAM_FATIGUE_FINDLEY, STATES, path);
+    b = Compute(SAM_FATIGUE_FINDLEY, STATES, turned);
+    sam_assert(a < 0);
+    sam_assert_close(a, b, 1e-3);
+  }
+}
+
+/* However narrow the cone of planes under tension is: the one across the tension is among them. */
+static void test_weak_tension_is_found(void **state)
+{
+  (void)state;
+  for (PetscInt seed = 0; seed < 25; seed++) {
+    double path[2 * COMPONENTS];
+
+    for (int k = 0; k < 2; k++) {
+      double s[COMPONENTS] = {[XX] = k ? 1e-3 : -2, [YY] = -5, [ZZ] = -7};
+
+      for (int axis = 0; axis < 3; axis++) Rotate(0.4 + 0.9 * (double)seed * (axis + 1), axis, s);
+      for (int c = 0; c < COMPONENTS; c++) path[c * 2 + k] = s[c];
+    }
+    /* across the tension: 1e-3 times half the range of strain, 2.001/E */
+    sam_assert(Compute(SAM_FATIGUE_SWT, 2, path) >= 1e-3 * 0.5 * 2.001 / constants.young * (1 - 1e-6));
+  }
+}
+
 /* The search finds what a fine grid of planes finds. */
 static void test_search_misses_no_plane(void **state)
 {
@@ -307,6 +347,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_uniaxial_cycle),
     cmocka_unit_test(test_pure_compression_has_no_swt),
     cmocka_unit_test(test_parameters_do_not_depend_on_the_axes),
+    cmocka_unit_test(test_negative_parameters_do_not_depend_on_the_axes),
+    cmocka_unit_test(test_weak_tension_is_found),
     cmocka_unit_test(test_search_misses_no_plane),
     cmocka_unit_test(test_ruiz_of_slip_to_and_fro),
   };

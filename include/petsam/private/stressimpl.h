@@ -60,5 +60,7 @@ PETSC_EXTERN PetscErrorCode SamStressCheckDepth(MPI_Comm comm, PetscReal depth);
 
 /* SamPrincipalOf - the principal stresses of one stress, the largest first. Not collective. */
 PETSC_EXTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);
+/* SamPrincipalDirection - a unit vector in the direction of one of them. Not collective. */
+PETSC_EXTERN void SamPrincipalDirection(const double s[SAM_STRESS_COMPONENTS], double principal, double n[3]);
 
 #endif

@@ -1,7 +1,6 @@
 /* Fatigue parameters of the chosen steps, taken as one closed cycle, from the stresses of all of them. */
 #include "stressrun.h"
 #include <petsam/private/baseimpl.h>
-#include <petsctime.h>
 
 #define BLOCK 256 /* points between two looks at the clock */
 
@@ -94,14 +93,13 @@ static void ComputeRuiz(const Cycle *c, PetscInt point, double value[2])
 }
 
 /* Computes a quantity's components at all points, into value[component * count + point]. */
-static PetscErrorCode ComputeAll(SamStressRun *run, const Cycle *c, SamQuantity quantity, double values[])
+static PetscErrorCode ComputeAll(SamStressRun *run, const Cycle *c, SamQuantity quantity, double values[], double done,
+                                 double share)
 {
   const PetscInt            n = c->points->count, components = SamQuantityComponents(quantity);
   const SamFatigueConstants constants = SamStressRequestConstants(&run->request, run->young, run->poisson);
-  PetscLogDouble            start;
 
   PetscFunctionBegin;
-  PetscCall(PetscTime(&start));
   for (PetscInt i = 0; i < n; i++) {
     double value[MOST] = {0, 0, 0, 0};
 
@@ -113,7 +111,8 @@ static PetscErrorCode ComputeAll(SamStressRun *run, const Cycle *c, SamQuantity 
                                   c->stress, &value[0], &value[1]));
     for (PetscInt k = 0; k < components; k++) values[k * (ptrdiff_t)n + i] = value[k];
     if (!isnan(value[0])) SamLargestKeep(&run->fatigue[quantity], value[0], c->points->first + (double)i);
-    if (i % BLOCK == BLOCK - 1) PetscCall(SamStressRunTell(run, "fatigue", start, (double)(i + 1) / (double)n));
+    if (i % BLOCK == BLOCK - 1)
+      PetscCall(SamStressRunTell(run, "fatigue parameters", done + share * (double)(i + 1) / (double)n, 0));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -155,20 +154,24 @@ static PetscErrorCode Destroy(Cycle *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p)
+PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p, double done, double share)
 {
-  double *values;
-  Cycle   c;
+  PetscInt wanted = 0, k = 0;
+  double  *values;
+  Cycle    c;
 
   PetscFunctionBegin;
+  for (PetscInt q = 0; q < SAM_QUANTITIES; q++) wanted += run->request.wants[q] && IsCycle((SamQuantity)q);
   PetscCall(Create(run, p, &c));
   PetscCall(SamAllocate(sizeof(double) * MOST * (size_t)p->count, &values));
   for (PetscInt q = 0; q < SAM_QUANTITIES; q++) {
     if (!run->request.wants[q] || !IsCycle((SamQuantity)q)) continue;
-    PetscCall(ComputeAll(run, &c, (SamQuantity)q, values));
-    for (PetscInt k = 0; k < SamQuantityComponents((SamQuantity)q); k++)
-      PetscCall(
-        SamStressFileWrite(run->file, (SamQuantity)q, k, 0, p->depth, p->depths, values + k * (ptrdiff_t)p->count));
+    PetscCall(
+      ComputeAll(run, &c, (SamQuantity)q, values, done + share * (double)k / (double)wanted, share / (double)wanted));
+    for (PetscInt part = 0; part < SamQuantityComponents((SamQuantity)q); part++)
+      PetscCall(SamStressFileWrite(run->file, (SamQuantity)q, part, 0, p->depth, p->depths,
+                                   values + part * (ptrdiff_t)p->count));
+    k++;
   }
   SamFree(values);
   PetscCall(Destroy(&c));

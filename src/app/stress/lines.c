@@ -65,12 +65,11 @@ PetscErrorCode SamLinesCompute(SamStressRun *run)
   const PetscInt batch = Batch(run), room = SamCycleWanted(run) ? run->steps : batch;
   SamPoints      p = {.count = 0};
   PetscInt       length;
-  PetscLogDouble start;
   SamSection     section;
   Vec            tractions;
+  double         part;
 
   PetscFunctionBegin;
-  PetscCall(PetscTime(&start));
   PetscCall(SamSectionCreate(run->grid, run->request.body, run->poisson, run->request.axis, run->index,
                              run->request.depths, run->request.depth, &section));
   PetscCall(SamSectionGetDepths(section, &p.depth, &p.depths, &length));
@@ -82,9 +81,10 @@ PetscErrorCode SamLinesCompute(SamStressRun *run)
     const PetscInt count = PetscMin(batch, run->steps - first);
 
     PetscCall(ComputeSteps(run, section, first, count, &p, tractions));
-    PetscCall(SamStressRunTell(run, "section", start, (double)(first + count) / (double)run->steps));
+    part = (double)(first + count) / (double)run->steps;
+    PetscCall(SamStressRunTell(run, "section", part, SamCycleWanted(run) ? 0 : part));
   }
-  if (SamCycleWanted(run)) PetscCall(SamCycleWrite(run, &p));
+  if (SamCycleWanted(run)) PetscCall(SamCycleWrite(run, &p, 0, 1));
   PetscCall(VecDestroy(&tractions));
   SamFree(p.stress);
   PetscCall(SamSectionDestroy(&section));

@@ -57,11 +57,9 @@ PetscErrorCode SamMapsCompute(SamStressRun *run)
   SamPoints     p = {.count = g->cells, .depths = 1};
   SamStress     stress;
   Vec           field;
-
-  PetscLogDouble start;
+  double        part;
 
   PetscFunctionBegin;
-  PetscCall(PetscTime(&start));
   PetscCall(SamStressCreate(g, &run->transforms, run->request.body, run->poisson, &stress));
   PetscCall(SamGridCreateVec(g, SAM_STRESS_COMPONENTS, &field));
   if (SamCycleWanted(run))
@@ -71,10 +69,10 @@ PetscErrorCode SamMapsCompute(SamStressRun *run)
     PetscCall(SamStressSetDepth(stress, run->request.depth[p.depth]));
     for (PetscInt step = 0; step < run->steps; step++) {
       PetscCall(ComputeStep(run, stress, step, &p, field));
-      PetscCall(SamStressRunTell(run, "maps", start,
-                                 ((double)p.depth + (double)(step + 1) / (double)run->steps) / run->request.depths));
+      part = ((double)p.depth + (double)(step + 1) / (double)run->steps) / run->request.depths;
+      PetscCall(SamStressRunTell(run, "maps", part, p.stress ? 0 : part));
     }
-    if (p.stress) PetscCall(SamCycleWrite(run, &p));
+    if (p.stress) PetscCall(SamCycleWrite(run, &p, (double)p.depth / run->request.depths, 1.0 / run->request.depths));
   }
   SamFree(p.stress);
   PetscCall(VecDestroy(&field));

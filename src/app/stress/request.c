@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TEXT 4096 /* characters of a list */
+#define TEXT        4096 /* characters of a list */
+#define MOST_DEPTHS 100000
 
 #define NAMES      256 /* characters of a list of names */
 #define QUANTITIES "stress,mises,principal,shear_max,strain, or none"
@@ -56,6 +57,8 @@ static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], 
                ReadWhole(parts[2], &r->depths) && r->depths >= 2 && ends[1] > ends[0],
              comm, SAM_ERR_USER, "-depths %s: expected depths separated by commas, or first:last:number, first < last",
              whole);
+  PetscCheck(r->depths <= MOST_DEPTHS, comm, SAM_ERR_USER, "-depths %s: expected at most %d depths", whole,
+             MOST_DEPTHS);
   PetscCall(PetscMalloc1(r->depths, &r->depth));
   for (PetscInt k = 0; k < r->depths; k++)
     r->depth[k] = (PetscReal)(k + 1 == r->depths ? ends[1] : ends[0] + (ends[1] - ends[0]) * k / (r->depths - 1));

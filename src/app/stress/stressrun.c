@@ -73,7 +73,7 @@ static PetscErrorCode ReadBulk(SamStressRun *run, PetscInt k)
   for (PetscInt c = 0; c < SAM_BULK_COMPONENTS; c++) {
     PetscReal value;
 
-    PetscCall(SamResultsReadHistory(run->results, step, names[c].name, 0, &value));
+    PetscCall(SamResultsReadHistory(run->results, step, names[c].name, &value));
     run->bulk[k][c] = (double)value;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -161,17 +161,18 @@ PetscErrorCode SamStressRunTearDown(SamStressRun *run)
 
 /* ---- progress ---- */
 
-PetscErrorCode SamStressRunTell(SamStressRun *run, const char work[], PetscLogDouble start, double part)
+PetscErrorCode SamStressRunTell(SamStressRun *run, const char work[], double part, double whole)
 {
   PetscLogDouble now, spent;
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&now));
-  spent = now - start;
+  spent = now - run->start;
   if (run->quiet || now - run->told < PetscMax(TELL_SECONDS, TELL_PART * spent)) PetscFunctionReturn(PETSC_SUCCESS);
   run->told = now;
-  PetscCall(PetscPrintf(run->grid->comm, "  %-10s%5.1f %%  %.1f s, %.1f s left\n", work, 100 * part, spent,
-                        spent * (1 - part) / part));
+  PetscCall(PetscPrintf(run->grid->comm, "  %-24s%5.1f %%  %.1f s", work, 100 * part, spent));
+  if (whole > 0) PetscCall(PetscPrintf(run->grid->comm, ", %.1f s left", spent * (1 - whole) / whole));
+  PetscCall(PetscPrintf(run->grid->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,12 +364,12 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
 
 PetscErrorCode SamStressRunCompute(SamStressRun *run)
 {
-  PetscLogDouble start, end;
+  PetscLogDouble end;
 
   PetscFunctionBegin;
   PetscCall(PrintBanner(run));
-  PetscCall(PetscTime(&start));
-  run->told    = start;
+  PetscCall(PetscTime(&run->start));
+  run->told    = run->start;
   run->writing = PETSC_TRUE;
   PetscCall(CreateFile(run));
   if (SamCycleWanted(run)) PetscCall(SamCycleCheckClosed(run));
@@ -383,6 +384,6 @@ PetscErrorCode SamStressRunCompute(SamStressRun *run)
   PetscCall(PrintLargest(run));
   if (!run->quiet)
     PetscCall(
-      PetscPrintf(run->grid->comm, "  time        %.2f s\n  written     %s\n", end - start, run->request.output));
+      PetscPrintf(run->grid->comm, "  time        %.2f s\n  written     %s\n", end - run->start, run->request.output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

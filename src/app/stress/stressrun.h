@@ -24,7 +24,7 @@ typedef struct {
   SamLargest    *mises, *principal;       /* of each step */
   SamLargest     fatigue[SAM_QUANTITIES]; /* of the cycle */
   PetscBool      quiet, writing;
-  PetscLogDouble told; /* when the last line was printed, s */
+  PetscLogDouble start, told; /* when the computation began, and the last line was printed, s */
 
   SamFourierSettings transforms;
 } SamStressRun;
@@ -67,10 +67,11 @@ PETSC_INTERN void SamLargestKeep(SamLargest *largest, double value, double point
 
 /*
   SamCycleWanted - whether a fatigue parameter is asked for: then the stresses of all steps are needed at a time.
-  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and writes them (cycle.c). Collective.
+  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and writes them (cycle.c). `done` is
+  the part of all points that came before, `share` that of these. Collective.
 */
 PETSC_INTERN PetscBool      SamCycleWanted(const SamStressRun *run);
-PETSC_INTERN PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *points);
+PETSC_INTERN PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *points, double done, double share);
 /*
   SamCycleCheckClosed - warns if the step before the first one has been saved and has not the tractions of the last: the
   steps are not a closed cycle then, or it has not become steady. Collective.
@@ -78,9 +79,10 @@ PETSC_INTERN PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *po
 PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamStressRun *run);
 
 /*
-  SamStressRunTell - prints a line on how far the run is, if the last one is some time ago: what part is done of the
-  work that began at `start` (PetscTime(), s), and the time left for it. Not collective: rank 0 prints what it knows.
+  SamStressRunTell - prints a line on how far the run is, if the last one is some time ago: the part that is done of the
+  work at hand. `whole`: how much of all is done, from which the time left follows; 0: not known. Not collective: rank 0
+  prints what it knows.
 */
-PETSC_INTERN PetscErrorCode SamStressRunTell(SamStressRun *run, const char work[], PetscLogDouble start, double part);
+PETSC_INTERN PetscErrorCode SamStressRunTell(SamStressRun *run, const char work[], double part, double whole);
 
 #endif
