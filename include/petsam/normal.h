@@ -36,5 +36,12 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
   Errors: SAM_ERR_USER for a normal load below zero.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
+/*
+  SamNormalSolveYielding - the same for surfaces that yield besides: each cell by `diagonal` times its own pressure
+  (m/Pa, one component, >= 0), so that the gap is g = S p + diagonal p + h - (d_z - y r_x + x r_y). Wear whose rate
+  follows the pressure is of this kind (wear.h). Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance,
+                                                   PetscBool guess, Vec p);
 
 #endif

@@ -148,19 +148,50 @@ void SamLevelGetRigid(const SamLevel *level, SamBalance *balance)
   SamFrameGetRigid(&level->frame, a, balance);
 }
 
+/* What is added to the operator's diagonal; NULL: nothing. */
+static Vec DiagonalOf(SamSolver s, const SamLevel *level)
+{
+  return s->kind->diagonal >= 0 ? level->given[s->kind->diagonal] : NULL;
+}
+
 PetscErrorCode SamLevelApply(SamSolver s, SamLevel *level, Vec traction, Vec u)
 {
+  const Vec     diagonal = DiagonalOf(s, level);
+  const double *d, *t;
+  double       *to;
+
   PetscFunctionBegin;
   s->applies += level->finest ? 1 : 0;
   PetscCall(s->kind->apply(level->elasticity, traction, u));
+  if (!diagonal) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(diagonal, &d));
+  PetscCall(VecGetArrayRead(traction, &t));
+  PetscCall(VecGetArray(u, &to));
+  for (PetscInt k = 0; k < level->grid->cells; k++) to[k] += d[k] * t[k];
+  PetscCall(VecRestoreArray(u, &to));
+  PetscCall(VecRestoreArrayRead(traction, &t));
+  PetscCall(VecRestoreArrayRead(diagonal, &d));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, const float traction[], float u[])
 {
+  const Vec      diagonal = DiagonalOf(s, level);
+  const PetscInt cells    = level->grid->cells;
+  const double  *d;
+  float         *more = NULL; /* input and output may be the same */
+
   PetscFunctionBegin;
   s->applies += level->finest ? 1 : 0;
+  if (diagonal) {
+    PetscCall(SamAllocate(sizeof(*more) * (size_t)cells, &more));
+    PetscCall(VecGetArrayRead(diagonal, &d));
+    for (PetscInt k = 0; k < cells; k++) more[k] = (float)(factor * d[k]) * traction[k];
+    PetscCall(VecRestoreArrayRead(diagonal, &d));
+  }
   PetscCall(s->kind->applysingle(level->elasticity, factor, traction, u));
+  for (PetscInt k = 0; k < cells && more; k++) u[k] += more[k];
+  SamFree(more);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -11,7 +11,8 @@
 
 /* The given fields of a level. */
 enum {
-  SAM_NORMAL_SEPARATION /* h, m */
+  SAM_NORMAL_SEPARATION, /* h, m */
+  SAM_NORMAL_DIAGONAL    /* what yields besides the bodies: is added to the diagonal of S, m/Pa; NULL: nothing */
 };
 
 /*

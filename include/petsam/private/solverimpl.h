@@ -74,6 +74,7 @@ struct _n_SamSolverKind {
   PetscReal      rtol, coarse_rtol;           /* default, and the least on coarse grids */
   PetscInt       components;                  /* of the traction */
   PetscInt       given_components[SAM_GIVEN]; /* of the given fields */
+  PetscInt       diagonal; /* the given field that is added to the operator's diagonal, m/Pa, one component; -1: none */
   /* the influence operator of this kind and its approximate inverse */
   PetscErrorCode (*apply)(SamElasticity elasticity, Vec traction, Vec u);
   PetscErrorCode (*applysingle)(SamElasticity elasticity, double factor, const float traction[], float u[]);
@@ -177,7 +178,7 @@ PETSC_EXTERN PetscInt SamSolverMaxIterations(SamSolver solver);
 PETSC_EXTERN PetscInt SamSolverLevels(SamSolver solver);
 
 /*
-  SamLevelApply - u = S p or C q, whichever the kind has. SamLevelApplySingle - `factor` times that, in single
+  SamLevelApply - u = S p or C q, whichever the kind has, with what is added to its diagonal. SamLevelApplySingle - `factor` times that, in single
   precision, for arrays of this rank's cells. SamLevelPreconditionSingle - `factor` times the approximate inverse. Input
   and output may be the same. All count on the finest grid. Collective.
 */

@@ -337,7 +337,8 @@ static SamSolverKind kind = {
   .rtol               = 1e-8,
   .coarse_rtol        = 1e-4,
   .components         = 1,
-  .given_components   = {[SAM_NORMAL_SEPARATION] = 1},
+  .given_components   = {[SAM_NORMAL_SEPARATION] = 1, [SAM_NORMAL_DIAGONAL] = 1},
+  .diagonal           = SAM_NORMAL_DIAGONAL,
   .apply              = SamElasticityApplyNormal,
   .applysingle        = SamElasticityApplyNormalSingle,
   .preconditionsingle = SamElasticityPreconditionNormalSingle,
@@ -361,6 +362,15 @@ PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode SolveProblem(SamNormal normal, SamBalance *balance, const SamLevel *problem, PetscBool guess)
+{
+  PetscFunctionBegin;
+  PetscCheck(!balance->force[0] || balance->load[0] >= 0, normal->comm, SAM_ERR_USER,
+             "load_n %g: expected a number >= 0", (double)balance->load[0]);
+  PetscCall(SamSolverSolve(normal, &kind, problem, guess));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
                                      SamProduct *product)
 {
@@ -368,9 +378,18 @@ PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balanc
     .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h}, .traction = p, .product = product};
 
   PetscFunctionBegin;
-  PetscCheck(!balance->force[0] || balance->load[0] >= 0, normal->comm, SAM_ERR_USER,
-             "load_n %g: expected a number >= 0", (double)balance->load[0]);
-  PetscCall(SamSolverSolve(normal, &kind, &problem, guess));
+  PetscCall(SolveProblem(normal, balance, &problem, guess));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess,
+                                      Vec p)
+{
+  const SamLevel problem = {
+    .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h, [SAM_NORMAL_DIAGONAL] = diagonal}, .traction = p};
+
+  PetscFunctionBegin;
+  PetscCall(SolveProblem(normal, balance, &problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

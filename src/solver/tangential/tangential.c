@@ -276,6 +276,7 @@ static SamSolverKind kind = {
   .coarse_rtol        = 1e-3,
   .components         = 2,
   .given_components   = {[SAM_TANGENTIAL_BOUND] = 1, [SAM_TANGENTIAL_OFFSET] = 2},
+  .diagonal           = -1,
   .apply              = SamElasticityApplyTangential,
   .applysingle        = SamElasticityApplyTangentialSingle,
   .preconditionsingle = SamElasticityPreconditionTangentialSingle,
