@@ -17,6 +17,7 @@
 #include <petsam/problem.h>
 #include <petsam/contact.h>
 #include <petsam/wear.h>
+#include <petsam/life.h>
 #include <petsam/output.h>
 #include <petsam/checkpoint.h>
 #include <petsam/results.h>

@@ -1,18 +1,5 @@
 /* The wear of two bodies: laws, depths, and the gap that follows. */
-#include <petsam/private/baseimpl.h>
-#include <petsam/wear.h>
-
-struct _n_SamWear {
-  SamContact contact; /* borrowed */
-  SamProblem problem;
-  SamGrid    grid; /* borrowed */
-  SamWearLaw law;
-  PetscReal  coefficient[2]; /* of the bodies: 1/Pa, or m3/J */
-  Vec        unworn;         /* gap without wear, m */
-  Vec        load;           /* wear load that has been applied, Pa m or J/m2 */
-  Vec        cycle;          /* wear load of the cycle so far */
-  Vec        step;           /* scratch */
-};
+#include "wearimpl.h"
 
 PetscErrorCode SamWearCreate(SamContact contact, SamWearLaw law, const PetscReal coefficient[2], SamWear *wear)
 {
@@ -36,6 +23,7 @@ PetscErrorCode SamWearCreate(SamContact contact, SamWearLaw law, const PetscReal
   PetscCall(SamGridCreateVec(w->grid, 1, &w->unworn));
   PetscCall(SamGridCreateVec(w->grid, 1, &w->load));
   PetscCall(SamGridCreateVec(w->grid, 1, &w->cycle));
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->path));
   PetscCall(SamGridCreateVec(w->grid, 1, &w->step));
   PetscCall(SamProblemGetGap(w->problem, &gap));
   PetscCall(VecCopy(gap, w->unworn));
@@ -53,6 +41,7 @@ PetscErrorCode SamWearDestroy(SamWear *wear)
   PetscCall(VecDestroy(&w->unworn));
   PetscCall(VecDestroy(&w->load));
   PetscCall(VecDestroy(&w->cycle));
+  PetscCall(VecDestroy(&w->path));
   PetscCall(VecDestroy(&w->step));
   PetscCall(SamProblemDestroy(&w->problem));
   PetscCall(PetscFree(w));
@@ -68,18 +57,28 @@ PetscErrorCode SamWearCountStep(SamWear w)
     PetscCall(SamContactComputeFriction(w->contact, NULL, NULL, w->step));
   PetscCall(VecAbs(w->step));
   PetscCall(VecAXPY(w->cycle, 1, w->step));
+  PetscCall(SamContactComputeFriction(w->contact, w->step, NULL, NULL));
+  PetscCall(VecAXPY(w->path, 1, w->step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearSetGap(SamWear w, Vec load)
+{
+  Vec gap;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGap(w->problem, &gap));
+  PetscCall(VecWAXPY(gap, w->coefficient[0] + w->coefficient[1], load, w->unworn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamWearApply(SamWear w, PetscReal times)
 {
-  Vec gap;
-
   PetscFunctionBegin;
   PetscCall(VecAXPY(w->load, times, w->cycle));
   PetscCall(VecSet(w->cycle, 0));
-  PetscCall(SamProblemGetGap(w->problem, &gap));
-  PetscCall(VecWAXPY(gap, w->coefficient[0] + w->coefficient[1], w->load, w->unworn));
+  PetscCall(VecSet(w->path, 0));
+  PetscCall(SamWearSetGap(w, w->load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,0 +1,189 @@
+/* Wear over many cycles: Popov's limiting shape and the way to it, sliding under constant load, laws, failures. */
+#include "contacts.h"
+
+#include <petsam/life.h>
+
+#define K 1e-14 /* 1/Pa */
+
+/* To and fro along x between +-amplitude, from 0 to 0. */
+typedef struct {
+  const Case *c;
+  PetscBool   approach, force; /* the approach is given instead of N; T_x instead of d_x */
+  double      amplitude;       /* m; N */
+  PetscInt    steps;
+} Strokes;
+
+static PetscErrorCode Control(void *context, PetscInt step, SamControl *control)
+{
+  const Strokes *s = (const Strokes *)context;
+  const double   t = (double)(step + 1) / (double)s->steps, x = s->amplitude * (t <= 0.25   ? 4 * t
+                                                                                : t <= 0.75 ? 2 - 4 * t
+                                                                                            : 4 * t - 4);
+
+  *control = Loads(s->c, 1, 0, 0, 0);
+  if (s->approach) Displace(control, SAM_COMPONENT_N, s->c->s.a * s->c->s.a / s->c->s.R);
+  if (s->force) {
+    control->value[SAM_COMPONENT_TX] = x;
+  } else {
+    Displace(control, SAM_COMPONENT_TX, x);
+    Displace(control, SAM_COMPONENT_TY, 0);
+    Displace(control, SAM_COMPONENT_MZ, 0);
+  }
+  if (s->approach) {
+    Displace(control, SAM_COMPONENT_MX, 0);
+    Displace(control, SAM_COMPONENT_MY, 0);
+  }
+  return 0;
+}
+
+typedef struct {
+  Case         c;
+  Strokes      strokes;
+  SamLifeCycle cycle;
+  SamWear      wear;
+  SamLife      life;
+} Joint;
+
+/* A joint after a first cycle, which does not wear. */
+static Joint *NewJoint(PetscInt n, double half_width, double friction, Strokes strokes, SamWearLaw law, double rtol,
+                       double jump)
+{
+  const PetscReal k[2] = {0, law == SAM_WEAR_ENERGY ? K / friction : K};
+  Joint          *j    = (Joint *)calloc(1, sizeof(*j));
+  SamStep         step;
+
+  j->c         = NewCase(NewPair(210e9, 0, 210e9, 0), n, half_width, friction, "");
+  j->strokes   = strokes;
+  j->strokes.c = &j->c;
+  j->cycle     = (SamLifeCycle){.steps = strokes.steps, .control = Control, .context = &j->strokes};
+  for (PetscInt s = 0; s < strokes.steps; s++) {
+    SamControl control;
+
+    sam_call(Control(&j->strokes, s, &control));
+    step = Solve(&j->c, &control);
+    AssertGood(&step);
+  }
+  sam_call(SamWearCreate(j->c.contact, law, k, &j->wear));
+  sam_call(SamLifeCreate(j->wear, &j->cycle, rtol, jump, &j->life));
+  return j;
+}
+
+static void DestroyJoint(Joint *j)
+{
+  sam_call(SamLifeDestroy(&j->life));
+  sam_call(SamWearDestroy(&j->wear));
+  DestroyCase(&j->c);
+  free(j);
+}
+
+static SamLifeReport Live(Joint *j, double cycles)
+{
+  SamLifeReport r;
+
+  do {
+    sam_call(SamLifeAdvance(j->life, cycles, &r));
+    sam_assert(r.step.status == SAM_STATUS_CONVERGED || r.step.status == SAM_STATUS_EDGE_CONTACT);
+  } while (r.cycles < cycles * (1 - 1e-12));
+  return r;
+}
+
+/*
+  A sphere under a given approach d and a given amplitude of d_x, stick radius a0/2: after tau = 4 k E* u n/a0 its
+  volume over a0^2 d, largest depth over d, N over the first one, contact radius over a0. At last it has Popov's shape
+  (2014, Sci. Rep. 4, 3749).
+*/
+static void test_sphere_wears_towards_popovs_shape(void **state)
+{
+  static const double table[][5] = {{0.1, 0.01233, 0.00792, 0.99360, 1.0165},
+                                    {1, 0.13092, 0.07102, 0.93843, 1.083},
+                                    {10, 0.7481, 0.29345, 0.6920, 1.226}};
+  const double        mu         = 0.1;
+  Joint        *j = NewJoint(72, 1.4, mu, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = 0.75 * mu * 1e-5},
+                             SAM_WEAR_ARCHARD, 1e-2, 2e3);
+  const Sphere *s = &j->c.s;
+  const double  d = s->a * s->a / s->R, unit = s->a / (4 * K * s->pair.modulus * j->strokes.amplitude);
+
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    const SamLifeReport r = Live(j, table[k][0] * unit);
+
+    if (getenv("SAM_SHOW"))
+      print_message("# tau %g: V %g depth %g N %g a %g computed %d\n", table[k][0], r.volume[1] / (s->a * s->a * d),
+                    r.depth[1] / d, r.step.load[0] / s->N, sqrt(r.contact_area / PETSC_PI) / s->a, (int)r.computed);
+    sam_assert_close(r.volume[1] / (s->a * s->a * d), table[k][1], 0.02 * table[k][1]);
+    sam_assert_close(r.depth[1] / d, table[k][2], 0.02 * table[k][2]);
+    sam_assert_close(r.step.load[0] / s->N, table[k][3], 0.004);
+    sam_assert_close(sqrt(r.contact_area / PETSC_PI) / s->a, table[k][4], 0.02);
+    sam_assert(r.volume[0] == 0 && r.computed <= 60);
+  }
+  DestroyJoint(j);
+}
+
+/* Every cell slips by the whole stroke under constant N: V = k N 4 u n, however long the jumps are; its shape. */
+static void test_volume_of_a_sliding_sphere_is_exact(void **state)
+{
+  const double  u         = 1e-4;
+  Joint        *j         = NewJoint(80, 2.6, 1e-9, (Strokes){.steps = 4, .amplitude = u}, SAM_WEAR_ARCHARD, 3e-3, 10);
+  const Sphere *s         = &j->c.s;
+  const double  cycles[2] = {s->a / (4 * K * s->pair.modulus * u), 30 * s->a / (4 * K * s->pair.modulus * u)};
+  SamLifeReport r         = Live(j, cycles[0]);
+
+  (void)state;
+  sam_assert_close(r.volume[1], K * s->N * 4 * u * cycles[0], 1e-6 * r.volume[1]);
+  sam_assert_close(sqrt(r.contact_area / PETSC_PI) / s->a, 1.305, 0.02);
+  sam_assert_close(r.depth[1] * s->R / (s->a * s->a), 0.4891, 0.01);
+  sam_assert_close(r.pressure / s->p0, 0.5875, 0.01);
+  r = Live(j, cycles[1]);
+  sam_assert_close(r.volume[1], K * s->N * 4 * u * cycles[1], 1e-6 * r.volume[1]);
+  /* long times: uniform pressure, a^4 = 4 R V/pi */
+  sam_assert_close(sqrt(r.contact_area / PETSC_PI), pow(4 * s->R * r.volume[1] / PETSC_PI, 0.25), 0.03 * s->a);
+  DestroyJoint(j);
+}
+
+/* At constant friction the laws are the same. */
+static void test_both_laws_live_alike(void **state)
+{
+  double volume[2], depth[2];
+
+  (void)state;
+  for (int law = 0; law < 2; law++) {
+    const double mu = 0.2;
+    Joint       *j = NewJoint(40, 1.5, mu, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = 0.75 * mu * 1e-5},
+                              (SamWearLaw)law, 2e-2, 2e3);
+    SamLifeReport r = Live(j, 1e5);
+
+    volume[law] = r.volume[1];
+    depth[law]  = r.depth[1];
+    DestroyJoint(j);
+  }
+  sam_assert(volume[0] > 0);
+  sam_assert_close(volume[1], volume[0], 1e-6 * volume[0]);
+  sam_assert_close(depth[1], depth[0], 1e-6 * depth[0]);
+}
+
+/* A force that the friction no longer carries ends the life; the wear so far stays. */
+static void test_failure_leaves_the_wear(void **state)
+{
+  Joint *j =
+    NewJoint(40, 1.5, MU, (Strokes){.force = PETSC_TRUE, .steps = 8, .amplitude = 100}, SAM_WEAR_ARCHARD, 2e-2, 1e3);
+  SamLifeReport r = Live(j, 1e3), after;
+
+  (void)state;
+  j->strokes.amplitude = 1.1 * MU * j->c.s.N;
+  sam_call(SamLifeAdvance(j->life, 1e5, &after));
+  sam_assert(after.step.status == SAM_STATUS_NO_EQUILIBRIUM && after.cycles == r.cycles);
+  sam_assert(after.volume[1] == r.volume[1] && r.volume[1] > 0);
+  DestroyJoint(j);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_sphere_wears_towards_popovs_shape),
+    cmocka_unit_test(test_volume_of_a_sliding_sphere_is_exact),
+    cmocka_unit_test(test_both_laws_live_alike),
+    cmocka_unit_test(test_failure_leaves_the_wear),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
