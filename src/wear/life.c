@@ -20,7 +20,7 @@
 #define GROW_MOST  2.5
 #define GROW_LEAST 0.2
 #define SAFETY     0.8
-/* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere, see test_life. */
+/* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere (test_life). */
 #define HALVES 3.0
 
 struct _n_SamLife {
