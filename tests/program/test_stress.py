@@ -112,7 +112,6 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
         assert float(data["mises"].isel(time=0).sel(z=1e-4).max()) > 0
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize(
     "options, code, says",
     [
@@ -140,13 +139,14 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
         (dict(friction=0.3), 2, "-friction"),
     ],
 )
-def test_bad_input_is_named(stress, contact, options, code, says, ranks):
+def test_bad_input_is_named(stress, contact, options, code, says):
     with h5py.File(contact / "other.h5", "w") as f:
         f["pressure"] = np.zeros((1, 4, 4))
     shutil.copy(contact / "c.h5", contact / "cut.h5")
     with open(contact / "cut.h5", "r+b") as f:
         f.truncate((contact / "c.h5").stat().st_size // 2)
     before = {path.name: path.read_bytes() for path in contact.iterdir() if path.suffix in (".h5", ".csv")}
+    ranks = 2 if code == 3 else 1  # one rank examines a file for all
     complaint = stress(dict(dict(input="c.h5", output="new.h5"), **options), ranks=ranks, check=code)
     assert says in complaint and "PETSC ERROR" not in complaint
     assert before == {path.name: path.read_bytes() for path in contact.iterdir() if path.suffix in (".h5", ".csv")}

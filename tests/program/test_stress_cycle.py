@@ -144,7 +144,7 @@ def test_first_parameter_of_ruiz_is_the_work_of_friction(stress, contact):
 
 
 def test_largest_values_are_told_with_their_places(stress, contact):
-    stress(dict(input="c.h5", output="l.h5", depths="0,1e-4", steps="9:40", quantities="mises,principal", **ALL))
+    stress(dict(input="c.h5", output="l.h5", depths="0,1e-4", steps="12:40:4", quantities="mises,principal", **ALL))
     with h5py.File(contact / "l.h5") as f:
         for name in ("crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz_1"):
             values = f[name][:]
@@ -153,7 +153,7 @@ def test_largest_values_are_told_with_their_places(stress, contact):
             assert f[name].attrs["largest_at"].tolist() == [f[c][k] for c, k in zip("xyz", place[::-1])]
         for name in ("mises", "principal_1"):
             assert f[f"history/{name}_max"][:].tolist() == f[name][:].max(axis=(1, 2, 3)).tolist()
-        assert f["history/step"][:].tolist() == list(range(9, 41))
+        assert f["history/step"][:].tolist() == list(range(12, 41, 4))
         assert f.attrs["input"] == "c.h5" and "-grid_n 96,95" in f.attrs["input_options"]
 
 
@@ -166,7 +166,7 @@ def test_cycle_that_is_not_closed_is_warned_of(stress):
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_cycle_does_not_depend_on_the_ranks(stress, contact, ranks):
     for section in (None, "y=1e-4", "x=-3e-4"):
-        common = dict(input="c.h5", depths="0,1e-4,3e-4", steps=CYCLE + ":5", section=section, **ALL)
+        common = dict(input="c.h5", depths="0,3e-4", steps=CYCLE + ":8", section=section, **ALL)
         stress(dict(common, output="one.h5"))
         stress(dict(common, output="many.h5"), ranks=ranks)
         one, many = read(contact / "one.h5"), read(contact / "many.h5")
@@ -226,8 +226,7 @@ def test_numbers_that_are_none_are_refused(stress, contact):
         assert f"/{name} of step" in done.stderr and not (contact / "no.h5").exists()
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_damaged_columns_are_named(stress, contact, ranks):
+def test_damaged_columns_are_named(stress, contact):
     for values in ([0.0, 0.0, 0.0], 1.0, np.zeros((56, 2)), ["a"] * 56):
 
         def change(f, values=values):
@@ -235,7 +234,7 @@ def test_damaged_columns_are_named(stress, contact, ranks):
             f["history/bulk2_stress_xx"] = values
 
         spoilt(contact, "column.h5", change)
-        done = stress(dict(input="column.h5", output="no.h5"), ranks=ranks, check=3)
+        done = stress(dict(input="column.h5", output="no.h5"), ranks=2 if isinstance(values, float) else 1, check=3)
         assert "/history/bulk2_stress_xx" in done.stderr
 
 
