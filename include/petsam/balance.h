@@ -25,6 +25,8 @@ typedef struct {
 
 /* The components (SamComponent) of a kind of balance, in its order. */
 PETSC_EXTERN const PetscInt SamComponentsOf[2][3];
+/* SamControlGetBalance - the components of one kind of a control, as the solvers take them. Not collective. */
+PETSC_EXTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind);
 
 /* SamBalanceGetLoads - the three loads that a field of traction (1 or 2 components, Pa) carries. Collective. */
 PETSC_EXTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3]);

@@ -49,8 +49,6 @@ PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool
 /* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */
 PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
 
-/* The normal or the tangential components of a control, as the solvers take them. */
-PETSC_INTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind);
 /* Copies a balance's loads and rigid displacements into arrays of all six components. */
 PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
 /* Whether two controls prescribe the same for the components of one kind. */

@@ -4,22 +4,6 @@
 
 /* ---- components ---- */
 
-SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind)
-{
-  SamBalance balance = {.kind = kind};
-
-  for (PetscInt k = 0; k < 3; k++) {
-    const PetscInt c = SamComponentsOf[kind][k];
-
-    balance.force[k] = control->force[c];
-    if (control->force[c])
-      balance.load[k] = control->value[c];
-    else
-      balance.rigid[k] = control->value[c];
-  }
-  return balance;
-}
-
 void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[])
 {
   for (PetscInt k = 0; k < 3; k++) {

@@ -12,7 +12,6 @@
 */
 #include <petsam/life.h>
 #include <petsam/normal.h>
-#include <petsam/private/balanceimpl.h>
 #include "wearimpl.h"
 #include <math.h>
 
@@ -23,29 +22,39 @@
 /* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere (test_life). */
 #define HALVES 3.0
 
+/* What a computed cycle says of the next ones. */
+typedef struct {
+  Vec coefficient; /* e/K: wear load of a cycle per pressure, m */
+  Vec lift;        /* what the shear of dissimilar bodies lifts the surfaces by at the cycle's end, m */
+} Rate;
+
 struct _n_SamLife {
   SamWear      wear;
   SamLifeCycle cycle;
   PetscReal    rtol, jump, cycles;
   PetscInt     computed;
-  PetscBool    known; /* the rate at the present gap has been computed */
+  PetscBool    known; /* `start` has been computed */
   SamStep      step;
-  PetscReal    energy; /* of the last cycle, J */
-  Vec          rate;   /* e/K: wear load of a cycle per pressure, m or so */
-  Vec          lift;   /* m, by the shear */
-  Vec          whole, halves, half, p, other, diagonal, gap, kept;
+  PetscReal    energy;              /* of the last cycle, J */
+  Rate         start, middle;       /* on the present gap; after half of the jump */
+  Vec          whole, half, halves; /* wear loads: after the jump as a whole, after its first half, after both */
+  Vec          p, diagonal, gap;    /* scratch */
 };
+
+/* The fields, to be created and destroyed. */
+#define FIELDS(l) \
+  { \
+    &(l)->start.coefficient, &(l)->start.lift, &(l)->middle.coefficient, &(l)->middle.lift, &(l)->whole, &(l)->half, \
+      &(l)->halves, &(l)->p, &(l)->diagonal, &(l)->gap, NULL \
+  }
 
 PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, PetscReal rtol, PetscReal jump, SamLife *life)
 {
   SamLife l;
-  Vec   **all;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&l));
-  all = (Vec *[]){&l->rate,     &l->whole, &l->halves, &l->half, &l->p, &l->other,
-                  &l->diagonal, &l->lift,  &l->gap,    &l->kept, NULL};
-  for (int k = 0; all[k]; k++) PetscCall(SamGridCreateVec(wear->grid, 1, all[k]));
+  for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(SamGridCreateVec(wear->grid, 1, *field));
   l->wear  = wear;
   l->cycle = *cycle;
   l->rtol  = rtol;
@@ -57,14 +66,11 @@ PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, PetscReal 
 PetscErrorCode SamLifeDestroy(SamLife *life)
 {
   SamLife l = *life;
-  Vec   **all;
 
   PetscFunctionBegin;
   *life = NULL;
   if (!l) PetscFunctionReturn(PETSC_SUCCESS);
-  all = (Vec *[]){&l->rate,     &l->whole, &l->halves, &l->half, &l->p, &l->other,
-                  &l->diagonal, &l->lift,  &l->gap,    &l->kept, NULL};
-  for (int k = 0; all[k]; k++) PetscCall(VecDestroy(all[k]));
+  for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -87,12 +93,12 @@ static PetscErrorCode GetUnit(SamLife l, Vec unit)
 }
 
 /* e/K from the wear load and the path of the cycle, and the pressure at its end. */
-static PetscErrorCode FindRate(SamLife l)
+static PetscErrorCode FindCoefficient(SamLife l, Vec coefficient)
 {
   const SamWear      w = l->wear;
   const SamSolution *s;
   const double      *p, *load, *path, *unit;
-  double            *rate;
+  double            *to;
 
   PetscFunctionBegin;
   PetscCall(GetUnit(l, l->diagonal));
@@ -101,9 +107,9 @@ static PetscErrorCode FindRate(SamLife l)
   PetscCall(VecGetArrayRead(w->cycle, &load));
   PetscCall(VecGetArrayRead(w->path, &path));
   PetscCall(VecGetArrayRead(l->diagonal, &unit));
-  PetscCall(VecGetArrayWrite(l->rate, &rate));
-  for (PetscInt k = 0; k < w->grid->cells; k++) rate[k] = p[k] > 0 ? load[k] / p[k] : unit[k] * path[k];
-  PetscCall(VecRestoreArrayWrite(l->rate, &rate));
+  PetscCall(VecGetArrayWrite(coefficient, &to));
+  for (PetscInt k = 0; k < w->grid->cells; k++) to[k] = p[k] > 0 ? load[k] / p[k] : unit[k] * path[k];
+  PetscCall(VecRestoreArrayWrite(coefficient, &to));
   PetscCall(VecRestoreArrayRead(l->diagonal, &unit));
   PetscCall(VecRestoreArrayRead(w->path, &path));
   PetscCall(VecRestoreArrayRead(w->cycle, &load));
@@ -111,8 +117,8 @@ static PetscErrorCode FindRate(SamLife l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the shear of dissimilar bodies lifts the surfaces by at the end of the cycle: a part of the gap in a jump. */
-static PetscErrorCode FindLift(SamLife l)
+/* The lift, which is a part of the gap in a jump. */
+static PetscErrorCode FindLift(SamLife l, Vec lift)
 {
   SamElasticity       elasticity;
   SamElasticityTraits traits;
@@ -121,16 +127,16 @@ static PetscErrorCode FindLift(SamLife l)
   PetscFunctionBegin;
   PetscCall(SamProblemGetElasticity(l->wear->problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  PetscCall(VecSet(l->lift, 0));
+  PetscCall(VecSet(lift, 0));
   if (!traits.coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetSolution(l->wear->contact, &s));
-  PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, l->lift));
-  PetscCall(VecAYPX(l->lift, -1, s->displacement_z));
+  PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, lift));
+  PetscCall(VecAYPX(lift, -1, s->displacement_z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Solves the cycle on the problem's gap; `solved`: all of its steps have a solution. */
-static PetscErrorCode ComputeCycle(SamLife l, PetscBool *solved)
+static PetscErrorCode ComputeCycle(SamLife l, Rate *rate, PetscBool *solved)
 {
   SamControl control;
 
@@ -150,46 +156,50 @@ static PetscErrorCode ComputeCycle(SamLife l, PetscBool *solved)
     PetscCall(SamContactCommit(l->wear->contact));
   }
   l->computed++;
-  if (*solved) PetscCall(FindRate(l));
-  if (*solved) PetscCall(FindLift(l));
+  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(FindCoefficient(l, rate->coefficient));
+  PetscCall(FindLift(l, rate->lift));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- jumps ---- */
 
-/*
-  The wear load of `cycles` more, added to `load`, into `to`; and the pressure then. The wear load of the start decides
-  the gap.
-*/
-static PetscErrorCode Jump(SamLife l, PetscReal cycles, Vec load, Vec to, Vec p, PetscBool *solved)
+/* A jump that cannot be made fails as a step does. */
+static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reason)
+{
+  PetscFunctionBegin;
+  l->step.status = SAM_STATUS_NOT_CONVERGED;
+  PetscCall(PetscSNPrintf(l->step.message, sizeof(l->step.message),
+                          "the normal problem of a jump over %g cycles did not converge: %s", (double)cycles,
+                          SamSolverReasonName(reason)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The wear load after `cycles` more at a rate, from `load` on, which decides the gap, into `to`. */
+static PetscErrorCode Jump(SamLife l, const Rate *rate, PetscReal cycles, Vec load, Vec to, PetscBool *solved)
 {
   const SamWear   w = l->wear;
   const PetscReal K = w->coefficient[0] + w->coefficient[1];
   SamControl      control;
-  SamBalance      balance = {.kind = SAM_BALANCE_NORMAL};
+  SamBalance      balance;
   SamNormal       normal;
   SamSolverReason reason;
   Vec             gap;
 
   PetscFunctionBegin;
   PetscCall(l->cycle.control(l->cycle.context, l->cycle.steps - 1, &control));
-  for (int k = 0; k < 3; k++) {
-    const PetscInt c = SamComponentsOf[SAM_BALANCE_NORMAL][k];
-
-    balance.force[k] = control.force[c];
-    balance.load[k]  = control.force[c] ? control.value[c] : 0;
-    balance.rigid[k] = control.force[c] ? 0 : control.value[c];
-  }
+  balance = SamControlGetBalance(&control, SAM_BALANCE_NORMAL);
   PetscCall(SamWearSetGap(w, load));
   PetscCall(SamProblemGetGap(w->problem, &gap));
-  PetscCall(VecWAXPY(l->gap, 1, gap, l->lift));
-  PetscCall(VecCopy(l->rate, l->diagonal));
+  PetscCall(VecWAXPY(l->gap, 1, gap, rate->lift));
+  PetscCall(VecCopy(rate->coefficient, l->diagonal));
   PetscCall(VecScale(l->diagonal, cycles * K));
   PetscCall(SamContactGetNormal(w->contact, &normal));
-  PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, p));
+  PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, l->p));
   PetscCall(SamSolverGetReason(normal, &reason));
   *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(VecPointwiseMult(to, l->rate, p));
+  if (!*solved) PetscCall(FailJump(l, cycles, reason));
+  PetscCall(VecPointwiseMult(to, rate->coefficient, l->p));
   PetscCall(VecAYPX(to, cycles, load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -232,11 +242,11 @@ static PetscErrorCode Extrapolate(SamLife l)
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
   PetscFunctionBegin;
-  PetscCall(Jump(l, cycles, l->wear->load, l->whole, l->p, solved));
-  if (*solved) PetscCall(Jump(l, 0.5 * cycles, l->wear->load, l->half, l->other, solved));
+  PetscCall(Jump(l, &l->start, cycles, l->wear->load, l->whole, solved));
+  if (*solved) PetscCall(Jump(l, &l->start, 0.5 * cycles, l->wear->load, l->half, solved));
   if (*solved) PetscCall(SamWearSetGap(l->wear, l->half));
-  if (*solved) PetscCall(ComputeCycle(l, solved));
-  if (*solved) PetscCall(Jump(l, 0.5 * cycles, l->half, l->halves, l->other, solved));
+  if (*solved) PetscCall(ComputeCycle(l, &l->middle, solved));
+  if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(RelativeDifference(l, l->whole, l->halves, error));
   PetscCall(Extrapolate(l));
@@ -267,13 +277,11 @@ PetscErrorCode SamLifeAdvance(SamLife l, PetscReal cycles, SamLifeReport *report
   PetscBool solved = PETSC_TRUE, accepted = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!l->known) PetscCall(ComputeCycle(l, &solved));
+  if (!l->known) PetscCall(ComputeCycle(l, &l->start, &solved));
   while (solved && !accepted) {
     const PetscReal limit = HALVES * l->rtol;
 
-    PetscCall(VecCopy(l->rate, l->kept)); /* another try begins with the same rate */
     PetscCall(TryJump(l, jump, &error, &solved));
-    PetscCall(VecCopy(l->kept, l->rate));
     accepted = solved && error <= limit ? PETSC_TRUE : PETSC_FALSE;
     l->jump  = jump * PetscMin(GROW_MOST, PetscMax(GROW_LEAST, SAFETY * sqrt(limit / PetscMax(error, 1e-300))));
     if (solved && !accepted) jump = PetscMin(l->jump, cycles - l->cycles);
@@ -283,7 +291,7 @@ PetscErrorCode SamLifeAdvance(SamLife l, PetscReal cycles, SamLifeReport *report
     l->cycles += jump;
   }
   PetscCall(SamWearSetGap(l->wear, l->wear->load));
-  if (accepted) PetscCall(ComputeCycle(l, &solved));
+  if (accepted) PetscCall(ComputeCycle(l, &l->start, &solved));
   l->known = solved;
   PetscCall(Report(l, jump, error, report));
   PetscFunctionReturn(PETSC_SUCCESS);

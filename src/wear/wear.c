@@ -25,6 +25,7 @@ PetscErrorCode SamWearCreate(SamContact contact, SamWearLaw law, const PetscReal
   PetscCall(SamGridCreateVec(w->grid, 1, &w->cycle));
   PetscCall(SamGridCreateVec(w->grid, 1, &w->path));
   PetscCall(SamGridCreateVec(w->grid, 1, &w->step));
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->slip));
   PetscCall(SamProblemGetGap(w->problem, &gap));
   PetscCall(VecCopy(gap, w->unworn));
   *wear = w;
@@ -43,6 +44,7 @@ PetscErrorCode SamWearDestroy(SamWear *wear)
   PetscCall(VecDestroy(&w->cycle));
   PetscCall(VecDestroy(&w->path));
   PetscCall(VecDestroy(&w->step));
+  PetscCall(VecDestroy(&w->slip));
   PetscCall(SamProblemDestroy(&w->problem));
   PetscCall(PetscFree(w));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -51,14 +53,11 @@ PetscErrorCode SamWearDestroy(SamWear *wear)
 PetscErrorCode SamWearCountStep(SamWear w)
 {
   PetscFunctionBegin;
-  if (w->law == SAM_WEAR_ARCHARD)
-    PetscCall(SamContactComputeFriction(w->contact, NULL, w->step, NULL));
-  else
-    PetscCall(SamContactComputeFriction(w->contact, NULL, NULL, w->step));
+  PetscCall(SamContactComputeFriction(w->contact, w->slip, w->law == SAM_WEAR_ARCHARD ? w->step : NULL,
+                                      w->law == SAM_WEAR_ENERGY ? w->step : NULL));
   PetscCall(VecAbs(w->step));
   PetscCall(VecAXPY(w->cycle, 1, w->step));
-  PetscCall(SamContactComputeFriction(w->contact, w->step, NULL, NULL));
-  PetscCall(VecAXPY(w->path, 1, w->step));
+  PetscCall(VecAXPY(w->path, 1, w->slip));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -15,7 +15,7 @@ struct _n_SamWear {
   Vec        load;           /* wear load that has been applied, Pa m or J/m2 */
   Vec        cycle;          /* wear load of the cycle so far */
   Vec        path;           /* length of the slip in the cycle so far, m, outside of the contact too */
-  Vec        step;           /* scratch */
+  Vec        step, slip;     /* scratch: wear load and length of slip of a step */
 };
 
 /* SamWearSetGap - makes the problem's gap that of the unworn bodies and a wear load. Collective. */

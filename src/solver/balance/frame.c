@@ -5,6 +5,22 @@
 const PetscInt SamComponentsOf[2][3] = {{SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY},
                                         {SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ}};
 
+SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind)
+{
+  SamBalance balance = {.kind = kind};
+
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt c = SamComponentsOf[kind][k];
+
+    balance.force[k] = control->force[c];
+    if (control->force[c])
+      balance.load[k] = control->value[c];
+    else
+      balance.rigid[k] = control->value[c];
+  }
+  return balance;
+}
+
 /* The rigid displacement of unit component k as a combination of the phi. */
 static void ComponentRow(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3])
 {
