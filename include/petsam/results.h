@@ -2,6 +2,7 @@
 #ifndef PETSAM_RESULTS_H
 #define PETSAM_RESULTS_H
 
+#include <petsam/control.h>
 #include <petsam/material.h>
 #include <petsam/grid.h>
 
@@ -47,10 +48,10 @@ PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, P
 */
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
-  SamResultsReadHistory - a bulk stress in /history (SamBulkNames) at a load step (from 1), 0 where the file does not
-  have the column. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite number.
+  SamResultsReadBulkStress - the bulk stress (Pa) of body 0 or 1 at a load step (from 1), 0 where the file has no column
+  of it. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite number.
 */
-PETSC_EXTERN PetscErrorCode SamResultsReadHistory(SamResults results, PetscInt step, const char column[],
-                                                  PetscReal *value);
+PETSC_EXTERN PetscErrorCode SamResultsReadBulkStress(SamResults results, PetscInt step, PetscInt body,
+                                                     double stress[SAM_BULK_COMPONENTS]);
 
 #endif

@@ -27,7 +27,8 @@ PetscErrorCode SamFilesFree(SamFiles *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool SamIsSameFile(const char a[], const char b[])
+/* Whether two names are those of the same file; files that do not exist yet are compared by folder and name. */
+static PetscBool IsSameFile(const char a[], const char b[])
 {
   const char *const names[2] = {a, b};
   char              folder[2][PETSC_MAX_PATH_LEN], *real[2];
@@ -155,7 +156,7 @@ static void Compare(const SamFiles *f, char message[], size_t size)
       const PetscBool     written = other->role == SAM_FILE_WRITTEN ? PETSC_TRUE : PETSC_FALSE;
 
       if (written && k >= w) continue;
-      if (!MayMeet(one, other) && SamIsSameFile(one->name, other->name))
+      if (!MayMeet(one, other) && IsSameFile(one->name, other->name))
         (void)snprintf(message, size, "%s %s: %s the %sfile of %s", one->option, one->name,
                        written ? "is also" : "would overwrite", other->derived ? "second " : "", other->option);
     }

@@ -31,10 +31,4 @@ PETSC_INTERN PetscErrorCode SamFilesAdd(SamFiles *files, SamFileRole role, const
 PETSC_INTERN PetscErrorCode SamFilesCheck(SamFiles *files, MPI_Comm comm, const SamArguments *arguments);
 PETSC_INTERN PetscErrorCode SamFilesFree(SamFiles *files);
 
-/*
-  SamIsSameFile - whether two names are those of the same file; files that do not exist yet are compared by folder and
-  name. Not collective.
-*/
-PETSC_INTERN PetscBool SamIsSameFile(const char a[], const char b[]);
-
 #endif

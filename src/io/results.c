@@ -5,7 +5,6 @@
   damaged file ends in a message, on all ranks alike. Then all ranks open it and read their rows.
 */
 #include "ioimpl.h"
-#include <petsam/control.h>
 #include <petsam/results.h>
 #include <stdarg.h>
 #include <string.h>
@@ -364,23 +363,19 @@ PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsReadHistory(SamResults r, PetscInt step, const char column[], PetscReal *value)
+PetscErrorCode SamResultsReadBulkStress(SamResults r, PetscInt step, PetscInt body, double stress[SAM_BULK_COMPONENTS])
 {
-  char      name[128];
-  double    number = 0;
-  PetscBool there  = PETSC_FALSE;
-
   PetscFunctionBegin;
-  for (int body = 0; body < 2; body++)
-    for (int k = 0; k < SAM_BULK_COMPONENTS; k++)
-      if (r->facts.bulk[body][k] && !strcmp(column, SamBulkNames[body][k].name)) there = PETSC_TRUE;
-  PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", column));
-  if (there) {
+  for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
+    char name[64];
+
+    stress[k] = 0;
+    if (!r->facts.bulk[body][k]) continue;
+    PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", SamBulkNames[body][k].name));
     PetscCall(SamFileBegin(r->file));
-    ReadSeries(r->file, name, (hsize_t)step - 1, 1, &number);
+    ReadSeries(r->file, name, (hsize_t)step - 1, 1, &stress[k]);
     PetscCall(SamFileEnd(r->file));
-    PetscCall(CheckFinite(r, 1, &number, name, step));
+    PetscCall(CheckFinite(r, 1, &stress[k], name, step));
   }
-  *value = (PetscReal)number;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

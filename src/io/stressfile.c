@@ -12,7 +12,7 @@
 
 #define OPTION "output"
 
-enum { DATASETS = 2 * SAM_STRESS_COMPONENTS + 21, DIMENSIONS = 4, TIME = 0, Z, Y, X };
+enum { DIMENSIONS = 4, TIME = 0, Z, Y, X };
 
 typedef struct {
   SamOutputLabel label;
@@ -27,7 +27,7 @@ typedef struct {
     {name "_normal_z", "1", "normal of the critical plane, z"}, quantity \
   }
 
-static const Dataset datasets[DATASETS] = {
+static const Dataset datasets[] = {
   {{"stress_xx", "Pa", "stress xx, tension positive"}, SAM_QUANTITY_STRESS},
   {{"stress_yy", "Pa", "stress yy"}, SAM_QUANTITY_STRESS},
   {{"stress_zz", "Pa", "stress zz, z points into the body"}, SAM_QUANTITY_STRESS},
@@ -56,6 +56,7 @@ static const Dataset datasets[DATASETS] = {
   {{"ruiz_1", "J/m2", "Ruiz's first parameter of the cycle: work of friction"}, SAM_QUANTITY_RUIZ},
   {{"ruiz_2", "Pa J/m2", "Ruiz's second parameter of the cycle: tension times work of friction"}, SAM_QUANTITY_RUIZ},
 };
+enum { DATASETS = sizeof(datasets) / sizeof(datasets[0]) };
 
 struct _n_SamStressFile {
   SamGrid   grid;

@@ -13,15 +13,10 @@ typedef struct {
   double             *stress, *shear, *path; /* of a point: [component][state] */
 } Cycle;
 
-static PetscBool IsCycle(SamQuantity quantity)
-{
-  return quantity >= SAM_QUANTITY_CROSSLAND && quantity <= SAM_QUANTITY_RUIZ ? PETSC_TRUE : PETSC_FALSE;
-}
-
 PetscBool SamCycleWanted(const SamStressRun *run)
 {
-  for (PetscInt q = 0; q < SAM_QUANTITIES; q++)
-    if (run->request.wants[q] && IsCycle((SamQuantity)q)) return PETSC_TRUE;
+  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++)
+    if (run->request.wants[q]) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -117,27 +112,18 @@ static PetscErrorCode ComputeAll(SamStressRun *run, const Cycle *c, SamQuantity 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Number of this rank's points that lie on the surface; `length`: cells of its rows or of the line. */
-static PetscInt Surface(const SamStressRun *run, const SamPoints *p, PetscInt length)
-{
-  return p->depth == 0 && p->depths > 0 && run->request.depth[0] == 0 ? length : 0;
-}
-
 static PetscErrorCode Create(SamStressRun *run, const SamPoints *p, Cycle *c)
 {
-  const PetscInt  length = !run->request.section                ? p->count
-                           : run->request.axis == SAM_SECTION_X ? run->grid->nx
-                                                                : run->grid->ny;
-  const PetscInt  states = run->steps;
-  const PetscBool slips =
-    run->request.wants[SAM_QUANTITY_RUIZ] && run->request.depth[0] == 0 && (run->request.section || p->depth == 0)
-      ? PETSC_TRUE
-      : PETSC_FALSE;
-  double *slip = NULL;
+  const PetscInt length = !run->request.section                ? p->count
+                          : run->request.axis == SAM_SECTION_X ? run->grid->nx
+                                                               : run->grid->ny;
+  const PetscInt states = run->steps;
+  double        *slip   = NULL;
 
   PetscFunctionBegin;
-  *c = (Cycle){.run = run, .points = p, .surface = Surface(run, p, length)};
-  if (slips) {
+  /* the surface is the first depth, where Ruiz's parameters are asked for */
+  *c = (Cycle){.run = run, .points = p, .surface = p->depth == 0 && p->depths > 0 ? length : 0};
+  if (run->request.wants[SAM_QUANTITY_RUIZ] && (run->request.section || p->depth == 0)) { /* collective */
     PetscCall(SamAllocate(sizeof(double) * (size_t)(2 * states) * (size_t)length, &slip));
     PetscCall(ReadSlip(run, length, slip));
   }
@@ -161,11 +147,11 @@ PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p, double done,
   Cycle    c;
 
   PetscFunctionBegin;
-  for (PetscInt q = 0; q < SAM_QUANTITIES; q++) wanted += run->request.wants[q] && IsCycle((SamQuantity)q);
+  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) wanted += run->request.wants[q];
   PetscCall(Create(run, p, &c));
   PetscCall(SamAllocate(sizeof(double) * MOST * (size_t)p->count, &values));
-  for (PetscInt q = 0; q < SAM_QUANTITIES; q++) {
-    if (!run->request.wants[q] || !IsCycle((SamQuantity)q)) continue;
+  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
+    if (!run->request.wants[q]) continue;
     PetscCall(
       ComputeAll(run, &c, (SamQuantity)q, values, done + share * (double)k / (double)wanted, share / (double)wanted));
     for (PetscInt part = 0; part < SamQuantityComponents((SamQuantity)q); part++)
@@ -185,25 +171,23 @@ PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p, double done,
 
 PetscErrorCode SamCycleCheckClosed(SamStressRun *run)
 {
-  static const SamResultsField fields[] = {SAM_RESULTS_PRESSURE, SAM_RESULTS_SHEAR_X, SAM_RESULTS_SHEAR_Y};
-  const PetscInt before = run->saved[0] - (run->saved[1] - run->saved[0]), last = run->saved[run->steps - 1];
-  PetscReal      most[4] = {0, 0, 0, 0}; /* difference and size: of the pressure, of the shear */
-  PetscInt       step[2];
-  PetscMPIInt    rank;
-  double        *one, *other;
+  const PetscInt before = run->saved[0] - (run->saved[1] - run->saved[0]), last = run->saved[run->steps - 1],
+                 cells = run->grid->cells;
+  PetscReal   most[4]  = {0, 0, 0, 0}; /* difference and size: of the pressure, of the shear */
+  PetscInt    step[2];
+  PetscMPIInt rank;
+  double     *one, *other;
 
   PetscFunctionBegin;
   if (before < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc2(run->grid->cells, &one, run->grid->cells, &other));
-  for (int f = 0; f < 3; f++) {
-    PetscReal *const m = most + (f ? 2 : 0);
+  PetscCall(PetscMalloc2(3 * cells, &one, 3 * cells, &other));
+  PetscCall(SamTractionsRead(run, before, (double *[]){one, one + cells, one + 2 * cells}));
+  PetscCall(SamTractionsRead(run, last, (double *[]){other, other + cells, other + 2 * cells}));
+  for (PetscInt k = 0; k < 3 * cells; k++) {
+    PetscReal *const m = most + (k < cells ? 0 : 2);
 
-    PetscCall(SamResultsRead(run->results, before, fields[f], one));
-    PetscCall(SamResultsRead(run->results, last, fields[f], other));
-    for (PetscInt k = 0; k < run->grid->cells; k++) {
-      m[0] = PetscMax(m[0], fabs(one[k] - other[k]));
-      m[1] = PetscMax(m[1], PetscMax(fabs(one[k]), fabs(other[k])));
-    }
+    m[0] = PetscMax(m[0], fabs(one[k] - other[k]));
+    m[1] = PetscMax(m[1], PetscMax(fabs(one[k]), fabs(other[k])));
   }
   PetscCall(PetscFree2(one, other));
   PetscCall(SamMax(run->grid->comm, 4, most));

@@ -31,13 +31,12 @@ double SamLinesMemory(const SamStressRun *run)
 
 static PetscErrorCode AddStep(SamStressRun *run, SamSection section, PetscInt step, Vec tractions)
 {
-  static const SamResultsField fields[] = {SAM_RESULTS_PRESSURE, SAM_RESULTS_SHEAR_X, SAM_RESULTS_SHEAR_Y};
-  double                      *a;
+  const PetscInt cells = run->grid->cells;
+  double        *a;
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(tractions, &a));
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
-    PetscCall(SamResultsRead(run->results, run->saved[step], fields[t], a + t * run->grid->cells));
+  PetscCall(SamTractionsRead(run, run->saved[step], (double *[]){a, a + cells, a + 2 * cells}));
   PetscCall(VecRestoreArray(tractions, &a));
   PetscCall(SamSectionAddStep(section, tractions));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -27,9 +27,9 @@ static PetscErrorCode ReadTractions(SamStressRun *run, PetscInt step, Vec field)
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(field, &a));
-  PetscCall(SamResultsRead(run->results, run->saved[step], SAM_RESULTS_PRESSURE, a + SAM_STRESS_ZZ * cells));
-  PetscCall(SamResultsRead(run->results, run->saved[step], SAM_RESULTS_SHEAR_X, a + SAM_STRESS_XZ * cells));
-  PetscCall(SamResultsRead(run->results, run->saved[step], SAM_RESULTS_SHEAR_Y, a + SAM_STRESS_YZ * cells));
+  PetscCall(
+    SamTractionsRead(run, run->saved[step],
+                     (double *[]){a + SAM_STRESS_ZZ * cells, a + SAM_STRESS_XZ * cells, a + SAM_STRESS_YZ * cells}));
   PetscCall(VecRestoreArray(field, &a));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

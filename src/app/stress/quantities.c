@@ -1,6 +1,15 @@
-/* What is made of the stresses in a step: quantities that are written, and the largest values. */
+/* A step: its tractions; what is made of its stresses, that is quantities that are written, and the largest values. */
 #include "stressrun.h"
 #include <petsam/private/baseimpl.h>
+
+PetscErrorCode SamTractionsRead(SamStressRun *run, PetscInt saved, double *const to[SAM_STRESS_TRACTIONS])
+{
+  static const SamResultsField fields[] = {SAM_RESULTS_PRESSURE, SAM_RESULTS_SHEAR_X, SAM_RESULTS_SHEAR_Y};
+
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) PetscCall(SamResultsRead(run->results, saved, fields[t], to[t]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 void SamStressAddBulk(const SamStressRun *run, PetscInt step, PetscInt n, double stress[])
 {

@@ -63,22 +63,6 @@ static PetscErrorCode CheckBodies(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadBulk(SamStressRun *run, PetscInt k)
-{
-  const SamBulkName *names = SamBulkNames[run->request.body - 1];
-  PetscInt           step;
-
-  PetscFunctionBegin;
-  PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, NULL));
-  for (PetscInt c = 0; c < SAM_BULK_COMPONENTS; c++) {
-    PetscReal value;
-
-    PetscCall(SamResultsReadHistory(run->results, step, names[c].name, &value));
-    run->bulk[k][c] = (double)value;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Times and bulk stresses of the steps. */
 static PetscErrorCode ReadSteps(SamStressRun *run)
 {
@@ -87,9 +71,11 @@ static PetscErrorCode ReadSteps(SamStressRun *run)
   PetscCall(PetscMalloc1(run->steps, &run->times));
   PetscCall(PetscMalloc3(run->steps, &run->mises, run->steps, &run->principal, run->steps, &run->bulk));
   for (PetscInt k = 0; k < run->steps; k++) {
-    PetscCall(SamResultsGetSaved(run->results, run->saved[k], NULL, &run->times[k]));
+    PetscInt step;
+
+    PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, &run->times[k]));
+    PetscCall(SamResultsReadBulkStress(run->results, step, run->request.body - 1, run->bulk[k]));
     run->mises[k] = run->principal[k] = (SamLargest){-INFINITY, 0};
-    PetscCall(ReadBulk(run, k));
   }
   for (PetscInt q = 0; q < SAM_QUANTITIES; q++) run->fatigue[q] = (SamLargest){-INFINITY, 0};
   PetscCheck(run->steps > 1 || !SamCycleWanted(run), run->grid->comm, SAM_ERR_USER,

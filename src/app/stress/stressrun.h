@@ -57,6 +57,8 @@ PETSC_INTERN PetscErrorCode SamLinesCompute(SamStressRun *run);
 PETSC_INTERN double SamMapsMemory(const SamStressRun *run);
 PETSC_INTERN double SamLinesMemory(const SamStressRun *run);
 
+/* SamTractionsRead - pressure and both shears of a saved step, this rank's rows, into three arrays. Collective. */
+PETSC_INTERN PetscErrorCode SamTractionsRead(SamStressRun *run, PetscInt saved, double *const to[SAM_STRESS_TRACTIONS]);
 /* SamStressAddBulk - adds the bulk stress of a step to the stresses of n points. Not collective. */
 PETSC_INTERN void SamStressAddBulk(const SamStressRun *run, PetscInt step, PetscInt n, double stress[]);
 /* SamQuantitiesWrite - computes what is wanted of a step's stresses and writes it (quantities.c). Collective. */
