@@ -4,48 +4,93 @@
 
 #include <petsam/wear.h>
 
-/* A closed cycle: its steps, 0 ... steps - 1; the last one is where the next cycle begins. */
+/*
+  A closed cycle: its steps, 0 ... steps - 1; the last one is where the next cycle begins.
+    control  what is prescribed in a step after so many cycles; the same after any number but for the friction
+    solved   is called after each step of a cycle that is computed on the wear so far (not on that within a jump), while
+             the step is tried; NULL: not wanted
+*/
 typedef struct {
   PetscInt steps;
-  PetscErrorCode (*control)(void *context, PetscInt step, SamControl *control);
+  PetscErrorCode (*control)(void *context, PetscInt step, PetscReal cycles, SamControl *control);
+  PetscErrorCode (*solved)(void *context, PetscInt step, PetscReal cycles, const SamStep *result);
   void *context;
 } SamLifeCycle;
 
-/* SamLifeReport - a jump over cycles. Depths and volumes are those removed of body 1 and 2 so far. */
+/* How cycles are jumped over. */
+typedef enum {
+  SAM_LIFE_IMPLICIT, /* by the pressure at the end of a jump: stable however long it is */
+  SAM_LIFE_EXPLICIT  /* by the wear of the computed cycle: jumps are kept below their limit of stability */
+} SamLifeType;
+
+/* How a life is computed. */
+typedef struct {
+  SamLifeType type;
+  PetscReal   rtol;  /* error of a jump that is allowed, relative to the largest depth, and of the pressure */
+  PetscReal   jump;  /* cycles of the first jump, 0: as many as an explicit one could be */
+  PetscBool   fixed; /* all jumps are like the first one, whatever their error */
+} SamLifeSettings;
+
+/* SamLifeReport - a computed cycle, and the jump before it. */
 typedef struct {
   PetscReal cycles;            /* so far */
   PetscReal jump;              /* the last one, cycles */
-  PetscReal error;             /* the largest difference between a jump and two halves of it, over the largest depth */
-  PetscReal volume[2];         /* m3 */
-  PetscReal depth[2];          /* m, the largest */
-  PetscReal dissipated_energy; /* J, of a cycle */
-  PetscReal contact_area;      /* m2 */
-  PetscReal pressure;          /* Pa, the largest */
-  PetscInt  computed;          /* cycles that have been computed so far */
-  SamStep   step;              /* the last one that was solved; its status tells a failure */
+  PetscReal error;             /* of this: the largest difference between the jump and two halves of it */
+  PetscReal limit;             /* the longest jump that would be stable if it were explicit, cycles */
+  PetscReal volume[2];         /* m3, removed of body 1 and 2 so far */
+  PetscReal depth[2];          /* m, the largest, removed of body 1 and 2 so far */
+  PetscReal dissipated_energy; /* J, of this cycle */
+  PetscReal contact_area;      /* m2, at its end */
+  PetscReal pressure;          /* Pa, the largest at its end */
+  PetscInt  computed;          /* cycles that have been computed so far, within jumps too */
+  PetscInt  at;                /* the step of the cycle that `step` is */
+  SamStep   step;              /* the first one that is not converged; else the last one */
 } SamLifeReport;
 
 /*
   SamLife - carries a contact over many cycles by computing some of them. A cycle is computed on a fixed gap; then its
-  wear is repeated some times over, implicitly: the pressure that comes with the worn gap is solved for, as the normal
-  problem of surfaces that yield (SamNormalSolveYielding()). So a jump has no limit of stability. A jump is made once as
-  a whole and once in two halves, with a cycle computed between them; their difference is the error, and tells the size
-  of the next jump; what is kept is their extrapolation, which is of second order.
+  wear is repeated some times over. Implicitly, the pressure that comes with the worn gap is solved for, as the normal
+  problem of surfaces that yield (SamNormalSolveYielding()). A jump is made once as a whole and once in two halves, with
+  a cycle computed between them; their difference is the error, and tells the size of the next jump; what is kept is
+  their extrapolation, which is of second order. Jumps are whole numbers of cycles; one of a single cycle is taken
+  whatever its error: faster wear is for steps that wear one by one (SamWearApply()).
+
+  SamLifeCompute() and SamLifeJump() take turns.
 */
 typedef struct _n_SamLife *SamLife;
 
 /*
-  SamLifeCreate - begins where the contact is: at the end of the cycle's last step. `rtol`: the error of a jump that is
-  allowed, relative to the largest depth. `jump`: the first one, cycles. Borrows the wear, and the contact that this
-  belongs to. Collective.
+  SamLifeCreate - begins where the contact is: at the end of the cycle's last step, on loads and displacements of which
+  a first cycle, which does not wear, makes a closed loop. Borrows the wear, and the contact that this belongs to.
+  Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a tolerance that is not positive, or a jump below 0.
 */
-PETSC_EXTERN PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, PetscReal rtol, PetscReal jump,
+PETSC_EXTERN PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, const SamLifeSettings *settings,
                                           SamLife *life);
 PETSC_EXTERN PetscErrorCode SamLifeDestroy(SamLife *life);
 /*
-  SamLifeAdvance - one jump, not beyond `cycles` in all. After a step that has no solution or did not converge the
-  report says so in its step, and the wear is as it was before the jump. Collective.
+  SamLifeCompute - a cycle on the wear so far. When a step of it has no solution or did not converge, the report says so
+  in its step. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamLifeAdvance(SamLife life, PetscReal cycles, SamLifeReport *report);
+PETSC_EXTERN PetscErrorCode SamLifeCompute(SamLife life, SamLifeReport *report);
+/*
+  SamLifeJump - one jump, not beyond `cycles` in all. Where a cycle within it cannot be solved, it is tried again
+  shorter; a jump of one cycle that cannot be made is told in the report's step, and the wear is as it was before.
+  Collective. Errors: PETSC_ERR_ORDER without a computed cycle.
+*/
+PETSC_EXTERN PetscErrorCode SamLifeJump(SamLife life, PetscReal cycles, SamLifeReport *report);
+
+/*
+  SamLifeState - all that the life after a jump depends on, besides the states of the contact and of the wear. A life
+  that is given the state of another goes on as that one would.
+*/
+typedef struct {
+  PetscReal cycles, next; /* so far; the next jump */
+  PetscReal jump, error;  /* of the last jump */
+  PetscInt  computed;
+  PetscBool by_turns; /* on a changed gap, the turning points of the loads close the loop; else all steps do */
+} SamLifeState;
+/* SamLifeGetState, SamLifeSetState - between SamLifeJump() and SamLifeCompute(). Not collective. */
+PETSC_EXTERN PetscErrorCode SamLifeGetState(SamLife life, SamLifeState *state);
+PETSC_EXTERN PetscErrorCode SamLifeSetState(SamLife life, const SamLifeState *state);
 
 #endif

@@ -238,7 +238,6 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
       const char  *name   = SamBulkNames[body][k].name;
       const double stress = (double)control->bulk_stress[body][k];
 
-      PetscCheck(isfinite(stress), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
       PetscCheck(stress == 0 || !isinf(pair->young[body]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %g: expected 0: a rigid body does not stretch", name, stress);
       PetscCheck(fabs(stress) <= pair->young[body], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,

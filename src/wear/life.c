@@ -1,18 +1,16 @@
 /*
   Jumps over cycles.
 
-  In a computed cycle a cell wears by the rate r, depth a cycle. With the pressure p where the cycle ends, r = e p; e is
-  taken as constant in a jump over m cycles, and p as that at its end: p solves the normal problem on the gap
-  h + m e p, which is linear in p. Where the surfaces do not touch at the end of the cycle, e is what the slip there
-  would wear, k times its path: contact that grows wears at once.
+  In a computed cycle a cell wears by r = e P, wear load a cycle, under the mean pressure P (cycle.c). In an implicit
+  jump over m cycles e is taken as constant, and P as that at its end: it solves the normal problem on the gap
+  h + m K e P, which is linear in P. In an explicit one P is that at its start; cells oscillate where m K e is more than
+  twice the smallest eigenvalue of the normal influence, that of a checkerboard.
 
-  A jump of m and two of m/2 give depths w1 and w2. These are of first order; 2 w2 - w1 is of second, and |w2 - w1| the
-  error of w2 (Hairer, Norsett and Wanner 1993, Solving Ordinary Differential Equations I, II.4 and II.9; backward
-  Euler's extrapolation is L-stable).
+  A jump of m and two of m/2 give w1 and w2. These are of first order; 2 w2 - w1 is of second, and |w2 - w1| the error
+  of w2 (Hairer, Norsett and Wanner 1993, Solving Ordinary Differential Equations I, II.4 and II.9; backward Euler's
+  extrapolation is L-stable, forward Euler's is the midpoint rule).
 */
-#include <petsam/life.h>
-#include <petsam/normal.h>
-#include "wearimpl.h"
+#include "lifeimpl.h"
 #include <math.h>
 
 /* The next jump's size over the last one's: limits, and the part of what the error allows. */
@@ -21,45 +19,63 @@
 #define SAFETY     0.8
 /* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere (test_life). */
 #define HALVES 3.0
-
-/* What a computed cycle says of the next ones. */
-typedef struct {
-  Vec coefficient; /* e/K: wear load of a cycle per pressure, m */
-  Vec lift;        /* what the shear of dissimilar bodies lifts the surfaces by at the cycle's end, m */
-} Rate;
-
-struct _n_SamLife {
-  SamWear      wear;
-  SamLifeCycle cycle;
-  PetscReal    rtol, jump, cycles;
-  PetscInt     computed;
-  PetscBool    known; /* `start` has been computed */
-  SamStep      step;
-  PetscReal    energy;              /* of the last cycle, J */
-  Rate         start, middle;       /* on the present gap; after half of the jump */
-  Vec          whole, half, halves; /* wear loads: after the jump as a whole, after its first half, after both */
-  Vec          p, diagonal, gap;    /* scratch */
-};
+/* An explicit jump over the longest stable one: the rate changes within it. */
+#define STABLE 0.8
+/* The first jump over the same, where nothing else is known. */
+#define FIRST 0.2
 
 /* The fields, to be created and destroyed. */
 #define FIELDS(l) \
   { \
-    &(l)->start.coefficient, &(l)->start.lift, &(l)->middle.coefficient, &(l)->middle.lift, &(l)->whole, &(l)->half, \
-      &(l)->halves, &(l)->p, &(l)->diagonal, &(l)->gap, NULL \
+    &(l)->start.coefficient, &(l)->start.pressure, &(l)->start.shift, &(l)->middle.coefficient, &(l)->middle.pressure, \
+      &(l)->middle.shift, &(l)->whole, &(l)->half, &(l)->halves, &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, NULL \
   }
 
-PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, PetscReal rtol, PetscReal jump, SamLife *life)
+/* The smallest eigenvalue of the normal influence: the Rayleigh quotient of a checkerboard, a little more. */
+static PetscErrorCode FindLeast(SamLife l)
 {
-  SamLife l;
+  const SamGrid grid = l->wear->grid;
+  SamElasticity elasticity;
+  double       *to;
+  PetscReal     product;
 
   PetscFunctionBegin;
+  PetscCall(SamProblemGetElasticity(l->wear->problem, &elasticity));
+  PetscCall(VecGetArrayWrite(l->p, &to));
+  for (PetscInt k = 0; k < grid->cells; k++) to[k] = (k % grid->nx + k / grid->nx + grid->row_start) % 2 ? 1 : -1;
+  PetscCall(VecRestoreArrayWrite(l->p, &to));
+  PetscCall(SamElasticityApplyNormal(elasticity, l->p, l->gap));
+  PetscCall(SamGridNorm(grid, l->gap, NORM_1, &product)); /* each displacement has the sign of its pressure */
+  l->least = product / ((PetscReal)grid->nx * (PetscReal)grid->ny);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, const SamLifeSettings *settings, SamLife *life)
+{
+  const MPI_Comm      comm = wear->grid->comm;
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
+  SamLife             l;
+
+  PetscFunctionBegin;
+  PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "tolerance %g of the jumps: expected a finite number > 0", (double)settings->rtol);
+  PetscCheck(settings->jump >= 0 && isfinite(settings->jump), comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "first jump over %g cycles: expected a finite number >= 0", (double)settings->jump);
   PetscCall(PetscNew(&l));
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(SamGridCreateVec(wear->grid, 1, *field));
-  l->wear  = wear;
-  l->cycle = *cycle;
-  l->rtol  = rtol;
-  l->jump  = jump;
-  *life    = l;
+  PetscCall(SamGridCreateVec(wear->grid, 2, &l->shear));
+  l->wear       = wear;
+  l->cycle      = *cycle;
+  l->set        = *settings;
+  l->state.next = settings->jump;
+  l->open       = PETSC_TRUE;
+  PetscCall(SamProblemGetElasticity(wear->problem, &elasticity));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  l->coupled = traits.coupled;
+  PetscCall(FindLeast(l));
+  PetscCall(SamLifeFindTurns(l));
+  *life = l;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -71,94 +87,25 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   *life = NULL;
   if (!l) PetscFunctionReturn(PETSC_SUCCESS);
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
+  PetscCall(VecDestroy(&l->shear));
+  PetscCall(PetscFree(l->turns));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- a computed cycle ---- */
-
-static PetscBool IsSolved(const SamStep *step)
-{
-  return step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE
-                                                                                               : PETSC_FALSE;
-}
-
-/* What a unit of path wears in a cell without pressure, per pressure: 1, or the coefficient of friction. */
-static PetscErrorCode GetUnit(SamLife l, Vec unit)
+PetscErrorCode SamLifeGetState(SamLife l, SamLifeState *state)
 {
   PetscFunctionBegin;
-  PetscCall(VecSet(unit, 1));
-  if (l->wear->law == SAM_WEAR_ENERGY) PetscCall(SamProblemComputeBound(l->wear->problem, 1, unit, unit));
+  *state = l->state;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* e/K from the wear load and the path of the cycle, and the pressure at its end. */
-static PetscErrorCode FindCoefficient(SamLife l, Vec coefficient)
+PetscErrorCode SamLifeSetState(SamLife l, const SamLifeState *state)
 {
-  const SamWear      w = l->wear;
-  const SamSolution *s;
-  const double      *p, *load, *path, *unit;
-  double            *to;
-
   PetscFunctionBegin;
-  PetscCall(GetUnit(l, l->diagonal));
-  PetscCall(SamContactGetSolution(w->contact, &s));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(w->cycle, &load));
-  PetscCall(VecGetArrayRead(w->path, &path));
-  PetscCall(VecGetArrayRead(l->diagonal, &unit));
-  PetscCall(VecGetArrayWrite(coefficient, &to));
-  for (PetscInt k = 0; k < w->grid->cells; k++) to[k] = p[k] > 0 ? load[k] / p[k] : unit[k] * path[k];
-  PetscCall(VecRestoreArrayWrite(coefficient, &to));
-  PetscCall(VecRestoreArrayRead(l->diagonal, &unit));
-  PetscCall(VecRestoreArrayRead(w->path, &path));
-  PetscCall(VecRestoreArrayRead(w->cycle, &load));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The lift, which is a part of the gap in a jump. */
-static PetscErrorCode FindLift(SamLife l, Vec lift)
-{
-  SamElasticity       elasticity;
-  SamElasticityTraits traits;
-  const SamSolution  *s;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemGetElasticity(l->wear->problem, &elasticity));
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  PetscCall(VecSet(lift, 0));
-  if (!traits.coupled) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetSolution(l->wear->contact, &s));
-  PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, lift));
-  PetscCall(VecAYPX(lift, -1, s->displacement_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Solves the cycle on the problem's gap; `solved`: all of its steps have a solution. */
-static PetscErrorCode ComputeCycle(SamLife l, Rate *rate, PetscBool *solved)
-{
-  SamControl control;
-
-  PetscFunctionBegin;
-  PetscCall(VecSet(l->wear->cycle, 0));
-  PetscCall(VecSet(l->wear->path, 0));
-  l->energy = 0;
-  *solved   = PETSC_TRUE;
-  /* first the contact comes to rest on its new gap, where the cycle begins: the step before its first */
-  for (PetscInt k = -1; k < l->cycle.steps && *solved; k++) {
-    PetscCall(l->cycle.control(l->cycle.context, k < 0 ? l->cycle.steps - 1 : k, &control));
-    PetscCall(SamContactTry(l->wear->contact, &control, &l->step));
-    *solved = IsSolved(&l->step);
-    if (!*solved) break;
-    if (k >= 0) PetscCall(SamWearCountStep(l->wear));
-    if (k >= 0) l->energy += l->step.dissipated_energy;
-    PetscCall(SamContactCommit(l->wear->contact));
-  }
-  l->computed++;
-  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(FindCoefficient(l, rate->coefficient));
-  PetscCall(FindLift(l, rate->lift));
+  l->state = *state;
+  l->open  = PETSC_FALSE;
+  l->known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -168,6 +115,7 @@ static PetscErrorCode ComputeCycle(SamLife l, Rate *rate, PetscBool *solved)
 static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reason)
 {
   PetscFunctionBegin;
+  l->at          = l->cycle.steps - 1;
   l->step.status = SAM_STATUS_NOT_CONVERGED;
   PetscCall(PetscSNPrintf(l->step.message, sizeof(l->step.message),
                           "the normal problem of a jump over %g cycles did not converge: %s", (double)cycles,
@@ -175,45 +123,58 @@ static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reas
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The wear load after `cycles` more at a rate, from `load` on, which decides the gap, into `to`. */
-static PetscErrorCode Jump(SamLife l, const Rate *rate, PetscReal cycles, Vec load, Vec to, PetscBool *solved)
+/* The mean pressure, into l->p, after `cycles` more at a rate, from the wear load `load` on. */
+static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, Vec load, PetscBool *solved)
 {
-  const SamWear   w = l->wear;
-  const PetscReal K = w->coefficient[0] + w->coefficient[1];
-  SamControl      control;
-  SamBalance      balance;
+  const SamWear   w       = l->wear;
+  SamBalance      balance = rate->balance;
   SamNormal       normal;
   SamSolverReason reason;
   Vec             gap;
 
   PetscFunctionBegin;
-  PetscCall(l->cycle.control(l->cycle.context, l->cycle.steps - 1, &control));
-  balance = SamControlGetBalance(&control, SAM_BALANCE_NORMAL);
   PetscCall(SamWearSetGap(w, load));
   PetscCall(SamProblemGetGap(w->problem, &gap));
-  PetscCall(VecWAXPY(l->gap, 1, gap, rate->lift));
+  PetscCall(VecWAXPY(l->gap, 1, gap, rate->shift));
   PetscCall(VecCopy(rate->coefficient, l->diagonal));
-  PetscCall(VecScale(l->diagonal, cycles * K));
+  PetscCall(VecScale(l->diagonal, cycles * (w->coefficient[0] + w->coefficient[1])));
   PetscCall(SamContactGetNormal(w->contact, &normal));
   PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, l->p));
   PetscCall(SamSolverGetReason(normal, &reason));
   *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (!*solved) PetscCall(FailJump(l, cycles, reason));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The wear load `to` after `cycles` more at a rate, from `load` on; l->p: the pressure that wears. */
+static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, Vec load, Vec to, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  *solved = PETSC_TRUE;
+  if (l->set.type == SAM_LIFE_EXPLICIT)
+    PetscCall(VecCopy(rate->pressure, l->p));
+  else
+    PetscCall(SolvePressure(l, rate, cycles, load, solved));
   PetscCall(VecPointwiseMult(to, rate->coefficient, l->p));
   PetscCall(VecAYPX(to, cycles, load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The largest difference of two fields over the largest of the second. */
-static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, PetscReal *error)
+/* The difference of two fields over the second one, in a norm. */
+static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm, PetscReal *error)
 {
-  PetscReal difference, most;
+  PetscReal difference, size;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(l->diagonal, -1, a, b));
-  PetscCall(VecNorm(l->diagonal, NORM_INFINITY, &difference));
-  PetscCall(VecNorm(b, NORM_INFINITY, &most));
-  *error = most > 0 ? difference / most : 0;
+  if (norm == NORM_INFINITY) {
+    PetscCall(VecNorm(l->diagonal, norm, &difference));
+    PetscCall(VecNorm(b, norm, &size));
+  } else {
+    PetscCall(SamGridNorm(l->wear->grid, l->diagonal, norm, &difference));
+    PetscCall(SamGridNorm(l->wear->grid, b, norm, &size));
+  }
+  *error = size > 0 ? difference / size : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -238,32 +199,82 @@ static PetscErrorCode Extrapolate(SamLife l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. */
+/*
+  A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. Their
+  difference: in depth, the largest over the largest; in the pressure at the end, the mean over the mean.
+*/
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
+  PetscReal depth, pressure;
+
   PetscFunctionBegin;
   PetscCall(Jump(l, &l->start, cycles, l->wear->load, l->whole, solved));
+  if (*solved) PetscCall(VecCopy(l->p, l->q));
   if (*solved) PetscCall(Jump(l, &l->start, 0.5 * cycles, l->wear->load, l->half, solved));
   if (*solved) PetscCall(SamWearSetGap(l->wear, l->half));
-  if (*solved) PetscCall(ComputeCycle(l, &l->middle, solved));
+  if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
   if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(RelativeDifference(l, l->whole, l->halves, error));
+  PetscCall(RelativeDifference(l, l->whole, l->halves, NORM_INFINITY, &depth));
+  PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, &pressure));
+  *error = l->set.type == SAM_LIFE_EXPLICIT ? depth : PetscMax(depth, pressure);
   PetscCall(Extrapolate(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Report(SamLife l, PetscReal jump, PetscReal error, SamLifeReport *r)
+/* ---- the size of jumps ---- */
+
+/* The longest explicit jump that is stable, cycles; infinite without wear. */
+static PetscReal Limit(const SamLife l)
+{
+  const PetscReal most = l->start.most * (l->wear->coefficient[0] + l->wear->coefficient[1]);
+
+  return most > 0 ? 2 * l->least / most : PETSC_INFINITY;
+}
+
+/* A whole number of cycles. */
+static PetscReal Whole(PetscReal jump)
+{
+  return isfinite(jump) ? PetscMax(1, floor(jump)) : jump;
+}
+
+/* The jump that is tried first. */
+static PetscReal FirstTry(const SamLife l, PetscReal cycles)
+{
+  PetscReal jump = l->state.next;
+
+  if (jump == 0) jump = FIRST * Limit(l);
+  if (l->set.type == SAM_LIFE_EXPLICIT && !l->set.fixed) jump = PetscMin(jump, STABLE * Limit(l));
+  return PetscMin(l->set.fixed ? jump : Whole(jump), cycles - l->state.cycles);
+}
+
+/*
+  The next jump, after one that has this error over the allowed one. One that was short because no more cycles were
+  asked for does not hold back those that follow.
+*/
+static PetscReal NextTry(const SamLife l, PetscReal jump, PetscReal error)
+{
+  const PetscReal most = PetscMax(GROW_MOST * jump, l->state.next), least = GROW_LEAST * jump,
+                  next = PetscMax(least, PetscMin(most, jump * SAFETY / sqrt(PetscMax(error, 1e-300))));
+
+  return Whole(next);
+}
+
+/* ---- the life ---- */
+
+static PetscErrorCode Report(SamLife l, SamLifeReport *r)
 {
   const SamSolution *s;
 
   PetscFunctionBegin;
-  *r = (SamLifeReport){.cycles            = l->cycles,
-                       .jump              = jump,
-                       .error             = error,
+  *r = (SamLifeReport){.cycles            = l->state.cycles,
+                       .jump              = l->state.jump,
+                       .error             = l->state.error,
+                       .limit             = Limit(l),
                        .dissipated_energy = l->energy,
                        .contact_area      = l->step.contact_area,
-                       .computed          = l->computed,
+                       .computed          = l->state.computed,
+                       .at                = l->at,
                        .step              = l->step};
   PetscCall(SamWearGetVolumes(l->wear, r->volume, r->depth));
   PetscCall(SamContactGetSolution(l->wear->contact, &s));
@@ -271,28 +282,39 @@ static PetscErrorCode Report(SamLife l, PetscReal jump, PetscReal error, SamLife
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLifeAdvance(SamLife l, PetscReal cycles, SamLifeReport *report)
+PetscErrorCode SamLifeCompute(SamLife l, SamLifeReport *report)
 {
-  PetscReal error = 0, jump = PetscMin(l->jump, cycles - l->cycles);
-  PetscBool solved = PETSC_TRUE, accepted = PETSC_FALSE;
+  PetscFunctionBegin;
+  if (!l->known) PetscCall(SamLifeComputeRate(l, &l->start, l->state.cycles, PETSC_TRUE, &l->known));
+  PetscCall(Report(l, report));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
+{
+  PetscReal error = 0, jump = 0, next;
+  PetscBool solved = PETSC_FALSE, accepted = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!l->known) PetscCall(ComputeCycle(l, &l->start, &solved));
-  while (solved && !accepted) {
-    const PetscReal limit = HALVES * l->rtol;
-
+  PetscCheck(l->known, l->wear->grid->comm, PETSC_ERR_ORDER, "There is no computed cycle to jump from");
+  next = FirstTry(l, cycles);
+  if (l->state.next == 0) l->state.next = next;
+  while (!accepted && next != jump) {
+    jump = next;
     PetscCall(TryJump(l, jump, &error, &solved));
-    accepted = solved && error <= limit ? PETSC_TRUE : PETSC_FALSE;
-    l->jump  = jump * PetscMin(GROW_MOST, PetscMax(GROW_LEAST, SAFETY * sqrt(limit / PetscMax(error, 1e-300))));
-    if (solved && !accepted) jump = PetscMin(l->jump, cycles - l->cycles);
-  }
-  if (accepted) {
-    PetscCall(VecCopy(l->halves, l->wear->load));
-    l->cycles += jump;
+    accepted = solved && (l->set.fixed || jump <= 1 || error <= HALVES * l->set.rtol) ? PETSC_TRUE : PETSC_FALSE;
+    next     = solved ? NextTry(l, jump, error / (HALVES * l->set.rtol)) : PetscMin(jump, Whole(GROW_LEAST * jump));
   }
   PetscCall(SamWearSetGap(l->wear, l->wear->load));
-  if (accepted) PetscCall(ComputeCycle(l, &l->start, &solved));
-  l->known = solved;
-  PetscCall(Report(l, jump, error, report));
+  if (accepted) {
+    PetscCall(VecCopy(l->halves, l->wear->load));
+    PetscCall(SamWearSetGap(l->wear, l->wear->load));
+    if (!l->set.fixed) l->state.next = next;
+    l->state.jump  = jump;
+    l->state.error = error;
+    l->state.cycles += jump;
+    l->known = PETSC_FALSE;
+  }
+  PetscCall(Report(l, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,281 @@
+/*
+  A computed cycle, and what it says of the next ones.
+
+  In a cycle a cell wears by r, wear load a cycle, under the mean pressure P of the cycle's steps: r = e P. Where the
+  surfaces never touch, e is what the slip there would wear if they did: contact that grows wears at once.
+
+  The gaps and pressures of the steps are related linearly, so their means are, too: G = S P + lift + h - rigid, with
+  the mean of the rigid displacements and of what the shear of dissimilar bodies lifts. In cells that are open in a part
+  of the cycle both P and G are positive; on the gap h - G in these, P solves the normal problem of the mean loads.
+  This problem is what a jump changes (life.c).
+*/
+#include "lifeimpl.h"
+
+#define MOST_PASSES 20   /* cycles that are run to close the loop */
+#define CLOSED      0.1  /* change of the shear in a cycle over mu p, over the tolerance of the jumps */
+#define TURN        1e-9 /* changes that count, over the range of a component */
+
+static PetscBool IsSolved(const SamStep *step)
+{
+  return step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE
+                                                                                               : PETSC_FALSE;
+}
+
+/* ---- turning points ---- */
+
+/* The components of a control that turn, loads or displacements and bulk stresses. */
+#define PARTS (SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS)
+static PetscReal Part(const SamControl *control, PetscInt c)
+{
+  const PetscInt b = c - SAM_COMPONENTS;
+
+  return c < SAM_COMPONENTS ? control->value[c]
+                            : control->bulk_stress[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS];
+}
+
+/* Notes the steps at which a component turns, from its values at all steps. */
+static void NoteTurns(const SamControl controls[], PetscInt n, PetscInt c, PetscBool turns[])
+{
+  PetscReal low = PETSC_INFINITY, high = PETSC_NINFINITY, last = 0;
+
+  for (PetscInt k = 0; k < n; k++) {
+    low  = PetscMin(low, Part(&controls[k], c));
+    high = PetscMax(high, Part(&controls[k], c));
+  }
+  for (PetscInt k = 0; k < n; k++) {
+    const PetscReal change = Part(&controls[k], c) - Part(&controls[k ? k - 1 : n - 1], c);
+
+    if (fabs(change) <= TURN * (high - low)) continue;
+    if (k && change * last < 0) turns[k - 1] = PETSC_TRUE;
+    last = change;
+  }
+}
+
+PetscErrorCode SamLifeFindTurns(SamLife l)
+{
+  const PetscInt n = l->cycle.steps;
+  SamControl    *controls;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(n, &l->turns));
+  PetscCall(PetscMalloc1(n, &controls));
+  for (PetscInt k = 0; k < n; k++) PetscCall(l->cycle.control(l->cycle.context, k, 0, &controls[k]));
+  for (PetscInt c = 0; c < PARTS; c++) NoteTurns(controls, n, c, l->turns);
+  l->turns[n - 1] = PETSC_TRUE;
+  PetscCall(PetscFree(controls));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- means over the cycle ---- */
+
+static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
+{
+  PetscFunctionBegin;
+  PetscCall(VecSet(l->wear->cycle, 0));
+  PetscCall(VecSet(l->wear->path, 0));
+  PetscCall(VecSet(rate->pressure, 0));
+  PetscCall(VecSet(rate->shift, 0));
+  PetscCall(VecSet(rate->coefficient, 0));
+  PetscCall(SamControlInitialize(mean));
+  l->energy = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds a tried step to the means: pressure, gap in `shift`, and of coupled bodies u_z in `coefficient`. */
+static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamControl *mean)
+{
+  const PetscReal    part = 1 / (PetscReal)l->cycle.steps;
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  PetscCall(SamWearCountStep(l->wear));
+  PetscCall(SamContactGetSolution(l->wear->contact, &s));
+  PetscCall(VecAXPY(rate->pressure, part, s->pressure));
+  PetscCall(SamContactComputeGap(l->wear->contact, l->gap));
+  PetscCall(VecAXPY(rate->shift, part, l->gap));
+  if (l->coupled) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    mean->force[c] = step->control.force[c];
+    mean->value[c] += part * step->control.value[c];
+  }
+  mean->friction_scale = step->control.friction_scale;
+  l->energy += step->dissipated_energy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the rate ---- */
+
+/* From the mean gap to the shift; u_z, in `coefficient`, is that of coupled bodies. */
+static PetscErrorCode FindShift(SamLife l, SamRate *rate)
+{
+  SamElasticity elasticity;
+  const double *p;
+  double       *shift;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(rate->pressure, &p));
+  PetscCall(VecGetArray(rate->shift, &shift));
+  for (PetscInt k = 0; k < l->wear->grid->cells; k++) shift[k] = p[k] > 0 ? -shift[k] : 0;
+  PetscCall(VecRestoreArray(rate->shift, &shift));
+  PetscCall(VecRestoreArrayRead(rate->pressure, &p));
+  if (!l->coupled) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamProblemGetElasticity(l->wear->problem, &elasticity));
+  PetscCall(SamElasticityApplyNormal(elasticity, rate->pressure, l->gap));
+  PetscCall(VecAXPY(rate->shift, 1, rate->coefficient));
+  PetscCall(VecAXPY(rate->shift, -1, l->gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What a unit of path wears in a cell, per pressure: 1, or the coefficient of friction. */
+static PetscErrorCode GetUnit(SamLife l, PetscReal friction_scale, Vec unit)
+{
+  PetscFunctionBegin;
+  PetscCall(VecSet(unit, 1));
+  if (l->wear->law == SAM_WEAR_ENERGY) PetscCall(SamProblemComputeBound(l->wear->problem, friction_scale, unit, unit));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FindCoefficient(SamLife l, PetscReal friction_scale, SamRate *rate)
+{
+  const SamWear w = l->wear;
+  const double *p, *load, *path, *unit;
+  double       *to, most = 0;
+
+  PetscFunctionBegin;
+  PetscCall(GetUnit(l, friction_scale, l->diagonal));
+  PetscCall(VecGetArrayRead(rate->pressure, &p));
+  PetscCall(VecGetArrayRead(w->cycle, &load));
+  PetscCall(VecGetArrayRead(w->path, &path));
+  PetscCall(VecGetArrayRead(l->diagonal, &unit));
+  PetscCall(VecGetArrayWrite(rate->coefficient, &to));
+  for (PetscInt k = 0; k < w->grid->cells; k++) {
+    to[k] = p[k] > 0 ? load[k] / p[k] : unit[k] * path[k];
+    most  = p[k] > 0 ? PetscMax(most, to[k]) : most;
+  }
+  PetscCall(VecRestoreArrayWrite(rate->coefficient, &to));
+  PetscCall(VecRestoreArrayRead(l->diagonal, &unit));
+  PetscCall(VecRestoreArrayRead(w->path, &path));
+  PetscCall(VecRestoreArrayRead(w->cycle, &load));
+  PetscCall(VecRestoreArrayRead(rate->pressure, &p));
+  PetscCall(SamMax(w->grid->comm, 1, &most));
+  rate->most = (PetscReal)most;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the cycle ---- */
+
+static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep *step, PetscBool *solved)
+{
+  SamControl control;
+
+  PetscFunctionBegin;
+  PetscCall(l->cycle.control(l->cycle.context, k, cycles, &control));
+  PetscCall(SamContactTry(l->wear->contact, &control, step));
+  *solved = IsSolved(step);
+  if (!*solved || l->step.status == SAM_STATUS_CONVERGED) {
+    l->step = *step;
+    l->at   = k;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- closing the loop ---- */
+
+/* Goes through the cycle, by its turning points or all steps; what it wears is not counted. */
+static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscBool *solved)
+{
+  SamStep step;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < l->cycle.steps && *solved; k++) {
+    if (l->state.by_turns && !l->turns[k]) continue;
+    PetscCall(SolveStep(l, k, cycles, &step, solved));
+    if (*solved) PetscCall(SamContactCommit(l->wear->contact));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same; `closed`: the shear, over mu p, is afterwards as it was before. */
+static PetscErrorCode GoRoundAndCompare(SamLife l, PetscReal cycles, PetscBool *closed, PetscBool *solved)
+{
+  const SamSolution *s;
+  PetscReal          change, bound;
+
+  PetscFunctionBegin;
+  *closed = PETSC_FALSE;
+  PetscCall(SamContactGetSolution(l->wear->contact, &s));
+  PetscCall(VecCopy(s->shear, l->shear));
+  PetscCall(GoRound(l, cycles, solved));
+  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetSolution(l->wear->contact, &s));
+  PetscCall(VecAXPY(l->shear, -1, s->shear));
+  PetscCall(SamGridNorm(l->wear->grid, l->shear, NORM_1, &change));
+  PetscCall(SamGridNorm(l->wear->grid, s->bound, NORM_1, &bound));
+  *closed = change <= CLOSED * l->set.rtol * bound ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Runs cycles until one leaves the shear as it found it. The first begins anywhere in the history; where the contact
+  rocks, some more may follow.
+*/
+static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscBool *solved)
+{
+  PetscBool closed = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  l->state.by_turns = PETSC_FALSE;
+  for (PetscInt pass = 0; pass < MOST_PASSES && !closed && *solved; pass++) {
+    PetscCall(GoRoundAndCompare(l, cycles, &closed, solved));
+    l->state.computed++;
+  }
+  l->open = *solved ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Finds the steps that bring a closed loop back to itself: the turning points, where loads go to and fro; all of them
+  where the contact rolls. By these a loop is closed again whenever the gap has changed a little: what a cycle wears
+  would else depend on the jump before it, and jumps would be of first order.
+*/
+static PetscErrorCode FindWay(SamLife l, PetscReal cycles, PetscBool *solved)
+{
+  PetscBool closed;
+
+  PetscFunctionBegin;
+  l->state.by_turns = PETSC_TRUE;
+  PetscCall(GoRoundAndCompare(l, cycles, &closed, solved));
+  if (*solved && !closed) PetscCall(CloseLoop(l, cycles, solved));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, PetscBool tell, PetscBool *solved)
+{
+  const PetscInt n = l->cycle.steps;
+  SamControl     mean;
+  SamStep        step;
+
+  PetscFunctionBegin;
+  *solved        = PETSC_TRUE;
+  l->step.status = SAM_STATUS_CONVERGED;
+  if (l->open) {
+    PetscCall(CloseLoop(l, cycles, solved));
+    if (*solved) PetscCall(FindWay(l, cycles, solved));
+  } else {
+    PetscCall(GoRound(l, cycles, solved));
+  }
+  PetscCall(Begin(l, rate, &mean));
+  for (PetscInt k = 0; k < n && *solved; k++) {
+    PetscCall(SolveStep(l, k, cycles, &step, solved));
+    if (tell && l->cycle.solved) PetscCall(l->cycle.solved(l->cycle.context, k, cycles, &step));
+    if (*solved) PetscCall(Count(l, &step, rate, &mean));
+    if (*solved) PetscCall(SamContactCommit(l->wear->contact));
+  }
+  l->state.computed++;
+  if (!*solved) l->open = PETSC_TRUE;
+  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
+  PetscCall(FindShift(l, rate));
+  PetscCall(FindCoefficient(l, mean.friction_scale, rate));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
