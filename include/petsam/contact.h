@@ -84,6 +84,8 @@ typedef struct {
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
   PetscInt   coupling_iterations;
+  PetscReal  cycle;          /* cycles of a life before this one; the caller's (life.h), as the next */
+  PetscReal  wear_volume[2]; /* m3, removed of body 1 and 2 so far (wear.h) */
   SamStatus  status;
   char       message[512]; /* why the status is not CONVERGED, or a warning; else empty */
   char       setting[32];  /* option (without dash) of the setting behind the message, grid_size ...; empty: none */

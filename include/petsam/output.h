@@ -2,7 +2,7 @@
 #ifndef PETSAM_OUTPUT_H
 #define PETSAM_OUTPUT_H
 
-#include <petsam/contact.h>
+#include <petsam/life.h>
 
 /*
   SamParameters - what defines a run, by the names of its options (without dash). Stored with results and checkpoints.
@@ -38,10 +38,12 @@ PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, cons
 */
 typedef struct _n_SamOutput *SamOutput;
 
-/* Columns of /history that a file has only when they are asked for. */
+/* What a file has only when it is asked for: columns of /history, fields, groups. */
 typedef enum {
   SAM_OUTPUT_FRICTION_SCALE, /* friction_scale */
   SAM_OUTPUT_BULK_STRESS,    /* bulk1_stress_xx ... bulk2_stress_xy */
+  SAM_OUTPUT_WEAR,           /* wear_volume1, wear_volume2; the fields wear_depth1, wear_depth2 */
+  SAM_OUTPUT_LIFE,           /* cycle; the group /wear */
   SAM_OUTPUT_OPTIONS
 } SamOutputOption;
 
@@ -51,6 +53,7 @@ typedef struct {
   PetscInt  chunk[2]; /* most cells of an HDF5 chunk in x, y */
   PetscBool xdmf;     /* write an XDMF file beside the results */
   PetscBool with[SAM_OUTPUT_OPTIONS];
+  SamWear   wear; /* whose depths are written; borrowed; NULL without wear */
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (no compression, chunks of 1024 x 256 cells, with XDMF file, no
@@ -71,15 +74,23 @@ PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[],
   again; the caller frees them with PetscFree(). Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputNames(const char filename[], char **xdmf, char **temporary);
+/* How far the results of a stopped run go that are kept. */
+typedef struct {
+  PetscInt steps;  /* of /history */
+  PetscInt cycles; /* of /wear */
+  uint64_t times;  /* checksum of the times of these steps */
+} SamOutputPoint;
+/* SamOutputAddTime - the checksum of some times (0 of none) and one more (s). Not collective. */
+PETSC_EXTERN uint64_t SamOutputAddTime(uint64_t times, PetscReal time);
 /*
-  SamOutputContinue - opens the results of a stopped run, to append to its first `steps` load steps, whose times (s) are
-  given. A file that holds exactly these steps and was closed properly is used as it is. Otherwise, as it may end in the
-  middle of a step or hold more steps, these steps are copied to a new file, which takes its name. The XDMF file is
-  written again. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps,
-  SAM_ERR_USER for one with other fixed parameters or other times; after an error the file is unchanged.
+  SamOutputContinue - opens the results of a stopped run, to append to what it held at a point. A file that holds
+  exactly this and was closed properly is used as it is. Otherwise, as it may end in the middle of a step or hold more
+  steps, it is copied to a new file up to there, which takes its name. The XDMF file is written again. Collective.
+  Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps, SAM_ERR_USER for one with
+  other fixed parameters or other times; after an error the file is unchanged.
 */
 PETSC_EXTERN PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamOutputSettings *settings,
-                                              const SamParameters *parameters, PetscInt steps, const PetscReal times[],
+                                              const SamParameters *parameters, const SamOutputPoint *point,
                                               SamOutput *output);
 /* SamOutputSetParameters - stores parameters as attributes of the root group. Collective. Errors: SAM_ERR_FILE. */
 PETSC_EXTERN PetscErrorCode SamOutputSetParameters(SamOutput output, const SamParameters *parameters);
@@ -104,6 +115,11 @@ PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, const SamStep *
   the step. Otherwise as SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal time, SamContact contact);
+/*
+  SamOutputWriteCycle - appends a computed cycle of a life to /wear, then flushes, as SamOutputWriteStep(). Collective.
+  Errors: SAM_ERR_FILE; PETSC_ERR_ORDER for a file without that group.
+*/
+PETSC_EXTERN PetscErrorCode SamOutputWriteCycle(SamOutput output, const SamLifeReport *cycle);
 /*
   SamOutputGetSaved - the number of load steps in the file, the number of those with fields, and the time (s) of the
   last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.

@@ -20,7 +20,9 @@ typedef enum {
     SamContactTry()      solves it
     SamWearCountStep()   adds its wear load to that of the cycle, while it is tried
     SamContactCommit()
-  and SamWearApply() then removes what the cycle's wear load amounts to, some times over, and begins a new cycle.
+  Then SamWearApply() removes what the cycle's wear load amounts to, some times over, and begins a new cycle, and
+  SamWearMoveGap() makes the gap follow. Before that, results of the step can be written: its gap is that on which it
+  was solved, its depths are those at its end.
 */
 typedef struct _n_SamWear *SamWear;
 
@@ -36,6 +38,14 @@ PETSC_EXTERN PetscErrorCode SamWearDestroy(SamWear *wear);
 PETSC_EXTERN PetscErrorCode SamWearCountStep(SamWear wear);
 /* SamWearApply - removes material by `times` the wear load of the cycle, which is 0 then. Collective. */
 PETSC_EXTERN PetscErrorCode SamWearApply(SamWear wear, PetscReal times);
+/* SamWearMoveGap - makes the problem's gap that of the unworn bodies and what has been removed. Collective. */
+PETSC_EXTERN PetscErrorCode SamWearMoveGap(SamWear wear);
+/*
+  SamWearGetLoad, SamWearSetLoad - the wear load that has been removed so far: the state of the wear. A copy, into and
+  from a vector of one component; the gap follows what is set. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamWearGetLoad(SamWear wear, Vec load);
+PETSC_EXTERN PetscErrorCode SamWearSetLoad(SamWear wear, Vec load);
 /*
   SamWearGetDepth - the depth (m) removed of body 0 or 1, into a vector of one component.
   SamWearGetVolumes - the volumes (m3) removed of both bodies, and the largest depths (m). Both are collective.

@@ -20,6 +20,7 @@ struct _n_SamCheckpoints {
   double   recent[RECENT];    /* seconds of the last steps */
   double   writing;           /* seconds that the slowest checkpoint took */
   PetscInt done, last;        /* number of steps in this run; step of the last checkpoint */
+  PetscInt seen;              /* steps when a checkpoint was last considered */
 };
 
 /* ---- signals ---- */
@@ -178,16 +179,86 @@ static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A number of the type double as the bits of a note, and back. */
+static uint64_t BitsOf(PetscReal value)
+{
+  const double number = (double)value;
+  uint64_t     bits;
+
+  memcpy(&bits, &number, sizeof(bits));
+  return bits;
+}
+
+static PetscReal ValueOf(uint64_t bits)
+{
+  double number;
+
+  memcpy(&number, &bits, sizeof(number));
+  return (PetscReal)number;
+}
+
+/* Where the run is, as whole numbers. */
+#define AT 10
+static PetscErrorCode Pack(const SamRunPoint *p, uint64_t at[AT])
+{
+  SamLifeState life = {0};
+
+  PetscFunctionBegin;
+  if (p->life) PetscCall(SamLifeGetState(p->life, &life));
+  at[0] = (uint64_t)p->steps;
+  at[1] = (uint64_t)p->worst;
+  at[2] = (uint64_t)p->rows;
+  at[3] = p->times;
+  at[4] = BitsOf(life.cycles);
+  at[5] = BitsOf(life.next);
+  at[6] = BitsOf(life.jump);
+  at[7] = BitsOf(life.error);
+  at[8] = (uint64_t)life.computed;
+  at[9] = life.by_turns ? 1 : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Unpack(const uint64_t at[AT], SamRunPoint *p)
+{
+  const SamLifeState life = {.cycles   = ValueOf(at[4]),
+                             .next     = ValueOf(at[5]),
+                             .jump     = ValueOf(at[6]),
+                             .error    = ValueOf(at[7]),
+                             .computed = (PetscInt)at[8],
+                             .by_turns = at[9] ? PETSC_TRUE : PETSC_FALSE};
+
+  PetscFunctionBegin;
+  p->steps     = (PetscInt)at[0];
+  p->worst     = (SamStatus)at[1];
+  p->rows      = (PetscInt)at[2];
+  p->times     = at[3];
+  p->restarted = PETSC_TRUE;
+  if (p->life) PetscCall(SamLifeSetState(p->life, &life));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The part of the load program that has been solved: all of it in a life. */
+static PetscErrorCode CountSolved(const SamRunPoint *p, PetscInt *steps)
+{
+  PetscFunctionBegin;
+  *steps = p->steps;
+  if (p->life) PetscCall(SamHistoryGetCount(p->history, steps));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
                             const SamRunPoint *progress)
 {
-  const double  begin  = MPI_Wtime();
-  uint64_t      at[2]  = {(uint64_t)progress->steps, (uint64_t)progress->worst}, columns[COLUMNS];
-  const SamNote note[] = {{"progress", 2, at}, {"load_program", COLUMNS, columns}};
+  const double  begin = MPI_Wtime();
+  uint64_t      at[AT], columns[COLUMNS];
+  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}};
+  PetscInt      solved;
 
   PetscFunctionBegin;
-  PetscCall(ChecksumColumns(progress->history, progress->steps, columns));
-  PetscCall(SamCheckpointWrite(cp->files, contact, parameters, 2, note));
+  PetscCall(Pack(progress, at));
+  PetscCall(CountSolved(progress, &solved));
+  PetscCall(ChecksumColumns(progress->history, solved, columns));
+  PetscCall(SamCheckpointWrite(cp->files, contact, progress->wear, parameters, 2, note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
   cp->last    = progress->steps;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -198,51 +269,72 @@ static PetscErrorCode CompareLoads(SamCheckpoints cp, const SamRunPoint *progres
 {
   uint64_t   here[COLUMNS];
   SamControl first;
-  PetscInt   count;
+  PetscInt   count, solved;
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetCount(progress->history, &count));
+  PetscCall(CountSolved(progress, &solved));
   PetscCheck(
-    progress->steps <= count, cp->comm, SAM_ERR_USER,
+    solved <= count, cp->comm, SAM_ERR_USER,
     "-restart %s: cannot go on from it: -history or -steps: there are %ld load steps, and %ld were solved there",
-    cp->restart, (long)count, (long)progress->steps);
-  PetscCall(ChecksumColumns(progress->history, progress->steps, here));
+    cp->restart, (long)count, (long)solved);
+  PetscCall(ChecksumColumns(progress->history, solved, here));
   PetscCall(SamHistoryGetStep(progress->history, 0, &first));
   PetscCheck(here[0] == there[0], cp->comm, SAM_ERR_USER,
-             "-restart %s: cannot go on from it: -history: the times up to step %ld differ", cp->restart,
-             (long)progress->steps);
+             "-restart %s: cannot go on from it: -history: the times up to step %ld differ", cp->restart, (long)solved);
   PetscCheck(here[1] == there[1], cp->comm, SAM_ERR_USER,
              "-restart %s: cannot go on from it: friction_scale in -history: the values up to step %ld differ",
-             cp->restart, (long)progress->steps);
+             cp->restart, (long)solved);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     const SamComponentName *name = &SamComponentNames[c];
 
     PetscCheck(here[2 + c] == there[2 + c], cp->comm, SAM_ERR_USER,
                "-restart %s: cannot go on from it: -%s, or its column in -history: the values up to step %ld differ",
-               cp->restart, first.force[c] ? name->load : name->rigid, (long)progress->steps);
+               cp->restart, first.force[c] ? name->load : name->rigid, (long)solved);
   }
   for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
     PetscCheck(here[BULK + n] == there[BULK + n], cp->comm, SAM_ERR_USER,
                "-restart %s: cannot go on from it: -%s, or its column in -history: the values up to step %ld differ",
-               cp->restart, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name, (long)progress->steps);
+               cp->restart, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name, (long)solved);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamCheckpointsRestart(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
                                      SamRunPoint *progress)
 {
-  uint64_t      at[2], columns[COLUMNS];
-  const SamNote note[] = {{"progress", 2, at}, {"load_program", COLUMNS, columns}};
+  uint64_t      at[AT], columns[COLUMNS];
+  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}};
 
   PetscFunctionBegin;
-  PetscCall(SamCheckpointRead(cp->restart, contact, parameters, 2, note));
-  progress->steps = (PetscInt)at[0];
-  progress->worst = (SamStatus)at[1];
+  PetscCall(SamCheckpointRead(cp->restart, contact, progress->wear, parameters, 2, note));
+  PetscCall(Unpack(at, progress));
+  cp->seen = progress->steps;
   PetscCall(CompareLoads(cp, progress, columns));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- after a step ---- */
+
+/* Says after which step, or cycle, the run has stopped. */
+static PetscErrorCode TellStop(SamCheckpoints cp, const SamRunPoint *p, const char reason[])
+{
+  PetscMPIInt  rank;
+  PetscInt     count;
+  SamLifeState life;
+  char         where[96];
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(cp->comm, &rank));
+  PetscCall(SamHistoryGetCount(p->history, &count));
+  if (p->life) {
+    PetscCall(SamLifeGetState(p->life, &life));
+    PetscCall(PetscSNPrintf(where, sizeof(where), "%g of %g cycles", (double)life.cycles, (double)p->cycles));
+  } else {
+    PetscCall(PetscSNPrintf(where, sizeof(where), "step %" PetscInt_FMT " of %" PetscInt_FMT, p->steps, count));
+  }
+  if (!rank) fprintf(stderr, "petsam: stopped after %s %s: go on with -restart %s\n", where, reason, cp->filename);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
                                        const SamRunPoint *progress, PetscBool *stop)
@@ -250,6 +342,7 @@ PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints cp, SamContact contact, co
   const double now = MPI_Wtime();
   PetscMPIInt  rank;
   PetscInt     count;
+  PetscBool    more, due;
   double       any[3]; /* whether on any rank: a signal to write, a signal to stop, no time left */
 
   PetscFunctionBegin;
@@ -263,16 +356,17 @@ PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints cp, SamContact contact, co
   if (any[0] > 0) signaled[0] = 0;
   if (any[1] > 0) signaled[1] = 0;
   PetscCallMPI(MPI_Comm_rank(cp->comm, &rank));
-  *stop = (cp->filename[0] && progress->steps < count && (any[1] > 0 || any[2] > 0)) ? PETSC_TRUE : PETSC_FALSE;
+  more  = progress->life || progress->steps < count ? PETSC_TRUE : PETSC_FALSE;
+  due   = cp->every && progress->steps / cp->every > cp->seen / cp->every ? PETSC_TRUE : PETSC_FALSE;
+  *stop = (cp->filename[0] && more && (any[1] > 0 || any[2] > 0)) ? PETSC_TRUE : PETSC_FALSE;
   if (!cp->filename[0]) {
     if ((any[0] > 0 || any[1] > 0) && rank == 0)
       fprintf(stderr, "petsam: warning: a signal asked for a checkpoint, but -checkpoint is not given\n");
-  } else if (*stop || any[0] > 0 || any[1] > 0 || (cp->every && progress->steps % cp->every == 0)) {
+  } else if (*stop || any[0] > 0 || any[1] > 0 || due) {
     PetscCall(Write(cp, contact, parameters, progress));
   }
-  if (*stop && rank == 0)
-    fprintf(stderr, "petsam: stopped after step %ld of %ld %s: go on with -restart %s\n", (long)progress->steps,
-            (long)count, any[1] > 0 ? "on a signal" : "before -max_walltime", cp->filename);
+  if (*stop) PetscCall(TellStop(cp, progress, any[1] > 0 ? "on a signal" : "before -max_walltime"));
+  cp->seen       = progress->steps;
   cp->step_start = MPI_Wtime();
   PetscFunctionReturn(PETSC_SUCCESS);
 }

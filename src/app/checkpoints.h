@@ -8,8 +8,14 @@
 /* The position of a run in its load program. */
 typedef struct {
   SamHistory history;
-  PetscInt   steps; /* number of steps solved so far */
-  SamStatus  worst; /* worst status of these */
+  SamWear    wear;      /* NULL: none */
+  SamLife    life;      /* NULL: none */
+  PetscReal  cycles;    /* of the life */
+  PetscInt   steps;     /* number of steps solved so far, of computed cycles in a life */
+  PetscInt   rows;      /* number of computed cycles that were written */
+  uint64_t   times;     /* checksum of the times of these steps */
+  SamStatus  worst;     /* worst status of these */
+  PetscBool  restarted; /* goes on from a checkpoint */
 } SamRunPoint;
 
 /*

@@ -218,7 +218,7 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *h
   PetscCall(
     SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
   if (has_file) {
-    PetscCall(SamTableRead(from->comm, file, &h->table));
+    PetscCall(SamTableRead(from->comm, "history", file, &h->table));
     h->rows = h->table.rows;
   }
   h->time     = SamTableFind(&h->table, "time");

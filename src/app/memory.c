@@ -11,9 +11,17 @@
 */
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
-double              SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
+
+/* Fields of wear, and of a life, bytes per cell. */
+#define WEAR_BYTES (6 * 8)
+#define LIFE_BYTES (15 * 8)
+
+double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
-  return SAM_MEMORY_PROGRAM + bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] * (double)grid->cells;
+  const double worn = (needs->wear ? WEAR_BYTES : 0) + (needs->life ? LIFE_BYTES : 0);
+
+  return SAM_MEMORY_PROGRAM +
+         (bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] + worn) * (double)grid->cells;
 }
 
 /* Available memory of this node, bytes; 0 if that is not known. */

@@ -1,18 +1,28 @@
 /* The parameters that define a run, named as its options. */
 #include "runimpl.h"
 
-static PetscErrorCode DescribeField(SamGrid grid, Vec field, char text[], size_t size)
+/* What comes from a file is identified by its checksum, since a file may change and keep its name. */
+static PetscErrorCode AddChecksum(SamParameters *p, const char name[], uint64_t checksum)
+{
+  char text[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "of checksum %08lx%08lx", (unsigned long)(checksum >> 32),
+                          (unsigned long)(checksum & 0xffffffff)));
+  PetscCall(SamParametersAddText(p, name, PETSC_TRUE, text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddField(SamRun *run, const char name[], Vec field)
 {
   uint64_t checksum;
 
   PetscFunctionBegin;
-  PetscCall(SamCheckpointChecksum(grid, field, &checksum));
-  PetscCall(PetscSNPrintf(text, size, "of checksum %08lx%08lx", (unsigned long)(checksum >> 32),
-                          (unsigned long)(checksum & 0xffffffff)));
+  PetscCall(SamCheckpointChecksum(run->grid, field, &checksum));
+  PetscCall(AddChecksum(&run->parameters, name, checksum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A separation from a file is identified by its checksum, since a file may change and keep its name. */
 static PetscErrorCode AddFiles(SamRun *run)
 {
   static const char *const options[] = {"-gap_file", "-gap_rough_file"};
@@ -22,12 +32,13 @@ static PetscErrorCode AddFiles(SamRun *run)
   PetscFunctionBegin;
   PetscCall(SamProblemGetGap(run->problem, &separation));
   for (PetscInt k = 0; k < 2; k++) {
-    char      text[64] = "none";
     PetscBool set;
 
     PetscCall(PetscOptionsHasName(NULL, NULL, options[k], &set));
-    if (set) PetscCall(DescribeField(run->grid, separation, text, sizeof(text)));
-    PetscCall(SamParametersAddText(&run->parameters, options[k] + 1, PETSC_TRUE, text));
+    if (set)
+      PetscCall(AddField(run, options[k] + 1, separation));
+    else
+      PetscCall(SamParametersAddText(&run->parameters, options[k] + 1, PETSC_TRUE, "none"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -78,16 +89,13 @@ static PetscErrorCode AddFriction(SamRun *run)
 {
   PetscReal friction;
   Vec       field;
-  char      text[64];
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetFriction(run->problem, &friction, &field));
   if (!field)
     PetscCall(SamParametersAddReals(&run->parameters, "friction", PETSC_TRUE, 1, &friction));
-  else {
-    PetscCall(DescribeField(run->grid, field, text, sizeof(text)));
-    PetscCall(SamParametersAddText(&run->parameters, "friction_file", PETSC_TRUE, text));
-  }
+  else
+    PetscCall(AddField(run, "friction_file", field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -122,6 +130,29 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The law of wear. A life can go on with more cycles, and in other jumps. */
+static PetscErrorCode AddWear(SamParameters *p, const SamWearing *w)
+{
+  const char *const name     = w->law == SAM_WEAR_ENERGY ? "wear_energy" : "wear_coefficient";
+  const char *const kinds[2] = {"steps", "cycles"};
+  uint64_t          sum      = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddText(p, "wear", PETSC_TRUE, w->on ? kinds[w->cycles > 0] : "none"));
+  for (int body = 0; body < 2 && w->on; body++) {
+    char option[32];
+
+    PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", name, body + 1));
+    PetscCall(SamParametersAddReals(p, option, PETSC_TRUE, 1, &w->coefficient[body]));
+  }
+  if (w->cycles > 0) PetscCall(SamParametersAddReals(p, "wear_cycles", PETSC_FALSE, 1, &w->cycles));
+  if (!w->points) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < w->points; k++)
+    sum = SamHashMix(sum + SamHashBits(w->at[k]) + 3 * SamHashBits(w->friction[k]));
+  PetscCall(AddChecksum(p, "wear_friction", sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamRunCollectParameters(SamRun *run)
 {
   SamParameters *const p = &run->parameters;
@@ -139,5 +170,6 @@ PetscErrorCode SamRunCollectParameters(SamRun *run)
   PetscCall(SamContactGetCoupling(run->contact, &full));
   PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, full ? "full" : "none"));
   PetscCall(AddLoads(p, run->history));
+  PetscCall(AddWear(p, &run->wearing));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

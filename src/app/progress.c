@@ -76,15 +76,17 @@ void SamProgressErase(SamReport r)
 static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
 {
   const double now = MPI_Wtime();
-  char         text[128], duration[32];
+  char         text[160], where[64], duration[32];
   int          length;
 
   if (!r->progress.active || now - r->begin < r->progress.after || now - r->progress.shown_at < INTERVAL) return;
   SamReportDuration(now - r->begin, duration, sizeof(duration));
-  length =
-    snprintf(text, sizeof(text),
-             "step %" PetscInt_FMT " of %" PetscInt_FMT ", %s: %s problem, iteration %" PetscInt_FMT ", residual %.1e",
-             r->number + 1, r->steps, duration, kind, it, (double)error);
+  if (r->living)
+    snprintf(where, sizeof(where), "step %" PetscInt_FMT " of computed cycles", r->number + 2);
+  else
+    snprintf(where, sizeof(where), "step %" PetscInt_FMT " of %" PetscInt_FMT, r->number + 1, r->steps);
+  length = snprintf(text, sizeof(text), "%s, %s: %s problem, iteration %" PetscInt_FMT ", residual %.1e", where,
+                    duration, kind, it, (double)error);
   fprintf(stdout, "\r%-*s\r", r->progress.length, text); /* a monitor's line may follow */
   fflush(stdout);
   r->progress.length   = PetscMax(length, r->progress.length);

@@ -91,11 +91,16 @@ static PetscErrorCode CountNodes(MPI_Comm comm, double *nodes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportSetRestart(SamReport r, const char checkpoint[], PetscInt step)
+PetscErrorCode SamReportSetRestart(SamReport r, const char checkpoint[], const SamRunPoint *point)
 {
+  SamLifeState life;
+
   PetscFunctionBegin;
-  r->restart      = checkpoint;
-  r->restart_step = step;
+  r->restart = checkpoint;
+  PetscCall(PetscSNPrintf(r->restart_at, sizeof(r->restart_at), "step %" PetscInt_FMT, point->steps));
+  if (!point->life) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamLifeGetState(point->life, &life));
+  PetscCall(PetscSNPrintf(r->restart_at, sizeof(r->restart_at), "%g cycles", (double)life.cycles));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,9 +125,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %.3g MB a rank\n", "memory", 1e-6 * bytes));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n", "steps", steps,
                         output ? "in " : "not kept (no -output)", output ? output : ""));
-  if (r->restart)
-    PetscCall(
-      PetscPrintf(r->comm, "  %-10s  after step %" PetscInt_FMT ", from %s\n", "restart", r->restart_step, r->restart));
+  if (r->restart) PetscCall(PetscPrintf(r->comm, "  %-10s  after %s, from %s\n", "restart", r->restart_at, r->restart));
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -142,15 +145,15 @@ PetscErrorCode SamReportBeginStep(SamReport r, PetscInt number, SamContact conta
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Estimated seconds of the remaining steps: each as long as the mean of the last ones, of which this took `seconds`. */
-static double TimeLeft(SamReport r, double seconds)
+/* The mean seconds of the last lines, `lines` so far, of which this took `seconds`. */
+static double MeanTime(SamReport r, PetscInt lines, double seconds)
 {
-  const PetscInt known = PetscMin(r->done, SAM_REPORT_RECENT);
+  const PetscInt known = PetscMin(lines, SAM_REPORT_RECENT);
   double         sum   = 0;
 
-  r->recent[(r->done - 1) % SAM_REPORT_RECENT] = seconds;
+  r->recent[(lines - 1) % SAM_REPORT_RECENT] = seconds;
   for (PetscInt k = 0; k < known; k++) sum += r->recent[k];
-  return sum / (double)known * (double)(r->steps - r->number - 1);
+  return sum / (double)known;
 }
 
 static void KeepWorst(SamReport r, const SamStep *step)
@@ -166,33 +169,92 @@ static void KeepWorst(SamReport r, const SamStep *step)
 }
 
 /* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
-static void PrintMessage(SamReport r, const SamStep *step)
+static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
-  char where[32] = "", option[48] = "";
+  char option[48] = "";
 
   if (r->rank || !step->message[0]) return;
-  if (r->steps > 1) snprintf(where, sizeof(where), "step %ld: ", (long)r->number + 1);
   fflush(stdout);
   if (step->setting[0]) snprintf(option, sizeof(option), " (-%s)", step->setting);
-  fprintf(stderr, "petsam: %s%s%s%s\n", step->status ? "" : "warning: ", where, step->message, option);
+  fprintf(stderr, "petsam: %s%s%s%s%s\n", step->status ? "" : "warning: ", where, where[0] ? ": " : "", step->message,
+          option);
 }
 
 PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
 {
-  const double seconds = MPI_Wtime() - r->begin;
+  const double seconds   = MPI_Wtime() - r->begin;
+  char         where[32] = "";
   PetscViewer  viewer;
 
   PetscFunctionBegin;
+  if (r->steps > 1) PetscCall(PetscSNPrintf(where, sizeof(where), "step %" PetscInt_FMT, r->number + 1));
   SamProgressErase(r);
   r->done++;
   if (step->status != SAM_STATUS_NO_EQUILIBRIUM) KeepWorst(r, step);
   if (!r->quiet) {
     PetscCall(PetscViewerASCIIGetStdout(r->comm, &viewer));
     if (r->done == 1) PetscCall(SamStepViewHeading(viewer));
-    PetscCall(SamStepViewLine(step, r->number + 1, seconds, TimeLeft(r, seconds), viewer));
+    PetscCall(SamStepViewLine(step, r->number + 1, seconds,
+                              MeanTime(r, r->done, seconds) * (double)(r->steps - r->number - 1), viewer));
     if (r->steps == 1) PetscCall(SamStepView(step, viewer));
   }
-  PrintMessage(r, step);
+  PrintMessage(r, where, step);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- cycles of a life ---- */
+
+PetscErrorCode SamReportBeginCycle(SamReport r, SamContact contact)
+{
+  PetscFunctionBegin;
+  r->living = PETSC_TRUE;
+  if (!r->cycles) PetscCall(SamReportGetOutputTime(r, &r->output_before));
+  if (!r->cycles) r->first = MPI_Wtime();
+  if (!r->cycles) r->begin = r->first; /* later ones begin with the jump before them */
+  PetscCall(SamProgressWatch(r, contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportCountStep(SamReport r, PetscInt number, const SamStep *step)
+{
+  PetscFunctionBegin;
+  r->number = number - 1;
+  r->done++;
+  if (step->status != SAM_STATUS_NO_EQUILIBRIUM) KeepWorst(r, step);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportEndCycle(SamReport r, const SamLifeReport *c, PetscReal cycles)
+{
+  const double now = MPI_Wtime(), seconds = now - r->begin;
+  double       left;
+  char         duration[32];
+
+  PetscFunctionBegin;
+  SamProgressErase(r);
+  r->cycles++;
+  r->begin = now;
+  if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
+  /* jumps stay as long as the last one */
+  left = MeanTime(r, r->cycles, seconds) * (c->jump > 0 ? (cycles - c->cycles) / c->jump : 0);
+  SamReportDuration(left, duration, sizeof(duration));
+  if (r->cycles == 1)
+    PetscCall(PetscPrintf(r->comm, "%11s %10s %8s %10s %10s %10s %10s %10s %10s %10s %9s %8s %9s\n", "cycles", "jump",
+                          "error", "volume1/m3", "volume2/m3", "depth1/m", "depth2/m", "energy/J", "contact/m2",
+                          "p max/Pa", "computed", "s", "left"));
+  PetscCall(PetscPrintf(
+    r->comm, "%11.9g %10.6g %8.1e %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9" PetscInt_FMT " %8.2f %9s\n",
+    (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0], (double)c->volume[1],
+    (double)c->depth[0], (double)c->depth[1], (double)c->dissipated_energy, (double)c->contact_area,
+    (double)c->pressure, c->computed, seconds, c->jump > 0 || c->cycles >= cycles ? duration : "?"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportMessage(SamReport r, const char where[], const SamStep *step)
+{
+  PetscFunctionBegin;
+  SamProgressErase(r);
+  PrintMessage(r, where, step);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -2,7 +2,8 @@
 #ifndef PETSAM_APP_REPORT_H
 #define PETSAM_APP_REPORT_H
 
-#include <petsam/contact.h>
+#include <petsam/life.h>
+#include "checkpoints.h"
 
 /*
   SamStepView - prints a step in a few lines: loads, displacements, areas, iterations, check. Collective on the viewer.
@@ -31,10 +32,10 @@ typedef struct _n_SamReport *SamReport;
 PETSC_INTERN PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *report);
 PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
 /*
-  SamReportSetRestart - for the banner: the run goes on from this checkpoint, after this step. The name is not copied.
+  SamReportSetRestart - for the banner: the run goes on from this checkpoint, at this point. The name is not copied.
   Not collective.
 */
-PETSC_INTERN PetscErrorCode SamReportSetRestart(SamReport report, const char checkpoint[], PetscInt step);
+PETSC_INTERN PetscErrorCode SamReportSetRestart(SamReport report, const char checkpoint[], const SamRunPoint *point);
 /*
   SamReportBanner - prints version, libraries, ranks, grid, memory (`bytes`: what this rank will need; the largest is
   printed), number of steps, and the results file (NULL: none). Collective.
@@ -48,6 +49,15 @@ PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, doub
 PETSC_INTERN PetscErrorCode SamReportBeginStep(SamReport report, PetscInt number, SamContact contact);
 /* SamReportEndStep - prints the step's line and its message; the only step of a run in full. Collective. */
 PETSC_INTERN PetscErrorCode SamReportEndStep(SamReport report, const SamStep *step);
+/*
+  For a life: SamReportBeginCycle() before a cycle is computed, SamReportCountStep() for each of its steps (`number`
+  counts from 1), SamReportEndCycle() prints the cycle's line; `cycles` is their number in all. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamReportBeginCycle(SamReport report, SamContact contact);
+PETSC_INTERN PetscErrorCode SamReportCountStep(SamReport report, PetscInt number, const SamStep *step);
+PETSC_INTERN PetscErrorCode SamReportEndCycle(SamReport report, const SamLifeReport *cycle, PetscReal cycles);
+/* SamReportMessage - prints a step's message, if it has one, after words that say where it is. Collective. */
+PETSC_INTERN PetscErrorCode SamReportMessage(SamReport report, const char where[], const SamStep *step);
 /* SamReportAddFile - for the closing table: a file that was written, and what it holds. Not collective. */
 PETSC_INTERN PetscErrorCode SamReportAddFile(SamReport report, const char name[], const char content[]);
 /* SamReportClosing - prints times by part, worst residuals, files written, and time and memory used. Collective. */

@@ -28,8 +28,8 @@ struct _n_SamReport {
   /* what the user set */
   MPI_Comm    comm;
   PetscBool   quiet;
-  const char *restart; /* the checkpoint from which the run goes on; NULL: none */
-  PetscInt    restart_step;
+  const char *restart;        /* the checkpoint from which the run goes on; NULL: none */
+  char        restart_at[64]; /* "step 7" or "1e5 cycles" */
   /* status */
   PetscMPIInt    rank;
   PetscBool      logging;                   /* whether PETSc's log has the times */
@@ -37,6 +37,8 @@ struct _n_SamReport {
   double         output_before;             /* seconds spent on results and checkpoints before the first step */
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
+  PetscInt       cycles;   /* lines printed for computed cycles */
+  PetscBool      living;   /* the run is a life */
   SamReportWorst worst[3]; /* normal, tangential, equilibrium */
   SamProgress    progress;
   SamContact     contact; /* whose monitors are set; borrowed */

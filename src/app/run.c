@@ -77,6 +77,25 @@ static PetscErrorCode CheckComponents(SamRun *run, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Reads what wears; a table of friction gives the problem its coefficient at the start. */
+static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
+{
+  SamWearing *const w = &run->wearing;
+  PetscBool         help;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamWearingSetFromOptions(w, from));
+  if (!help) PetscCall(SamWearingCheckCycle(w, run->history, from));
+  if (w->points) PetscCall(SamProblemSetFriction(run->problem, w->friction[0]));
+  PetscCall(SamProblemHasFriction(run->problem, &run->needs.friction));
+  PetscCheck(!w->on || run->needs.friction || help, from->comm, SAM_ERR_USER,
+             "-wear_coefficient or -wear_energy is given without -friction: surfaces wear where friction acts");
+  run->needs.wear = w->on;
+  run->needs.life = w->cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
 {
   PetscFunctionBegin;
@@ -84,6 +103,7 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
   PetscCall(SamHistoryCreateFromOptions(from, &run->history));
   PetscCall(SamHistoryGetCount(run->history, &run->needs.steps));
   run->point.history = run->history;
+  PetscCall(ReadWear(run, from));
   PetscCall(CheckComponents(run, from));
   PetscCall(SamReportCreateFromOptions(from, &run->report));
   PetscCall(SamCheckpointsCreateFromOptions(from, &run->checkpoints));
@@ -114,6 +134,7 @@ PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments)
   if (!help) PetscCall(SamGapFill(run->gap, run->grid, gap));
   PetscCall(SamContactCreate(run->problem, &run->contact));
   PetscCall(SamContactSetFromOptions(run->contact));
+  if (!help) PetscCall(SamRunCreateWear(run));
   if (!help) PetscCall(SamRunCollectParameters(run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -124,6 +145,9 @@ PetscErrorCode SamRunTearDown(SamRun *run)
   PetscCall(SamOutputDestroy(&run->output));
   PetscCall(SamCheckpointsDestroy(&run->checkpoints));
   PetscCall(SamReportDestroy(&run->report));
+  PetscCall(SamLifeDestroy(&run->life));
+  PetscCall(SamWearDestroy(&run->wear));
+  PetscCall(SamWearingDestroy(&run->wearing));
   PetscCall(SamContactDestroy(&run->contact));
   PetscCall(SamProblemDestroy(&run->problem));
   PetscCall(SamElasticityDestroy(&run->elasticity));
@@ -151,21 +175,15 @@ static PetscErrorCode CreateResults(SamRun *run)
 /* Opens the results of the stopped run, up to its checkpoint. */
 static PetscErrorCode ContinueResults(SamRun *run)
 {
-  PetscReal     *times;
-  PetscErrorCode ierr;
+  const SamOutputPoint point = {run->point.steps, run->point.rows, run->point.times};
+  SamControl           last;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(run->point.steps, &times));
-  for (PetscInt k = 0; k < run->point.steps; k++) {
-    SamControl control;
-
-    PetscCall(SamHistoryGetStep(run->history, k, &control));
-    times[k] = control.time;
+  if (!run->life) {
+    PetscCall(SamHistoryGetStep(run->history, run->point.steps - 1, &last));
+    run->last_time = last.time;
   }
-  ierr = SamOutputContinue(run->grid, run->filename, &run->output_settings, &run->parameters, run->point.steps, times,
-                           &run->output);
-  PetscCall(PetscFree(times));
-  PetscCall(ierr);
+  PetscCall(SamOutputContinue(run->grid, run->filename, &run->output_settings, &run->parameters, &point, &run->output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -177,10 +195,11 @@ static PetscErrorCode Begin(SamRun *run)
   PetscBool   replaced = PETSC_FALSE;
 
   PetscFunctionBegin;
+  run->last_time = PETSC_NINFINITY;
   PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
   if (restart) {
     PetscCall(SamCheckpointsRestart(run->checkpoints, run->contact, &run->parameters, &run->point));
-    PetscCall(SamReportSetRestart(run->report, restart, run->point.steps));
+    PetscCall(SamReportSetRestart(run->report, restart, &run->point));
   }
   PetscCall(SamCheckpointsBegin(run->checkpoints, run->grid));
   if (run->has_output && restart)
@@ -194,36 +213,29 @@ static PetscErrorCode Begin(SamRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* When step k has no solution, makes sure that the fields of the step before, the last ones, are in the file. */
-static PetscErrorCode WriteLastFields(SamRun *run, PetscInt k)
+/* When a step has no solution, makes sure that the fields of the step before, the last ones, are in the file. */
+static PetscErrorCode WriteLastFields(SamRun *run)
 {
-  SamControl before;
-  PetscReal  saved;
+  PetscReal saved;
 
   PetscFunctionBegin;
-  if (!k) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamHistoryGetStep(run->history, k - 1, &before));
   PetscCall(SamOutputGetSaved(run->output, NULL, NULL, &saved));
-  if (saved >= before.time) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamOutputWriteFields(run->output, before.time, run->contact));
+  if (run->last_time <= saved) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOutputWriteFields(run->output, run->last_time, run->contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes the results of step k (from 0): its numbers, and its fields when they are due. */
-static PetscErrorCode WriteStep(SamRun *run, const SamStep *step, PetscInt k)
+PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due)
 {
-  const PetscBool due =
-    ((k + 1) % run->output_every == 0 || k + 1 == run->needs.steps || step->status == SAM_STATUS_NOT_CONVERGED)
-      ? PETSC_TRUE
-      : PETSC_FALSE;
   const PetscBool none = step->status == SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
 
   PetscFunctionBegin;
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
   run->writing = PETSC_TRUE;
-  if (none) PetscCall(WriteLastFields(run, k));
+  if (none) PetscCall(WriteLastFields(run));
   PetscCall(SamOutputWriteStep(run->output, step, due && !none ? run->contact : NULL));
-  run->writing = PETSC_FALSE;
+  run->writing   = PETSC_FALSE;
+  run->last_time = step->control.time;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -262,24 +274,60 @@ static PetscErrorCode ReportCheckpoint(SamRun *run)
 
 /* ---- steps ---- */
 
+PetscBool SamRunHasFailed(const SamStep *step)
+{
+  return step->status == SAM_STATUS_NOT_CONVERGED || step->status == SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE
+                                                                                               : PETSC_FALSE;
+}
+
+/* What the tried step wears; the gap follows only when the step has been written. */
+static PetscErrorCode WearStep(SamRun *run, SamStep *step)
+{
+  PetscReal depth[2];
+
+  PetscFunctionBegin;
+  if (!run->wear) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamRunHasFailed(step)) {
+    PetscCall(SamWearCountStep(run->wear));
+    PetscCall(SamWearApply(run->wear, 1));
+  }
+  PetscCall(SamWearGetVolumes(run->wear, step->wear_volume, depth));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solves one load step; `ended`: it failed, so that no further step can be solved. */
 static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
 {
   const PetscInt k = run->point.steps;
   SamControl     control;
   SamStep        step;
+  PetscBool      due;
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetStep(run->history, k, &control));
   PetscCall(SamReportBeginStep(run->report, k, run->contact));
   PetscCall(SamContactTry(run->contact, &control, &step));
-  PetscCall(WriteStep(run, &step, k));
+  PetscCall(WearStep(run, &step));
+  due = ((k + 1) % run->output_every == 0 || k + 1 == run->needs.steps || step.status == SAM_STATUS_NOT_CONVERGED)
+          ? PETSC_TRUE
+          : PETSC_FALSE;
+  PetscCall(SamRunWriteStep(run, &step, due));
   PetscCall(SamReportEndStep(run->report, &step)); /* after writing: a reported step is in the file */
-  *ended =
-    (step.status == SAM_STATUS_NOT_CONVERGED || step.status == SAM_STATUS_NO_EQUILIBRIUM) ? PETSC_TRUE : PETSC_FALSE;
+  *ended = SamRunHasFailed(&step);
   if (!*ended) PetscCall(SamContactCommit(run->contact));
+  if (!*ended && run->wear) PetscCall(SamWearMoveGap(run->wear));
   if (*ended || !run->point.worst) run->point.worst = step.status;
   run->point.steps++;
+  run->point.times = SamOutputAddTime(run->point.times, control.time);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRunCheckpoint(SamRun *run)
+{
+  PetscFunctionBegin;
+  run->writing = PETSC_TRUE;
+  PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, &run->parameters, &run->point, &run->stopped));
+  run->writing = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -291,10 +339,7 @@ static PetscErrorCode SolveSteps(SamRun *run)
   PetscFunctionBegin;
   while (run->point.steps < run->needs.steps && !ended && !run->stopped) {
     PetscCall(SolveStep(run, &ended));
-    if (ended) break;
-    run->writing = PETSC_TRUE;
-    PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, &run->parameters, &run->point, &run->stopped));
-    run->writing = PETSC_FALSE;
+    if (!ended) PetscCall(SamRunCheckpoint(run));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -303,7 +348,10 @@ PetscErrorCode SamRunSolve(SamRun *run)
 {
   PetscFunctionBegin;
   PetscCall(Begin(run));
-  PetscCall(SolveSteps(run));
+  if (run->life)
+    PetscCall(SamRunLive(run));
+  else
+    PetscCall(SolveSteps(run));
   PetscCall(FinishResults(run));
   PetscCall(ReportCheckpoint(run));
   PetscCall(SamReportClosing(run->report));

@@ -9,11 +9,9 @@ static PetscErrorCode AddRead(SamFiles *files)
 {
   static const struct {
     const char *option, *name; /* as the options database has it; as users know it */
-  } inputs[] = {{"-gap_file", "-gap_file"},
-                {"-gap_rough_file", "-gap_rough_file"},
-                {"-friction_file", "-friction_file"},
-                {"-load_history", "-history"},
-                {"-restart", "-restart"}};
+  } inputs[] = {{"-gap_file", "-gap_file"},           {"-gap_rough_file", "-gap_rough_file"},
+                {"-friction_file", "-friction_file"}, {"-load_history", "-history"},
+                {"-wear_friction", "-wear_friction"}, {"-restart", "-restart"}};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < sizeof(inputs) / sizeof(inputs[0]); k++) {

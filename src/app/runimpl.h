@@ -7,10 +7,11 @@
 #include "arguments.h"
 #include "checkpoints.h"
 #include "report.h"
+#include "wearing.h"
 
 /* What the memory of a run depends on besides the grid. */
 typedef struct {
-  PetscBool friction, coupled;
+  PetscBool friction, coupled, wear, life;
   PetscInt  steps;
 } SamRunNeeds;
 
@@ -21,6 +22,9 @@ typedef struct {
   SamElasticity     elasticity;
   SamProblem        problem;
   SamContact        contact;
+  SamWearing        wearing;
+  SamWear           wear; /* NULL: none */
+  SamLife           life; /* NULL: none */
   SamHistory        history;
   SamOutput         output;
   SamOutputSettings output_settings;
@@ -32,7 +36,9 @@ typedef struct {
   PetscBool         stopped; /* before its end, with a checkpoint */
   PetscInt          output_every;
   PetscBool         has_output;
-  PetscBool         writing; /* a collective write is under way */
+  PetscBool         warned;    /* a warning has been printed in this life */
+  PetscReal         last_time; /* of the last step that was written, s */
+  PetscBool         writing;   /* a collective write is under way */
   char              filename[PETSC_MAX_PATH_LEN];
 } SamRun;
 
@@ -45,6 +51,16 @@ PETSC_INTERN PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *argumen
 PETSC_INTERN PetscErrorCode SamRunCheckFiles(const SamRun *run, MPI_Comm comm, const SamArguments *arguments);
 /* SamRunSolve - banner, restart, all load steps with their results and checkpoints, closing table. Collective. */
 PETSC_INTERN PetscErrorCode SamRunSolve(SamRun *run);
+/* SamRunCreateWear - makes what wears, once there is a contact. Collective. */
+PETSC_INTERN PetscErrorCode SamRunCreateWear(SamRun *run);
+/* SamRunLive - the cycles of a life, with their results and checkpoints. Collective. */
+PETSC_INTERN PetscErrorCode SamRunLive(SamRun *run);
+/* SamRunHasFailed - whether a step has no solution to go on from. Not collective. */
+PETSC_INTERN PetscBool SamRunHasFailed(const SamStep *step);
+/* SamRunWriteStep - writes a step's numbers and, when they are due, its fields. Collective. */
+PETSC_INTERN PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due);
+/* SamRunCheckpoint - after a step or jump: writes a checkpoint if one is due; may stop the run. Collective. */
+PETSC_INTERN PetscErrorCode SamRunCheckpoint(SamRun *run);
 /* SamRunTearDown - destroys all objects, also after an error. Collective. */
 PETSC_INTERN PetscErrorCode SamRunTearDown(SamRun *run);
 

@@ -105,7 +105,7 @@ static PetscErrorCode Grow(SamTable *t, PetscInt *room)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
+static PetscErrorCode ReadFile(const char option[], const char file[], SamTable *t, Verdict *verdict)
 {
   struct stat status;
   FILE       *stream;
@@ -118,7 +118,7 @@ static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
   errno  = 0; /* a pipe, or a device, could keep the run waiting */
   stream = stat(file, &status) || !S_ISREG(status.st_mode) ? NULL : fopen(file, "r");
   if (!stream) {
-    PetscCall(Judge(verdict, SAM_ERR_FILE, "-history %s: cannot be read: %s", file,
+    PetscCall(Judge(verdict, SAM_ERR_FILE, "-%s %s: cannot be read: %s", option, file,
                     errno ? strerror(errno) : "it is not a file"));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -142,14 +142,14 @@ static PetscErrorCode ReadFile(const char file[], SamTable *t, Verdict *verdict)
     t->line[t->rows++] = line;
   }
   if (!verdict->code && ferror(stream))
-    PetscCall(Judge(verdict, SAM_ERR_FILE, "-history %s: cannot be read: %s", file, strerror(errno)));
-  if (!verdict->code && !t->rows) PetscCall(Judge(verdict, SAM_ERR_USER, "-history %s: has no load step", file));
+    PetscCall(Judge(verdict, SAM_ERR_FILE, "-%s %s: cannot be read: %s", option, file, strerror(errno)));
+  if (!verdict->code && !t->rows) PetscCall(Judge(verdict, SAM_ERR_USER, "-%s %s: has no row", option, file));
   free(buffer);
   fclose(stream);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTableRead(MPI_Comm comm, const char file[], SamTable *t)
+PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[], SamTable *t)
 {
   PetscMPIInt rank;
   Verdict     verdict;
@@ -158,7 +158,7 @@ PetscErrorCode SamTableRead(MPI_Comm comm, const char file[], SamTable *t)
   PetscCall(PetscMemzero(&verdict, sizeof(verdict)));
   PetscCall(PetscMemzero(t, sizeof(*t)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) PetscCall(ReadFile(file, t, &verdict));
+  if (rank == 0) PetscCall(ReadFile(option, file, t, &verdict));
   PetscCallMPI(MPI_Bcast(&verdict, sizeof(verdict), MPI_BYTE, 0, comm));
   if (verdict.code) {
     PetscCall(SamTableDestroy(t));

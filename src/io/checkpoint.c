@@ -198,7 +198,20 @@ typedef struct {
   const SamParameters *parameters;
   PetscInt             n;
   const SamNote       *notes;
+  SamWear              wear; /* NULL: none */
 } Rest;
+
+static PetscErrorCode WriteWear(SamFile f, SamWear wear)
+{
+  Vec load;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(f->grid, 1, &load));
+  PetscCall(SamWearGetLoad(wear, load));
+  PetscCall(WriteField(f, "wear_load", 1, load));
+  PetscCall(VecDestroy(&load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, const Rest *rest)
 {
@@ -206,6 +219,7 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, 
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KEPT; k++) bytes += (off_t)sizeof(double) * kept[k].components * f->grid->nx * f->grid->ny;
+  if (rest->wear) bytes += (off_t)sizeof(double) * f->grid->nx * f->grid->ny;
   PetscCall(SamFileReserve(f, bytes));
   PetscCall(SamFileBegin(f));
   SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
@@ -217,6 +231,7 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, 
   WriteNumbers(f, state);
   for (PetscInt k = 0; k < KEPT; k++)
     if (*FieldOf(state, k)) PetscCall(WriteField(f, kept[k].name, kept[k].components, *FieldOf(state, k)));
+  if (rest->wear) PetscCall(WriteWear(f, rest->wear));
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -248,10 +263,10 @@ static PetscErrorCode CheckNames(SamCheckpoint cp)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamParameters *parameters, PetscInt n,
-                                  const SamNote notes[])
+PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, SamWear wear, const SamParameters *parameters,
+                                  PetscInt n, const SamNote notes[])
 {
-  const Rest      rest = {parameters, n, notes};
+  const Rest      rest = {parameters, n, notes, wear};
   SamContactState state;
   uint64_t        gap;
   PetscErrorCode  ierr;
@@ -353,7 +368,22 @@ static PetscErrorCode ReadFields(SamFile f, SamContactState *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadAll(SamFile f, const Rest *rest, SamContactState *state, uint64_t *gap)
+/* What is read besides the notes. The caller destroys the vectors of the state, and the load. */
+typedef struct {
+  SamContactState state;
+  Vec             load; /* of wear; NULL: none */
+  uint64_t        gap;  /* checksum */
+} Content;
+
+static PetscErrorCode DestroyContent(Content *c)
+{
+  PetscFunctionBegin;
+  PetscCall(DestroyFields(&c->state));
+  PetscCall(VecDestroy(&c->load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadAll(SamFile f, const Rest *rest, Content *c)
 {
   char      message[256] = "";
   PetscBool good         = PETSC_FALSE;
@@ -362,30 +392,30 @@ static PetscErrorCode ReadAll(SamFile f, const Rest *rest, SamContactState *stat
   PetscCall(SamFileBegin(f));
   PetscCall(IsUsable(f, rest->parameters, message, sizeof(message), &good));
   if (!f->failed && good) {
-    SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, gap);
+    SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, &c->gap);
     for (PetscInt k = 0; k < rest->n; k++)
       SamFileReadAttribute(f, f->id, rest->notes[k].name, H5T_NATIVE_UINT64, rest->notes[k].count,
                            rest->notes[k].values);
-    ReadNumbers(f, state);
-    PetscCall(ReadFields(f, state));
+    ReadNumbers(f, &c->state);
+    PetscCall(ReadFields(f, &c->state));
+    if (rest->wear) PetscCall(ReadField(f, "wear_load", 1, &c->load));
   }
   PetscCall(SamFileEnd(f));
   PetscCheck(good, f->grid->comm, SAM_ERR_USER, "-restart %s: cannot go on from it: %s", f->filename, message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads a checkpoint. The caller destroys the vectors of the state, also after an error. */
-static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *rest, SamContactState *state,
-                               uint64_t *gap)
+/* Reads a checkpoint. The caller destroys the content, also after an error. */
+static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *rest, Content *c)
 {
   SamFile        f;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(state, sizeof(*state)));
+  PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscCall(SamSealCheck(grid, "restart", filename));
   PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
-  ierr = ReadAll(f, rest, state, gap);
+  ierr = ReadAll(f, rest, c);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
   PetscCall(SamFileDestroy(&f, PETSC_TRUE));
@@ -395,42 +425,51 @@ static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *
 /* Advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
 static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *rest, char advice[], size_t size)
 {
-  SamContactState state;
-  uint64_t        gap;
-  char            ignored[SAM_MESSAGE], *before, *temporary;
+  Content c;
+  char    ignored[SAM_MESSAGE], *before, *temporary;
 
   PetscFunctionBegin;
   PetscCall(SamCheckpointNames(filename, &before, &temporary));
   PetscCall(PetscPushErrorHandler(SamFileKeepMessage, ignored));
-  if (!ReadFile(grid, before, rest, &state, &gap))
+  if (!ReadFile(grid, before, rest, &c))
     (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
   PetscCall(PetscPopErrorHandler());
-  PetscCall(DestroyFields(&state));
+  PetscCall(DestroyContent(&c));
   PetscCall(PetscFree(before));
   PetscCall(PetscFree(temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, const SamParameters *parameters, PetscInt n,
-                                 const SamNote notes[])
+/* Gives contact and wear what was read: first the wear, which decides the gap. */
+static PetscErrorCode SetStates(SamContact contact, SamWear wear, Content *c)
 {
-  const Rest      rest = {parameters, n, notes};
-  SamContactState state;
-  SamGrid         grid;
-  uint64_t        gap[2]               = {0, 0}; /* in the file; of the problem */
-  char            message[SAM_MESSAGE] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
-  PetscErrorCode  ierr;
+  uint64_t gap;
+
+  PetscFunctionBegin;
+  if (wear) PetscCall(SamWearSetLoad(wear, c->load));
+  PetscCall(GapChecksum(contact, &gap));
+  if (gap != c->gap) c->state.gap_is_current = PETSC_FALSE;
+  PetscCall(SamContactSetState(contact, &c->state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamWear wear,
+                                 const SamParameters *parameters, PetscInt n, const SamNote notes[])
+{
+  const Rest     rest = {parameters, n, notes, wear};
+  Content        c;
+  SamGrid        grid;
+  char           message[SAM_MESSAGE] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(SamContactGetGrid(contact, &grid));
-  PetscCall(GapChecksum(contact, &gap[1]));
   PetscCall(PetscPushErrorHandler(SamFileKeepMessage, message));
-  ierr = ReadFile(grid, filename, &rest, &state, &gap[0]);
+  ierr = ReadFile(grid, filename, &rest, &c);
   PetscCall(PetscPopErrorHandler());
-  if (gap[0] != gap[1]) state.gap_is_current = PETSC_FALSE;
-  if (!ierr) PetscCall(SamContactSetState(contact, &state));
-  PetscCall(DestroyFields(&state));
+  if (!ierr) PetscCall(SetStates(contact, wear, &c));
+  PetscCall(DestroyContent(&c));
   if (ierr == SAM_ERR_FILE) PetscCall(Advise(grid, filename, &rest, advice, sizeof(advice)));
   PetscCheck(!ierr, grid->comm, ierr, "%s%s", message, advice);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -14,15 +14,15 @@
 /* What the file must hold. */
 typedef struct {
   const SamParameters *parameters;
-  hsize_t              steps;
-  const PetscReal     *times; /* of these steps */
+  SamOutputPoint       point;
 } Wanted;
 
 /* What was found in the file. */
 typedef struct {
-  hsize_t        steps, saved; /* complete steps, and complete steps with fields */
-  hsize_t        keep;         /* steps with fields among the wanted ones */
-  PetscBool      whole;        /* with the wanted steps and no others */
+  hsize_t        rows[SAM_SERIES]; /* complete steps, and computed cycles */
+  hsize_t        saved;            /* complete steps with fields */
+  hsize_t        keep;             /* steps with fields among the wanted ones */
+  PetscBool      whole;            /* with what is wanted and no more */
   char           problem[256];
   PetscErrorCode code; /* of the problem */
 } Found;
@@ -34,33 +34,40 @@ static void Complain(Found *found, PetscErrorCode code, const char text[])
   if (!found->code) found->code = code;
 }
 
-/* A step is complete when all series have it, and its fields when all of them have it. */
+/* A step is complete when all columns have it, and its fields when all of them have it. */
 static void CountSteps(SamOutput o, Found *found)
 {
-  found->steps = found->saved = HSIZE_UNDEF;
-  for (PetscInt c = 0; c < SamOutputColumnCount; c++)
-    if (o->columns[c] >= 0) found->steps = PetscMin(found->steps, SamOutputLength(o, o->columns[c]));
+  found->saved = SamOutputLength(o, o->time);
+  for (PetscInt k = 0; k < SAM_SERIES; k++) {
+    found->rows[k] = o->columns[k][0] >= 0 ? HSIZE_UNDEF : 0;
+    for (PetscInt c = 0; c < SamOutputAllSeries[k].count; c++)
+      if (o->columns[k][c] >= 0) found->rows[k] = PetscMin(found->rows[k], SamOutputLength(o, o->columns[k][c]));
+  }
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    found->saved = PetscMin(found->saved, SamOutputLength(o, o->fields[f]));
-  found->saved = PetscMin(found->saved, SamOutputLength(o, o->time));
+    if (o->fields[f] >= 0) found->saved = PetscMin(found->saved, SamOutputLength(o, o->fields[f]));
 }
 
-/* Compares the times with those of the load program, and counts the fields that belong to the wanted steps. */
+uint64_t SamOutputAddTime(uint64_t times, PetscReal time)
+{
+  return SamHashMix(times + SamHashBits(time));
+}
+
+/* Compares the times with those of the stopped run, and counts the fields that belong to the wanted steps. */
 static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, Found *found)
 {
-  const hsize_t    steps = wanted->steps;
-  const PetscReal *times = wanted->times;
-  double          *stored;
+  const hsize_t steps = (hsize_t)wanted->point.steps;
+  uint64_t      times = 0;
+  double       *stored, last = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(PetscMax(steps, found->saved), &stored));
-  SamOutputReadSeries(o, o->columns[0], H5T_NATIVE_DOUBLE, 0, steps, stored);
-  for (hsize_t k = 0; k < steps; k++)
-    if (stored[k] != (double)times[k])
-      Complain(found, SAM_ERR_USER, "its times differ from those of the load program (-history, -steps)");
+  SamOutputReadSeries(o, o->columns[SAM_SERIES_HISTORY][0], H5T_NATIVE_DOUBLE, 0, steps, stored);
+  for (hsize_t k = 0; k < steps; k++) times = SamOutputAddTime(times, stored[k]);
+  if (times != wanted->point.times)
+    Complain(found, SAM_ERR_USER, "its times differ from those of the load program (-history, -steps)");
+  if (steps) last = stored[steps - 1];
   SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, found->saved, stored);
-  for (found->keep = 0; found->keep < found->saved && steps && stored[found->keep] <= (double)times[steps - 1];
-       found->keep++)
+  for (found->keep = 0; found->keep < found->saved && steps && stored[found->keep] <= last; found->keep++)
     o->saved_time = stored[found->keep];
   PetscCall(PetscFree(stored));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -69,8 +76,10 @@ static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, Found *fou
 /* Whether the history has the columns of an option. */
 static PetscBool Has(SamOutput o, PetscInt option)
 {
-  for (PetscInt c = 0; c < SamOutputColumnCount; c++)
-    if ((PetscInt)SamOutputColumns[c].option == option && o->columns[c] < 0) return PETSC_FALSE;
+  const SamOutputSeries *s = &SamOutputAllSeries[SAM_SERIES_HISTORY];
+
+  for (PetscInt c = 0; c < s->count; c++)
+    if ((PetscInt)s->columns[c].option == option && o->columns[SAM_SERIES_HISTORY][c] < 0) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
@@ -85,7 +94,8 @@ static PetscBool HasAllWanted(SamOutput o)
 /* Examines a file that is open. */
 static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
 {
-  char text[192];
+  hsize_t steps, cycles;
+  char    text[192];
 
   PetscFunctionBegin;
   SamOutputOpenLayout(o);
@@ -93,15 +103,19 @@ static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
   if (SamParametersDiffer(o->f, wanted->parameters, text, sizeof(text))) Complain(found, SAM_ERR_USER, text);
   CountSteps(o, found);
   if (o->f->failed || found->code) PetscFunctionReturn(PETSC_SUCCESS);
-  if (found->steps < wanted->steps) {
-    (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint", (long)found->steps,
-                   (long)wanted->steps);
+  steps  = found->rows[SAM_SERIES_HISTORY];
+  cycles = found->rows[SAM_SERIES_WEAR];
+  if (steps < (hsize_t)wanted->point.steps || cycles < (hsize_t)wanted->point.cycles) {
+    (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint",
+                   (long)PetscMin(steps, (hsize_t)wanted->point.steps), (long)wanted->point.steps);
     Complain(found, SAM_ERR_FILE, text);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(CompareTimes(o, wanted, found));
-  found->whole =
-    (found->steps == wanted->steps && found->saved == found->keep && HasAllWanted(o)) ? PETSC_TRUE : PETSC_FALSE;
+  found->whole = (steps == (hsize_t)wanted->point.steps && cycles == (hsize_t)wanted->point.cycles &&
+                  found->saved == found->keep && HasAllWanted(o))
+                   ? PETSC_TRUE
+                   : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -136,7 +150,8 @@ static void CheckChunks(SamOutput o, hsize_t keep)
   const hsize_t extent[] = {keep, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
 
   for (PetscInt f = 0; f < SamOutputFieldCount && !o->f->failed; f++)
-    if (!SamChunksAreWhole(o->f->id, o->fields[f], 3, extent, PETSC_TRUE)) (void)SamFileNote(o->f, -1);
+    if (o->fields[f] >= 0 && !SamChunksAreWhole(o->f->id, o->fields[f], 3, extent, PETSC_TRUE))
+      (void)SamFileNote(o->f, -1);
 }
 
 typedef struct {
@@ -204,34 +219,33 @@ static PetscErrorCode LookBefore(SamGrid grid, const char filename[], const SamO
 
 /* ---- copying ---- */
 
-/* Reads the numbers of a step from the history; an optional column that is not there leaves its default. */
-static PetscErrorCode ReadStep(SamOutput o, hsize_t k, SamStep *step)
+/* Reads a row of a series into a SamStep or SamLifeReport; an optional column that is not there leaves its default. */
+static void ReadRow(SamOutput o, SamOutputSeriesKind kind, hsize_t k, void *row)
 {
-  PetscFunctionBegin;
-  PetscCall(PetscMemzero(step, sizeof(*step)));
-  PetscCall(SamControlInitialize(&step->control));
-  for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
-    char *const place = (char *)step + SamOutputColumns[c].offset;
+  const SamOutputSeries *s = &SamOutputAllSeries[kind];
+
+  for (PetscInt c = 0; c < s->count; c++) {
+    char *const place = (char *)row + s->columns[c].offset;
+    const hid_t from  = o->columns[kind][c];
     double      real  = 0;
     int64_t     whole = 0;
 
-    if (o->columns[c] < 0) continue;
-    switch (SamOutputColumns[c].kind) {
+    if (from < 0) continue;
+    switch (s->columns[c].kind) {
     case SAM_COLUMN_REAL:
-      SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_DOUBLE, k, 1, &real);
+      SamOutputReadSeries(o, from, H5T_NATIVE_DOUBLE, k, 1, &real);
       *(PetscReal *)place = (PetscReal)real;
       break;
     case SAM_COLUMN_INT:
-      SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_INT64, k, 1, &whole);
+      SamOutputReadSeries(o, from, H5T_NATIVE_INT64, k, 1, &whole);
       *(PetscInt *)place = (PetscInt)whole;
       break;
     case SAM_COLUMN_STATUS:
-      SamOutputReadSeries(o, o->columns[c], H5T_NATIVE_INT64, k, 1, &whole);
+      SamOutputReadSeries(o, from, H5T_NATIVE_INT64, k, 1, &whole);
       *(SamStatus *)place = (SamStatus)whole;
       break;
     }
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Gives SamOutputAppend() the fields of another file. */
@@ -264,8 +278,10 @@ static PetscErrorCode CopySteps(SamOutput from, hsize_t steps, hsize_t keep, Sam
     double    time = 0;
     PetscBool has;
 
+    PetscCall(PetscMemzero(&step, sizeof(step)));
+    PetscCall(SamControlInitialize(&step.control));
     PetscCall(SamFileBegin(from->f));
-    PetscCall(ReadStep(from, k, &step));
+    ReadRow(from, SAM_SERIES_HISTORY, k, &step);
     if (fields.index < keep) SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, fields.index, 1, &time);
     PetscCall(SamFileEnd(from->f));
     has = (fields.index < keep && time == (double)step.control.time) ? PETSC_TRUE : PETSC_FALSE;
@@ -274,6 +290,21 @@ static PetscErrorCode CopySteps(SamOutput from, hsize_t steps, hsize_t keep, Sam
   }
   PetscCall(SamFileBegin(from->f)); /* raises what failed when a field was read */
   PetscCall(SamFileEnd(from->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CopyCycles(SamOutput from, hsize_t cycles, SamOutput to)
+{
+  PetscFunctionBegin;
+  for (hsize_t k = 0; k < cycles; k++) {
+    SamLifeReport cycle;
+
+    PetscCall(PetscMemzero(&cycle, sizeof(cycle)));
+    PetscCall(SamFileBegin(from->f));
+    ReadRow(from, SAM_SERIES_WEAR, k, &cycle);
+    PetscCall(SamFileEnd(from->f));
+    PetscCall(SamOutputAppendCycle(to, &cycle));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -300,10 +331,12 @@ static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep
   PetscFunctionBegin;
   PetscCall(SamOutputSetParameters(to, wanted->parameters));
   PetscCall(CopyOptions(from, to));
-  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to) + (off_t)wanted->steps * STEP_BYTES));
+  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to) +
+                                    (off_t)(wanted->point.steps + wanted->point.cycles) * STEP_BYTES));
   to->copying = PETSC_TRUE;
   PetscCall(PetscMalloc1(PetscMax(from->f->grid->cells, 1), &cells));
-  ierr = CopySteps(from, wanted->steps, keep, to, cells);
+  ierr = CopySteps(from, (hsize_t)wanted->point.steps, keep, to, cells);
+  if (!ierr) ierr = CopyCycles(from, (hsize_t)wanted->point.cycles, to);
   PetscCall(PetscFree(cells));
   PetscCall(ierr);
   PetscCall(SamFileBegin(to->f));
@@ -360,7 +393,7 @@ static PetscErrorCode RewriteXdmf(SamOutput o)
   PetscCall(SamFileBegin(o->f));
   SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, o->saved, times);
   PetscCall(SamFileEnd(o->f));
-  PetscCall(SamXdmfCreate(o->f->grid, o->f->filename, &o->xdmf));
+  PetscCall(SamXdmfCreate(o->f->grid, o->f->filename, &o->set, &o->xdmf));
   for (hsize_t k = 0; k < o->saved; k++) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)k, (PetscReal)times[k]));
   PetscCall(PetscFree(times));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -400,16 +433,15 @@ static PetscErrorCode OpenOrRewrite(SamGrid grid, const char filename[], const S
   PetscCall(Open(grid, filename, SAM_FILE_APPEND, set, wanted, output, &found));
   PetscCheck(found.whole, grid->comm, SAM_ERR_FILE, "-output %s: cannot go on: it is being changed by another program",
              filename);
-  (*output)->steps = found.steps;
+  PetscCall(PetscArraycpy((*output)->rows, found.rows, SAM_SERIES));
   (*output)->saved = found.saved;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamOutputSettings *set,
-                                 const SamParameters *parameters, PetscInt steps, const PetscReal times[],
-                                 SamOutput *output)
+                                 const SamParameters *parameters, const SamOutputPoint *point, SamOutput *output)
 {
-  const Wanted   wanted = {parameters, (hsize_t)steps, times};
+  const Wanted   wanted = {parameters, *point};
   SamHold        hold   = {.file = -1};
   PetscErrorCode ierr;
 

@@ -2,49 +2,72 @@
   The contents of the results: a table of the fields of a saved step, and a table of the numbers of every step.
 
   To add a field, add a line, and a function where the contact does not store it; to add a number, add a line.
+  Of the numbers there are two series: one of all steps, and one of the computed cycles of a life.
 */
 #include "ioimpl.h"
 
 /* ---- fields ---- */
 
-static PetscErrorCode ComputeGap(SamContact contact, PetscInt component, Vec field)
+static PetscErrorCode ComputeSlip(SamOutput o, SamContact contact, PetscInt component, Vec field)
 {
   PetscFunctionBegin;
+  (void)o;
+  PetscCall(SamContactComputeSlip(contact, component, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ComputeGap(SamOutput o, SamContact contact, PetscInt component, Vec field)
+{
+  PetscFunctionBegin;
+  (void)o;
   (void)component;
   PetscCall(SamContactComputeGap(contact, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ComputeState(SamContact contact, PetscInt component, Vec field)
+static PetscErrorCode ComputeState(SamOutput o, SamContact contact, PetscInt component, Vec field)
 {
   PetscFunctionBegin;
+  (void)o;
   (void)component;
   PetscCall(SamContactComputeState(contact, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ComputeDepth(SamOutput o, SamContact contact, PetscInt body, Vec field)
+{
+  PetscFunctionBegin;
+  (void)contact;
+  PetscCall(SamWearGetDepth(o->set.wear, body, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 #define STORED(name, units, text, member, component) \
   { \
-    {name, units, text}, SAM_FIELD_REAL, NULL, offsetof(SamSolution, member), component \
+    {name, units, text}, SAM_FIELD_REAL, NULL, offsetof(SamSolution, member), component, SAM_OUTPUT_OPTIONS \
   }
 #define COMPUTED(name, units, text, kind, function, component) \
   { \
-    {name, units, text}, kind, function, 0, component \
+    {name, units, text}, kind, function, 0, component, SAM_OUTPUT_OPTIONS \
+  }
+#define DEPTH(name, text, body) \
+  { \
+    {name, "m", text}, SAM_FIELD_REAL, ComputeDepth, 0, body, SAM_OUTPUT_WEAR \
   }
 
 const SamOutputField SamOutputFields[] = {
   STORED("pressure", "Pa", "contact pressure", pressure, 0),
   STORED("shear_x", "Pa", "shear traction along x", shear, 0),
   STORED("shear_y", "Pa", "shear traction along y", shear, 1),
-  COMPUTED("slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL,
-           SamContactComputeSlip, 0),
-  COMPUTED("slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL,
-           SamContactComputeSlip, 1),
+  COMPUTED("slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL, ComputeSlip, 0),
+  COMPUTED("slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL, ComputeSlip, 1),
   COMPUTED("gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, ComputeGap, 0),
   STORED("displacement_x", "m", "relative elastic displacement along x", displacement_t, 0),
   STORED("displacement_y", "m", "relative elastic displacement along y", displacement_t, 1),
   STORED("displacement_z", "m", "relative elastic displacement along z", displacement_z, 0),
-  COMPUTED("state", "1", "state of the cell", SAM_FIELD_STATE, ComputeState, 0)};
+  COMPUTED("state", "1", "state of the cell", SAM_FIELD_STATE, ComputeState, 0),
+  DEPTH("wear_depth1", "depth removed of body 1", 0),
+  DEPTH("wear_depth2", "depth removed of body 2", 1)};
 const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputFields[0]);
 
 /* ---- numbers ---- */
@@ -69,8 +92,7 @@ const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputF
   OPTIONAL(SAM_OUTPUT_BULK_STRESS, name, "Pa", "bulk stress of the body, tension positive", \
            control.bulk_stress[body][component])
 
-/* The first column, the time, is the coordinate of the others. */
-const SamOutputColumn SamOutputColumns[] = {
+static const SamOutputColumn history[] = {
   REAL("time", "s", "time of the load step", control.time),
   REAL("load_n", "N", "normal force", load[SAM_COMPONENT_N]),
   REAL("load_tx", "N", "tangential force along x", load[SAM_COMPONENT_TX]),
@@ -105,5 +127,27 @@ const SamOutputColumn SamOutputColumns[] = {
   INT("tangential_preconditions", "applications of the tangential preconditioner", tangential_preconditions),
   INT("coupling_iterations", "passes of the normal-tangential coupling", coupling_iterations),
   STATUS("status", "outcome of the load step", status),
+  OPTIONAL(SAM_OUTPUT_LIFE, "cycle", "1", "cycles before this one", cycle),
+  OPTIONAL(SAM_OUTPUT_WEAR, "wear_volume1", "m3", "volume removed of body 1", wear_volume[0]),
+  OPTIONAL(SAM_OUTPUT_WEAR, "wear_volume2", "m3", "volume removed of body 2", wear_volume[1]),
   REAL("dissipated_energy", "J", "frictional work of the load step", dissipated_energy)};
-const PetscInt SamOutputColumnCount = sizeof(SamOutputColumns) / sizeof(SamOutputColumns[0]);
+
+#define CYCLE(name, units, text, kind, member) \
+  { \
+    {name, units, text}, kind, offsetof(SamLifeReport, member), SAM_OUTPUT_LIFE \
+  }
+static const SamOutputColumn wear[] = {
+  CYCLE("cycle", "1", "cycles before this one", SAM_COLUMN_REAL, cycles),
+  CYCLE("jump", "1", "cycles jumped over before this one", SAM_COLUMN_REAL, jump),
+  CYCLE("error", "1", "estimated error of the jump, over the largest depth", SAM_COLUMN_REAL, error),
+  CYCLE("volume1", "m3", "volume removed of body 1", SAM_COLUMN_REAL, volume[0]),
+  CYCLE("volume2", "m3", "volume removed of body 2", SAM_COLUMN_REAL, volume[1]),
+  CYCLE("depth_max1", "m", "largest depth removed of body 1", SAM_COLUMN_REAL, depth[0]),
+  CYCLE("depth_max2", "m", "largest depth removed of body 2", SAM_COLUMN_REAL, depth[1]),
+  CYCLE("dissipated_energy", "J", "frictional work of the cycle", SAM_COLUMN_REAL, dissipated_energy),
+  CYCLE("contact_area", "m2", "area in contact at the end of the cycle", SAM_COLUMN_REAL, contact_area),
+  CYCLE("pressure_max", "Pa", "largest pressure at the end of the cycle", SAM_COLUMN_REAL, pressure),
+  CYCLE("computed", "1", "cycles computed so far", SAM_COLUMN_INT, computed)};
+
+const SamOutputSeries SamOutputAllSeries[SAM_SERIES] = {{"history", history, sizeof(history) / sizeof(history[0])},
+                                                        {"wear", wear, sizeof(wear) / sizeof(wear[0])}};

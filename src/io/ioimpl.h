@@ -140,7 +140,7 @@ PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold,
 PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
 PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
 
-#define SAM_CHECKPOINT_FORMAT 4   /* version of a checkpoint's contents */
+#define SAM_CHECKPOINT_FORMAT 5   /* version of a checkpoint's contents */
 #define SAM_SEAL              512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
 /*
   SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
@@ -202,25 +202,38 @@ typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE } SamOutputFieldKind;
 typedef struct {
   SamOutputLabel     label;
   SamOutputFieldKind kind;
-  PetscErrorCode (*compute)(SamContact contact, PetscInt component, Vec field); /* NULL: it is stored */
-  size_t   offset;                                                              /* of the Vec in SamSolution */
-  PetscInt component;
+  PetscErrorCode (*compute)(SamOutput output, SamContact contact, PetscInt component, Vec field); /* NULL: stored */
+  size_t          offset; /* of the Vec in SamSolution */
+  PetscInt        component;
+  SamOutputOption option; /* SAM_OUTPUT_OPTIONS: none, the field is always there */
 } SamOutputField;
 
-/* A column of the history: a member of SamStep. One with an option is only in files that were asked for it. */
+/* A column of a series: a member of SamStep or SamLifeReport. */
 typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS } SamOutputColumnKind;
 typedef struct {
   SamOutputLabel      label;
   SamOutputColumnKind kind;
-  size_t              offset; /* in SamStep */
+  size_t              offset; /* in SamStep or SamLifeReport */
   SamOutputOption     option; /* SAM_OUTPUT_OPTIONS: none, the column is always there */
 } SamOutputColumn;
+
+/* A group of columns with a row for each step, or computed cycle. The first column is the coordinate of the others. */
+typedef struct {
+  const char            *name;
+  const SamOutputColumn *columns;
+  PetscInt               count;
+} SamOutputSeries;
+typedef enum { SAM_SERIES_HISTORY, SAM_SERIES_WEAR, SAM_SERIES } SamOutputSeriesKind;
 
 #define SAM_OUTPUT_MOST 64 /* most lines of each table */
 PETSC_INTERN const SamOutputField  SamOutputFields[];
 PETSC_INTERN const PetscInt        SamOutputFieldCount;
-PETSC_INTERN const SamOutputColumn SamOutputColumns[];
-PETSC_INTERN const PetscInt        SamOutputColumnCount;
+PETSC_INTERN const SamOutputSeries SamOutputAllSeries[SAM_SERIES];
+/* SamOutputWants - whether a file has what belongs to an option. Not collective. */
+static inline PetscBool SamOutputWants(const SamOutputSettings *set, SamOutputOption option)
+{
+  return option == SAM_OUTPUT_OPTIONS || set->with[option] ? PETSC_TRUE : PETSC_FALSE;
+}
 
 /* The XDMF file beside the results. */
 typedef struct _n_SamXdmf *SamXdmf;
@@ -234,15 +247,16 @@ struct _n_SamOutput {
   SamHold      hold;      /* of a file that is written */
   PetscBool    replaced;  /* there were older results */
   SamXdmf      xdmf;      /* NULL: none */
-  hid_t        time, fields[SAM_OUTPUT_MOST], columns[SAM_OUTPUT_MOST];
+  hid_t        time, fields[SAM_OUTPUT_MOST], columns[SAM_SERIES][SAM_OUTPUT_MOST];
   signed char *states; /* of this rank's cells */
   Vec          work;   /* for fields that are computed; NULL until the first one */
   /* status */
-  hsize_t   steps, saved; /* load steps in the history, steps with fields */
-  PetscReal saved_time;   /* of the last step with fields */
-  PetscBool unchanged;    /* the file has only been examined, so `closed` stays as it is */
-  PetscBool copying;      /* many steps at once: disk space is reserved, and the file flushed, by the caller */
-  PetscBool broken;       /* a step could not be written: no collective call on the file may follow */
+  hsize_t   rows[SAM_SERIES]; /* load steps in the history, computed cycles */
+  hsize_t   saved;            /* steps with fields */
+  PetscReal saved_time;       /* of the last step with fields */
+  PetscBool unchanged;        /* the file has only been examined, so `closed` stays as it is */
+  PetscBool copying;          /* many steps at once: disk space is reserved, and the file flushed, by the caller */
+  PetscBool broken;           /* a step could not be written: no collective call on the file may follow */
 };
 
 /* The functions of the layout note their failures. Collective. */
@@ -296,6 +310,8 @@ PETSC_INTERN PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[
 typedef PetscErrorCode (*SamOutputValues)(SamOutput output, PetscInt f, void *context, const void **values);
 PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const SamStep *step, PetscReal time,
                                             SamOutputValues values, void *context);
+/* SamOutputAppendCycle - appends a computed cycle to /wear, and flushes the file unless `copying`. Collective. */
+PETSC_INTERN PetscErrorCode SamOutputAppendCycle(SamOutput output, const SamLifeReport *cycle);
 
 /*
   SamXdmfCreate - creates an XDMF file without a step for results of that name; replaces one that petsam has written.
@@ -303,7 +319,8 @@ PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const SamStep *ste
   Both are collective. Errors: SAM_ERR_FILE.
 */
 extern const char           SamXdmfHead[]; /* the first bytes of the file */
-PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf);
+PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], const SamOutputSettings *set,
+                                          SamXdmf *xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);
 /* SamXdmfEscape - a copy of a text in which XML's own characters are escaped; the caller frees it. Not collective. */
 PETSC_INTERN PetscErrorCode SamXdmfEscape(const char text[], char **copy);

@@ -79,7 +79,8 @@ off_t SamOutputFieldBytes(SamOutput o)
   hsize_t        cells = 1, bytes = 0; /* cells in whole chunks; bytes of all fields in a cell */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
+    if (SamOutputWants(&o->set, SamOutputFields[f].option)) bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
   return (off_t)(cells * bytes);
 }
 
@@ -103,6 +104,7 @@ static PetscErrorCode CreateFields(SamOutput o)
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
     const SamOutputField *field = &SamOutputFields[f];
 
+    if (!SamOutputWants(&o->set, field->option)) continue;
     o->fields[f] = SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field), &shape, o->set.compress);
     if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
     for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
@@ -112,27 +114,40 @@ static PetscErrorCode CreateFields(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first column, the time, is the dimension scale of the others. */
-static void CreateHistory(SamOutput o)
+static hid_t CreateColumn(SamOutput o, hid_t group, const SamOutputColumn *column)
 {
-  const int64_t statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM,
-                              SAM_STATUS_EDGE_CONTACT};
-  const hid_t   group      = SamFileNote(o->f, H5Gcreate2(o->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const int64_t   statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM,
+                                SAM_STATUS_EDGE_CONTACT};
+  const PetscBool whole =
+    (column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS) ? PETSC_TRUE : PETSC_FALSE;
+  const hid_t dataset =
+    SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, &series, 0);
 
-  o->columns[0] = CreateScale(o, group, &SamOutputColumns[0].label, "T", "time", &series);
-  for (PetscInt c = 1; c < SamOutputColumnCount; c++) {
-    const SamOutputColumn *column = &SamOutputColumns[c];
-    const PetscBool        whole =
-      (column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS) ? PETSC_TRUE : PETSC_FALSE;
+  if (column->kind == SAM_COLUMN_STATUS) {
+    SamFileWriteAttribute(o->f, dataset, "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
+    SamFileWriteTextAttribute(o->f, dataset, "flag_meanings", status_words);
+  }
+  return dataset;
+}
 
-    if (column->option < SAM_OUTPUT_OPTIONS && !o->set.with[column->option]) continue;
-    o->columns[c] =
-      SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, &series, 0);
-    (void)SamFileNote(o->f, H5DSattach_scale(o->columns[c], o->columns[0], 0));
-    if (column->kind == SAM_COLUMN_STATUS) {
-      SamFileWriteAttribute(o->f, o->columns[c], "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
-      SamFileWriteTextAttribute(o->f, o->columns[c], "flag_meanings", status_words);
-    }
+/* The first column is the dimension scale of the others. */
+static void CreateSeries(SamOutput o, SamOutputSeriesKind kind)
+{
+  const SamOutputSeries *s  = &SamOutputAllSeries[kind];
+  hid_t                 *to = o->columns[kind], group;
+
+  if (!SamOutputWants(&o->set, s->columns[0].option)) return;
+  group = SamFileNote(o->f, H5Gcreate2(o->f->id, s->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  if (kind == SAM_SERIES_HISTORY) {
+    to[0] = CreateScale(o, group, &s->columns[0].label, "T", "time", &series);
+  } else {
+    to[0] = CreateColumn(o, group, &s->columns[0]);
+    (void)SamFileNote(o->f, H5DSset_scale(to[0], s->columns[0].label.name));
+  }
+  for (PetscInt c = 1; c < s->count; c++) {
+    if (!SamOutputWants(&o->set, s->columns[c].option)) continue;
+    to[c] = CreateColumn(o, group, &s->columns[c]);
+    (void)SamFileNote(o->f, H5DSattach_scale(to[c], to[0], 0));
   }
   (void)SamFileNote(o->f, H5Gclose(group));
 }
@@ -143,7 +158,7 @@ PetscErrorCode SamOutputCreateLayout(SamOutput o)
 
   PetscFunctionBegin;
   PetscCall(CreateFields(o));
-  CreateHistory(o);
+  for (PetscInt k = 0; k < SAM_SERIES; k++) CreateSeries(o, (SamOutputSeriesKind)k);
   SamOutputCreateVTK(o);
   SamFileWriteTextAttribute(o->f, o->f->id, "Conventions", "CF-1.8");
   SamFileWriteTextAttribute(o->f, o->f->id, "title", "Partial-slip contact of elastic bodies");
@@ -154,9 +169,25 @@ PetscErrorCode SamOutputCreateLayout(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void OpenDataset(SamOutput o, hid_t where, const char name[], hid_t *dataset)
+/* Opens a dataset; an optional one may not be there, and stays closed then. */
+static void OpenDataset(SamOutput o, hid_t where, const char name[], PetscBool optional, hid_t *dataset)
 {
+  if (where < 0 || (optional && SamFileNote(o->f, H5Lexists(where, name, H5P_DEFAULT)) == 0)) return;
   *dataset = SamFileNote(o->f, H5Dopen2(where, name, H5P_DEFAULT));
+}
+
+static void OpenSeries(SamOutput o, SamOutputSeriesKind kind)
+{
+  const SamOutputSeries *s = &SamOutputAllSeries[kind];
+  hid_t                  group;
+
+  if (kind != SAM_SERIES_HISTORY && SamFileNote(o->f, H5Lexists(o->f->id, s->name, H5P_DEFAULT)) == 0) return;
+  group = SamFileNote(o->f, H5Gopen2(o->f->id, s->name, H5P_DEFAULT));
+  for (PetscInt c = 0; c < s->count; c++)
+    OpenDataset(o, group, s->columns[c].label.name,
+                kind == SAM_SERIES_HISTORY && s->columns[c].option < SAM_OUTPUT_OPTIONS ? PETSC_TRUE : PETSC_FALSE,
+                &o->columns[kind][c]);
+  if (group >= 0) (void)SamFileNote(o->f, H5Gclose(group));
 }
 
 /* Takes over the chunk sizes that the file has. */
@@ -173,23 +204,14 @@ static void ReadChunks(SamOutput o)
 
 void SamOutputOpenLayout(SamOutput o)
 {
-  const hid_t history = SamFileNote(o->f, H5Gopen2(o->f->id, "history", H5P_DEFAULT));
-
-  OpenDataset(o, o->f->id, "time", &o->time);
+  OpenDataset(o, o->f->id, "time", PETSC_FALSE, &o->time);
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    OpenDataset(o, o->f->id, SamOutputFields[f].label.name, &o->fields[f]);
-  for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
-    const char *name = SamOutputColumns[c].label.name;
-
-    if (SamOutputColumns[c].option < SAM_OUTPUT_OPTIONS && history >= 0 &&
-        SamFileNote(o->f, H5Lexists(history, name, H5P_DEFAULT)) == 0)
-      continue;
-    OpenDataset(o, history, name, &o->columns[c]);
-  }
+    OpenDataset(o, o->f->id, SamOutputFields[f].label.name,
+                SamOutputFields[f].option < SAM_OUTPUT_OPTIONS ? PETSC_TRUE : PETSC_FALSE, &o->fields[f]);
+  for (PetscInt k = 0; k < SAM_SERIES; k++) OpenSeries(o, (SamOutputSeriesKind)k);
   ReadChunks(o);
   SamOutputOpenVTK(o);
   o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
-  if (history >= 0) (void)SamFileNote(o->f, H5Gclose(history));
 }
 
 void SamOutputMark(SamOutput o)
@@ -216,7 +238,8 @@ void SamOutputCloseLayout(SamOutput o)
   o->vtk_steps = o->closed = -1;
   Close(o, &o->time);
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) Close(o, &o->fields[f]);
-  for (PetscInt c = 0; c < SamOutputColumnCount; c++) Close(o, &o->columns[c]);
+  for (PetscInt k = 0; k < SAM_SERIES; k++)
+    for (PetscInt c = 0; c < SamOutputAllSeries[k].count; c++) Close(o, &o->columns[k][c]);
 }
 
 /* ---- reading ---- */

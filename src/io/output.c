@@ -75,7 +75,8 @@ PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, Sam
   o->hold.file                       = -1;
   o->saved_time                      = PETSC_NINFINITY;
   for (PetscInt f = 0; f < SAM_OUTPUT_MOST; f++) o->fields[f] = -1;
-  for (PetscInt c = 0; c < SAM_OUTPUT_MOST; c++) o->columns[c] = -1;
+  for (PetscInt k = 0; k < SAM_SERIES; k++)
+    for (PetscInt c = 0; c < SAM_OUTPUT_MOST; c++) o->columns[k][c] = -1;
   PetscCall(PetscMalloc1(file->grid->cells, &o->states));
   *output = o;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -99,7 +100,7 @@ static PetscErrorCode CreateFiles(SamGrid grid, const char filename[], SamFileUs
 {
   PetscFunctionBegin;
   PetscCall(SamHoldTake(grid, "output", filename, use, hold));
-  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, xdmf)); /* first: if it fails, old results are kept */
+  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, set, xdmf)); /* first: if it fails, old results are kept */
   PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, file));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -255,26 +256,30 @@ static void AppendNumber(SamOutput o, hid_t dataset, hid_t type, hsize_t index, 
   (void)SamFileNote(o->f, H5Sclose(memory));
 }
 
-static void AppendHistory(SamOutput o, const SamStep *step)
+/* Appends a row to a series, from a SamStep or SamLifeReport. */
+static void AppendRow(SamOutput o, SamOutputSeriesKind kind, const void *row)
 {
-  for (PetscInt c = 0; c < SamOutputColumnCount; c++) {
-    const char *const place = (const char *)step + SamOutputColumns[c].offset;
+  const SamOutputSeries *s  = &SamOutputAllSeries[kind];
+  const hsize_t          at = o->rows[kind];
+
+  for (PetscInt c = 0; c < s->count; c++) {
+    const char *const place = (const char *)row + s->columns[c].offset;
     double            real;
     int64_t           whole;
 
-    if (o->columns[c] < 0) continue; /* an optional column that this file does not have */
-    switch (SamOutputColumns[c].kind) {
+    if (o->columns[kind][c] < 0) continue; /* an optional column that this file does not have */
+    switch (s->columns[c].kind) {
     case SAM_COLUMN_REAL:
       real = (double)*(const PetscReal *)place;
-      AppendNumber(o, o->columns[c], H5T_NATIVE_DOUBLE, o->steps, &real);
+      AppendNumber(o, o->columns[kind][c], H5T_NATIVE_DOUBLE, at, &real);
       break;
     case SAM_COLUMN_INT:
       whole = (int64_t) * (const PetscInt *)place;
-      AppendNumber(o, o->columns[c], H5T_NATIVE_INT64, o->steps, &whole);
+      AppendNumber(o, o->columns[kind][c], H5T_NATIVE_INT64, at, &whole);
       break;
     case SAM_COLUMN_STATUS:
       whole = (int64_t) * (const SamStatus *)place;
-      AppendNumber(o, o->columns[c], H5T_NATIVE_INT64, o->steps, &whole);
+      AppendNumber(o, o->columns[kind][c], H5T_NATIVE_INT64, at, &whole);
       break;
     }
   }
@@ -294,6 +299,7 @@ static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *co
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
     const void *cells;
 
+    if (o->fields[f] < 0) continue;
     PetscCall(values(o, f, context, &cells));
     AppendField(o, o->fields[f], SamOutputFields[f].kind == SAM_FIELD_STATE ? H5T_NATIVE_SCHAR : H5T_NATIVE_DOUBLE,
                 cells);
@@ -319,17 +325,34 @@ static PetscErrorCode Flush(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time, SamOutputValues values, void *context)
+/* Before anything is appended: raises an error if the file is not as it was left; reserves disk space. */
+static PetscErrorCode BeginRow(SamOutput o, off_t bytes)
 {
-  PetscErrorCode ierr;
-
   PetscFunctionBegin;
   PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename,
              o->f->reason);
   if (!o->copying) PetscCall(SamHoldCheck(o->f->grid, "output", o->f->filename, &o->hold));
-  if (!o->copying) PetscCall(SamFileReserve(o->f, values ? SamOutputFieldBytes(o) : 0));
+  if (!o->copying) PetscCall(SamFileReserve(o->f, bytes));
   PetscCall(SamFileBegin(o->f));
-  if (step) AppendHistory(o, step);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode EndRow(SamOutput o)
+{
+  PetscErrorCode ierr = SamFileEnd(o->f);
+
+  PetscFunctionBegin;
+  if (ierr) o->broken = PETSC_TRUE;
+  PetscCall(ierr);
+  SamHoldNoteSize(&o->hold);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time, SamOutputValues values, void *context)
+{
+  PetscFunctionBegin;
+  PetscCall(BeginRow(o, values ? SamOutputFieldBytes(o) : 0));
+  if (step) AppendRow(o, SAM_SERIES_HISTORY, step);
   if (values) {
     const double now = (double)time;
 
@@ -339,13 +362,21 @@ PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time,
     o->saved_time = time;
   }
   if (!o->copying) PetscCall(Flush(o));
-  o->steps += step ? 1 : 0;
+  o->rows[SAM_SERIES_HISTORY] += step ? 1 : 0;
   o->saved += values ? 1 : 0;
-  ierr = SamFileEnd(o->f);
-  if (ierr) o->broken = PETSC_TRUE;
-  PetscCall(ierr);
-  SamHoldNoteSize(&o->hold);
+  PetscCall(EndRow(o));
   if (values && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputAppendCycle(SamOutput o, const SamLifeReport *cycle)
+{
+  PetscFunctionBegin;
+  PetscCall(BeginRow(o, 0));
+  AppendRow(o, SAM_SERIES_WEAR, cycle);
+  if (!o->copying) PetscCall(Flush(o));
+  o->rows[SAM_SERIES_WEAR]++;
+  PetscCall(EndRow(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -375,7 +406,7 @@ static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, c
   PetscCall(Release(from));
   if (field->compute) {
     if (!o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
-    PetscCall(field->compute(from->contact, field->component, o->work));
+    PetscCall(field->compute(o, from->contact, field->component, o->work));
     from->field = o->work;
   } else {
     PetscCall(SamContactGetSolution(from->contact, &solution));
@@ -413,10 +444,18 @@ PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time, SamContact cont
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputWriteCycle(SamOutput o, const SamLifeReport *cycle)
+{
+  PetscFunctionBegin;
+  PetscCheck(o->columns[SAM_SERIES_WEAR][0] >= 0, o->f->grid->comm, PETSC_ERR_ORDER, "The file has no group wear");
+  PetscCall(SamOutputAppendCycle(o, cycle));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputGetSaved(SamOutput o, PetscInt *steps, PetscInt *saved, PetscReal *time)
 {
   PetscFunctionBegin;
-  if (steps) *steps = (PetscInt)o->steps;
+  if (steps) *steps = (PetscInt)o->rows[SAM_SERIES_HISTORY];
   if (saved) *saved = (PetscInt)o->saved;
   if (time) *time = o->saved_time;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -54,9 +54,12 @@ static PetscBool FindChunks(const char filename[], Extents *e)
   PetscBool   good = file >= 0 ? PETSC_TRUE : PETSC_FALSE;
 
   for (PetscInt f = 0; f < SamOutputFieldCount && good; f++) {
-    const hid_t dataset = H5Dopen2(file, SamOutputFields[f].label.name, H5P_DEFAULT);
+    const SamOutputField *field = &SamOutputFields[f];
+    hid_t                 dataset;
 
-    good = dataset >= 0 ? SamChunksVisit(dataset, 3, NULL, AddChunk, e) : PETSC_FALSE;
+    if (field->option < SAM_OUTPUT_OPTIONS && H5Lexists(file, field->label.name, H5P_DEFAULT) == 0) continue;
+    dataset = H5Dopen2(file, field->label.name, H5P_DEFAULT);
+    good    = dataset >= 0 ? SamChunksVisit(dataset, 3, NULL, AddChunk, e) : PETSC_FALSE;
     if (dataset >= 0) (void)H5Dclose(dataset);
   }
   if (file >= 0) (void)H5Fclose(file);

@@ -16,11 +16,12 @@ const char SamXdmfHead[] = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <
 static const char tail[] = "    </Grid>\n  </Domain>\n</Xdmf>\n";
 
 struct _n_SamXdmf {
-  SamGrid grid;
-  char   *filename;
-  char   *results; /* name of the results file, without folder, escaped for XML */
-  int     file;    /* on rank 0 */
-  off_t   end;     /* where the closing tags are */
+  SamGrid           grid;
+  SamOutputSettings set; /* says which fields there are */
+  char             *filename;
+  char             *results; /* name of the results file, without folder, escaped for XML */
+  int               file;    /* on rank 0 */
+  off_t             end;     /* where the closing tags are */
 };
 
 /* ---- names ---- */
@@ -120,6 +121,7 @@ static char *StepText(SamXdmf x, long step, double time, size_t *length)
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
     const PetscBool state = SamOutputFields[f].kind == SAM_FIELD_STATE ? PETSC_TRUE : PETSC_FALSE;
 
+    if (!SamOutputWants(&x->set, SamOutputFields[f].option)) continue;
     PrintField(x, &text, length, SamOutputFields[f].label.name, state ? "Char" : "Float", state ? 1 : 8, step);
   }
   Print(&text, length, "      </Grid>\n%s", tail);
@@ -170,7 +172,7 @@ static int Append(SamXdmf x, long step, double time)
 
 /* ---- the object ---- */
 
-PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf)
+PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], const SamOutputSettings *set, SamXdmf *xdmf)
 {
   SamXdmf     x;
   PetscMPIInt rank;
@@ -182,6 +184,7 @@ PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], SamXdmf *xdmf)
   *xdmf = x;
   PetscCall(SamGridReference(grid));
   x->grid = grid;
+  x->set  = *set;
   x->file = -1;
   PetscCall(SamXdmfMakeName(results, &x->filename));
   PetscCall(SamXdmfEscape(slash ? slash + 1 : results, &x->results));

@@ -77,7 +77,30 @@ PetscErrorCode SamWearApply(SamWear w, PetscReal times)
   PetscCall(VecAXPY(w->load, times, w->cycle));
   PetscCall(VecSet(w->cycle, 0));
   PetscCall(VecSet(w->path, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearMoveGap(SamWear w)
+{
+  PetscFunctionBegin;
   PetscCall(SamWearSetGap(w, w->load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearGetLoad(SamWear w, Vec load)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(w->grid, 1, load, "The wear load"));
+  PetscCall(VecCopy(w->load, load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearSetLoad(SamWear w, Vec load)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(w->grid, 1, load, "The wear load"));
+  PetscCall(VecCopy(load, w->load));
+  PetscCall(SamWearMoveGap(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

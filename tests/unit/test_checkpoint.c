@@ -26,7 +26,7 @@ static void Write(const Case *c, const SamParameters *parameters, PetscInt n, co
   SamCheckpoint files;
 
   sam_call(SamCheckpointCreate(c->s.grid, filename, &files));
-  sam_call(SamCheckpointWrite(files, c->contact, parameters, n, notes));
+  sam_call(SamCheckpointWrite(files, c->contact, NULL, parameters, n, notes));
   sam_call(SamCheckpointDestroy(&files));
 }
 
@@ -115,7 +115,7 @@ static void test_contact_that_is_read_goes_on_as_the_one_that_was_written(void *
     for (int k = 0; k < solved; k++) SolveStep(&one, k, &a);
     SolveStep(&other, 3, &b); /* is forgotten */
     Write(&one, &parameters, 2, to);
-    sam_call(SamCheckpointRead(filename, other.contact, &parameters, 2, from));
+    sam_call(SamCheckpointRead(filename, other.contact, NULL, &parameters, 2, from));
     sam_assert(!memcmp(read, written, sizeof(read)));
     if (solved) AssertSameFields(&one, &other);
     for (int k = solved; k < 5; k++) {
@@ -149,7 +149,7 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   (void)Solve(&one, &second);
   (void)Try(&one, &control);
   Write(&one, &parameters, 0, NULL);
-  sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, NULL, &parameters, 0, NULL));
   sam_call(SamContactReject(one.contact));
   AssertSameFields(&one, &other);
   sam_call(SamContactGetState(one.contact, &a));
@@ -189,7 +189,7 @@ static void test_gap_that_has_changed_is_told(void **state)
     sam_call(SamProblemGetGap(changed->problem, &gap));
     if (which) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
     Write(&one, &parameters, 0, NULL);
-    sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
+    sam_call(SamCheckpointRead(filename, other.contact, NULL, &parameters, 0, NULL));
     sam_call(SamContactGetState(other.contact, &held));
     sam_assert(held.gap_is_current == (which ? PETSC_FALSE : PETSC_TRUE));
     DestroyCase(&one);
@@ -210,7 +210,7 @@ static void AssertUnreadable(const Case *c, const SamParameters *parameters, Pet
   int            good;
 
   BeginCatching();
-  ierr = SamCheckpointRead(filename, c->contact, parameters, 1, &(SamNote){"note", 1, &note});
+  ierr = SamCheckpointRead(filename, c->contact, NULL, parameters, 1, &(SamNote){"note", 1, &note});
   EndCatching();
   good = ierr == code;
   for (int k = 0; k < 2; k++) good = good && (!words[k] || strstr(CaughtMessage(), words[k]));
@@ -358,7 +358,7 @@ static void test_one_changed_byte_anywhere_is_found(void **state)
                      (const char *const[2]){says[k < 2 ? k : 2], "-restart test_checkpoint.h5.1"});
     for (int back = 0; back < 255; back++) ChangeByte(filename, places[k]);
   }
-  sam_call(SamCheckpointRead(filename, c.contact, &parameters, 0, NULL));
+  sam_call(SamCheckpointRead(filename, c.contact, NULL, &parameters, 0, NULL));
   sam_assert(Rank() || !truncate(filename, 100000));
   AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){"checksum", NULL});
   DestroyCase(&c);
@@ -393,7 +393,7 @@ static void test_second_run_is_kept_from_the_files(void **state)
     ierr = SamCheckpointCreate(c.s.grid, filename, &second);
     EndCatching();
     sam_assert(ierr == SAM_ERR_FILE && !second && strstr(CaughtMessage(), "another run"));
-    sam_call(SamCheckpointWrite(first, c.contact, &parameters, 0, NULL));
+    sam_call(SamCheckpointWrite(first, c.contact, NULL, &parameters, 0, NULL));
   }
   sam_call(SamCheckpointCreate(c.s.grid, "test_checkpoint_other.h5", &second));
   sam_call(SamCheckpointDestroy(&second));
@@ -480,7 +480,7 @@ static void test_other_fixed_parameter_is_named(void **state)
   AssertUnreadable(&c, &parameters, SAM_ERR_USER, (const char *const[2]){"-grid_size is not given there", NULL});
   parameters                  = NewParameters(friction);
   parameters.list[2].value[0] = 5;
-  sam_call(SamCheckpointRead(filename, c.contact, &parameters, 1, &(SamNote){"note", 1, &note}));
+  sam_call(SamCheckpointRead(filename, c.contact, NULL, &parameters, 1, &(SamNote){"note", 1, &note}));
   sam_assert(note == 7);
   DestroyCase(&c);
   Remove();

@@ -184,6 +184,7 @@ static void LiveDirectly(Joint *j, PetscInt cycles, PetscReal volume[2], PetscRe
     if (k >= 0) sam_call(SamWearCountStep(j->wear));
     sam_call(SamContactCommit(j->c.contact));
     sam_call(SamWearApply(j->wear, 1));
+    sam_call(SamWearMoveGap(j->wear));
   }
   sam_call(SamWearGetVolumes(j->wear, volume, depth));
 }

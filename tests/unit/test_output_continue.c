@@ -97,10 +97,10 @@ static PetscErrorCode Continue(SamGrid grid, const SamOutputSettings *set, Petsc
                                PetscReal shift, SamOutput *output)
 {
   const SamParameters parameters = NewParameters(value);
-  PetscReal           times[STEPS + 1];
+  SamOutputPoint      point      = {.steps = steps};
 
-  for (int k = 0; k <= STEPS; k++) times[k] = MakeStep(k).control.time + shift;
-  return SamOutputContinue(grid, filename, set, &parameters, steps, times, output);
+  for (int k = 0; k < steps; k++) point.times = SamOutputAddTime(point.times, MakeStep(k).control.time + shift);
+  return SamOutputContinue(grid, filename, set, &parameters, &point, output);
 }
 
 /* Which file a name is of; the same on all ranks. */

@@ -247,9 +247,9 @@ static void test_restart_keeps_the_stretch(void **state)
   (void)state;
   (void)Solve(&one, &first);
   sam_call(SamCheckpointCreate(one.s.grid, filename, &files));
-  sam_call(SamCheckpointWrite(files, one.contact, &none, 0, NULL));
+  sam_call(SamCheckpointWrite(files, one.contact, NULL, &none, 0, NULL));
   sam_call(SamCheckpointDestroy(&files));
-  sam_call(SamCheckpointRead(filename, other.contact, &none, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, NULL, &none, 0, NULL));
   AssertSameFields(&one, &other);
   a = Solve(&one, &next);
   b = Solve(&other, &next);

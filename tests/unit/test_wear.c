@@ -15,6 +15,7 @@ static SamStep WearStep(const Case *c, SamWear wear, const SamControl *control)
   sam_call(SamWearCountStep(wear));
   sam_call(SamContactCommit(c->contact));
   sam_call(SamWearApply(wear, 1));
+  sam_call(SamWearMoveGap(wear));
   return step;
 }
 
@@ -136,6 +137,7 @@ static void test_only_cells_that_slip_wear(void **state)
   sam_call(SamWearCountStep(wear));
   sam_call(SamContactCommit(c.contact));
   sam_call(SamWearApply(wear, 1));
+  sam_call(SamWearMoveGap(wear));
   depth = DepthOf(&c, wear, 0);
   sam_call(SamGridCreateVec(c.s.grid, 1, &states));
   sam_call(SamContactComputeState(c.contact, states));
@@ -175,8 +177,10 @@ static void test_wear_of_a_cycle_is_applied_as_often_as_is_asked(void **state)
   }
   sam_call(SamWearGetVolumes(wear, volume[0], depth));
   sam_call(SamWearApply(wear, 3));
+  sam_call(SamWearMoveGap(wear));
   sam_call(SamWearGetVolumes(wear, volume[1], depth));
-  sam_call(SamWearApply(wear, 100)); /* nothing has been counted since */
+  sam_call(SamWearApply(wear, 100));
+  sam_call(SamWearMoveGap(wear)); /* nothing has been counted since */
   sam_call(SamWearGetVolumes(wear, volume[2], depth));
   sam_assert(volume[0][0] == 0 && volume[1][0] > 0 && volume[2][0] == volume[1][0]);
   sam_call(SamWearDestroy(&wear));

@@ -1,0 +1,169 @@
+/* The life of a joint in a run: a cycle at a time is computed and written, then some are jumped over. */
+#include "runimpl.h"
+#include <string.h>
+
+/* ---- what the life asks for ---- */
+
+/* Step `step` of the cycle; the steps before, up to the history's first row, lead to its start. */
+static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, SamControl *control)
+{
+  const SamRun *run = (const SamRun *)context;
+  PetscInt      start;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  PetscCall(SamHistoryGetStep(run->history, start + step, control));
+  control->friction_scale *= SamWearingFriction(&run->wearing, cycles);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The time of a step in the life: all cycles take as long as the first one. */
+static PetscErrorCode TimeOf(const SamRun *run, PetscReal cycles, PetscReal *time)
+{
+  SamControl first, last;
+  PetscInt   start;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  PetscCall(SamHistoryGetStep(run->history, start - 1, &first));
+  PetscCall(SamHistoryGetStep(run->history, run->needs.steps - 1, &last));
+  *time += cycles * (last.time - first.time);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes a step of a computed cycle. */
+static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, const SamStep *result)
+{
+  SamRun *const   run    = (SamRun *)context;
+  SamStep         told   = *result;
+  const PetscBool failed = told.status == SAM_STATUS_NOT_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
+  PetscInt        start;
+  PetscReal       depth[2];
+  PetscBool       due;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  due = SamWearingIsOutput(&run->wearing, cycles) &&
+            ((step + 1) % run->output_every == 0 || step + 1 == run->needs.steps - start)
+          ? PETSC_TRUE
+          : PETSC_FALSE;
+  if (!step) run->last_time = PETSC_NINFINITY; /* the fields of the step before are not those of a step in the file */
+  told.cycle = cycles;
+  PetscCall(TimeOf(run, cycles, &told.control.time));
+  PetscCall(SamWearGetVolumes(run->wear, told.wear_volume, depth));
+  run->point.steps++;
+  run->point.times = SamOutputAddTime(run->point.times, told.control.time);
+  PetscCall(SamReportCountStep(run->report, run->point.steps, &told));
+  PetscCall(SamRunWriteStep(run, &told, due || failed ? PETSC_TRUE : PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the life ---- */
+
+/* Solves the steps up to the history's first row, where the cycle starts. They do not wear and are not written. */
+static PetscErrorCode Start(SamRun *run, PetscBool *ended)
+{
+  PetscInt start;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  for (PetscInt k = 0; k < start && !*ended; k++) {
+    SamControl control;
+    SamStep    step;
+
+    PetscCall(SamHistoryGetStep(run->history, k, &control));
+    PetscCall(SamContactTry(run->contact, &control, &step));
+    *ended = SamRunHasFailed(&step);
+    if (*ended) {
+      PetscCall(SamReportMessage(run->report, "before the first cycle", &step));
+      run->point.worst = step.status;
+    } else {
+      PetscCall(SamContactCommit(run->contact));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Says where a step failed, or reached the edge, and ends the life there. */
+static PetscErrorCode EndLife(SamRun *run, const SamLifeReport *r, const char where[])
+{
+  char text[96];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s %g cycles, step %" PetscInt_FMT " of the cycle", where,
+                          (double)r->cycles, r->at + 1));
+  PetscCall(SamReportMessage(run->report, text, &r->step));
+  run->point.worst = r->step.status;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes a cycle and writes it; `ended`: it failed, or was the last one. */
+static PetscErrorCode ComputeCycle(SamRun *run, PetscBool *ended)
+{
+  SamLifeReport r;
+
+  PetscFunctionBegin;
+  PetscCall(SamReportBeginCycle(run->report, run->contact));
+  PetscCall(SamLifeCompute(run->life, &r));
+  *ended = r.cycles >= run->wearing.cycles || r.step.status != SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
+  if (r.step.status != SAM_STATUS_CONVERGED) PetscCall(EndLife(run, &r, "after"));
+  if (SamRunHasFailed(&r.step)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!run->warned && r.step.status == SAM_STATUS_CONVERGED) PetscCall(SamReportMessage(run->report, "", &r.step));
+  run->warned  = r.step.message[0] ? PETSC_TRUE : run->warned;
+  run->writing = PETSC_TRUE;
+  if (run->output) PetscCall(SamOutputWriteCycle(run->output, &r));
+  run->writing = PETSC_FALSE;
+  run->point.rows++;
+  PetscCall(SamReportEndCycle(run->report, &r, run->wearing.cycles));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Jump(SamRun *run, PetscBool *ended)
+{
+  SamLifeState  state;
+  SamLifeReport r;
+
+  PetscFunctionBegin;
+  PetscCall(SamLifeGetState(run->life, &state));
+  PetscCall(SamLifeJump(run->life, SamWearingNextStop(&run->wearing, state.cycles), &r));
+  *ended = SamRunHasFailed(&r.step);
+  if (*ended) PetscCall(EndLife(run, &r, "in the cycles after"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRunLive(SamRun *run)
+{
+  PetscBool ended = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (!run->point.restarted) PetscCall(Start(run, &ended));
+  while (!ended && !run->stopped) {
+    PetscCall(ComputeCycle(run, &ended));
+    if (!ended) PetscCall(Jump(run, &ended));
+    if (!ended) PetscCall(SamRunCheckpoint(run));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRunCreateWear(SamRun *run)
+{
+  const SamLifeCycle cycle = {.control = Control, .solved = WriteStep, .context = run};
+  SamLifeCycle       of    = cycle;
+  PetscInt           start;
+
+  PetscFunctionBegin;
+  if (!run->wearing.on) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamWearCreate(run->contact, run->wearing.law, run->wearing.coefficient, &run->wear));
+  run->output_settings.wear                  = run->wear;
+  run->output_settings.with[SAM_OUTPUT_WEAR] = PETSC_TRUE;
+  run->point.wear                            = run->wear;
+  if (run->wearing.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  run->output_settings.with[SAM_OUTPUT_LIFE] = PETSC_TRUE;
+  if (run->wearing.points) run->output_settings.with[SAM_OUTPUT_FRICTION_SCALE] = PETSC_TRUE;
+  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  of.steps = run->needs.steps - start;
+  PetscCall(SamLifeCreate(run->wear, &of, &run->wearing.life, &run->life));
+  run->point.life   = run->life;
+  run->point.cycles = run->wearing.cycles;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

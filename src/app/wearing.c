@@ -1,0 +1,279 @@
+/* The -wear_ options: laws of wear, cycles of a life, friction that changes over it. */
+#include "wearing.h"
+#include <petsam/private/baseimpl.h>
+#include "historyimpl.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Loads and displacements of the first and last row of a cycle may differ by so much of their range. */
+#define ROUNDING 1e-9
+
+/* ---- laws ---- */
+
+/* One law's coefficients of both bodies; `given`: one of them is set. */
+static PetscErrorCode ReadLaw(const SamOptions *from, const char name[], const char text[], PetscReal coefficient[2],
+                              PetscBool *given)
+{
+  PetscFunctionBegin;
+  *given = PETSC_FALSE;
+  for (int body = 0; body < 2; body++) {
+    char      option[32], help[96];
+    PetscBool set;
+
+    PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", name, body + 1));
+    PetscCall(PetscSNPrintf(help, sizeof(help), "%s of body %d", text, body + 1));
+    PetscCall(SamOptionsReal(from, option, help, SAM_RANGE_NONNEGATIVE, &coefficient[body], &set));
+    if (set) *given = PETSC_TRUE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadLaws(SamWearing *w, const SamOptions *from)
+{
+  PetscReal archard[2] = {0, 0}, energy[2] = {0, 0};
+  PetscBool given[2];
+
+  PetscFunctionBegin;
+  PetscCall(
+    ReadLaw(from, "wear_coefficient", "Archard's wear: removed depth = k p |ds|: k (1/Pa)", archard, &given[0]));
+  PetscCall(
+    ReadLaw(from, "wear_energy", "wear by energy: removed depth = alpha |q.ds|: alpha (m3/J)", energy, &given[1]));
+  PetscCheck(!given[0] || !given[1], from->comm, SAM_ERR_USER,
+             "-wear_coefficient1 or 2 and -wear_energy1 or 2 are given: a run has one law of wear");
+  w->law = given[1] ? SAM_WEAR_ENERGY : SAM_WEAR_ARCHARD;
+  PetscCall(PetscArraycpy(w->coefficient, given[1] ? energy : archard, 2));
+  w->on = w->coefficient[0] + w->coefficient[1] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- cycles ---- */
+
+static int Compare(const void *a, const void *b)
+{
+  const PetscReal x = *(const PetscReal *)a, y = *(const PetscReal *)b;
+
+  return (x > y) - (x < y);
+}
+
+static PetscErrorCode ReadOutputs(SamWearing *w, const SamOptions *from)
+{
+  char  text[4096] = "", *part, *rest;
+  char *end;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsString(from, "wear_output", "cycles whose fields are written, c[,c,...]; the last always", text,
+                             sizeof(text), NULL));
+  for (part = strtok_r(text, ",", &rest); part; part = strtok_r(NULL, ",", &rest)) {
+    const double cycle = strtod(part, &end);
+
+    PetscCheck(end != part && !*end && isfinite(cycle) && cycle >= 0, from->comm, SAM_ERR_USER,
+               "-wear_output: \"%s\" is not a number of cycles, >= 0", part);
+    PetscCheck(cycle <= w->cycles, from->comm, SAM_ERR_USER, "-wear_output: %g is more than -wear_cycles %g", cycle,
+               (double)w->cycles);
+    PetscCheck(w->outputs < SAM_WEARING_OUTPUTS - 1, from->comm, SAM_ERR_USER, "-wear_output: more than %d cycles",
+               SAM_WEARING_OUTPUTS - 1);
+    w->output[w->outputs++] = cycle;
+  }
+  w->output[w->outputs++] = w->cycles;
+  qsort(w->output, (size_t)w->outputs, sizeof(w->output[0]), Compare);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadLife(SamWearing *w, const SamOptions *from)
+{
+  static const char *const types[] = {"implicit", "explicit", NULL};
+
+  PetscInt type = SAM_LIFE_IMPLICIT;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsEnum(from, "wear_type", "how cycles are jumped over: implicit, or explicit", types, &type, NULL));
+  w->life = (SamLifeSettings){.type = (SamLifeType)type, .rtol = 1e-2};
+  PetscCall(SamOptionsReal(from, "wear_rtol", "error of a jump over cycles, relative to the largest depth",
+                           SAM_RANGE_POSITIVE, &w->life.rtol, NULL));
+  PetscCall(SamOptionsReal(from, "wear_jump", "instead: all jumps are over so many cycles", SAM_RANGE_POSITIVE,
+                           &w->life.jump, &w->life.fixed));
+  PetscCall(ReadOutputs(w, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Options that have no meaning without others. */
+static PetscErrorCode CheckPresent(const SamWearing *w, const SamOptions *from)
+{
+  static const char *const life[] = {"wear_type", "wear_rtol", "wear_jump", "wear_output", "wear_friction"};
+
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCheck(w->on || w->cycles == 0, from->comm, SAM_ERR_USER,
+             "-wear_cycles is given, but no wear: give one of -wear_coefficient1, -wear_coefficient2, -wear_energy1, "
+             "-wear_energy2 a number > 0");
+  for (size_t k = 0; k < sizeof(life) / sizeof(life[0]) && w->cycles == 0; k++) {
+    char option[32];
+
+    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", life[k]));
+    PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &set));
+    PetscCheck(!set, from->comm, SAM_ERR_USER, "%s is given without -wear_cycles", option);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- friction ---- */
+
+static PetscErrorCode CheckTable(const SamTable *t, const char file[], PetscInt cycle, PetscInt friction,
+                                 const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCheck(t->columns == 2 && cycle >= 0 && friction >= 0, from->comm, SAM_ERR_USER,
+             "-wear_friction %s, line %" PetscInt_FMT ": expected the columns cycle,friction", file, t->header_line);
+  for (PetscInt r = 0; r < t->rows; r++) {
+    const double *row = t->value + 2 * r;
+
+    PetscCheck(row[friction] > 0, from->comm, SAM_ERR_USER,
+               "-wear_friction %s, line %" PetscInt_FMT ": friction %g: expected a number > 0", file, t->line[r],
+               row[friction]);
+    PetscCheck(r ? row[cycle] > row[cycle - 2] : row[cycle] == 0, from->comm, SAM_ERR_USER,
+               "-wear_friction %s, line %" PetscInt_FMT ": cycle %g: expected %s", file, t->line[r], row[cycle],
+               r ? "more than in the row before" : "0 in the first row");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadFriction(SamWearing *w, const SamOptions *from)
+{
+  char      file[PETSC_MAX_PATH_LEN] = "";
+  PetscBool set, other;
+  SamTable  t;
+  PetscInt  cycle, friction;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsString(from, "wear_friction",
+                             "text file with columns cycle,friction: the coefficient of friction over the life", file,
+                             sizeof(file), &set));
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
+  for (int k = 0; k < 2; k++) {
+    PetscCall(PetscOptionsHasName(NULL, from->prefix, k ? "-friction_file" : "-friction", &other));
+    PetscCheck(!other, from->comm, SAM_ERR_USER, "-wear_friction and -friction%s are given: give one of them",
+               k ? "_file" : "");
+  }
+  PetscCall(SamTableRead(from->comm, "wear_friction", file, &t));
+  cycle    = SamTableFind(&t, "cycle");
+  friction = SamTableFind(&t, "friction");
+  PetscCall(CheckTable(&t, file, cycle, friction, from));
+  w->points = t.rows;
+  PetscCall(PetscMalloc1(t.rows, &w->at));
+  PetscCall(PetscMalloc1(t.rows, &w->friction));
+  for (PetscInt r = 0; r < t.rows; r++) {
+    w->at[r]       = t.value[2 * r + cycle];
+    w->friction[r] = t.value[2 * r + friction];
+  }
+  PetscCall(SamTableDestroy(&t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscReal SamWearingFriction(const SamWearing *w, PetscReal cycles)
+{
+  PetscInt r = 0;
+
+  if (!w->points) return 1;
+  while (r + 1 < w->points && w->at[r + 1] <= cycles) r++;
+  if (r + 1 == w->points) return w->friction[r] / w->friction[0];
+  return (w->friction[r] + (w->friction[r + 1] - w->friction[r]) * (cycles - w->at[r]) / (w->at[r + 1] - w->at[r])) /
+         w->friction[0];
+}
+
+/* ---- all of it ---- */
+
+PetscErrorCode SamWearingSetFromOptions(SamWearing *w, const SamOptions *from)
+{
+  PetscBool help;
+
+  PetscFunctionBegin;
+  *w = (SamWearing){.cycles = 0};
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamOptionsHeading(from, "Wear"));
+  PetscCall(ReadLaws(w, from));
+  PetscCall(SamOptionsReal(from, "wear_cycles",
+                           "the history is a closed cycle, repeated so often; without it, every step wears",
+                           SAM_RANGE_POSITIVE, &w->cycles, NULL));
+  PetscCall(CheckPresent(w, from));
+  if (w->cycles > 0 || help) PetscCall(ReadLife(w, from));
+  if (w->cycles > 0 || help) PetscCall(ReadFriction(w, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearingDestroy(SamWearing *w)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(w->at));
+  PetscCall(PetscFree(w->friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The value of a component (first of the six, then of the bulk stresses) in a step. */
+static PetscErrorCode GetValue(SamHistory history, PetscInt step, PetscInt c, PetscReal *value)
+{
+  const PetscInt b = c - SAM_COMPONENTS;
+  SamControl     control;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetStep(history, step, &control));
+  *value =
+    c < SAM_COMPONENTS ? control.value[c] : control.bulk_stress[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static const char *NameOf(SamHistory history, PetscInt c)
+{
+  const PetscInt b = c - SAM_COMPONENTS;
+  SamControl     control;
+
+  if (c >= SAM_COMPONENTS) return SamBulkNames[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS].name;
+  (void)SamHistoryGetStep(history, 0, &control);
+  return control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid;
+}
+
+PetscErrorCode SamWearingCheckCycle(const SamWearing *w, SamHistory history, const SamOptions *from)
+{
+  PetscInt count, start;
+
+  PetscFunctionBegin;
+  if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamHistoryGetCount(history, &count));
+  PetscCall(SamHistoryGetIncrements(history, &start));
+  PetscCheck(
+    count > 2 * start, from->comm, SAM_ERR_USER,
+    "-wear_cycles: a cycle needs a -history of three rows or more: where it starts, and how it goes on back to "
+    "there");
+  for (PetscInt c = 0; c < SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS; c++) {
+    PetscReal first = 0, last = 0, range = 0;
+
+    PetscCall(GetValue(history, start - 1, c, &first));
+    for (PetscInt k = start; k < count; k++) {
+      PetscCall(GetValue(history, k, c, &last));
+      range = PetscMax(range, fabs(last - first));
+    }
+    PetscCheck(fabs(last - first) <= ROUNDING * range, from->comm, SAM_ERR_USER,
+               "-wear_cycles: -history is not a closed cycle: %s is %g in the last row and %g in the first",
+               NameOf(history, c), (double)last, (double)first);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscReal SamWearingNextStop(const SamWearing *w, PetscReal cycles)
+{
+  PetscReal stop = w->cycles;
+
+  for (PetscInt k = 0; k < w->outputs; k++)
+    if (w->output[k] > cycles) stop = PetscMin(stop, w->output[k]);
+  for (PetscInt k = 0; k < w->points; k++)
+    if (w->at[k] > cycles) stop = PetscMin(stop, w->at[k]);
+  return stop;
+}
+
+PetscBool SamWearingIsOutput(const SamWearing *w, PetscReal cycles)
+{
+  for (PetscInt k = 0; k < w->outputs; k++)
+    if (w->output[k] == cycles) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
