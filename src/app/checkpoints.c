@@ -328,7 +328,7 @@ static PetscErrorCode TellStop(SamCheckpoints cp, const SamRunPoint *p, const ch
   PetscCall(SamHistoryGetCount(p->history, &count));
   if (p->life) {
     PetscCall(SamLifeGetState(p->life, &life));
-    PetscCall(PetscSNPrintf(where, sizeof(where), "%g of %g cycles", (double)life.cycles, (double)p->cycles));
+    (void)snprintf(where, sizeof(where), "%.10g of %.10g cycles", (double)life.cycles, (double)p->cycles);
   } else {
     PetscCall(PetscSNPrintf(where, sizeof(where), "step %" PetscInt_FMT " of %" PetscInt_FMT, p->steps, count));
   }

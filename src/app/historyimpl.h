@@ -18,8 +18,8 @@ typedef struct {
 } SamTable;
 
 /*
-  SamTableRead - reads the table of an option (its name without dash) on rank 0 and gives it to all ranks. Collective. Errors: SAM_ERR_FILE for a file that
-  cannot be read, SAM_ERR_USER with file and line for wrong contents.
+  SamTableRead - reads the table of an option (its name without dash) on rank 0 and gives it to all ranks. Collective.
+  Errors: SAM_ERR_FILE for a file that cannot be read, SAM_ERR_USER with file and line for wrong contents.
 */
 PETSC_INTERN PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[], SamTable *table);
 PETSC_INTERN PetscErrorCode SamTableDestroy(SamTable *table);

@@ -1,6 +1,5 @@
 /* The life of a joint in a run: a cycle at a time is computed and written, then some are jumped over. */
 #include "runimpl.h"
-#include <string.h>
 
 /* ---- what the life asks for ---- */
 
@@ -90,8 +89,8 @@ static PetscErrorCode EndLife(SamRun *run, const SamLifeReport *r, const char wh
   char text[96];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s %g cycles, step %" PetscInt_FMT " of the cycle", where,
-                          (double)r->cycles, r->at + 1));
+  (void)snprintf(text, sizeof(text), "%s %.10g cycles, step %" PetscInt_FMT " of the cycle", where, (double)r->cycles,
+                 r->at + 1);
   PetscCall(SamReportMessage(run->report, text, &r->step));
   run->point.worst = r->step.status;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -100,7 +100,7 @@ PetscErrorCode SamReportSetRestart(SamReport r, const char checkpoint[], const S
   PetscCall(PetscSNPrintf(r->restart_at, sizeof(r->restart_at), "step %" PetscInt_FMT, point->steps));
   if (!point->life) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLifeGetState(point->life, &life));
-  PetscCall(PetscSNPrintf(r->restart_at, sizeof(r->restart_at), "%g cycles", (double)life.cycles));
+  (void)snprintf(r->restart_at, sizeof(r->restart_at), "%.10g cycles", (double)life.cycles);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

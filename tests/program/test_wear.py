@@ -1,0 +1,276 @@
+"""Wear: direct and over the cycles of a life, its results, restarts, and what is refused."""
+
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+import conftest
+from support import FIELDS, ball, flatten
+
+BALL = ball(40, load_n=None)
+MU, RADIUS, D = BALL["friction"], BALL["gap_radius1"], 2e-6
+E_STAR = 72e9 / (1 - 0.34**2) / 2
+
+
+def cycle(path, amplitude=0.6 * MU * D, steps=8, header="time,disp_z,disp_x", approach=D, last=0.0):
+    """Along x to and fro, from 0 to 0; the first row is where the cycle starts."""
+    t = np.arange(steps + 1) / steps
+    x = amplitude * np.interp(t, (0, 0.25, 0.75, 1), (0, 1, -1, last))
+    path.write_text(header + "\n" + "".join(f"{a!r},{approach!r},{b!r}\n" for a, b in zip(t.tolist(), x.tolist())))
+    return dict(history=path)
+
+
+def read(path):
+    with h5py.File(path) as f:
+        data = {name: f[name][:] for name in (*FIELDS, "time", "wear_depth1", "wear_depth2")}
+        for group in ("history", "wear"):
+            if group in f:
+                data.update({f"{group}/{name}": column[:] for name, column in f[group].items()})
+        return data
+
+
+def assert_equal(one, two, *without):
+    assert one.keys() == two.keys()
+    for name in one:
+        if name not in without:
+            assert np.array_equal(one[name], two[name], equal_nan=one[name].dtype.kind == "f"), name
+
+
+@pytest.fixture
+def life(petsam, tmp_path):
+    """life(name=value, ...): the results of a short life of the ball, with these options."""
+
+    def run(output="life.h5", ranks=1, **options):
+        case = dict(BALL, **cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-14, wear_cycles=1e5, output=output)
+        petsam({**case, **options}, ranks=ranks)
+        return read(tmp_path / output)
+
+    return run
+
+
+# ---- every step wears
+
+
+@pytest.mark.parametrize("law", ["coefficient", "energy"])
+def test_volume_of_direct_wear_is_the_energy_of_friction(petsam, tmp_path, law):
+    rates = (3e-14, 1e-14) if law == "coefficient" else (3e-14 / MU, 1e-14 / MU)
+    words = {f"wear_{law}{body}": rate for body, rate in zip((1, 2), rates)}
+    steps = cycle(tmp_path / "h.csv", header="time,load_n,disp_x", approach=180.0, amplitude=3 * MU * 2e-6)
+    petsam(BALL, steps, words, dict(output="direct.h5"))
+    r = read(tmp_path / "direct.h5")
+    energy = np.cumsum(r["history/dissipated_energy"])
+    cell = (BALL["grid_size"] / BALL["grid_n"]) ** 2
+    for body, rate in zip((1, 2), (3e-14, 1e-14)):
+        assert r[f"history/wear_volume{body}"] == pytest.approx(rate * energy / MU, rel=1e-9)
+        assert r[f"wear_depth{body}"].sum((1, 2)) * cell == pytest.approx(r[f"history/wear_volume{body}"], rel=1e-12)
+        assert (np.diff(r[f"wear_depth{body}"], axis=0) >= 0).all()
+    assert "history/cycle" not in r and "wear/cycle" not in r
+
+
+def test_the_gap_follows_at_the_end_of_a_step(petsam, tmp_path):
+    steps = cycle(tmp_path / "h.csv", amplitude=20 * MU * D)
+    petsam(BALL, steps, dict(wear_coefficient1=1e-11, output="direct.h5"))
+    r = read(tmp_path / "direct.h5")
+    x = (np.arange(40) - 19.5) * BALL["grid_size"] / 40
+    unworn = (x[:, None] ** 2 + x**2) / (2 * RADIUS)
+    removed = np.concatenate([0 * r["wear_depth1"][:1], r["wear_depth1"][:-1]])
+    gap = r["displacement_z"] + unworn + removed - D
+    assert np.abs(gap - r["gap"]).max() < 1e-9 * D
+    assert r["wear_depth1"].max() > 0.01 * D
+
+
+# ---- a life
+
+
+def test_life_is_the_same_on_any_number_of_ranks(life):
+    one = life()
+    for ranks in (2, 3):
+        assert_equal(life(ranks=ranks, output=f"r{ranks}.h5"), one)
+
+
+def test_life_tells_its_cycles(life):
+    r = life(wear_output=(0, 30000))
+    cycles, jumps = r["wear/cycle"], r["wear/jump"]
+    assert cycles[0] == 0 and cycles[-1] == 1e5 and 30000 in cycles and (np.diff(cycles) == jumps[1:]).all()
+    assert (cycles == np.floor(cycles)).all() and (r["wear/error"][1:] <= 0.03).all()
+    assert (np.diff(r["wear/computed"]) >= 2).all()
+    # a row of the history for each step of these cycles, whose times go on
+    assert (r["history/cycle"] == np.repeat(cycles, 8)).all()
+    assert r["history/time"] == pytest.approx(r["history/cycle"] + np.tile(np.arange(1, 9) / 8, len(cycles)))
+    energy = r["history/dissipated_energy"].reshape(-1, 8).sum(1)
+    assert r["wear/dissipated_energy"] == pytest.approx(energy)
+    assert r["history/wear_volume2"].reshape(-1, 8) == pytest.approx(np.repeat(r["wear/volume2"], 8).reshape(-1, 8))
+    # fields of the cycles that were asked for
+    saved = np.flatnonzero(np.isin(r["history/time"], r["time"]))
+    assert (np.unique(r["history/cycle"][saved]) == (0, 30000, 1e5)).all() and len(saved) == 24
+    last = r["wear_depth2"][-1]
+    assert last.max() == pytest.approx(r["wear/depth_max2"][-1]) and not r["wear_depth1"].any()
+    assert last.sum() * (BALL["grid_size"] / 40) ** 2 == pytest.approx(r["wear/volume2"][-1])
+    assert r["wear/pressure_max"][-1] == r["pressure"][-1].max()
+
+
+def test_wear_of_a_life_is_the_work_of_friction_over_it(life):
+    r = life(wear_rtol=2e-3)
+    rate = 1e-14 / MU * r["wear/dissipated_energy"]
+    worn = np.concatenate([[0], np.cumsum(np.diff(r["wear/cycle"]) * (rate[1:] + rate[:-1]) / 2)])
+    assert r["wear/volume2"] == pytest.approx(worn, rel=2e-3)
+
+
+def test_it_does_not_matter_which_body_wears_or_by_which_law(life):
+    reference = life()
+    for k, words in enumerate(
+        (
+            dict(wear_coefficient1=1e-14, wear_coefficient2=0.0),
+            dict(wear_coefficient1=0.5e-14, wear_coefficient2=0.5e-14),
+            dict(wear_coefficient2=None, wear_energy2=1e-14 / MU),
+        )
+    ):
+        r = life(**words, output=f"{k}.h5")
+        total = r["wear_depth1"][-1] + r["wear_depth2"][-1]
+        assert np.abs(total - reference["wear_depth2"][-1]).max() < (1e-9 if k < 2 else 1e-6) * total.max()
+        assert np.abs(r["pressure"][-1] - reference["pressure"][-1]).max() < 1e-7 * r["pressure"].max()
+
+
+def test_implicit_and_explicit_jumps_come_to_the_same(life):
+    implicit, explicit = life(), life(wear_type="explicit", output="explicit.h5")
+    assert explicit["wear/volume2"][-1] == pytest.approx(implicit["wear/volume2"][-1], rel=0.02)
+    fixed = life(wear_jump=40000.0, output="fixed.h5")
+    assert fixed["wear/cycle"].tolist() == [0, 40000, 80000, 100000]
+    assert fixed["wear/volume2"][-1] == pytest.approx(implicit["wear/volume2"][-1], rel=0.05)
+
+
+def test_friction_changes_over_a_life(life, tmp_path):
+    (tmp_path / "mu.csv").write_text(f"cycle,friction\n0,{MU / 2}\n20000,{MU}\n")
+    r = life(friction=None, wear_friction=tmp_path / "mu.csv", wear_output=(0, 20000))
+    p, q = r["pressure"], np.hypot(r["shear_x"], r["shear_y"])
+    slips = r["state"] == 2
+    for k, moment in enumerate(r["time"]):
+        mu = MU * min(1, 0.5 + 0.5 * np.floor(moment - 1e-9) / 20000)
+        assert q[k][slips[k]] == pytest.approx((mu * p[k])[slips[k]], rel=1e-4)
+    scale = r["history/friction_scale"]
+    assert scale == pytest.approx(1 + np.minimum(r["history/cycle"] / 20000, 1))
+
+
+# ---- stopped and continued
+
+
+def test_killed_life_goes_on_to_the_same_bits(life, launcher, tmp_path):
+    reference = life()
+    words = flatten([BALL, cycle(tmp_path / "cycle.csv"), dict(wear_coefficient2=1e-14, wear_cycles=1e5)])
+    kept = dict(output="kept.h5", checkpoint="state.h5", checkpoint_every=1)
+    for k in range(3):
+        restart = dict(restart="state.h5" if (tmp_path / "state.h5").exists() else None)
+        run = subprocess.Popen(
+            [str(conftest.PROGRAM), *words, *flatten([kept, restart])], cwd=tmp_path, env=conftest.environment(),
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )  # fmt: skip
+        time.sleep(0.8 + 0.3 * k)
+        run.send_signal(signal.SIGKILL)
+        run.wait()
+    assert (tmp_path / "state.h5").exists()
+    assert_equal(life(**kept, restart="state.h5", ranks=2), reference)
+
+
+def test_direct_wear_goes_on_to_the_same_bits(petsam, tmp_path):
+    words = (BALL, cycle(tmp_path / "h.csv", amplitude=2 * MU * D), dict(wear_coefficient1=1e-12))
+    petsam(*words, dict(output="whole.h5"))
+    kept = dict(output="kept.h5", checkpoint="state.h5", checkpoint_every=4)
+    petsam(*words, kept)
+    petsam(*words, kept, dict(restart="state.h5.1"), ranks=2)
+    assert_equal(read(tmp_path / "kept.h5"), read(tmp_path / "whole.h5"))
+
+
+def test_life_can_be_prolonged(life, petsam, tmp_path):
+    """A restart may ask for more cycles; what wears must stay the same."""
+    stopped = life(checkpoint="state.h5", checkpoint_every=1, output="kept.h5")
+    more = life(wear_cycles=2e5, restart="state.h5", output="kept.h5")
+    assert more["wear/cycle"][-1] == 2e5 and (more["wear/cycle"][: len(stopped["wear/cycle"]) - 1] < 1e5).all()
+    for words, name in (
+        (dict(wear_coefficient2=2e-14), "wear_coefficient2"),
+        (dict(wear_coefficient2=None, wear_energy2=1e-14), "wear_"),
+        (dict(wear_cycles=None), "wear"),
+    ):
+        before = (tmp_path / "kept.h5").read_bytes()
+        case = dict(BALL, **cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-14, wear_cycles=1e5)
+        done = petsam({**case, **words}, dict(output="kept.h5", restart="state.h5"), check=2)
+        assert name in done.stderr and (tmp_path / "kept.h5").read_bytes() == before
+
+
+# ---- the end of a life
+
+
+def test_force_that_is_no_longer_carried_ends_the_life(petsam, tmp_path):
+    """Under a given approach wear takes away N, until friction cannot carry T_x."""
+    steps = cycle(tmp_path / "h.csv", header="time,disp_z,load_tx", approach=D, amplitude=0.75 * MU * 180)
+    case = dict(wear_coefficient2=1e-13, wear_cycles=1e9, output="end.h5")
+    plain = petsam(dict(BALL, disp_z=D))
+    n = float(plain.stdout.split("load_n")[1].split()[0])
+    cycle(tmp_path / "h.csv", header="time,disp_z,load_tx", approach=D, amplitude=0.75 * MU * n)
+    done = petsam(BALL, steps, case, check=11)
+    assert "cycles, step" in done.stderr and "slip" in done.stderr
+    r = read(tmp_path / "end.h5")
+    assert len(r["wear/cycle"]) > 3 and (np.diff(r["wear/volume2"]) > 0).all()
+    assert (r["history/status"][:-8] == 0).all()
+
+
+def test_scar_at_the_edge_ends_the_life(petsam, tmp_path):
+    case = dict(BALL, grid_size=1.15 * 2 * np.sqrt(RADIUS * D), wear_coefficient2=1e-13, wear_cycles=1e7, output="e.h5")
+    done = petsam(case, cycle(tmp_path / "h.csv"), check=12)
+    assert "edge" in done.stderr and "cycles, step" in done.stderr
+    assert 1 < len(read(tmp_path / "e.h5")["wear/cycle"]) < 100
+
+
+# ---- bad input
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (dict(wear_energy1=1e-14), "one law of wear"),
+        (dict(wear_coefficient2=-1e-14), "-wear_coefficient2"),
+        (dict(wear_coefficient2="nan"), "-wear_coefficient2"),
+        (dict(wear_coefficient2=0.0), "-wear_cycles is given, but no wear"),
+        (dict(wear_coefficient2=None), "-wear_cycles is given, but no wear"),
+        (dict(wear_cycles=0), "-wear_cycles"),
+        (dict(wear_cycles="many"), "-wear_cycles"),
+        (dict(wear_cycles=None, wear_jump=10), "-wear_jump is given without -wear_cycles"),
+        (dict(wear_jump="far"), "-wear_jump"),
+        (dict(wear_jump=-1), "-wear_jump"),
+        (dict(wear_rtol=0), "-wear_rtol"),
+        (dict(wear_type="trapezoidal"), "-wear_type"),
+        (dict(wear_output="0,x"), "-wear_output"),
+        (dict(wear_output="2e5"), "more than -wear_cycles"),
+        (dict(friction=None), "-friction"),
+        (dict(wear_friction="none.csv"), "-friction"),
+        (dict(history=None, disp_z=D), "-history"),
+    ],
+)
+def test_bad_words_are_refused_by_name(petsam, tmp_path, words, message):
+    case = dict(BALL, **cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-14, wear_cycles=1e5, output="no.h5")
+    done = petsam(dict(case, **words), check=2)
+    assert message in done.stderr and not (tmp_path / "no.h5").exists()
+
+
+def test_open_cycle_is_refused(petsam, tmp_path):
+    steps = cycle(tmp_path / "cycle.csv", last=0.1)
+    done = petsam(BALL, steps, dict(wear_coefficient2=1e-14, wear_cycles=1e5), check=2)
+    assert "not a closed cycle: disp_x" in done.stderr
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("cycle,mu\n0,0.1\n", "line 1: expected the columns cycle,friction"),
+        ("cycle,friction\n5,0.1\n", "line 2: cycle 5.: expected 0"),
+        ("cycle,friction\n0,0.1\n9,0\n", "line 3: friction 0.: expected a number > 0"),
+        ("cycle,friction\n0,0.1\n0,0.2\n", "line 3: cycle 0.: expected more"),
+    ],
+)
+def test_bad_friction_table_is_refused_by_line(petsam, tmp_path, text, message):
+    (tmp_path / "mu.csv").write_text(text)
+    case = dict(BALL, friction=None, wear_coefficient2=1e-14, wear_cycles=1e5, wear_friction=tmp_path / "mu.csv")
+    assert message in petsam(case, cycle(tmp_path / "cycle.csv"), check=2).stderr
