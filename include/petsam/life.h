@@ -26,7 +26,7 @@ typedef enum {
 /* How a life is computed. */
 typedef struct {
   SamLifeType type;
-  PetscReal   rtol;  /* error of a jump that is allowed, relative to the largest depth, and of the pressure */
+  PetscReal   rtol;  /* error of a jump that is allowed: of depth and pressure, relative, in the mean over the scar */
   PetscReal   jump;  /* cycles of the first jump, 0: as many as an explicit one could be */
   PetscBool   fixed; /* all jumps are like the first one, whatever their error */
 } SamLifeSettings;
@@ -35,7 +35,7 @@ typedef struct {
 typedef struct {
   PetscReal cycles;            /* so far */
   PetscReal jump;              /* the last one, cycles */
-  PetscReal error;             /* of this: the largest difference between the jump and two halves of it */
+  PetscReal error;             /* of this: the difference between the jump and two halves of it, relative */
   PetscReal limit;             /* the longest jump that would be stable if it were explicit, cycles */
   PetscReal volume[2];         /* m3, removed of body 1 and 2 so far */
   PetscReal depth[2];          /* m, the largest, removed of body 1 and 2 so far */

@@ -89,7 +89,7 @@ static PetscErrorCode ReadLife(SamWearing *w, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamOptionsEnum(from, "wear_type", "how cycles are jumped over: implicit, or explicit", types, &type, NULL));
   w->life = (SamLifeSettings){.type = (SamLifeType)type, .rtol = 1e-2};
-  PetscCall(SamOptionsReal(from, "wear_rtol", "error of a jump over cycles, relative to the largest depth",
+  PetscCall(SamOptionsReal(from, "wear_rtol", "error of a jump over cycles: of depth and pressure, relative",
                            SAM_RANGE_POSITIVE, &w->life.rtol, NULL));
   PetscCall(SamOptionsReal(from, "wear_jump", "instead: all jumps are over so many cycles", SAM_RANGE_POSITIVE,
                            &w->life.jump, &w->life.fixed));

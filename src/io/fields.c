@@ -139,7 +139,7 @@ static const SamOutputColumn history[] = {
 static const SamOutputColumn wear[] = {
   CYCLE("cycle", "1", "cycles before this one", SAM_COLUMN_REAL, cycles),
   CYCLE("jump", "1", "cycles jumped over before this one", SAM_COLUMN_REAL, jump),
-  CYCLE("error", "1", "estimated error of the jump, over the largest depth", SAM_COLUMN_REAL, error),
+  CYCLE("error", "1", "estimated error of the jump, relative", SAM_COLUMN_REAL, error),
   CYCLE("volume1", "m3", "volume removed of body 1", SAM_COLUMN_REAL, volume[0]),
   CYCLE("volume2", "m3", "volume removed of body 2", SAM_COLUMN_REAL, volume[1]),
   CYCLE("depth_max1", "m", "largest depth removed of body 1", SAM_COLUMN_REAL, depth[0]),

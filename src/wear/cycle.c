@@ -12,7 +12,7 @@
 #include "lifeimpl.h"
 
 #define MOST_PASSES 20   /* cycles that are run to close the loop */
-#define CLOSED      0.1  /* change of the shear in a cycle over mu p, over the tolerance of the jumps */
+#define CLOSED      0.1  /* change of the shear over mu p, and of the energy, over the tolerance of the jumps */
 #define TURN        1e-9 /* changes that count, over the range of a component */
 
 static PetscBool IsSolved(const SamStep *step)
@@ -181,71 +181,70 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
 
 /* ---- closing the loop ---- */
 
-/* Goes through the cycle, by its turning points or all steps; what it wears is not counted. */
-static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscBool *solved)
+/* Goes through the cycle, by its turning points or all steps; what it wears is not counted, but `energy` is. */
+static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, PetscBool *solved)
 {
   SamStep step;
 
   PetscFunctionBegin;
+  *energy = 0;
   for (PetscInt k = 0; k < l->cycle.steps && *solved; k++) {
     if (l->state.by_turns && !l->turns[k]) continue;
     PetscCall(SolveStep(l, k, cycles, &step, solved));
-    if (*solved) PetscCall(SamContactCommit(l->wear->contact));
+    if (!*solved) break;
+    *energy += step.dissipated_energy;
+    PetscCall(SamContactCommit(l->wear->contact));
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The same; `closed`: the shear, over mu p, is afterwards as it was before. */
-static PetscErrorCode GoRoundAndCompare(SamLife l, PetscReal cycles, PetscBool *closed, PetscBool *solved)
-{
-  const SamSolution *s;
-  PetscReal          change, bound;
-
-  PetscFunctionBegin;
-  *closed = PETSC_FALSE;
-  PetscCall(SamContactGetSolution(l->wear->contact, &s));
-  PetscCall(VecCopy(s->shear, l->shear));
-  PetscCall(GoRound(l, cycles, solved));
-  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetSolution(l->wear->contact, &s));
-  PetscCall(VecAXPY(l->shear, -1, s->shear));
-  PetscCall(SamGridNorm(l->wear->grid, l->shear, NORM_1, &change));
-  PetscCall(SamGridNorm(l->wear->grid, s->bound, NORM_1, &bound));
-  *closed = change <= CLOSED * l->set.rtol * bound ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
-  Runs cycles until one leaves the shear as it found it. The first begins anywhere in the history; where the contact
-  rocks, some more may follow.
+  Runs cycles until one leaves the shear as it found it, but for a small part of mu p; `energy`: of the last one. The
+  first begins anywhere in the history; where the contact rocks, some more may follow.
 */
-static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscBool *solved)
+static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscReal *energy, PetscBool *solved)
 {
-  PetscBool closed = PETSC_FALSE;
+  const SamSolution *s;
+  PetscReal          change = PETSC_INFINITY, bound = 0;
 
   PetscFunctionBegin;
   l->state.by_turns = PETSC_FALSE;
-  for (PetscInt pass = 0; pass < MOST_PASSES && !closed && *solved; pass++) {
-    PetscCall(GoRoundAndCompare(l, cycles, &closed, solved));
+  for (PetscInt pass = 0; pass < MOST_PASSES && change > CLOSED * l->set.rtol * bound; pass++) {
+    PetscCall(SamContactGetSolution(l->wear->contact, &s));
+    PetscCall(VecCopy(s->shear, l->shear));
+    PetscCall(GoRound(l, cycles, energy, solved));
+    if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
     l->state.computed++;
+    PetscCall(SamContactGetSolution(l->wear->contact, &s));
+    PetscCall(VecAXPY(l->shear, -1, s->shear));
+    PetscCall(SamGridNorm(l->wear->grid, l->shear, NORM_1, &change));
+    PetscCall(SamGridNorm(l->wear->grid, s->bound, NORM_1, &bound));
   }
-  l->open = *solved ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
   Finds the steps that bring a closed loop back to itself: the turning points, where loads go to and fro; all of them
-  where the contact rolls. By these a loop is closed again whenever the gap has changed a little: what a cycle wears
-  would else depend on the jump before it, and jumps would be of first order.
+  where the contact rolls. What the cycle dissipates after them decides. By these steps a loop is closed again whenever
+  the gap has changed a little: what a cycle wears would else depend on the jump before it, and jumps would be of first
+  order.
 */
 static PetscErrorCode FindWay(SamLife l, PetscReal cycles, PetscBool *solved)
 {
-  PetscBool closed;
+  PetscReal closed, ignored, after;
+  PetscBool same;
 
   PetscFunctionBegin;
+  PetscCall(CloseLoop(l, cycles, &closed, solved));
   l->state.by_turns = PETSC_TRUE;
-  PetscCall(GoRoundAndCompare(l, cycles, &closed, solved));
-  if (*solved && !closed) PetscCall(CloseLoop(l, cycles, solved));
+  if (*solved) PetscCall(GoRound(l, cycles, &ignored, solved));
+  l->state.by_turns = PETSC_FALSE;
+  if (*solved) PetscCall(GoRound(l, cycles, &after, solved));
+  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  l->state.computed++;
+  same = fabs(after - closed) <= CLOSED * l->set.rtol * closed ? PETSC_TRUE : PETSC_FALSE;
+  if (!same) PetscCall(CloseLoop(l, cycles, &closed, solved));
+  l->state.by_turns = same;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -253,17 +252,16 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
 {
   const PetscInt n = l->cycle.steps;
   SamControl     mean;
+  PetscReal      ignored;
   SamStep        step;
 
   PetscFunctionBegin;
   *solved        = PETSC_TRUE;
   l->step.status = SAM_STATUS_CONVERGED;
-  if (l->open) {
-    PetscCall(CloseLoop(l, cycles, solved));
-    if (*solved) PetscCall(FindWay(l, cycles, solved));
-  } else {
-    PetscCall(GoRound(l, cycles, solved));
-  }
+  if (l->open)
+    PetscCall(FindWay(l, cycles, solved));
+  else
+    PetscCall(GoRound(l, cycles, &ignored, solved));
   PetscCall(Begin(l, rate, &mean));
   for (PetscInt k = 0; k < n && *solved; k++) {
     PetscCall(SolveStep(l, k, cycles, &step, solved));
@@ -272,7 +270,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
     if (*solved) PetscCall(SamContactCommit(l->wear->contact));
   }
   l->state.computed++;
-  if (!*solved) l->open = PETSC_TRUE;
+  l->open = *solved ? PETSC_FALSE : PETSC_TRUE;
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
   rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
   PetscCall(FindShift(l, rate));

@@ -160,20 +160,15 @@ static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, Vec
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The difference of two fields over the second one, in a norm. */
-static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm, PetscReal *error)
+/* The difference of two fields over the second one, in the mean (2-norm). */
+static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, PetscReal *error)
 {
   PetscReal difference, size;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(l->diagonal, -1, a, b));
-  if (norm == NORM_INFINITY) {
-    PetscCall(VecNorm(l->diagonal, norm, &difference));
-    PetscCall(VecNorm(b, norm, &size));
-  } else {
-    PetscCall(SamGridNorm(l->wear->grid, l->diagonal, norm, &difference));
-    PetscCall(SamGridNorm(l->wear->grid, b, norm, &size));
-  }
+  PetscCall(SamGridNorm(l->wear->grid, l->diagonal, NORM_2, &difference));
+  PetscCall(SamGridNorm(l->wear->grid, b, NORM_2, &size));
   *error = size > 0 ? difference / size : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -200,8 +195,9 @@ static PetscErrorCode Extrapolate(SamLife l)
 }
 
 /*
-  A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. Their
-  difference: in depth, the largest over the largest; in the pressure at the end, the mean over the mean.
+  A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. The
+  error is that of the depth and of the pressure at the end, in the mean over the scar: the stick zone's edge moves by
+  whole cells, and no jump is so short that the few cells there would not jump, too.
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
@@ -215,8 +211,8 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
   if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
   if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(RelativeDifference(l, l->whole, l->halves, NORM_INFINITY, &depth));
-  PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, &pressure));
+  PetscCall(RelativeDifference(l, l->whole, l->halves, &depth));
+  PetscCall(RelativeDifference(l, l->q, l->p, &pressure));
   *error = l->set.type == SAM_LIFE_EXPLICIT ? depth : PetscMax(depth, pressure);
   PetscCall(Extrapolate(l));
   PetscFunctionReturn(PETSC_SUCCESS);
