@@ -74,7 +74,8 @@ class Datafile:
         columns = _own(self.file, group)
         columns = {name: _own(columns, name) for name in columns}
         values = {name: self._row(data, f"{group}/{name}") for name, data in columns.items()}
-        return Named(self.path, values), {name: self._unit(data, f"{group}/{name}") for name, data in columns.items()}
+        units = {name: self._unit(data, f"{group}/{name}") for name, data in columns.items()}
+        return Named(self.path, values), Named(self.path, units)
 
     @staticmethod
     def _row(data, name):
