@@ -11,6 +11,7 @@ from .files import need_regular
 from .isolation import reading
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
+DEPTHS = ("wear_depth1", "wear_depth2")  # removed of body 1 and 2
 NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
 BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
 WHOLE = 1 << 27  # values of what is read whole at most; a damaged file may claim any number
@@ -64,12 +65,17 @@ class Datafile:
         for name, axis in zip(names, axes):
             if axis.size < least or not np.all(np.isfinite(axis)) or not np.all(np.diff(axis) > 0.0):
                 raise ValueError(f"/{name} is not {least} or more numbers that increase")
-        history = _own(self.file, "history")
-        history = {name: _own(history, name) for name in history}
-        self.history = Named(self.path, {name: self._row(data, "history/" + name) for name, data in history.items()})
-        self.units = {name: self._unit(data, "history/" + name) for name, data in history.items()}
+        self.history, self.units = self._read_table("history")
         self.parameters = Named(self.path, self.file.attrs)
         return axes
+
+    def _read_table(self, group):
+        """Values by name of a group of rows, and their units."""
+        columns = _own(self.file, group)
+        columns = {name: _own(columns, name) for name in columns}
+        values = {name: self._row(data, f"{group}/{name}") for name, data in columns.items()}
+        units = {name: self._unit(data, f"{group}/{name}") for name, data in columns.items()}
+        return Named(self.path, values), Named(self.path, units)
 
     @staticmethod
     def _row(data, name):
@@ -103,13 +109,13 @@ class Datafile:
             return Missing(f"{self.path}: no such file")
         return Error(f"{self.path}: {_reason(error)}")
 
-    def nearest_time(self, times, time):
-        """Index of the time (s) that is nearest, between the first and the last."""
-        low, high = float(times[0]), float(times[-1])
+    def nearest(self, saved, wanted, what="time"):
+        """Index of the saved time (s), or of what else rises from step to step, that is nearest to the one wanted."""
+        low, high = float(saved[0]), float(saved[-1])
         slack = 1e-9 * max(abs(low), abs(high))
-        if not low - slack <= time <= high + slack:
-            raise NotSaved(self.path, f"time {time:g}", f"fields were saved from {low:g} to {high:g}")
-        return int(np.argmin(np.abs(times - time)))
+        if not low - slack <= wanted <= high + slack:
+            raise NotSaved(self.path, f"{what} {wanted:g}", f"fields were saved from {low:g} to {high:g}")
+        return int(np.argmin(np.abs(saved - wanted)))
 
 
 class Results(Datafile):
@@ -120,6 +126,8 @@ class Results(Datafile):
     steps       numbers of the load steps, from 1, whose fields are saved
     history     name: array with a value for every load step, all of /history; NaN where a step has no solution
     units       name: unit, of the same
+    wear        name: array with a value for every computed cycle of a life, all of /wear; empty without a life
+    wear_units  name: unit, of the same
     parameters  name of an option: value, all root attributes
     """
 
@@ -132,6 +140,11 @@ class Results(Datafile):
         if not time.size:
             raise Error(f"{self.path}: has no load step yet")
         self.steps = [int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
+        self.wear, self.wear_units = Named(self.path, {}), {}
+        if "wear" in self.file:
+            self.wear, self.wear_units = self._read_table("wear")
+            complete = min((values.size for values in self.wear.values()), default=0)  # see solved
+            self.wear.update({name: values[:complete] for name, values in self.wear.items()})
 
     # ------------------------------------------------------------ steps
 
@@ -169,7 +182,12 @@ class Results(Datafile):
     def of_time(self, time):
         """Index into the fields of the saved step nearest to time (s), between the first and the last."""
         self._need_fields()
-        return self.nearest_time(self.times, time)
+        return self.nearest(self.times, time)
+
+    def of_cycle(self, cycle):
+        """Index into the fields of the end of the saved cycle of a life that is nearest, between first and last."""
+        self._need_fields()
+        return self.cycle_ends[self.nearest(self.cycles[self.cycle_ends], cycle, "cycle")]
 
     def of_last(self):
         """Index into the fields of the last saved step."""
@@ -181,9 +199,11 @@ class Results(Datafile):
             raise Error(f"{self.path}: no fields were saved")
 
     def title(self, index):
-        """What names a saved step: the label, and the step and its time where there are several."""
+        """What names a saved step: the label, and where there are several the step and its time, or cycle."""
         if self.history["time"].size == 1:
             return self.label
+        if self.has_life:
+            return f"{self.label}, step {self.steps[index]}, after {self.cycles[index]:.7g} cycles"
         return f"{self.label}, step {self.steps[index]}, t = {self.times[index]:.4g} s"
 
     def friction(self, index):
@@ -194,6 +214,39 @@ class Results(Datafile):
             return number * float(scale)
         except DAMAGED as error:
             raise self._error(error) from error
+
+    # ------------------------------------------------------------ the life of a joint that wears
+
+    @property
+    def has_life(self):
+        """Whether the history is a cycle that was repeated (-wear_cycles), and one has been computed."""
+        return "cycle" in self.history and "cycle" in self.wear and self.wear["cycle"].size > 0
+
+    def need_life(self):
+        """Error where there is no life."""
+        if not self.has_life:
+            raise Error(f"{self.path}: has no life of many cycles (petsam -wear_cycles)")
+
+    @cached_property
+    def cycles(self):
+        """Cycles of the life before each saved step's."""
+        self.need_life()
+        return self.history["cycle"][np.array(self.steps, dtype=int) - 1]
+
+    @cached_property
+    def cycle_ends(self):
+        """Indices into the fields of the last saved step of each saved cycle of the life."""
+        return [int(index) for index in np.flatnonzero(np.append(np.diff(self.cycles) != 0.0, True))]
+
+    def of_computed_cycle(self, cycle):
+        """Rows of the history, from 0, of the steps of a computed cycle of the life."""
+        return self.solved[self.series("cycle") == cycle]
+
+    @cached_property
+    def depths(self):
+        """Names of the fields of removed depth that the file has."""
+        with reading(self.path):
+            return [name for name in DEPTHS if name in self.file]
 
     # ------------------------------------------------------------ fields
 

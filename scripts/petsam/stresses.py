@@ -56,7 +56,7 @@ class Stresses(Datafile):
 
     def of_time(self, time):
         """Index of the step nearest to time (s), between the first and the last."""
-        return self.nearest_time(self.times, time)
+        return self.nearest(self.times, time)
 
     def title(self, index):
         """What names a step: the label, and the time where there are several."""

@@ -4,6 +4,7 @@ import contextlib
 import os
 import signal
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -105,3 +106,21 @@ def solve(launcher, tmp_path_factory):
 def sphere():
     """Table 1 at 64 x 64 cells; a copy to change."""
     return dict(support.SPHERE)
+
+
+@pytest.fixture
+def draw(tmp_path, monkeypatch, capfd):
+    """draw(*words): exit code and messages of petsam-plot, run here in tmp_path: many in little time."""
+    from petsam.plot import command
+
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["petsam-plot", *map(str, words)])
+        try:
+            code = command.main()
+        except SystemExit as end:  # of argparse
+            code = end.code
+        return code, capfd.readouterr().err.splitlines()
+
+    return run

@@ -169,22 +169,6 @@ def test_bad_usage_is_exit_code_2(plot, single):
     assert "not allowed with" in plot(single, "--step", "1", "--time", "1", check=2).stderr
 
 
-@pytest.fixture
-def draw(tmp_path, monkeypatch, capfd):
-    """draw(*words): exit code and messages of petsam-plot, run here in tmp_path: many in little time."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["petsam-plot", *map(str, words)])
-        try:
-            code = command.main()
-        except SystemExit as end:  # of argparse
-            code = end.code
-        return code, capfd.readouterr().err.splitlines()
-
-    return run
-
-
 def replaced(file, name, values):
     """Another dataset of this name, with the units of the first."""
     units = file[name].attrs["units"]

@@ -1,4 +1,7 @@
-"""Pictures: command (petsam-plot), pictures (maps, profiles, loops, histories), units (prefixes), style (the look)."""
+"""Pictures: command (petsam-plot), pictures (maps, profiles, loops, histories), bodies (stresses), wear (scars, lives).
+
+units has the prefixes, style the look of all.
+"""
 
 import os
 

@@ -1,12 +1,14 @@
-"""Draw what petsam has computed: maps, profiles, fretting loops, histories; stresses and fatigue of petsam-stress.
+"""Draw what petsam has computed: maps, profiles, fretting loops, histories, wear; stresses of petsam-stress, fatigue.
 
     petsam-plot sphere.h5                          all pictures that the file is good for
     petsam-plot --loop -o loop.pdf a.h5 b.h5       one picture, two files compared
     petsam-plot --maps --step 20,-1 strokes.h5     two steps below each other
+    petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles of a life
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop
-and the history too; of a file of petsam-stress its section or maps, the profile, and fatigue parameters if it has them.
+and the history too; of a life of many cycles (-wear_cycles) its fretting log, scar and life instead of these; of a file
+of petsam-stress its section or maps, the profile, and fatigue parameters if it has them.
 Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
 """
 
@@ -19,13 +21,15 @@ from ..errors import Error, Parser, fail, guarded, short
 from ..files import need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
-from . import bodies, pictures
+from . import bodies, pictures, wear
 from .style import STYLE, plt
 
-KINDS = ("maps", "sections", "profiles", "loop", "history", "fatigue")
-OF_RESULTS = ("maps", "profiles", "loop", "history")
+OF_LIFE = ("fretting-log", "scar", "life")
+OF_RESULTS = ("maps", "profiles", "loop", "history", *OF_LIFE)
 OF_STRESSES = ("maps", "sections", "profiles", "fatigue")
+KINDS = tuple(dict.fromkeys(OF_STRESSES[:3] + OF_RESULTS + OF_STRESSES))  # in the order in which they are drawn
 FORMATS = (".png", ".pdf")
+ORIGIN = (0.0, 0.0)
 DPI = (10, 1200)
 PIXELS = 300e6  # of a PNG at most: matplotlib holds them all
 
@@ -68,25 +72,35 @@ def arguments():
     parser.add_argument("files", nargs="+", metavar="FILE.h5", help="of petsam or petsam-stress; several are compared")
     kinds = parser.add_argument_group("pictures")
     kinds.add_argument(
-        "--maps", action="store_true", help="pressure, shear, slip and state over the surface; stresses over planes"
+        "--maps", action="store_true", help="pressure, shear, slip, state, wear over the surface; stresses over planes"
     )
     kinds.add_argument(
-        "--profiles", action="store_true", help="pressure, shear and slip along x and y; a stress on the surface"
+        "--profiles", action="store_true", help="pressure, shear, slip, wear along x and y; a stress on the surface"
     )
     kinds.add_argument("--sections", action="store_true", help="von Mises and another stress over depth")
     kinds.add_argument("--component", choices=bodies.COMPONENTS, help="that other stress (xx)")
     kinds.add_argument("--fatigue", action="store_true", help="fatigue parameters, with the place of the largest")
     kinds.add_argument("--loop", action="store_true", help="a load over its displacement")
-    kinds.add_argument("--load", choices=tuple(pictures.PAIRS), help="the loop's load (that which does the most work)")
+    kinds.add_argument("--load", choices=tuple(pictures.PAIRS), help="the loops' load (that which does the most work)")
     kinds.add_argument("--history", action="store_true", help="scalars over time")
     kinds.add_argument("--names", metavar="NAME,...", help="the history's datasets (loads that vary, areas, energy)")
-    which = parser.add_argument_group("steps (the last saved)").add_mutually_exclusive_group()
+    kinds.add_argument("--fretting-log", action="store_true", help="loops of the computed cycles of a life")
+    kinds.add_argument("--scar", action="store_true", help="removed depth along x and y through its deepest point")
+    kinds.add_argument("--life", action="store_true", help="volume, depth, energy, area and pressure over cycles")
+    which = parser.add_argument_group(
+        "steps (the last saved; of a scar all saved cycles)"
+    ).add_mutually_exclusive_group()
     which.add_argument(
         "--step", type=numbers(int), metavar="K,...", help="load steps from 1, as petsam prints them; -1 is the last"
     )
     which.add_argument("--time", type=numbers(float), metavar="T,...", help="the saved steps nearest to times, s")
+    which.add_argument(
+        "--cycle", type=numbers(float), metavar="C,...", help="ends of the saved cycles of a life nearest to C"
+    )
     look = parser.add_argument_group("look")
-    look.add_argument("--at", type=point, default=(0.0, 0.0), metavar="X,Y", help="where profiles cross, m (0,0)")
+    look.add_argument(
+        "--at", type=point, metavar="X,Y", help="where profiles cross, m (0,0; a scar's: where it is deepest)"
+    )
     look.add_argument("--depth", type=numbers(float), metavar="Z,...", help="planes of stresses nearest to z, m (some)")
     look.add_argument("--whole-grid", action="store_true", help="maps and profiles of the grid, not of the contact")
     look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
@@ -104,13 +118,17 @@ def arguments():
     return options
 
 
+def asked(options):
+    """The kinds of picture that the options name."""
+    kinds = [kind for kind in KINDS if getattr(options, kind.replace("-", "_"))]
+    implied = [("loop", options.load and "fretting-log" not in kinds), ("history", options.names)]
+    kinds += [kind for kind, given in implied if given]
+    return [kind for kind in KINDS if kind in kinds]
+
+
 def chosen(options, results):
     """The kinds of picture asked for, or all that the files are good for."""
-    kinds = [
-        kind
-        for kind in KINDS
-        if getattr(options, kind) or (kind == "loop" and options.load) or (kind == "history" and options.names)
-    ]
+    kinds = asked(options)
     stresses = isinstance(results[0], Stresses)
     for one in results:
         if isinstance(one, Stresses) != stresses:
@@ -124,8 +142,16 @@ def chosen(options, results):
         return kinds
     if stresses:
         return stress_kinds(results)
+    return result_kinds(results)
+
+
+def result_kinds(results):
+    """What results of petsam are good for."""
+    if all(one.has_life for one in results):
+        scars = any(wear.worn(one, one.of_last()) for one in results)
+        return ["maps", "profiles", "fretting-log", *(["scar"] if scars else []), "life"]
     several = any(one.solved.size > 1 for one in results)
-    return [kind for kind in OF_RESULTS if kind in ("maps", "profiles") or several]
+    return ["maps", "profiles", *(["loop", "history"] if several else [])]
 
 
 def stress_kinds(files):
@@ -147,6 +173,8 @@ def snapshots(options, results):
     try:
         if options.time:
             return [(one, one.of_time(time)) for one in results for time in options.time]
+        if options.cycle:
+            return [(one, one.of_cycle(cycle)) for one in results for cycle in options.cycle]
         if options.step:
             return [(one, one.of_step(step)) for one in results for step in options.step]
         return [(one, one.of_last()) for one in results]
@@ -169,11 +197,24 @@ def draw_stresses(options, files, kind):
     if kind == "fatigue":
         if len(files) > 1:
             raise Error(f"{files[1].path}: --fatigue: draws one file at a time")
-        return bodies.fatigue(files[0], options.at)
+        return bodies.fatigue(files[0], options.at or ORIGIN)
+    if options.cycle:
+        raise Error(f"{files[0].path}: --cycle: a file of petsam-stress, which has steps")
     steps = snapshots(options, files)
     if kind == "maps":
         return bodies.maps(steps, options.component, options.depth)
-    return getattr(bodies, kind)(steps, options.component, options.at)
+    return getattr(bodies, kind)(steps, options.component, options.at or ORIGIN)
+
+
+def draw_wear(options, results, kind):
+    """One picture of wear, a matplotlib figure."""
+    if kind == "life":
+        return wear.life(results)
+    if kind == "fretting-log":
+        return wear.fretting_log(results, options.load)
+    given = options.step or options.time or options.cycle
+    steps = snapshots(options, results) if given else [(one, k) for one in results for k in wear.scar_steps(one)]
+    return wear.scar(steps, options.at, options.whole_grid)
 
 
 def draw(options, results, kind):
@@ -183,7 +224,9 @@ def draw(options, results, kind):
     if kind == "maps":
         return pictures.maps(snapshots(options, results), options.whole_grid)
     if kind == "profiles":
-        return pictures.profiles(snapshots(options, results), options.at, options.whole_grid)
+        return pictures.profiles(snapshots(options, results), options.at or ORIGIN, options.whole_grid)
+    if kind in OF_LIFE:
+        return draw_wear(options, results, kind)
     if kind == "loop":
         return pictures.loop(results, options.load)
     return pictures.history(results, options.names.split(",") if options.names else None)

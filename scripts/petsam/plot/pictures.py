@@ -8,10 +8,11 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from ..errors import Error, short
-from ..results import OPEN, SLIP, STICK
+from ..results import DEPTHS, OPEN, SLIP, STICK
 from .style import colors, extent, field, plt
 from .units import label, largest, plain, scale
 
+VOLUMES = ("wear_volume1", "wear_volume2")
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
 PANELS = 64  # of a picture at most, one below the other or side by side
@@ -25,7 +26,14 @@ SYMBOLS = {
     "load_n": "$N$", "load_tx": "$T_x$", "load_ty": "$T_y$", "load_mx": "$M_x$", "load_my": "$M_y$", "load_mz": "$M_z$",
     "disp_z": "$d_z$", "disp_x": "$d_x$", "disp_y": "$d_y$", "rot_x": "$r_x$", "rot_y": "$r_y$", "rot_z": "$r_z$",
     "dissipated_energy": "dissipated energy, sum",
+    "wear_volume1": "volume removed of body 1", "wear_volume2": "volume removed of body 2",
 }  # fmt: skip
+COLUMNS = (
+    ("pressure", "pressure $p$", "Pa"),
+    ("shear", "shear $|q|$", "Pa"),
+    ("slip", "slip $|s|$", "m"),
+    ("state", "state", ""),
+)
 
 
 def need_few(count, what):
@@ -52,7 +60,14 @@ def _map_data(results, index, whole):
         "slip": slip,
         "pressure": read("pressure"),
         "shear": np.hypot(read("shear_x"), read("shear_y")),
+        **{name: read(name) for name in results.depths},
     }
+
+
+def _map_columns(data):
+    """Name, title and unit of what is drawn of all steps: fields, and the removed depths of bodies that have worn."""
+    worn = [name for name in DEPTHS if largest(one[name] for one in data if name in one) > 0.0]
+    return [*COLUMNS, *((name, f"depth removed of body {name[-1]}, $w_{name[-1]}$", "m") for name in worn)]
 
 
 def _map(axes, data, name, factor, length, vmax):
@@ -63,24 +78,21 @@ def _map(axes, data, name, factor, length, vmax):
 
 
 def maps(snapshots, whole=False):
-    """Pressure, |q|, |s| and state: a row a snapshot, one scale a column."""
+    """Pressure, |q|, |s|, state and removed depths: a row a snapshot, one scale a column."""
     need_few(len(snapshots), "steps and files")
     data = [_map_data(results, index, whole) for results, index in snapshots]
     length, unit = scale("m", largest(np.array(one["extent"]) for one in data))
-    columns = (
-        ("pressure", "pressure $p$", "Pa"),
-        ("shear", "shear $|q|$", "Pa"),
-        ("slip", "slip $|s|$", "m"),
-        ("state", "state", ""),
-    )
-    figure, axes = plt.subplots(
-        len(data), 4, figsize=(14.0, 2.9 * len(data) + 0.3), squeeze=False, constrained_layout=True
-    )
+    columns = _map_columns(data)
+    size = (3.5 * len(columns), 2.9 * len(data) + 0.3)
+    figure, axes = plt.subplots(len(data), len(columns), figsize=size, squeeze=False, constrained_layout=True)
     for column, (name, text, base) in enumerate(columns):
-        top = largest(one[name] for one in data)
+        top = largest(one[name] for one in data if name in one)
         factor, prefixed = scale(base, top) if base else (1.0, "")
         for row, one in enumerate(data):
             panel = axes[row, column]
+            if name not in one:  # a file without wear
+                panel.set_axis_off()
+                continue
             image = _map(panel, one, name, factor, length, factor * top)
             panel.set(
                 xlabel=label("$x$", unit),
@@ -106,22 +118,28 @@ def maps(snapshots, whole=False):
 # ---------------------------------------------------------------- profiles
 
 
-def _profile(results, index, axis, at, whole):
-    """Fields along x (axis 0) or y (axis 1) through the cells nearest to the point at."""
-    window = (slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index)
-    across, along = (results.y, results.x) if axis == 0 else (results.x, results.y)
+def crossing(results, axis, at):
+    """Number of the row (axis 0) or column (axis 1) of cells nearest to the point at."""
+    across = (results.y, results.x)[axis]
     half = 0.5 * (across[1] - across[0])
     if not across[0] - half <= at[1 - axis] <= across[-1] + half:
         raise Error("{}: --at {:g},{:g}: is not on the grid".format(results.path, *at))
-    k = int(np.argmin(np.abs(across - at[1 - axis])))
+    return int(np.argmin(np.abs(across - at[1 - axis])))
+
+
+def _profile(results, index, axis, at, whole):
+    """Fields along x (axis 0) or y (axis 1) through the cells nearest to the point at."""
+    window = (slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index)
+    along = (results.x, results.y)[axis]
+    k = crossing(results, axis, at)
     rows, columns = (slice(k, k + 1), window[1]) if axis == 0 else (window[0], slice(k, k + 1))
     data = {
         name: results.field(name, index, rows, columns).ravel()
-        for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state")
+        for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state", *results.depths)
     }
     for name in ("slip_x", "slip_y"):
         data[name] = np.where(data["state"] == OPEN, np.nan, data[name])
-    return dict(data, along=along[window[1] if axis == 0 else window[0]])
+    return {**dict.fromkeys(DEPTHS, np.zeros_like(data["pressure"])), **data, "along": along[window[1 - axis]]}
 
 
 def _profile_panel(axes, lines, names, length, factor, friction):
@@ -149,7 +167,7 @@ def _profile_panel(axes, lines, names, length, factor, friction):
 
 
 def profiles(snapshots, at=(0.0, 0.0), whole=False):
-    """Pressure, shear and slip along x (left) and y (right)."""
+    """Pressure, shear, slip and removed depths along x (left) and y (right)."""
     tints = colors(len(snapshots))
     lines = [
         [
@@ -164,6 +182,7 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False):
         (("pressure",), "pressure $p$", "Pa", False),
         (("shear_x", "shear_y"), "shear $q_x$ (line), $q_y$ (dashed), $\\pm\\mu p$ (dots)", "Pa", True),
         (("slip_x", "slip_y"), "slip $s_x$ (line), $s_y$ (dashed)", "m", False),
+        (DEPTHS, "removed depth $w_1$ (line), $w_2$ (dashed)", "m", False),
     ]
     tops = [largest(data[name] for data in every for name in row[0]) for row in rows]
     shown = [(row, top) for row, top in zip(rows, tops) if top > 0.0] or [(rows[0], 0.0)]
@@ -180,7 +199,7 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False):
         factor, prefixed = scale(base, top)
         for panel, side in zip(panels, lines):
             _profile_panel(panel, side, names, length, factor, friction)
-        symbol = {"pressure": "$p$", "shear_x": "$q$", "slip_x": "$s$"}[names[0]]
+        symbol = {"pressure": "$p$", "shear_x": "$q$", "slip_x": "$s$", "wear_depth1": "$w$"}[names[0]]
         panels[0].set(ylabel=label(symbol, prefixed))
         panels[0].set_title(text, loc="left", fontsize=9.5)
     axes[-1, 0].set_xlabel("{}  at $y$ = {:.4g} {}".format(label("$x$", unit), length * at[1], unit))
@@ -209,17 +228,25 @@ def busiest(results):
     return "n" if work("n") > 0.0 else None
 
 
+def of_computed(results):
+    """What a sum over the steps of a life has to say: the cycles between those computed are not in it."""
+    return " in the computed cycles" if results.has_life else ""
+
+
+def loop_axes(results, pair=None):
+    """The load and the displacement of a loop, and of each the factor and the unit that suit all files."""
+    pair = pair or busiest(results[0])
+    if pair is None:
+        raise Error(f"{results[0].path}: no load varies, a loop needs several steps")
+    return {name: scale(results[0].units[name], largest(one.series(name) for one in results)) for name in PAIRS[pair]}
+
+
 def loop(results, pair=None):
     """A load over its displacement, of every file; steps without a solution are left out."""
     for one in results:
         one.need_solution()
-    pair = pair or busiest(results[0])
-    if pair is None:
-        raise Error(f"{results[0].path}: no load varies, a loop needs several steps")
-    force, way = PAIRS[pair]
-    factors = {
-        name: scale(results[0].units[name], largest(one.series(name) for one in results)) for name in (force, way)
-    }
+    factors = loop_axes(results, pair)
+    force, way = factors
     figure, axes = plt.subplots(figsize=(6.4, 4.8), constrained_layout=True)
     for one, tint in zip(results, colors(len(results))):
         x, y = (factors[name][0] * one.series(name) for name in (way, force))
@@ -232,7 +259,7 @@ def loop(results, pair=None):
             color=tint,
             linewidth=1.2,
             markersize=4.0,
-            label=f"{plain(one.label)}: {factor * energy:.4g} {unit} dissipated",
+            label=f"{plain(one.label)}: {factor * energy:.4g} {unit} dissipated" + of_computed(one),
         )
         axes.plot(
             x[-1],
@@ -276,7 +303,11 @@ def _varying(results):
         for name in pair
         if any(np.ptp(one.series(name)) > 1e-9 * size.get(one.units[name], 0.0) for one in results)
     ]
-    return [*loads, "contact_area", "stick_area", "dissipated_energy", "tangential_iterations"]
+    shared = [name for name in VOLUMES if all(name in one.history for one in results)]
+    worn = [name for name in shared if any(np.any(one.series(name)) for one in results)]
+    # of a life the sum of the energy over the computed cycles says nothing
+    energy = [] if any(one.has_life for one in results) else ["dissipated_energy"]
+    return [*loads, "contact_area", "stick_area", *worn, *energy, "tangential_iterations"]
 
 
 def history(results, names=None):

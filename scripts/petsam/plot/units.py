@@ -4,18 +4,30 @@ import numpy as np
 
 from ..errors import short
 
+POWERS = {"m2": 2, "m3": 3}
 PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+NUMBERS = ((1e9, "billion "), (1e6, "million "), (1e3, "thousand "))
 
 
 def scale(unit, largest):
-    """Factor and unit with the prefix in which largest has up to three digits before the point."""
+    """Factor and unit with the prefix in which largest has up to three digits before the point.
+
+    Volumes go from 0.001 to six digits: from µm³ to mm³ it is nine.
+    """
     if unit in ("1", "s") or not np.isfinite(largest) or largest == 0.0:
         return 1.0, "" if unit == "1" else plain(unit)
-    power = 2 if unit == "m2" else 1
+    power = POWERS.get(unit, 1)
+    least = 1e-3 if unit == "m3" else 1.0
     # no kilometres, and no kilo-radians
-    prefixes = [(size**power, prefix) for size, prefix in PREFIXES if size <= 1.0 or unit not in ("m", "m2", "rad")]
-    size, prefix = next((pair for pair in prefixes if largest >= pair[0]), prefixes[-1])
-    return 1.0 / size, prefix + {"m2": "m²", "N m": "N m"}.get(unit, plain(unit))
+    prefixes = [(size**power, prefix) for size, prefix in PREFIXES if size <= 1.0 or unit not in ("m", *POWERS, "rad")]
+    size, prefix = next((pair for pair in prefixes if largest >= least * pair[0]), prefixes[-1])
+    return 1.0 / size, prefix + {"m2": "m²", "m3": "m³", "N m": "N m"}.get(unit, plain(unit))
+
+
+def counted(largest):
+    """Factor and words in which up to so many cycles are told."""
+    size, word = next((pair for pair in NUMBERS if largest >= pair[0]), (1.0, ""))
+    return 1.0 / size, word + "cycles"
 
 
 def label(text, unit):

@@ -1,0 +1,222 @@
+"""Pictures of wear: the fretting log, scars and the life of a joint; each function gives a matplotlib figure.
+
+A fretting log is the family of a life's loops: the tangential load of a cycle over its displacement. Cycles are told in
+thousands or millions, and coloured in their order, dark to bright: they range over decades, and begin with 0.
+"""
+
+import numpy as np
+
+from ..errors import Error
+from ..results import BLOCK
+from .pictures import SYMBOLS, crossing, loop_axes, need_few
+from .style import colors, plt, tint
+from .units import counted, label, largest, plain, scale
+
+LOOPS = 8  # in a panel: more cannot be told apart
+LINES = 10  # of a scar by itself
+# names in /wear, of both bodies or of the joint, and what they are called
+LIFE = (
+    (("volume1", "volume2"), "removed volume"),
+    (("depth_max1", "depth_max2"), "largest depth"),
+    (("dissipated_energy",), "dissipated energy of a cycle"),
+    (("contact_area",), "contact area"),
+    (("pressure_max",), "largest pressure"),
+)
+BODIES = (".-", "s--")  # lines of the first and the second body that wears
+LOOK = {"linewidth": 1.2, "markersize": 3.5, "markerfacecolor": "white"}
+
+
+def _legend(panel, title):
+    panel.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), title=title, borderaxespad=0.3)
+
+
+# ---------------------------------------------------------------- the fretting log
+
+
+def _closed(values):
+    """Values of a loop with its beginning, which is its end."""
+    return np.concatenate([values[-1:], values])
+
+
+def logged(one):
+    """Rows of /wear whose loops are drawn: the first, the last, and others that divide the wear evenly."""
+    volume = one.wear["volume1"] + one.wear["volume2"]
+    wanted = np.linspace(volume[0], volume[-1], LOOPS)
+    return sorted({0, volume.size - 1, *(int(np.argmin(np.abs(volume - part))) for part in wanted[1:-1])})
+
+
+def _loops(panel, one, factors):
+    """Loops of one file's cycles."""
+    rows = logged(one)
+    cycles, energies = (one.wear[name][rows] for name in ("cycle", "dissipated_energy"))
+    factor, words = counted(cycles[-1])
+    joules, unit = scale("J", largest([energies]))
+    for k, (cycle, energy) in enumerate(zip(cycles, energies)):
+        steps = one.of_computed_cycle(cycle)
+        y, x = (size * _closed(one.history[name][steps]) for name, (size, _) in factors.items())
+        text = f"{factor * cycle:.3g}: {joules * energy:.3g} {unit}"
+        panel.plot(x, y, ".-", color=tint(k, len(rows)), linewidth=1.2, markersize=3.0, label=text)
+    _legend(panel, f"{words}: dissipated")
+    panel.set_title(plain(one.label), fontsize=9.5)
+
+
+def fretting_log(files, pair=None):
+    """Loops of some of the computed cycles, a panel a file; pair names the load, that which does most work if None."""
+    need_few(len(files), "files")
+    for one in files:
+        one.need_life()
+    factors = loop_axes(files, pair)
+    figure, axes = plt.subplots(
+        1, len(files), figsize=(6.9 * len(files), 4.8), squeeze=False, sharex=True, sharey=True, constrained_layout=True
+    )
+    force, way = ((SYMBOLS[name], unit) for name, (_, unit) in factors.items())
+    for panel, one in zip(axes[0], files):
+        _loops(panel, one, factors)
+        panel.set_xlabel(label(*way))
+    axes[0, 0].set_ylabel(label(*force))
+    return figure
+
+
+# ---------------------------------------------------------------- scars
+
+
+def scar_steps(one):
+    """Indices into the fields of what a scar shows by itself: ends of the saved cycles, or the last saved step."""
+    ends = one.cycle_ends if one.has_life else [one.of_last()]
+    return ends if len(ends) <= LINES else [ends[round(k)] for k in np.linspace(0, len(ends) - 1, LINES)]
+
+
+def deepest(one, name, index):
+    """The largest removed depth of a saved step (m), and the point (x, y) where it is, m."""
+    best = (-1.0, (0.0, 0.0))
+    for start in range(0, one.y.size, BLOCK):
+        block = one.field(name, index, slice(start, start + BLOCK))
+        row, column = np.unravel_index(np.argmax(block), block.shape)
+        best = max(best, (float(block[row, column]), (float(one.x[column]), float(one.y[start + row]))))
+    return best
+
+
+def worn(one, index):
+    """Fields of removed depth of the bodies that have worn until a saved step, and their deepest points."""
+    found = {name: deepest(one, name, index) for name in one.depths}
+    return {name: point for name, (depth, point) in found.items() if depth > 0.0}
+
+
+def _line(one, name, index, axis, at):
+    """A removed depth along x (axis 0) or y (axis 1) through a point."""
+    k = crossing(one, axis, at)
+    part = {"rows" if axis == 0 else "columns": slice(k, k + 1)}
+    return one.field(name, index, **part).ravel()
+
+
+def _scar_rows(steps, at):
+    """What each row of panels shows: a file, its indices, a field of removed depth, and the point it goes through."""
+    rows = []
+    for one in dict.fromkeys(one for one, _ in steps):
+        if not one.depths:
+            raise Error(f"{one.path}: has no removed depth (petsam -wear_coefficient1, -wear_energy1, or of body 2)")
+        indices = [index for other, index in steps if other is one]
+        rows += [(one, indices, name, at or point) for name, point in worn(one, max(indices)).items()]
+    if not rows:
+        raise Error(f"{steps[0][0].path}: nothing has worn in the steps that are drawn")
+    need_few(len(rows), "scars")
+    return rows
+
+
+def _window(lines, whole):
+    """The part of lines where any shows a removed depth, and a margin."""
+    cells = np.flatnonzero(np.any(np.array(lines) > 0.0, axis=0))
+    if whole or not cells.size:
+        return slice(None)
+    more = 2 + (cells[-1] - cells[0]) // 7
+    return slice(max(0, cells[0] - more), cells[-1] + more + 1)
+
+
+def _names(one, indices):
+    """What the lines of a scar are called, and the title of their legend."""
+    if not one.has_life:
+        return [f"{one.steps[index]}" for index in indices], "step"
+    factor, words = counted(max(one.cycles[index] for index in indices))
+    return [f"{factor * one.cycles[index]:.4g}" for index in indices], words
+
+
+def _scar_panel(panel, row, axis, units, whole):
+    """Lines of one scar along an axis; units are those of lengths and of depths."""
+    one, indices, name, at = row
+    (length, unit), (factor, _) = units
+    lines = [_line(one, name, index, axis, at) for index in indices]
+    part = _window(lines, whole)
+    along = length * (one.x, one.y)[axis][part]
+    texts, _ = _names(one, indices)
+    for k, (values, text) in enumerate(zip(lines, texts)):
+        panel.plot(along, factor * values[part], color=tint(k, len(lines)), linewidth=1.3, label=text)
+    across = f"${'yx'[axis]}$ = {length * at[1 - axis]:.4g} {unit}"
+    panel.set_title(f"{plain(one.label)}: body {name[-1]} along ${'xy'[axis]}$ at {across}", fontsize=9)
+    panel.set_xlabel(label(f"${'xy'[axis]}$", unit))
+
+
+def scar(steps, at=None, whole=False):
+    """Removed depth along x (left) and y (right) through its deepest point: a row a body, a line a step."""
+    need_few(len(steps), "steps and files")
+    rows = _scar_rows(steps, at)
+    depth = largest(
+        _line(one, name, index, axis, point)
+        for one, indices, name, point in rows
+        for index in indices
+        for axis in (0, 1)
+    )
+    units = scale("m", largest(axis for one, _ in steps for axis in (one.x, one.y))), scale("m", depth)
+    size = (11.5, 3.2 * len(rows) + 0.3)
+    figure, axes = plt.subplots(len(rows), 2, figsize=size, squeeze=False, sharey="row", constrained_layout=True)
+    for panels, row in zip(axes, rows):
+        for axis, panel in enumerate(panels):
+            _scar_panel(panel, row, axis, units, whole)
+        panels[0].invert_yaxis()  # shared
+        panels[0].set_ylabel(label(f"removed depth $w_{row[2][-1]}$", units[1][1]))
+        _legend(panels[1], _names(row[0], row[1])[1])
+    return figure
+
+
+# ---------------------------------------------------------------- the life
+
+
+def _worn_bodies(files):
+    """Numbers of the bodies that wear in any of the files."""
+    return [body for body in "12" if any(np.any(one.wear["volume" + body]) for one in files)]
+
+
+def _life_panel(panel, files, names, title):
+    """One quantity over the cycles; of two bodies that wear the second one is dashed."""
+    bodies = _worn_bodies(files) or ["1"]
+    if len(names) > 1:
+        names = [name for name in names if name[-1] in bodies]
+        title += f" of body {bodies[0]}" if len(names) == 1 else ""
+    factor, unit = scale(files[0].wear_units[names[0]], largest(one.wear[name] for one in files for name in names))
+    many, words = counted(largest(one.wear["cycle"] for one in files))
+    for one, color in zip(files, colors(len(files))):
+        for name, style in zip(names, BODIES):
+            panel.plot(many * one.wear["cycle"], factor * one.wear[name], style, color=color, **LOOK)
+    panel.set(xlabel=words, ylabel=label(title, unit))
+
+
+def _life_legend(panel, files):
+    """What the lines of all panels are, in one of its own."""
+    panel.set_axis_off()
+    for one, color in zip(files, colors(len(files))):
+        panel.plot([], [], color=color, label=plain(one.label))
+    if len(_worn_bodies(files)) > 1:
+        for body, style in zip("12", BODIES):
+            panel.plot([], [], style, color="0.35", label=f"body {body}", **LOOK)
+    panel.legend(loc="center")
+
+
+def life(files):
+    """Volume, largest depth, energy of a cycle, contact area and largest pressure over the cycles, a line a file."""
+    for one in files:
+        one.need_life()
+    figure, axes = plt.subplots(2, 3, figsize=(12.6, 6.2), sharex=True, constrained_layout=True)
+    for panel, (names, title) in zip(axes.flat, LIFE):
+        _life_panel(panel, files, names, title)
+        panel.tick_params(labelbottom=True)
+    _life_legend(axes.flat[-1], files)
+    return figure
