@@ -18,7 +18,7 @@
 #define GROW_LEAST 0.2
 #define SAFETY     0.8
 /* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere (test_life). */
-#define HALVES 3.0
+#define HALVES 2.0
 /* An explicit jump over the longest stable one: the rate changes within it. */
 #define STABLE 0.8
 /* The first jump over the same, where nothing else is known. */
@@ -160,15 +160,15 @@ static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, Vec
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The difference of two fields over the second one, in the mean (2-norm). */
-static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, PetscReal *error)
+/* The difference of two fields over the second one, in a norm. */
+static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm, PetscReal *error)
 {
   PetscReal difference, size;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(l->diagonal, -1, a, b));
-  PetscCall(SamGridNorm(l->wear->grid, l->diagonal, NORM_2, &difference));
-  PetscCall(SamGridNorm(l->wear->grid, b, NORM_2, &size));
+  PetscCall(SamGridNorm(l->wear->grid, l->diagonal, norm, &difference));
+  PetscCall(SamGridNorm(l->wear->grid, b, norm, &size));
   *error = size > 0 ? difference / size : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -196,8 +196,9 @@ static PetscErrorCode Extrapolate(SamLife l)
 
 /*
   A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. The
-  error is that of the depth and of the pressure at the end, in the mean over the scar: the stick zone's edge moves by
-  whole cells, and no jump is so short that the few cells there would not jump, too.
+  error is that of the depth and of the pressure at the end, in the mean over the scar (2-norm, 1-norm): the stick
+  zone's edge, with the pressure's peak, moves by whole cells, and no jump is so short that the cells there would not
+  jump, too.
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
@@ -211,8 +212,8 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
   if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
   if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(RelativeDifference(l, l->whole, l->halves, &depth));
-  PetscCall(RelativeDifference(l, l->q, l->p, &pressure));
+  PetscCall(RelativeDifference(l, l->whole, l->halves, NORM_2, &depth));
+  PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, &pressure));
   *error = l->set.type == SAM_LIFE_EXPLICIT ? depth : PetscMax(depth, pressure);
   PetscCall(Extrapolate(l));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -96,7 +96,7 @@ def test_life_tells_its_cycles(life):
     r = life(wear_output=(0, 30000))
     cycles, jumps = r["wear/cycle"], r["wear/jump"]
     assert cycles[0] == 0 and cycles[-1] == 1e5 and 30000 in cycles and (np.diff(cycles) == jumps[1:]).all()
-    assert (cycles == np.floor(cycles)).all() and (r["wear/error"][1:] <= 0.03).all()
+    assert (cycles == np.floor(cycles)).all() and (r["wear/error"][1:] <= 0.02).all()
     assert (np.diff(r["wear/computed"]) >= 2).all()
     # a row of the history for each step of these cycles, whose times go on
     assert (r["history/cycle"] == np.repeat(cycles, 8)).all()
