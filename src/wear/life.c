@@ -198,7 +198,7 @@ static PetscErrorCode Extrapolate(SamLife l)
   A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. The
   error is that of the depth and of the pressure at the end, in the mean over the scar (2-norm, 1-norm): the stick
   zone's edge, with the pressure's peak, moves by whole cells, and no jump is so short that the cells there would not
-  jump, too.
+  jump, too. Explicit jumps do not know the pressure at their end.
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
@@ -309,7 +309,7 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
     if (!l->set.fixed) l->state.next = next;
     l->state.jump  = jump;
     l->state.error = error;
-    l->state.cycles += jump;
+    l->state.cycles = jump == cycles - l->state.cycles ? cycles : l->state.cycles + jump;
     l->known = PETSC_FALSE;
   }
   PetscCall(Report(l, report));

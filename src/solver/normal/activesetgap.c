@@ -179,11 +179,16 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
 
 PetscErrorCode SamActiveSetRefresh(Work *w)
 {
+  PetscBool found;
+
   PetscFunctionBegin;
-  if (IsSingleEnough(w))
+  if (IsSingleEnough(w)) {
     PetscCall(ApplySingle(w));
-  else
+  } else {
+    /* the steps so far have kept equilibrium to the rounding of single precision only */
+    PetscCall(SamFrameProjectNormalOnContact(w->frame, w->p, &found));
     PetscCall(Apply(w));
+  }
   PetscCall(FinishGap(w));
   w->rounding.bound = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
   PetscCall(SamActiveSetChoose(w, NULL));
