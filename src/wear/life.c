@@ -307,10 +307,10 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
     PetscCall(VecCopy(l->halves, l->wear->load));
     PetscCall(SamWearMoveGap(l->wear));
     if (!l->set.fixed) l->state.next = next;
-    l->state.jump  = jump;
-    l->state.error = error;
+    l->state.jump   = jump;
+    l->state.error  = error;
     l->state.cycles = jump == cycles - l->state.cycles ? cycles : l->state.cycles + jump;
-    l->known = PETSC_FALSE;
+    l->known        = PETSC_FALSE;
   }
   PetscCall(Report(l, report));
   PetscFunctionReturn(PETSC_SUCCESS);
