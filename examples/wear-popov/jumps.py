@@ -1,7 +1,8 @@
 """Print what implicit and explicit jumps of the Popov example cost, and how far they end from each other.
 
 Reads jumps_implicit.h5 and jumps_explicit.h5, which `examples/wear-popov/run.sh jumps` writes to a directory. Exit code
-1 when explicit jumps do not need more cycles, or when the depths differ by more than five times a tolerance of 1e-2.
+1 when explicit jumps do not need more cycles, or when the depths differ by more than 0.05 in relative L2. The largest
+difference is shown but not held: at the stick radius it depends on a cell's slipping or not.
 """
 
 import argparse
@@ -11,10 +12,10 @@ import sys
 import numpy as np
 
 import petsam
-from petsam.comparison import print_table
+from petsam.comparison import print_table, relative_l2
 from petsam.errors import fail
 
-ALLOWED = 0.05  # of the largest depth: five times the tolerance of one jump, as errors of jumps add up
+ALLOWED = 0.05  # relative L2: five times the tolerance of a jump, as their errors add up
 
 
 def numbers(results, name):
@@ -31,10 +32,11 @@ def compare(directory):
     columns += "; depth, m = depth_max1:.4e; N, N = load_n:.2f"
     print_table("tau = 10, nu = 0.3, 40 steps a cycle", columns, rows)
     depths = [results.field("wear_depth1") for results in lives.values()]
-    difference = float(np.max(np.abs(depths[0] - depths[1])) / np.max(depths[1]))
+    difference = relative_l2(*depths)
+    largest = float(np.max(np.abs(depths[0] - depths[1])) / np.max(depths[1]))
     ok = difference < ALLOWED and rows[0]["computed"] < rows[1]["computed"]
-    said = f"depths differ by {difference:.1e} of the largest, {ALLOWED:g} is allowed; implicit is cheaper"
-    print(f"\ncheck: {said}: {'passed' if ok else 'FAILED'}")
+    said = f"depths differ by {difference:.1e} (relative L2; {ALLOWED:g} is allowed), in a cell by {largest:.1e}"
+    print(f"\ncheck: {said}; implicit is cheaper: {'passed' if ok else 'FAILED'}")
     return ok
 
 
