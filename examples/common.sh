@@ -72,6 +72,19 @@ stress() {
         fail "stresses $stress_name failed"
 }
 
+# wave COLUMN AMPLITUDE STEPS QUARTERS: a triangular wave from 0 that rises first, STEPS a cycle, time in cycles
+wave() {
+    LC_ALL=C awk -v column="$1" -v amplitude="$2" -v n="$3" -v quarters="$4" 'BEGIN {
+        print "# triangular wave, " n " steps a cycle"
+        print "time," column
+        for (k = 0; 4 * k <= n * quarters; k++) {
+            m = 4 * (k % n)  # of 4 n a cycle
+            value = m <= n ? m / n : m <= 3 * n ? 2 - m / n : m / n - 4
+            printf "%.10g,%.12g\n", k / n, amplitude * value
+        }
+    }'
+}
+
 evaluate() { # evaluate EXPRESSION: its value
     LC_ALL=C awk "BEGIN { printf \"%.10g\\n\", $1 }"
 }

@@ -24,19 +24,6 @@ displacement_nu0=1.5007406e-6
 displacement_nu03=1.8223278e-6
 steel="-body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 -body2_poisson 0.3"
 
-# wave COLUMN AMPLITUDE STEPS QUARTERS: a triangular wave from 0 that rises first, STEPS a cycle, time in cycles
-wave() {
-    LC_ALL=C awk -v column="$1" -v amplitude="$2" -v n="$3" -v quarters="$4" 'BEGIN {
-        print "# triangular wave, " n " steps a cycle"
-        print "time," column
-        for (k = 0; 4 * k <= n * quarters; k++) {
-            m = 4 * (k % n)  # of 4 n a cycle
-            value = m <= n ? m / n : m <= 3 * n ? 2 - m / n : m / n - 4
-            printf "%.10g,%.12g\n", k / n, amplitude * value
-        }
-    }'
-}
-
 # solve CASE COLUMN AMPLITUDE STEPS QUARTERS OPTION...: one loop, results to CASE.h5
 solve() {
     name=$1
