@@ -53,5 +53,10 @@ PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamRe
 */
 PETSC_EXTERN PetscErrorCode SamResultsReadBulkStress(SamResults results, PetscInt step, PetscInt body,
                                                      double stress[SAM_BULK_COMPONENTS]);
+/*
+  SamResultsReadCycle - the cycles before the one that a load step (from 1) belongs to in a life; 0 in other results.
+  Collective. Errors: as SamResultsReadBulkStress().
+*/
+PETSC_EXTERN PetscErrorCode SamResultsReadCycle(SamResults results, PetscInt step, double *cycle);
 
 #endif

@@ -54,6 +54,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   run->point.times = SamOutputAddTime(run->point.times, told.control.time);
   PetscCall(SamReportCountStep(run->report, run->point.steps, &told));
   PetscCall(SamRunWriteStep(run, &told, due || failed ? PETSC_TRUE : PETSC_FALSE));
+  run->told = SamRunHasFailed(&told);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -83,6 +84,20 @@ static PetscErrorCode Start(SamRun *run, PetscBool *ended)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Marks in the history a step that failed before its cycle was written, as one of the cycle after the last written. */
+static PetscErrorCode WriteFailure(SamRun *run, const SamLifeReport *r)
+{
+  SamStep step = r->step;
+
+  PetscFunctionBegin;
+  step.cycle = r->cycles;
+  PetscCall(TimeOf(run, r->cycles + 1, &step.control.time));
+  PetscCall(PetscArraycpy(step.wear_volume, r->volume, 2));
+  run->point.steps++;
+  PetscCall(SamRunWriteStep(run, &step, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Says where a step failed, or reached the edge, and ends the life there. */
 static PetscErrorCode EndLife(SamRun *run, const SamLifeReport *r, const char where[])
 {
@@ -93,6 +108,7 @@ static PetscErrorCode EndLife(SamRun *run, const SamLifeReport *r, const char wh
                  r->at + 1);
   PetscCall(SamReportMessage(run->report, text, &r->step));
   run->point.worst = r->step.status;
+  if (SamRunHasFailed(&r->step) && !run->told) PetscCall(WriteFailure(run, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

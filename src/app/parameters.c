@@ -145,7 +145,13 @@ static PetscErrorCode AddWear(SamParameters *p, const SamWearing *w)
     PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", name, body + 1));
     PetscCall(SamParametersAddReals(p, option, PETSC_TRUE, 1, &w->coefficient[body]));
   }
-  if (w->cycles > 0) PetscCall(SamParametersAddReals(p, "wear_cycles", PETSC_FALSE, 1, &w->cycles));
+  if (w->cycles > 0) {
+    PetscCall(SamParametersAddReals(p, "wear_cycles", PETSC_FALSE, 1, &w->cycles));
+    PetscCall(
+      SamParametersAddText(p, "wear_type", PETSC_FALSE, w->life.type == SAM_LIFE_EXPLICIT ? "explicit" : "implicit"));
+    PetscCall(SamParametersAddReals(p, w->life.fixed ? "wear_jump" : "wear_rtol", PETSC_FALSE, 1,
+                                    w->life.fixed ? &w->life.jump : &w->life.rtol));
+  }
   if (!w->points) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < w->points; k++)
     sum = SamHashMix(sum + SamHashBits(w->at[k]) + 3 * SamHashBits(w->friction[k]));

@@ -224,6 +224,16 @@ PetscErrorCode SamReportCountStep(SamReport r, PetscInt number, const SamStep *s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The number of jumps over `left` cycles, if they go on to grow as the last one did from that `before`. */
+static double JumpsLeft(const SamLifeReport *c, PetscReal before, PetscReal left)
+{
+  const double growth = before > 0 ? PetscMin(1.5, PetscMax(1.0, (double)(c->jump / before))) : 1.5;
+
+  if (c->jump <= 0) return 0;
+  return growth < 1.001 ? (double)(left / c->jump)
+                        : log(1 + (double)(left / c->jump) * (growth - 1) / growth) / log(growth);
+}
+
 PetscErrorCode SamReportEndCycle(SamReport r, const SamLifeReport *c, PetscReal cycles)
 {
   const double now = MPI_Wtime(), seconds = now - r->begin;
@@ -235,8 +245,8 @@ PetscErrorCode SamReportEndCycle(SamReport r, const SamLifeReport *c, PetscReal 
   r->cycles++;
   r->begin = now;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
-  /* jumps stay as long as the last one */
-  left = MeanTime(r, r->cycles, seconds) * (c->jump > 0 ? (cycles - c->cycles) / c->jump : 0);
+  left    = MeanTime(r, r->cycles, seconds) * JumpsLeft(c, r->jump, cycles - c->cycles);
+  r->jump = c->jump;
   SamReportDuration(left, duration, sizeof(duration));
   if (r->cycles == 1)
     PetscCall(PetscPrintf(r->comm, "%11s %10s %8s %10s %10s %10s %10s %10s %10s %10s %9s %8s %9s\n", "cycles", "jump",

@@ -38,6 +38,7 @@ struct _n_SamReport {
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
   PetscInt       cycles;   /* lines printed for computed cycles */
+  PetscReal      jump;     /* cycles, of the last of these */
   PetscBool      living;   /* the run is a life */
   SamReportWorst worst[3]; /* normal, tangential, equilibrium */
   SamProgress    progress;

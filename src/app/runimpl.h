@@ -36,6 +36,7 @@ typedef struct {
   PetscBool         stopped; /* before its end, with a checkpoint */
   PetscInt          output_every;
   PetscBool         has_output;
+  PetscBool         told;      /* in a life: the step that failed is in the file */
   PetscBool         warned;    /* a warning has been printed in this life */
   PetscReal         last_time; /* of the last step that was written, s */
   PetscBool         writing;   /* a collective write is under way */

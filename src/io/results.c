@@ -16,7 +16,7 @@ typedef struct {
   double  n[2], width[2], center[2], young[2], poisson[2];
   char    elasticity[64], options[4096]; /* options: empty if they are longer */
   hsize_t steps, saved;
-  int     has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS];
+  int     has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS], cycle;
   char    problem[SAM_MESSAGE]; /* empty: none */
 } Facts;
 
@@ -119,19 +119,24 @@ static void ExamineFields(Facts *f, hid_t file)
   }
 }
 
-/* The columns of bulk stress, as far as they are there. */
-static void ExamineBulkStress(Facts *f, hid_t file)
+/* An optional column of the history, as far as it is there. */
+static int ExamineColumn(Facts *f, hid_t file, const char column[])
+{
+  hsize_t shape[1] = {0};
+  char    name[64];
+
+  (void)snprintf(name, sizeof(name), "/history/%s", column);
+  if (H5Lexists(file, name, H5P_DEFAULT) <= 0) return 0;
+  if (GetShape(f, file, name, 1, shape) && shape[0] < f->steps)
+    Complain(f, "%s has %llu values", name, (unsigned long long)shape[0]);
+  return 1;
+}
+
+static void ExamineColumns(Facts *f, hid_t file)
 {
   for (int body = 0; body < 2; body++)
-    for (int k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      hsize_t shape[1] = {0};
-      char    name[64];
-
-      (void)snprintf(name, sizeof(name), "/history/%s", SamBulkNames[body][k].name);
-      f->bulk[body][k] = H5Lexists(file, name, H5P_DEFAULT) > 0;
-      if (!f->bulk[body][k] || !GetShape(f, file, name, 1, shape)) continue;
-      if (shape[0] < f->steps) Complain(f, "%s has %llu values", name, (unsigned long long)shape[0]);
-    }
+    for (int k = 0; k < SAM_BULK_COMPONENTS; k++) f->bulk[body][k] = ExamineColumn(f, file, SamBulkNames[body][k].name);
+  f->cycle = ExamineColumn(f, file, "cycle");
 }
 
 static PetscBool IsPlausible(const Facts *f)
@@ -174,7 +179,7 @@ static void ExamineInChild(void *data)
   if (!f->elasticity[0]) Complain(f, "it lacks the attribute elasticity of a results file of petsam");
   if (!f->problem[0] && !IsPlausible(f)) Complain(f, "its parameters are not those of a run of petsam");
   if (!f->problem[0]) ExamineFields(f, file);
-  if (!f->problem[0]) ExamineBulkStress(f, file);
+  if (!f->problem[0]) ExamineColumns(f, file);
   if (!f->problem[0] && f->saved == 0) Complain(f, "no step has been saved in it");
   (void)H5Fclose(file);
 }
@@ -363,19 +368,34 @@ PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A value of a column of the history, at a step from 1. */
+static PetscErrorCode ReadNumber(SamResults r, const char column[], PetscInt step, double *value)
+{
+  char name[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", column));
+  PetscCall(SamFileBegin(r->file));
+  ReadSeries(r->file, name, (hsize_t)step - 1, 1, value);
+  PetscCall(SamFileEnd(r->file));
+  PetscCall(CheckFinite(r, 1, value, name, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamResultsReadBulkStress(SamResults r, PetscInt step, PetscInt body, double stress[SAM_BULK_COMPONENTS])
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-    char name[64];
-
     stress[k] = 0;
-    if (!r->facts.bulk[body][k]) continue;
-    PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", SamBulkNames[body][k].name));
-    PetscCall(SamFileBegin(r->file));
-    ReadSeries(r->file, name, (hsize_t)step - 1, 1, &stress[k]);
-    PetscCall(SamFileEnd(r->file));
-    PetscCall(CheckFinite(r, 1, &stress[k], name, step));
+    if (r->facts.bulk[body][k]) PetscCall(ReadNumber(r, SamBulkNames[body][k].name, step, &stress[k]));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResultsReadCycle(SamResults r, PetscInt step, double *cycle)
+{
+  PetscFunctionBegin;
+  *cycle = 0;
+  if (r->facts.cycle) PetscCall(ReadNumber(r, "cycle", step, cycle));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -174,12 +174,18 @@ PetscErrorCode SamCycleCheckClosed(SamStressRun *run)
   const PetscInt before = run->saved[0] - (run->saved[1] - run->saved[0]), last = run->saved[run->steps - 1],
                  cells = run->grid->cells;
   PetscReal   most[4]  = {0, 0, 0, 0}; /* difference and size: of the pressure, of the shear */
+  double      cycle[2];
   PetscInt    step[2];
   PetscMPIInt rank;
   double     *one, *other;
 
   PetscFunctionBegin;
   if (before < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamResultsGetSaved(run->results, before, &step[0], NULL));
+  PetscCall(SamResultsGetSaved(run->results, last, &step[1], NULL));
+  for (int k = 0; k < 2; k++) PetscCall(SamResultsReadCycle(run->results, step[k], &cycle[k]));
+  /* in a life the step before is of another cycle, on other surfaces; petsam has closed the loop */
+  if (cycle[0] != cycle[1]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(3 * cells, &one, 3 * cells, &other));
   PetscCall(SamTractionsRead(run, before, (double *[]){one, one + cells, one + 2 * cells}));
   PetscCall(SamTractionsRead(run, last, (double *[]){other, other + cells, other + 2 * cells}));
@@ -191,8 +197,6 @@ PetscErrorCode SamCycleCheckClosed(SamStressRun *run)
   }
   PetscCall(PetscFree2(one, other));
   PetscCall(SamMax(run->grid->comm, 4, most));
-  PetscCall(SamResultsGetSaved(run->results, before, &step[0], NULL));
-  PetscCall(SamResultsGetSaved(run->results, last, &step[1], NULL));
   PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
   for (int f = 0; f < 2 && rank == 0; f++)
     if (most[2 * f] > CLOSED * most[2 * f + 1])

@@ -205,6 +205,25 @@ static PetscErrorCode SolveFree(SamSolver s, SamLevel *level)
 }
 
 /*
+  On nested grids, or from the guess; when that stagnates, on the finest grid alone, without a guess. Where next to
+  nothing is carried outside of the stick zone, and nothing is left within it (worn bodies, unloaded), each grid has a
+  stick zone of its own, and the shear of a coarse one is further from the solution than none.
+*/
+static PetscErrorCode SolveWithStarts(SamSolver s, SamLevel *level, PetscBool guess, PetscBool *possible)
+{
+  const PetscInt levels = SamSolverLevels(s);
+
+  PetscFunctionBegin;
+  PetscCall(SamLevelSolveNested(s, level, levels, guess));
+  if (s->reason != SAM_SOLVER_DIVERGED_STAGNATED || (levels == 1 && !guess)) PetscFunctionReturn(PETSC_SUCCESS);
+  SamLevelForgetProduct(level);
+  PetscCall(SamVecZero(level->traction));
+  PetscCall(MakeAdmissible(level, possible));
+  if (*possible) PetscCall(SamLevelSolveNested(s, level, 1, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
   Whether some admissible shear carries the loads is known after the projection of any shear; that of the guess is the
   start as well.
 */
@@ -217,8 +236,8 @@ static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
   if (!guess) SamLevelForgetProduct(level);
   if (!SamLevelHasProduct(level)) PetscCall(MakeAdmissible(level, &possible)); /* else it would no longer belong to q */
   if (possible) {
-    PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), guess));
-    possible = s->reason != SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
+    PetscCall(SolveWithStarts(s, level, guess, &possible));
+    possible = possible && s->reason != SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
   }
   if (!possible) {
     SamLevelForgetProduct(level);
