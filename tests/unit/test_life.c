@@ -129,7 +129,7 @@ static void test_sphere_wears_towards_popovs_shape(void **state)
 static void test_volume_of_a_sliding_sphere_is_exact(void **state)
 {
   const double  u         = 1e-4;
-  Joint        *j         = NewJoint(STEEL, 80, 2.6, 1e-9, (Strokes){.steps = 4, .amplitude = u}, SAM_WEAR_ARCHARD,
+  Joint        *j         = NewJoint(STEEL, 64, 2.6, 1e-9, (Strokes){.steps = 4, .amplitude = u}, SAM_WEAR_ARCHARD,
                                      (SamLifeSettings){.rtol = 3e-3});
   const Sphere *s         = &j->c.s;
   const double  cycles[2] = {s->a / (4 * K * s->pair.modulus * u), 30 * s->a / (4 * K * s->pair.modulus * u)};
@@ -212,8 +212,8 @@ static void test_jumps_lead_where_all_cycles_would(void **state)
   for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
     const PetscInt        cycles = 40;
     const SamLifeSettings set    = {.type = cases[k].type, .rtol = 4e-3};
-    Joint                *j      = NewJoint(cases[k].pair, 32, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set),
-          *i                     = NewJoint(cases[k].pair, 32, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set);
+    Joint                *j      = NewJoint(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set),
+          *i                     = NewJoint(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set);
     PetscReal     volume[2], depth[2];
     SamLifeReport r = Live(j, (double)cycles);
 
