@@ -224,6 +224,29 @@ def test_scar_at_the_edge_ends_the_life(petsam, tmp_path):
     assert 1 < len(read(tmp_path / "e.h5")["wear/cycle"]) < 100
 
 
+def test_step_that_fails_is_marked(petsam, tmp_path):
+    """A life ends at a step of the cycle or of one within a jump; either way the history's last row tells."""
+    steps = cycle(tmp_path / "h.csv", header="time,disp_z,load_tx", approach=D, amplitude=1.2 * MU * 180)
+    petsam(BALL, steps, dict(wear_coefficient2=1e-13, wear_cycles=1e9, output="end.h5"), check=11)
+    with h5py.File(tmp_path / "end.h5") as f:
+        assert f["history/status"][-1] == 11 and not f["history/status"][:-1].any()
+        assert (np.diff(f["history/time"][:]) > 0).all()
+
+
+# ---- seen by others
+
+
+def test_stresses_of_a_computed_cycle_are_those_of_a_closed_one(life, launcher, tmp_path):
+    """The step before belongs to a cycle on other surfaces, and is not the cycle's end."""
+    count = len(life(wear_output=(0, 1e5))["history/time"])
+    words = dict(
+        input="life.h5", output="s.h5", steps=f"{count - 7}:{count}", fatigue="swt", section="y=0", depths=4e-5
+    )
+    program = conftest.PROGRAM.with_name("petsam-stress")
+    done = conftest.execute(launcher, tmp_path, [words], 1, 0, program=program)
+    assert "closed cycle" not in done.stderr
+
+
 # ---- bad input
 
 
