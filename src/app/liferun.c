@@ -1,6 +1,9 @@
 /* The life of a joint in a run: a cycle at a time is computed and written, then some are jumped over. */
 #include "runimpl.h"
 
+/* An error of a fixed jump that is told. */
+#define LARGE 0.1
+
 /* ---- what the life asks for ---- */
 
 /* Step `step` of the cycle; the steps before, up to the history's first row, lead to its start. */
@@ -84,6 +87,21 @@ static PetscErrorCode Start(SamRun *run, PetscBool *ended)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The fields of the step that was solved last, and of the wear so far, at the time of the last row of the history. */
+static PetscErrorCode WriteLastFields(SamRun *run)
+{
+  PetscReal saved;
+
+  PetscFunctionBegin;
+  if (!run->output || !isfinite(run->last_time)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOutputGetSaved(run->output, NULL, NULL, &saved));
+  if (run->last_time <= saved) PetscFunctionReturn(PETSC_SUCCESS);
+  run->writing = PETSC_TRUE;
+  PetscCall(SamOutputWriteFields(run->output, run->last_time, run->contact));
+  run->writing = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Marks in the history a step that failed before its cycle was written, as one of the cycle after the last written. */
 static PetscErrorCode WriteFailure(SamRun *run, const SamLifeReport *r)
 {
@@ -108,7 +126,29 @@ static PetscErrorCode EndLife(SamRun *run, const SamLifeReport *r, const char wh
                  r->at + 1);
   PetscCall(SamReportMessage(run->report, text, &r->step));
   run->point.worst = r->step.status;
+  if (!run->told) PetscCall(WriteLastFields(run));
   if (SamRunHasFailed(&r->step) && !run->told) PetscCall(WriteFailure(run, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A jump that is beyond all bounds because the user has fixed it, once. */
+static PetscErrorCode WarnOfJump(SamRun *run, const SamLifeReport *r)
+{
+  const SamLifeSettings *set  = &run->wearing.life;
+  SamStep                said = {.status = SAM_STATUS_CONVERGED, .setting = "wear_jump"};
+
+  PetscFunctionBegin;
+  if (!set->fixed || run->warned) PetscFunctionReturn(PETSC_SUCCESS);
+  if (set->type == SAM_LIFE_EXPLICIT && r->jump > r->limit)
+    (void)snprintf(said.message, sizeof(said.message),
+                   "after %.10g cycles: explicit jumps over more than %.4g cycles are not stable: pressure and depth "
+                   "are wrong",
+                   (double)r->cycles, (double)r->limit);
+  else if (r->error > LARGE)
+    (void)snprintf(said.message, sizeof(said.message), "after %.10g cycles: the error of the last jump is %.2g",
+                   (double)r->cycles, (double)r->error);
+  run->warned = said.message[0] ? PETSC_TRUE : run->warned;
+  PetscCall(SamReportMessage(run->report, "", &said));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -124,7 +164,8 @@ static PetscErrorCode ComputeCycle(SamRun *run, PetscBool *ended)
   if (r.step.status != SAM_STATUS_CONVERGED) PetscCall(EndLife(run, &r, "after"));
   if (SamRunHasFailed(&r.step)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!run->warned && r.step.status == SAM_STATUS_CONVERGED) PetscCall(SamReportMessage(run->report, "", &r.step));
-  run->warned  = r.step.message[0] ? PETSC_TRUE : run->warned;
+  run->warned = r.step.message[0] ? PETSC_TRUE : run->warned;
+  PetscCall(WarnOfJump(run, &r));
   run->writing = PETSC_TRUE;
   if (run->output) PetscCall(SamOutputWriteCycle(run->output, &r));
   run->writing = PETSC_FALSE;

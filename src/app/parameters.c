@@ -152,7 +152,10 @@ static PetscErrorCode AddWear(SamParameters *p, const SamWearing *w)
     PetscCall(SamParametersAddReals(p, w->life.fixed ? "wear_jump" : "wear_rtol", PETSC_FALSE, 1,
                                     w->life.fixed ? &w->life.jump : &w->life.rtol));
   }
-  if (!w->points) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!w->points) {
+    PetscCall(SamParametersAddText(p, "wear_friction", PETSC_TRUE, "none"));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   for (PetscInt k = 0; k < w->points; k++)
     sum = SamHashMix(sum + SamHashBits(w->at[k]) + 3 * SamHashBits(w->friction[k]));
   PetscCall(AddChecksum(p, "wear_friction", sum));

@@ -8,6 +8,8 @@
 
 /* Loads and displacements of the first and last row of a cycle may differ by so much of their range. */
 #define ROUNDING 1e-9
+/* The most cycles of a life. */
+#define MOST_CYCLES 1e12
 
 /* ---- laws ---- */
 
@@ -56,6 +58,15 @@ static int Compare(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
+/* Refuses numbers of cycles that are not whole, or so large that times could not tell one cycle from the next. */
+static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBool set, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCheck(!set || (cycles == floor(cycles) && cycles <= MOST_CYCLES), from->comm, SAM_ERR_USER,
+             "-%s %g: expected a whole number of cycles, at most %g", option, (double)cycles, MOST_CYCLES);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadOutputs(SamWearing *w, const SamOptions *from)
 {
   char  text[4096] = "", *part, *rest;
@@ -67,8 +78,9 @@ static PetscErrorCode ReadOutputs(SamWearing *w, const SamOptions *from)
   for (part = strtok_r(text, ",", &rest); part; part = strtok_r(NULL, ",", &rest)) {
     const double cycle = strtod(part, &end);
 
-    PetscCheck(end != part && !*end && isfinite(cycle) && cycle >= 0, from->comm, SAM_ERR_USER,
-               "-wear_output: \"%s\" is not a number of cycles, >= 0", part);
+    PetscCheck(end != part && !*end && isfinite(cycle) && cycle >= 0 && cycle == floor(cycle), from->comm, SAM_ERR_USER,
+               "-wear_output: \"%s\" is not a number of cycles: expected whole numbers >= 0, separated by commas",
+               part);
     PetscCheck(cycle <= w->cycles, from->comm, SAM_ERR_USER, "-wear_output: %g is more than -wear_cycles %g", cycle,
                (double)w->cycles);
     PetscCheck(w->outputs < SAM_WEARING_OUTPUTS - 1, from->comm, SAM_ERR_USER, "-wear_output: more than %d cycles",
@@ -93,6 +105,7 @@ static PetscErrorCode ReadLife(SamWearing *w, const SamOptions *from)
                            SAM_RANGE_POSITIVE, &w->life.rtol, NULL));
   PetscCall(SamOptionsReal(from, "wear_jump", "instead: all jumps are over so many cycles", SAM_RANGE_POSITIVE,
                            &w->life.jump, &w->life.fixed));
+  PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
   PetscCall(ReadOutputs(w, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -196,6 +209,7 @@ PetscErrorCode SamWearingSetFromOptions(SamWearing *w, const SamOptions *from)
   PetscCall(SamOptionsReal(from, "wear_cycles",
                            "the history is a closed cycle, repeated so often; without it, every step wears",
                            SAM_RANGE_POSITIVE, &w->cycles, NULL));
+  PetscCall(CheckWhole("wear_cycles", w->cycles, PETSC_TRUE, from));
   PetscCall(CheckPresent(w, from));
   if (w->cycles > 0 || help) PetscCall(ReadLife(w, from));
   if (w->cycles > 0 || help) PetscCall(ReadFriction(w, from));

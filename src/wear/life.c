@@ -19,6 +19,8 @@
 #define SAFETY     0.8
 /* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere (test_life). */
 #define HALVES 2.0
+/* Depths that count, over the displacements. */
+#define COUNTS 1e-6
 /* An explicit jump over the longest stable one: the rate changes within it. */
 #define STABLE 0.8
 /* The first jump over the same, where nothing else is known. */
@@ -104,6 +106,7 @@ PetscErrorCode SamLifeSetState(SamLife l, const SamLifeState *state)
 {
   PetscFunctionBegin;
   l->state = *state;
+  if (l->set.fixed) l->state.next = l->set.jump;
   l->open  = PETSC_FALSE;
   l->known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -117,9 +120,9 @@ static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reas
   PetscFunctionBegin;
   l->at          = l->cycle.steps - 1;
   l->step.status = SAM_STATUS_NOT_CONVERGED;
-  PetscCall(PetscSNPrintf(l->step.message, sizeof(l->step.message),
-                          "the normal problem of a jump over %g cycles did not converge: %s", (double)cycles,
-                          SamSolverReasonName(reason)));
+  (void)snprintf(l->step.message, sizeof(l->step.message),
+                 "the normal problem of a jump over %.10g cycles did not converge: %s", (double)cycles,
+                 SamSolverReasonName(reason));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,8 +163,8 @@ static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, Vec
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The difference of two fields over the second one, in a norm. */
-static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm, PetscReal *error)
+/* The difference of two fields over the second one, or over a size that is more, in a norm. */
+static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm, PetscReal least, PetscReal *error)
 {
   PetscReal difference, size;
 
@@ -169,13 +172,15 @@ static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm,
   PetscCall(VecWAXPY(l->diagonal, -1, a, b));
   PetscCall(SamGridNorm(l->wear->grid, l->diagonal, norm, &difference));
   PetscCall(SamGridNorm(l->wear->grid, b, norm, &size));
+  size   = PetscMax(size, least);
   *error = size > 0 ? difference / size : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
   l->halves becomes its extrapolation with l->whole. Where that is less than at the start, at the contact's edge,
-  nothing is worn instead, and the rest a little less, so that the volume is the extrapolated one.
+  nothing is worn instead, and the rest a little less, so that the volume is the extrapolated one. Where that would be
+  less than at the start, the halves stay as they are.
 */
 static PetscErrorCode Extrapolate(SamLife l)
 {
@@ -186,11 +191,25 @@ static PetscErrorCode Extrapolate(SamLife l)
   PetscCall(SamGridNorm(l->wear->grid, start, NORM_1, &before)); /* wear loads are never negative */
   PetscCall(SamGridNorm(l->wear->grid, l->whole, NORM_1, &whole));
   PetscCall(SamGridNorm(l->wear->grid, l->halves, NORM_1, &halves));
+  if (2 * halves - whole < before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecAXPBY(l->halves, -1, 2, l->whole));
   PetscCall(VecPointwiseMax(l->halves, l->halves, start));
   PetscCall(SamGridNorm(l->wear->grid, l->halves, NORM_1, &after));
   share = after > before ? (2 * halves - whole - before) / (after - before) : 1;
   PetscCall(VecAXPBY(l->halves, 1 - share, share, start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The size of a wear load that counts: depths far below what the tolerances of the solvers leave open do not. */
+static PetscErrorCode LeastLoad(SamLife l, PetscReal *least)
+{
+  const SamSolution *s;
+  PetscReal          size;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(l->wear->contact, &s));
+  PetscCall(SamGridNorm(l->wear->grid, s->displacement_z, NORM_2, &size));
+  *least = COUNTS * size / (l->wear->coefficient[0] + l->wear->coefficient[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -202,9 +221,10 @@ static PetscErrorCode Extrapolate(SamLife l)
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
-  PetscReal depth, pressure;
+  PetscReal depth, pressure, least = 0;
 
   PetscFunctionBegin;
+  PetscCall(LeastLoad(l, &least));
   PetscCall(Jump(l, &l->start, cycles, l->wear->load, l->whole, solved));
   if (*solved) PetscCall(VecCopy(l->p, l->q));
   if (*solved) PetscCall(Jump(l, &l->start, 0.5 * cycles, l->wear->load, l->half, solved));
@@ -212,8 +232,8 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
   if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
   if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(RelativeDifference(l, l->whole, l->halves, NORM_2, &depth));
-  PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, &pressure));
+  PetscCall(RelativeDifference(l, l->whole, l->halves, NORM_2, least, &depth));
+  PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, 0, &pressure));
   *error = l->set.type == SAM_LIFE_EXPLICIT ? depth : PetscMax(depth, pressure);
   PetscCall(Extrapolate(l));
   PetscFunctionReturn(PETSC_SUCCESS);

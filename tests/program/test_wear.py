@@ -1,5 +1,6 @@
 """Wear: direct and over the cycles of a life, its results, restarts, and what is refused."""
 
+import shutil
 import signal
 import subprocess
 import time
@@ -155,6 +156,27 @@ def test_friction_changes_over_a_life(life, tmp_path):
     assert scale == pytest.approx(1 + np.minimum(r["history/cycle"] / 20000, 1))
 
 
+def test_depth_never_falls(life, tmp_path):
+    """Friction that grows so fast that a jump's second half has nothing to wear."""
+    (tmp_path / "mu.csv").write_text("cycle,friction\n0,0.01\n1000,0.01\n2000,50\n")
+    words = dict(friction=None, wear_friction=tmp_path / "mu.csv", wear_coefficient2=1e-12, wear_jump=1000)
+    r = life(**words, wear_cycles=2000, wear_output=(0, 1000), output_every=8)
+    assert r["wear/cycle"].tolist() == [0, 1000, 2000] and r["wear/volume2"][1] > 0
+    assert (np.diff(r["wear_depth2"], axis=0) >= 0).all() and (np.diff(r["wear/volume2"]) >= 0).all()
+
+
+def test_joint_that_hardly_slips_takes_few_cycles(petsam, tmp_path):
+    steps = cycle(tmp_path / "h.csv", amplitude=1e-7 * MU * D)
+    petsam(BALL, steps, dict(wear_coefficient2=1e-14, wear_cycles=1e6, output="few.h5"))
+    assert read(tmp_path / "few.h5")["wear/computed"][-1] <= 60
+
+
+def test_unstable_jumps_are_told(petsam, tmp_path):
+    case = dict(BALL, wear_coefficient2=1e-14, wear_cycles=4e7, wear_jump=1e7, wear_type="explicit")
+    done = petsam(case, cycle(tmp_path / "h.csv"), check=None)
+    assert done.stderr.count("are not stable") == 1 and done.code in (0, 12)
+
+
 # ---- stopped and continued
 
 
@@ -187,12 +209,17 @@ def test_direct_wear_goes_on_to_the_same_bits(petsam, tmp_path):
 def test_life_can_be_prolonged(life, petsam, tmp_path):
     """A restart may ask for more cycles; what wears must stay the same."""
     stopped = life(checkpoint="state.h5", checkpoint_every=1, output="kept.h5")
+    (tmp_path / "mu.csv").write_text(f"cycle,friction\n0,{MU}\n1000,{2 * MU}\n")
+    shutil.copy(tmp_path / "kept.h5", tmp_path / "jumps.h5")
+    jumps = life(wear_cycles=2e5, wear_jump=5e4, checkpoint=None, restart="state.h5", output="jumps.h5")["wear/jump"]
+    assert 5e4 in jumps[len(stopped["wear/jump"]) - 1 :]
     more = life(wear_cycles=2e5, restart="state.h5", output="kept.h5")
     assert more["wear/cycle"][-1] == 2e5 and (more["wear/cycle"][: len(stopped["wear/cycle"]) - 1] < 1e5).all()
     for words, name in (
         (dict(wear_coefficient2=2e-14), "wear_coefficient2"),
         (dict(wear_coefficient2=None, wear_energy2=1e-14), "wear_"),
         (dict(wear_cycles=None), "wear"),
+        (dict(friction=None, wear_friction="mu.csv"), "wear_friction"),
     ):
         before = (tmp_path / "kept.h5").read_bytes()
         case = dict(BALL, **cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-14, wear_cycles=1e5)
@@ -263,6 +290,10 @@ def test_stresses_of_a_computed_cycle_are_those_of_a_closed_one(life, launcher, 
         (dict(wear_cycles=None, wear_jump=10), "-wear_jump is given without -wear_cycles"),
         (dict(wear_jump="far"), "-wear_jump"),
         (dict(wear_jump=-1), "-wear_jump"),
+        (dict(wear_jump=1.5), "-wear_jump"),
+        (dict(wear_cycles=1.5), "-wear_cycles"),
+        (dict(wear_cycles=1e300), "-wear_cycles"),
+        (dict(wear_output="0,0.5"), "-wear_output"),
         (dict(wear_rtol=0), "-wear_rtol"),
         (dict(wear_type="trapezoidal"), "-wear_type"),
         (dict(wear_output="0,x"), "-wear_output"),
