@@ -130,7 +130,7 @@ static void test_volume_of_a_sliding_sphere_is_exact(void **state)
 {
   const double  u         = 1e-4;
   Joint        *j         = NewJoint(STEEL, 64, 2.6, 1e-9, (Strokes){.steps = 4, .amplitude = u}, SAM_WEAR_ARCHARD,
-                                     (SamLifeSettings){.rtol = 3e-3});
+                                     (SamLifeSettings){.rtol = 1e-2});
   const Sphere *s         = &j->c.s;
   const double  cycles[2] = {s->a / (4 * K * s->pair.modulus * u), 30 * s->a / (4 * K * s->pair.modulus * u)};
   SamLifeReport r         = Live(j, cycles[0]);
@@ -172,7 +172,7 @@ static void test_both_laws_live_alike(void **state)
 /* After some cycles that close the loop, every step of so many wears, one after the other. */
 static void LiveDirectly(Joint *j, PetscInt cycles, PetscReal volume[2], PetscReal depth[2])
 {
-  const PetscInt first = -4 * j->cycle.steps;
+  const PetscInt first = -3 * j->cycle.steps;
 
   for (PetscInt k = first; k < cycles * j->cycle.steps; k++) {
     SamControl control;
@@ -210,7 +210,7 @@ static void test_jumps_lead_where_all_cycles_would(void **state)
 
   (void)state;
   for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
-    const PetscInt        cycles = 40;
+    const PetscInt        cycles = 30;
     const SamLifeSettings set    = {.type = cases[k].type, .rtol = 4e-3};
     Joint                *j      = NewJoint(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set),
           *i                     = NewJoint(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set);
