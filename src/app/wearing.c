@@ -37,10 +37,8 @@ static PetscErrorCode ReadLaws(SamWearing *w, const SamOptions *from)
   PetscBool given[2];
 
   PetscFunctionBegin;
-  PetscCall(
-    ReadLaw(from, "wear_coefficient", "Archard's wear: removed depth = k p |ds|: k (1/Pa)", archard, &given[0]));
-  PetscCall(
-    ReadLaw(from, "wear_energy", "wear by energy: removed depth = alpha |q.ds|: alpha (m3/J)", energy, &given[1]));
+  PetscCall(ReadLaw(from, "wear_coefficient", "Archard's wear, depth = k p |ds|: k (1/Pa)", archard, &given[0]));
+  PetscCall(ReadLaw(from, "wear_energy", "wear by energy, depth = alpha |q.ds|: alpha (m3/J)", energy, &given[1]));
   PetscCheck(!given[0] || !given[1], from->comm, SAM_ERR_USER,
              "-wear_coefficient1 or 2 and -wear_energy1 or 2 are given: a run has one law of wear");
   w->law = given[1] ? SAM_WEAR_ENERGY : SAM_WEAR_ARCHARD;
@@ -160,8 +158,7 @@ static PetscErrorCode ReadFriction(SamWearing *w, const SamOptions *from)
   PetscInt  cycle, friction;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "wear_friction",
-                             "text file with columns cycle,friction: the coefficient of friction over the life", file,
+  PetscCall(SamOptionsString(from, "wear_friction", "text file, columns cycle,friction: friction over the life", file,
                              sizeof(file), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   for (int k = 0; k < 2; k++) {
@@ -206,9 +203,8 @@ PetscErrorCode SamWearingSetFromOptions(SamWearing *w, const SamOptions *from)
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(from, "Wear"));
   PetscCall(ReadLaws(w, from));
-  PetscCall(SamOptionsReal(from, "wear_cycles",
-                           "the history is a closed cycle, repeated so often; without it, every step wears",
-                           SAM_RANGE_POSITIVE, &w->cycles, NULL));
+  PetscCall(SamOptionsReal(from, "wear_cycles", "the history is a closed cycle, repeated so often", SAM_RANGE_POSITIVE,
+                           &w->cycles, NULL));
   PetscCall(CheckWhole("wear_cycles", w->cycles, PETSC_TRUE, from));
   PetscCall(CheckPresent(w, from));
   if (w->cycles > 0 || help) PetscCall(ReadLife(w, from));

@@ -324,7 +324,7 @@ def test_maps_and_profiles_have_the_depths_of_what_has_worn(life, one_body, path
     unit = {"nm": 1e9, "µm": 1e6}[bar.get_ylabel().split()[-1]]
     assert np.allclose(panel.images[0].get_array(), unit * depth)
     axes = pictures.profiles([end], whole=True).axes
-    assert np.isclose(max(y.max() for _, y in curves(axes[-2])), unit * depth.max(), rtol=1e-6)
+    assert np.isclose(max(y.max() for _, y in curves(axes[-2])), unit * depth[11:13].max(), rtol=1e-6)
 
 
 def test_a_file_without_wear_beside_one_with_it_has_an_empty_place(life, plain):

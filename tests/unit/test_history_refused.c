@@ -221,7 +221,7 @@ static void test_files_without_a_step_are_refused(void **state)
   (void)state;
   for (size_t k = 0; k < sizeof(texts) / sizeof(texts[0]); k++) {
     Write(texts[k]);
-    AssertRefused("-history test_history.csv", SAM_ERR_USER, "test_history.csv", "step");
+    AssertRefused("-history test_history.csv", SAM_ERR_USER, "test_history.csv", "no row");
   }
 }
 
