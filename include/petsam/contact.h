@@ -91,6 +91,13 @@ typedef struct {
   char       setting[32];  /* option (without dash) of the setting behind the message, grid_size ...; empty: none */
 } SamStep;
 
+/* SamStepIsSolved - whether a step has a solution to go on from. Not collective. */
+static inline PetscBool SamStepIsSolved(const SamStep *step)
+{
+  return step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE
+                                                                                               : PETSC_FALSE;
+}
+
 /* SamCheckLimits - the largest errors of a step that counts as converged. */
 typedef struct {
   PetscReal normal, tangential, equilibrium, cone;

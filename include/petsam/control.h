@@ -53,6 +53,15 @@ typedef struct {
   PetscReal bulk_stress[2][SAM_BULK_COMPONENTS]; /* Pa, of body 1 and 2: uniform, parallel to the surface */
 } SamControl;
 
+/*
+  What a control prescribes, in one row: the loads or displacements of the six components, then the bulk stresses.
+  SamControlPart - the k-th of them. SamControlPartName - its name as an option (without dash), of load or displacement.
+  Not collective.
+*/
+#define SAM_CONTROL_PARTS (SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS)
+PETSC_EXTERN PetscReal   SamControlPart(const SamControl *control, PetscInt k);
+PETSC_EXTERN const char *SamControlPartName(const SamControl *control, PetscInt k);
+
 /* SamControlInitialize - all loads given and 0, friction scale 1, no bulk stress, time 0. Not collective. */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
 /*

@@ -154,8 +154,8 @@ static PetscBool TimeIsUp(const SamCheckpoints cp, double now)
 
 /* ---- the position in the load program, and the program up to there ---- */
 
-#define BULK    (2 + SAM_COMPONENTS)             /* first column of the bulk stresses */
-#define COLUMNS (BULK + 2 * SAM_BULK_COMPONENTS) /* of the load program: time, friction, components, bulk stresses */
+#define BULK    (2 + SAM_COMPONENTS)    /* first column of the bulk stresses */
+#define COLUMNS (2 + SAM_CONTROL_PARTS) /* of the load program: time, friction, components, bulk stresses */
 
 /* Checksums of each column of the load program over the first steps; for a component, with its kind of control. */
 static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64_t columns[COLUMNS])
@@ -179,16 +179,7 @@ static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A number of the type double as the bits of a note, and back. */
-static uint64_t BitsOf(PetscReal value)
-{
-  const double number = (double)value;
-  uint64_t     bits;
-
-  memcpy(&bits, &number, sizeof(bits));
-  return bits;
-}
-
+/* The number whose bits (SamHashBits()) a note has. */
 static PetscReal ValueOf(uint64_t bits)
 {
   double number;
@@ -209,10 +200,10 @@ static PetscErrorCode Pack(const SamRunPoint *p, uint64_t at[AT])
   at[1] = (uint64_t)p->worst;
   at[2] = (uint64_t)p->rows;
   at[3] = p->times;
-  at[4] = BitsOf(life.cycles);
-  at[5] = BitsOf(life.next);
-  at[6] = BitsOf(life.jump);
-  at[7] = BitsOf(life.error);
+  at[4] = SamHashBits((double)life.cycles);
+  at[5] = SamHashBits((double)life.next);
+  at[6] = SamHashBits((double)life.jump);
+  at[7] = SamHashBits((double)life.error);
   at[8] = (uint64_t)life.computed;
   at[9] = life.by_turns ? 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -285,17 +276,10 @@ static PetscErrorCode CompareLoads(SamCheckpoints cp, const SamRunPoint *progres
   PetscCheck(here[1] == there[1], cp->comm, SAM_ERR_USER,
              "-restart %s: cannot go on from it: friction_scale in -history: the values up to step %ld differ",
              cp->restart, (long)solved);
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    const SamComponentName *name = &SamComponentNames[c];
-
-    PetscCheck(here[2 + c] == there[2 + c], cp->comm, SAM_ERR_USER,
+  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++)
+    PetscCheck(here[2 + k] == there[2 + k], cp->comm, SAM_ERR_USER,
                "-restart %s: cannot go on from it: -%s, or its column in -history: the values up to step %ld differ",
-               cp->restart, first.force[c] ? name->load : name->rigid, (long)solved);
-  }
-  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
-    PetscCheck(here[BULK + n] == there[BULK + n], cp->comm, SAM_ERR_USER,
-               "-restart %s: cannot go on from it: -%s, or its column in -history: the values up to step %ld differ",
-               cp->restart, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name, (long)solved);
+               cp->restart, SamControlPartName(&first, k), (long)solved);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -57,7 +57,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   run->point.times = SamOutputAddTime(run->point.times, told.control.time);
   PetscCall(SamReportCountStep(run->report, run->point.steps, &told));
   PetscCall(SamRunWriteStep(run, &told, due || failed ? PETSC_TRUE : PETSC_FALSE));
-  run->told = SamRunHasFailed(&told);
+  run->told = SamStepIsSolved(&told) ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -76,7 +76,7 @@ static PetscErrorCode Start(SamRun *run, PetscBool *ended)
 
     PetscCall(SamHistoryGetStep(run->history, k, &control));
     PetscCall(SamContactTry(run->contact, &control, &step));
-    *ended = SamRunHasFailed(&step);
+    *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
     if (*ended) {
       PetscCall(SamReportMessage(run->report, "before the first cycle", &step));
       run->point.worst = step.status;
@@ -84,21 +84,6 @@ static PetscErrorCode Start(SamRun *run, PetscBool *ended)
       PetscCall(SamContactCommit(run->contact));
     }
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The fields of the step that was solved last, and of the wear so far, at the time of the last row of the history. */
-static PetscErrorCode WriteLastFields(SamRun *run)
-{
-  PetscReal saved;
-
-  PetscFunctionBegin;
-  if (!run->output || !isfinite(run->last_time)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamOutputGetSaved(run->output, NULL, NULL, &saved));
-  if (run->last_time <= saved) PetscFunctionReturn(PETSC_SUCCESS);
-  run->writing = PETSC_TRUE;
-  PetscCall(SamOutputWriteFields(run->output, run->last_time, run->contact));
-  run->writing = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -126,8 +111,8 @@ static PetscErrorCode EndLife(SamRun *run, const SamLifeReport *r, const char wh
                  r->at + 1);
   PetscCall(SamReportMessage(run->report, text, &r->step));
   run->point.worst = r->step.status;
-  if (!run->told) PetscCall(WriteLastFields(run));
-  if (SamRunHasFailed(&r->step) && !run->told) PetscCall(WriteFailure(run, r));
+  if (!run->told) PetscCall(SamRunWriteLastFields(run));
+  if (!run->told && !SamStepIsSolved(&r->step)) PetscCall(WriteFailure(run, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,7 +147,7 @@ static PetscErrorCode ComputeCycle(SamRun *run, PetscBool *ended)
   PetscCall(SamLifeCompute(run->life, &r));
   *ended = r.cycles >= run->wearing.cycles || r.step.status != SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
   if (r.step.status != SAM_STATUS_CONVERGED) PetscCall(EndLife(run, &r, "after"));
-  if (SamRunHasFailed(&r.step)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamStepIsSolved(&r.step)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!run->warned && r.step.status == SAM_STATUS_CONVERGED) PetscCall(SamReportMessage(run->report, "", &r.step));
   run->warned = r.step.message[0] ? PETSC_TRUE : run->warned;
   PetscCall(WarnOfJump(run, &r));
@@ -182,7 +167,7 @@ static PetscErrorCode Jump(SamRun *run, PetscBool *ended)
   PetscFunctionBegin;
   PetscCall(SamLifeGetState(run->life, &state));
   PetscCall(SamLifeJump(run->life, SamWearingNextStop(&run->wearing, state.cycles), &r));
-  *ended = SamRunHasFailed(&r.step);
+  *ended = SamStepIsSolved(&r.step) ? PETSC_FALSE : PETSC_TRUE;
   if (*ended) PetscCall(EndLife(run, &r, "in the cycles after"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -203,9 +188,8 @@ PetscErrorCode SamRunLive(SamRun *run)
 
 PetscErrorCode SamRunCreateWear(SamRun *run)
 {
-  const SamLifeCycle cycle = {.control = Control, .solved = WriteStep, .context = run};
-  SamLifeCycle       of    = cycle;
-  PetscInt           start;
+  SamLifeCycle cycle = {.control = Control, .solved = WriteStep, .context = run};
+  PetscInt     start;
 
   PetscFunctionBegin;
   if (!run->wearing.on) PetscFunctionReturn(PETSC_SUCCESS);
@@ -217,8 +201,8 @@ PetscErrorCode SamRunCreateWear(SamRun *run)
   run->output_settings.with[SAM_OUTPUT_LIFE] = PETSC_TRUE;
   if (run->wearing.points) run->output_settings.with[SAM_OUTPUT_FRICTION_SCALE] = PETSC_TRUE;
   PetscCall(SamHistoryGetIncrements(run->history, &start));
-  of.steps = run->needs.steps - start;
-  PetscCall(SamLifeCreate(run->wear, &of, &run->wearing.life, &run->life));
+  cycle.steps = run->needs.steps - start;
+  PetscCall(SamLifeCreate(run->wear, &cycle, &run->wearing.life, &run->life));
   run->point.life   = run->life;
   run->point.cycles = run->wearing.cycles;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -116,16 +116,11 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
   steps = (PetscReal)increments;
   PetscCall(SamParametersAddReals(p, "steps", PETSC_TRUE, 1, &steps));
   PetscCall(SamHistoryGetStep(history, count - 1, &control));
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    const char *name = control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid;
-
-    PetscCall(SamParametersAddReals(p, name, PETSC_FALSE, 1, &control.value[c]));
-  }
   PetscCall(SamHistoryHas(history, &friction, &bulk));
-  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS && bulk; n++) {
-    const PetscInt body = n / SAM_BULK_COMPONENTS, k = n % SAM_BULK_COMPONENTS;
+  for (PetscInt k = 0; k < (bulk ? SAM_CONTROL_PARTS : SAM_COMPONENTS); k++) {
+    const PetscReal value = SamControlPart(&control, k);
 
-    PetscCall(SamParametersAddReals(p, SamBulkNames[body][k].name, PETSC_FALSE, 1, &control.bulk_stress[body][k]));
+    PetscCall(SamParametersAddReals(p, SamControlPartName(&control, k), PETSC_FALSE, 1, &value));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -180,6 +180,15 @@ static void PrintMessage(SamReport r, const char where[], const SamStep *step)
           option);
 }
 
+PetscErrorCode SamReportCountStep(SamReport r, PetscInt number, const SamStep *step)
+{
+  PetscFunctionBegin;
+  r->number = number - 1;
+  r->done++;
+  if (step->status != SAM_STATUS_NO_EQUILIBRIUM) KeepWorst(r, step);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
 {
   const double seconds   = MPI_Wtime() - r->begin;
@@ -189,8 +198,7 @@ PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
   PetscFunctionBegin;
   if (r->steps > 1) PetscCall(PetscSNPrintf(where, sizeof(where), "step %" PetscInt_FMT, r->number + 1));
   SamProgressErase(r);
-  r->done++;
-  if (step->status != SAM_STATUS_NO_EQUILIBRIUM) KeepWorst(r, step);
+  PetscCall(SamReportCountStep(r, r->number + 1, step));
   if (!r->quiet) {
     PetscCall(PetscViewerASCIIGetStdout(r->comm, &viewer));
     if (r->done == 1) PetscCall(SamStepViewHeading(viewer));
@@ -212,15 +220,6 @@ PetscErrorCode SamReportBeginCycle(SamReport r, SamContact contact)
   if (!r->cycles) r->first = MPI_Wtime();
   if (!r->cycles) r->begin = r->first; /* later ones begin with the jump before them */
   PetscCall(SamProgressWatch(r, contact));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamReportCountStep(SamReport r, PetscInt number, const SamStep *step)
-{
-  PetscFunctionBegin;
-  r->number = number - 1;
-  r->done++;
-  if (step->status != SAM_STATUS_NO_EQUILIBRIUM) KeepWorst(r, step);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

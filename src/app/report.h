@@ -51,7 +51,8 @@ PETSC_INTERN PetscErrorCode SamReportBeginStep(SamReport report, PetscInt number
 PETSC_INTERN PetscErrorCode SamReportEndStep(SamReport report, const SamStep *step);
 /*
   For a life: SamReportBeginCycle() before a cycle is computed, SamReportCountStep() for each of its steps (`number`
-  counts from 1), SamReportEndCycle() prints the cycle's line; `cycles` is their number in all. Collective.
+  counts from 1; SamReportEndStep() does that itself), SamReportEndCycle() prints the cycle's line; `cycles` is their
+  number in all. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportBeginCycle(SamReport report, SamContact contact);
 PETSC_INTERN PetscErrorCode SamReportCountStep(SamReport report, PetscInt number, const SamStep *step);

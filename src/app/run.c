@@ -18,7 +18,6 @@ static PetscErrorCode CreateProblem(SamRun *run, const SamOptions *from)
   run->needs.coupled = traits.coupled;
   PetscCall(SamProblemCreate(run->elasticity, &run->problem));
   PetscCall(SamProblemSetFrictionFromOptions(run->problem, from));
-  PetscCall(SamProblemHasFriction(run->problem, &run->needs.friction));
   PetscCall(SamGapCreate(from->comm, &run->gap));
   PetscCall(SamGapSetOptionsPrefix(run->gap, from->prefix));
   PetscCall(SamGapSetFromOptions(run->gap));
@@ -213,15 +212,17 @@ static PetscErrorCode Begin(SamRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* When a step has no solution, makes sure that the fields of the step before, the last ones, are in the file. */
-static PetscErrorCode WriteLastFields(SamRun *run)
+PetscErrorCode SamRunWriteLastFields(SamRun *run)
 {
   PetscReal saved;
 
   PetscFunctionBegin;
+  if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputGetSaved(run->output, NULL, NULL, &saved));
   if (run->last_time <= saved) PetscFunctionReturn(PETSC_SUCCESS);
+  run->writing = PETSC_TRUE;
   PetscCall(SamOutputWriteFields(run->output, run->last_time, run->contact));
+  run->writing = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -231,8 +232,8 @@ PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due)
 
   PetscFunctionBegin;
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
+  if (none) PetscCall(SamRunWriteLastFields(run));
   run->writing = PETSC_TRUE;
-  if (none) PetscCall(WriteLastFields(run));
   PetscCall(SamOutputWriteStep(run->output, step, due && !none ? run->contact : NULL));
   run->writing   = PETSC_FALSE;
   run->last_time = step->control.time;
@@ -274,12 +275,6 @@ static PetscErrorCode ReportCheckpoint(SamRun *run)
 
 /* ---- steps ---- */
 
-PetscBool SamRunHasFailed(const SamStep *step)
-{
-  return step->status == SAM_STATUS_NOT_CONVERGED || step->status == SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE
-                                                                                               : PETSC_FALSE;
-}
-
 /* What the tried step wears; the gap follows only when the step has been written. */
 static PetscErrorCode WearStep(SamRun *run, SamStep *step)
 {
@@ -287,7 +282,7 @@ static PetscErrorCode WearStep(SamRun *run, SamStep *step)
 
   PetscFunctionBegin;
   if (!run->wear) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!SamRunHasFailed(step)) {
+  if (SamStepIsSolved(step)) {
     PetscCall(SamWearCountStep(run->wear));
     PetscCall(SamWearApply(run->wear, 1));
   }
@@ -313,7 +308,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
           : PETSC_FALSE;
   PetscCall(SamRunWriteStep(run, &step, due));
   PetscCall(SamReportEndStep(run->report, &step)); /* after writing: a reported step is in the file */
-  *ended = SamRunHasFailed(&step);
+  *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
   if (!*ended) PetscCall(SamContactCommit(run->contact));
   if (!*ended && run->wear) PetscCall(SamWearMoveGap(run->wear));
   if (*ended || !run->point.worst) run->point.worst = step.status;

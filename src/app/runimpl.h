@@ -38,7 +38,7 @@ typedef struct {
   PetscBool         has_output;
   PetscBool         told;      /* in a life: the step that failed is in the file */
   PetscBool         warned;    /* a warning has been printed in this life */
-  PetscReal         last_time; /* of the last step that was written, s */
+  PetscReal         last_time; /* of the last step that was written, s; -infinity: none */
   PetscBool         writing;   /* a collective write is under way */
   char              filename[PETSC_MAX_PATH_LEN];
 } SamRun;
@@ -56,8 +56,11 @@ PETSC_INTERN PetscErrorCode SamRunSolve(SamRun *run);
 PETSC_INTERN PetscErrorCode SamRunCreateWear(SamRun *run);
 /* SamRunLive - the cycles of a life, with their results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamRunLive(SamRun *run);
-/* SamRunHasFailed - whether a step has no solution to go on from. Not collective. */
-PETSC_INTERN PetscBool SamRunHasFailed(const SamStep *step);
+/*
+  SamRunWriteLastFields - makes sure that the fields of the step that was solved last are in the file, at the time of
+  the last step that was written; for when the next one has no solution. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamRunWriteLastFields(SamRun *run);
 /* SamRunWriteStep - writes a step's numbers and, when they are due, its fields. Collective. */
 PETSC_INTERN PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due);
 /* SamRunCheckpoint - after a step or jump: writes a checkpoint if one is due; may stop the run. Collective. */

@@ -220,32 +220,11 @@ PetscErrorCode SamWearingDestroy(SamWearing *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The value of a component (first of the six, then of the bulk stresses) in a step. */
-static PetscErrorCode GetValue(SamHistory history, PetscInt step, PetscInt c, PetscReal *value)
-{
-  const PetscInt b = c - SAM_COMPONENTS;
-  SamControl     control;
-
-  PetscFunctionBegin;
-  PetscCall(SamHistoryGetStep(history, step, &control));
-  *value =
-    c < SAM_COMPONENTS ? control.value[c] : control.bulk_stress[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static const char *NameOf(SamHistory history, PetscInt c)
-{
-  const PetscInt b = c - SAM_COMPONENTS;
-  SamControl     control;
-
-  if (c >= SAM_COMPONENTS) return SamBulkNames[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS].name;
-  (void)SamHistoryGetStep(history, 0, &control);
-  return control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid;
-}
-
 PetscErrorCode SamWearingCheckCycle(const SamWearing *w, SamHistory history, const SamOptions *from)
 {
-  PetscInt count, start;
+  PetscReal  range[SAM_CONTROL_PARTS] = {0}; /* of each part, about its value in the first row */
+  SamControl first, last;
+  PetscInt   count, start;
 
   PetscFunctionBegin;
   if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -255,18 +234,17 @@ PetscErrorCode SamWearingCheckCycle(const SamWearing *w, SamHistory history, con
     count > 2 * start, from->comm, SAM_ERR_USER,
     "-wear_cycles: a cycle needs a -history of three rows or more: where it starts, and how it goes on back to "
     "there");
-  for (PetscInt c = 0; c < SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS; c++) {
-    PetscReal first = 0, last = 0, range = 0;
-
-    PetscCall(GetValue(history, start - 1, c, &first));
-    for (PetscInt k = start; k < count; k++) {
-      PetscCall(GetValue(history, k, c, &last));
-      range = PetscMax(range, fabs(last - first));
-    }
-    PetscCheck(fabs(last - first) <= ROUNDING * range, from->comm, SAM_ERR_USER,
-               "-wear_cycles: -history is not a closed cycle: %s is %g in the last row and %g in the first",
-               NameOf(history, c), (double)last, (double)first);
+  PetscCall(SamHistoryGetStep(history, start - 1, &first));
+  for (PetscInt k = start; k < count; k++) {
+    PetscCall(SamHistoryGetStep(history, k, &last));
+    for (PetscInt c = 0; c < SAM_CONTROL_PARTS; c++)
+      range[c] = PetscMax(range[c], fabs(SamControlPart(&last, c) - SamControlPart(&first, c)));
   }
+  for (PetscInt c = 0; c < SAM_CONTROL_PARTS; c++)
+    PetscCheck(fabs(SamControlPart(&last, c) - SamControlPart(&first, c)) <= ROUNDING * range[c], from->comm,
+               SAM_ERR_USER,
+               "-wear_cycles: -history is not a closed cycle: %s is %g in the last row and %g in the first",
+               SamControlPartName(&first, c), (double)SamControlPart(&last, c), (double)SamControlPart(&first, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

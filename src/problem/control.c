@@ -27,6 +27,21 @@ PetscErrorCode SamControlInitialize(SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal SamControlPart(const SamControl *control, PetscInt k)
+{
+  const PetscInt b = k - SAM_COMPONENTS;
+
+  return b < 0 ? control->value[k] : control->bulk_stress[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS];
+}
+
+const char *SamControlPartName(const SamControl *control, PetscInt k)
+{
+  const PetscInt b = k - SAM_COMPONENTS;
+
+  if (b >= 0) return SamBulkNames[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS].name;
+  return control->force[k] ? SamComponentNames[k].load : SamComponentNames[k].rigid;
+}
+
 PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value)
 {
   PetscFunctionBegin;

@@ -15,35 +15,19 @@
 #define CLOSED      0.1  /* change of the shear over mu p, and of the energy, over the tolerance of the jumps */
 #define TURN        1e-9 /* changes that count, over the range of a component */
 
-static PetscBool IsSolved(const SamStep *step)
-{
-  return step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE
-                                                                                               : PETSC_FALSE;
-}
-
 /* ---- turning points ---- */
 
-/* The components of a control that turn, loads or displacements and bulk stresses. */
-#define PARTS (SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS)
-static PetscReal Part(const SamControl *control, PetscInt c)
-{
-  const PetscInt b = c - SAM_COMPONENTS;
-
-  return c < SAM_COMPONENTS ? control->value[c]
-                            : control->bulk_stress[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS];
-}
-
-/* Notes the steps at which a component turns, from its values at all steps. */
+/* Notes the steps at which a part of the control turns, from its values at all steps. */
 static void NoteTurns(const SamControl controls[], PetscInt n, PetscInt c, PetscBool turns[])
 {
   PetscReal low = PETSC_INFINITY, high = PETSC_NINFINITY, last = 0;
 
   for (PetscInt k = 0; k < n; k++) {
-    low  = PetscMin(low, Part(&controls[k], c));
-    high = PetscMax(high, Part(&controls[k], c));
+    low  = PetscMin(low, SamControlPart(&controls[k], c));
+    high = PetscMax(high, SamControlPart(&controls[k], c));
   }
   for (PetscInt k = 0; k < n; k++) {
-    const PetscReal change = Part(&controls[k], c) - Part(&controls[k ? k - 1 : n - 1], c);
+    const PetscReal change = SamControlPart(&controls[k], c) - SamControlPart(&controls[k ? k - 1 : n - 1], c);
 
     if (fabs(change) <= TURN * (high - low)) continue;
     if (k && change * last < 0) turns[k - 1] = PETSC_TRUE;
@@ -60,7 +44,7 @@ PetscErrorCode SamLifeFindTurns(SamLife l)
   PetscCall(PetscCalloc1(n, &l->turns));
   PetscCall(PetscMalloc1(n, &controls));
   for (PetscInt k = 0; k < n; k++) PetscCall(l->cycle.control(l->cycle.context, k, 0, &controls[k]));
-  for (PetscInt c = 0; c < PARTS; c++) NoteTurns(controls, n, c, l->turns);
+  for (PetscInt c = 0; c < SAM_CONTROL_PARTS; c++) NoteTurns(controls, n, c, l->turns);
   l->turns[n - 1] = PETSC_TRUE;
   PetscCall(PetscFree(controls));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -171,7 +155,7 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
   PetscFunctionBegin;
   PetscCall(l->cycle.control(l->cycle.context, k, cycles, &control));
   PetscCall(SamContactTry(l->wear->contact, &control, step));
-  *solved = IsSolved(step);
+  *solved = SamStepIsSolved(step);
   if (!*solved || l->step.status == SAM_STATUS_CONVERGED) {
     l->step = *step;
     l->at   = k;

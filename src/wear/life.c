@@ -322,16 +322,15 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
     accepted = solved && (l->set.fixed || jump <= 1 || error <= HALVES * l->set.rtol) ? PETSC_TRUE : PETSC_FALSE;
     next     = solved ? NextTry(l, jump, error / (HALVES * l->set.rtol)) : PetscMin(jump, Whole(GROW_LEAST * jump));
   }
-  PetscCall(SamWearMoveGap(l->wear));
   if (accepted) {
     PetscCall(VecCopy(l->halves, l->wear->load));
-    PetscCall(SamWearMoveGap(l->wear));
     if (!l->set.fixed) l->state.next = next;
     l->state.jump   = jump;
     l->state.error  = error;
     l->state.cycles = jump == cycles - l->state.cycles ? cycles : l->state.cycles + jump;
     l->known        = PETSC_FALSE;
   }
+  PetscCall(SamWearMoveGap(l->wear));
   PetscCall(Report(l, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
