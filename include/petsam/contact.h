@@ -80,12 +80,14 @@ typedef struct {
   PetscReal  rigid[SAM_COMPONENTS];    /* m, rad: given or found */
   PetscReal  contact_area, stick_area; /* m2 */
   PetscReal  dissipated_energy;        /* J, frictional work of the step: slip times the mean bound of the step */
+  PetscReal  stored_energy;            /* J, elastic: half the work of the tractions on the elastic displacements */
   SamCheck   check;
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
   PetscInt   coupling_iterations;
   PetscReal  cycle;          /* cycles of a life before this one; the caller's (life.h), as the next */
   PetscReal  wear_volume[2]; /* m3, removed of body 1 and 2 so far (wear.h) */
+  PetscReal  stiffness[2][SAM_COMPONENTS][SAM_COMPONENTS]; /* by direction (stiffness.h); NaN unless computed */
   SamStatus  status;
   char       message[512]; /* why the status is not CONVERGED, or a warning; else empty */
   char       setting[32];  /* option (without dash) of the setting behind the message, grid_size ...; empty: none */

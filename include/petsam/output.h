@@ -44,6 +44,7 @@ typedef enum {
   SAM_OUTPUT_BULK_STRESS,    /* bulk1_stress_xx ... bulk2_stress_xy */
   SAM_OUTPUT_WEAR,           /* wear_volume1, wear_volume2; the fields wear_depth1, wear_depth2 */
   SAM_OUTPUT_LIFE,           /* cycle; the group /wear */
+  SAM_OUTPUT_STIFFNESS,      /* stiffness, stiffness_reversal */
   SAM_OUTPUT_OPTIONS
 } SamOutputOption;
 

@@ -66,6 +66,7 @@ class Datafile:
             if axis.size < least or not np.all(np.isfinite(axis)) or not np.all(np.diff(axis) > 0.0):
                 raise ValueError(f"/{name} is not {least} or more numbers that increase")
         self.history, self.units = self._read_table("history")
+        self.matrices = Named(self.path, {name: self._matrices(name) for name in self._names_of_matrices()})
         self.parameters = Named(self.path, self.file.attrs)
         return axes
 
@@ -73,9 +74,20 @@ class Datafile:
         """Values by name of a group of rows, and their units."""
         columns = _own(self.file, group)
         columns = {name: _own(columns, name) for name in columns}
+        columns = {name: data for name, data in columns.items() if not _is_matrices(data)}
         values = {name: self._row(data, f"{group}/{name}") for name, data in columns.items()}
         units = {name: self._unit(data, f"{group}/{name}") for name, data in columns.items()}
         return Named(self.path, values), Named(self.path, units)
+
+    def _names_of_matrices(self):
+        columns = _own(self.file, "history")
+        return [name for name in columns if _is_matrices(_own(columns, name))]
+
+    def _matrices(self, name):
+        data = _own(self.file, f"history/{name}")
+        if data.dtype.kind != "f" or data.size > WHOLE:
+            raise ValueError(f"/history/{name} is no series of matrices")
+        return data[:]
 
     @staticmethod
     def _row(data, name):
@@ -126,6 +138,7 @@ class Results(Datafile):
     steps       numbers of the load steps, from 1, whose fields are saved
     history     name: array with a value for every load step, all of /history; NaN where a step has no solution
     units       name: unit, of the same
+    matrices    stiffness and stiffness_reversal, (steps, 6, 6), with -stiffness: d(loads)/d(rigid displacements)
     wear        name: array with a value for every computed cycle of a life, all of /wear; empty without a life
     wear_units  name: unit, of the same
     parameters  name of an option: value, all root attributes
@@ -337,6 +350,11 @@ def _own(group, name):
     if found is None or isinstance(found, h5py.Dataset) and (found.external or found.is_virtual):
         raise ValueError(f"{name} is in another file")
     return found
+
+
+def _is_matrices(data):
+    """Whether a dataset of /history has a matrix for every step."""
+    return getattr(data, "ndim", None) == 3
 
 
 def _window(cells, stride, size, margin):

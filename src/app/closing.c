@@ -21,6 +21,7 @@ static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
                              {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
                              {"check", {SAM_EVENT_CHECK}, 1},
                              {"results", {SAM_EVENT_OUTPUT}, 1},
+                             {"tangent stiffness", {SAM_EVENT_STIFFNESS}, 1},
                              {"checkpoints", {SAM_EVENT_CHECKPOINT}, 1}};
 static const Part files   = {"files", {SAM_EVENT_OUTPUT, SAM_EVENT_CHECKPOINT}, 2};
 
@@ -76,7 +77,8 @@ static PetscErrorCode PrintTimes(SamReport r)
   PetscCall(PrintRow(r, "", "set-up", setup, total));
   for (PetscInt p = 0; p < PARTS; p++) {
     PetscCall(GetTime(r, &parts[p], &seconds));
-    PetscCall(PrintRow(r, "", parts[p].name, seconds, total));
+    if (seconds > 0 || parts[p].events[0] != SAM_EVENT_STIFFNESS) /* that only where it was asked for */
+      PetscCall(PrintRow(r, "", parts[p].name, seconds, total));
     rest -= seconds;
   }
   PetscCall(PrintRow(r, "", "other", PetscMax(rest, 0), total));

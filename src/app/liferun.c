@@ -53,6 +53,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   told.cycle = cycles;
   PetscCall(TimeOf(run, cycles, &told.control.time));
   PetscCall(SamWearGetVolumes(run->wear, told.wear_volume, depth));
+  PetscCall(SamRunComputeStiffness(run, &told));
   run->point.steps++;
   run->point.times = SamOutputAddTime(run->point.times, told.control.time);
   PetscCall(SamReportCountStep(run->report, run->point.steps, &told));

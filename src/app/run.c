@@ -112,7 +112,10 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
   run->output_every = 1;
   PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &run->output_every, NULL));
+  PetscCall(SamOptionsBool(from, "stiffness", "tangent stiffness of every step, for steps that go on and reverse",
+                           &run->needs.stiffness, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&run->output_settings, from));
+  run->output_settings.with[SAM_OUTPUT_STIFFNESS] = run->needs.stiffness;
   PetscCall(SamHistoryHas(run->history, &run->output_settings.with[SAM_OUTPUT_FRICTION_SCALE],
                           &run->output_settings.with[SAM_OUTPUT_BULK_STRESS]));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -290,6 +293,22 @@ static PetscErrorCode WearStep(SamRun *run, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamRunComputeStiffness(SamRun *run, SamStep *step)
+{
+  PetscFunctionBegin;
+  if (!run->needs.stiffness || !SamStepIsSolved(step)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) {
+    SamStiffness s;
+
+    PetscCall(SamStiffnessCompute(run->contact, (SamStiffnessDirection)k, &s));
+    PetscCall(PetscMemcpy(step->stiffness[k], s.k, sizeof(s.k)));
+    if (!s.converged && !step->message[0])
+      PetscCall(PetscSNPrintf(step->message, sizeof(step->message),
+                              "the tangent stiffness did not converge: relative residual %.2g", (double)s.error));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solves one load step; `ended`: it failed, so that no further step can be solved. */
 static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
 {
@@ -302,6 +321,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
   PetscCall(SamHistoryGetStep(run->history, k, &control));
   PetscCall(SamReportBeginStep(run->report, k, run->contact));
   PetscCall(SamContactTry(run->contact, &control, &step));
+  PetscCall(SamRunComputeStiffness(run, &step));
   PetscCall(WearStep(run, &step));
   due = ((k + 1) % run->output_every == 0 || k + 1 == run->needs.steps || step.status == SAM_STATUS_NOT_CONVERGED)
           ? PETSC_TRUE

@@ -11,7 +11,7 @@
 
 /* What the memory of a run depends on besides the grid. */
 typedef struct {
-  PetscBool friction, coupled, wear, life;
+  PetscBool friction, coupled, wear, life, stiffness;
   PetscInt  steps;
 } SamRunNeeds;
 
@@ -61,6 +61,8 @@ PETSC_INTERN PetscErrorCode SamRunLive(SamRun *run);
   the last step that was written; for when the next one has no solution. Collective.
 */
 PETSC_INTERN PetscErrorCode SamRunWriteLastFields(SamRun *run);
+/* SamRunComputeStiffness - that of a step that is tried, where it is wanted and the step is solved. Collective. */
+PETSC_INTERN PetscErrorCode SamRunComputeStiffness(SamRun *run, SamStep *step);
 /* SamRunWriteStep - writes a step's numbers and, when they are due, its fields. Collective. */
 PETSC_INTERN PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due);
 /* SamRunCheckpoint - after a step or jump: writes a checkpoint if one is due; may stop the run. Collective. */

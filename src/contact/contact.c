@@ -156,6 +156,44 @@ PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
 
 /* ---- a step ---- */
 
+/* Half the work of the tractions on the displacements in a row of cells. */
+static double StoredRow(const double p[], const double u_z[], const double *const q[2], const double *const u_t[2],
+                        PetscInt n)
+{
+  double sum = 0;
+
+  for (PetscInt i = 0; i < n; i++) sum += p[i] * u_z[i] + q[0][i] * u_t[0][i] + q[1][i] * u_t[1][i];
+  return 0.5 * sum;
+}
+
+/* The elastic energy that both bodies store. */
+static PetscErrorCode ComputeStoredEnergy(SamContact c, PetscReal *energy)
+{
+  const SamSolution *s     = &c->tried.solution;
+  SamTotal           total = {0};
+  const double      *p, *q, *u_z, *u_t;
+  double             sum;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u_z));
+  PetscCall(VecGetArrayRead(s->displacement_t, &u_t));
+  for (PetscInt j = 0; j < c->grid->rows; j++) {
+    const ptrdiff_t     k = (ptrdiff_t)j * c->grid->nx, l = k + c->grid->cells;
+    const double *const qs[2] = {q + k, q + l}, *const us[2] = {u_t + k, u_t + l};
+
+    SamAdd(&total, StoredRow(p + k, u_z + k, qs, us, c->grid->nx));
+  }
+  PetscCall(VecRestoreArrayRead(s->displacement_t, &u_t));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u_z));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamSumTotals(c->grid->comm, 1, &total, &sum));
+  *energy = sum * c->grid->dx * c->grid->dy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Areas of contact and of stick, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
   while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
@@ -307,6 +345,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
   PetscCall(ComputeScalars(c, step));
+  PetscCall(ComputeStoredEnergy(c, &step->stored_energy));
   PetscCall(Judge(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -318,7 +357,7 @@ static void SetUnknown(SamStep *step)
     step->load[k]  = step->control.force[k] ? step->control.value[k] : NAN;
     step->rigid[k] = step->control.force[k] ? NAN : step->control.value[k];
   }
-  step->contact_area = step->stick_area = step->dissipated_energy = NAN;
+  step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = NAN;
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
@@ -332,6 +371,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactReject(c));
   PetscCall(CheckControl(c, &given));
   PetscCall(PetscMemzero(step, sizeof(*step)));
+  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS * SAM_COMPONENTS; k++) (&step->stiffness[0][0][0])[k] = NAN;
   step->control             = given;
   c->tried.solution.control = given;
   PetscCall(SamProblemGetGapRevision(c->problem, &c->tried.gap_revision));

@@ -230,6 +230,8 @@ static void ReadRow(SamOutput o, SamOutputSeriesKind kind, hsize_t k, void *row)
     double      real  = 0;
     int64_t     whole = 0;
 
+    if (from < 0 && s->columns[c].kind == SAM_COLUMN_MATRIX)
+      for (PetscInt n = 0; n < SAM_COMPONENTS * SAM_COMPONENTS; n++) ((PetscReal *)place)[n] = NAN;
     if (from < 0) continue;
     switch (s->columns[c].kind) {
     case SAM_COLUMN_REAL:
@@ -243,6 +245,9 @@ static void ReadRow(SamOutput o, SamOutputSeriesKind kind, hsize_t k, void *row)
     case SAM_COLUMN_STATUS:
       SamOutputReadSeries(o, from, H5T_NATIVE_INT64, k, 1, &whole);
       *(SamStatus *)place = (SamStatus)whole;
+      break;
+    case SAM_COLUMN_MATRIX:
+      SamOutputReadSeries(o, from, H5T_NATIVE_DOUBLE, k, 1, place);
       break;
     }
   }

@@ -88,6 +88,10 @@ const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputF
   { \
     {name, units, text}, SAM_COLUMN_REAL, offsetof(SamStep, member), option \
   }
+#define MATRIX(name, text, member) \
+  { \
+    {name, "N/m, N/rad, N, N m/rad", text}, SAM_COLUMN_MATRIX, offsetof(SamStep, member), SAM_OUTPUT_STIFFNESS \
+  }
 #define BULK(body, component, name) \
   OPTIONAL(SAM_OUTPUT_BULK_STRESS, name, "Pa", "bulk stress of the body, tension positive", \
            control.bulk_stress[body][component])
@@ -130,7 +134,10 @@ static const SamOutputColumn history[] = {
   OPTIONAL(SAM_OUTPUT_LIFE, "cycle", "1", "cycles before this one", cycle),
   OPTIONAL(SAM_OUTPUT_WEAR, "wear_volume1", "m3", "volume removed of body 1", wear_volume[0]),
   OPTIONAL(SAM_OUTPUT_WEAR, "wear_volume2", "m3", "volume removed of body 2", wear_volume[1]),
-  REAL("dissipated_energy", "J", "frictional work of the load step", dissipated_energy)};
+  REAL("dissipated_energy", "J", "frictional work of the load step", dissipated_energy),
+  REAL("stored_energy", "J", "elastic energy of both bodies", stored_energy),
+  MATRIX("stiffness", "d(loads)/d(rigid displacements) if the motion of the step goes on", stiffness[0]),
+  MATRIX("stiffness_reversal", "d(loads)/d(rigid displacements) at the reversal of the motion", stiffness[1])};
 
 #define CYCLE(name, units, text, kind, member) \
   { \

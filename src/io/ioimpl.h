@@ -208,8 +208,8 @@ typedef struct {
   SamOutputOption option; /* SAM_OUTPUT_OPTIONS: none, the field is always there */
 } SamOutputField;
 
-/* A column of a series: a member of SamStep or SamLifeReport. */
-typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS } SamOutputColumnKind;
+/* A column of a series: a member of SamStep or SamLifeReport. A matrix has a row and a column for each component. */
+typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS, SAM_COLUMN_MATRIX } SamOutputColumnKind;
 typedef struct {
   SamOutputLabel      label;
   SamOutputColumnKind kind;
@@ -289,7 +289,7 @@ PETSC_INTERN PetscBool SamStructureIsSealed(const char filename[]);
 
 /*
   SamOutputLength - the number of steps in a dataset.
-  SamOutputReadSeries - reads `count` numbers of a series from index `first` on, on all ranks.
+  SamOutputReadSeries - reads `count` numbers, or matrices, of a series from index `first` on, on all ranks.
 */
 PETSC_INTERN hsize_t SamOutputLength(SamOutput output, hid_t dataset);
 PETSC_INTERN void    SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t type, hsize_t first, hsize_t count,

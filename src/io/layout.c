@@ -6,6 +6,7 @@
 */
 #include "ioimpl.h"
 #include <hdf5_hl.h>
+#include <string.h>
 
 #define CHUNK_STEPS 256 /* steps in a chunk of a series, which has one number a step */
 
@@ -15,7 +16,13 @@ static const SamOutputLabel time_label     = {"time", "s", "time of the saved fi
 static const char           state_words[]  = "open stick slip"; /* SamState */
 static const char           status_words[] = "converged not_converged no_equilibrium edge_contact";
 
-static const SamShape series = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
+#define CHUNK_MATRICES 16 /* of a series of matrices */
+
+static const SamShape series   = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
+static const SamShape matrices = {3,
+                                  {0, SAM_COMPONENTS, SAM_COMPONENTS},
+                                  {H5S_UNLIMITED, SAM_COMPONENTS, SAM_COMPONENTS},
+                                  {CHUNK_MATRICES, SAM_COMPONENTS, SAM_COMPONENTS}};
 
 /* A coordinate, marked by the CF attributes `axis` and `standard_name`. */
 static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const char axis[],
@@ -114,14 +121,52 @@ static PetscErrorCode CreateFields(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The rows or columns of matrices: the six loads, or the six rigid displacements, by name. */
+static hid_t CreateComponents(SamOutput o, PetscBool loads)
+{
+  static const SamOutputLabel load       = {"load_component", "1", "component of the load"},
+                              rigid      = {"rigid_component", "1", "component of the rigid displacement"};
+  const SamShape shape                   = {1, {SAM_COMPONENTS}, {SAM_COMPONENTS}, {0}};
+  double         numbers[SAM_COMPONENTS] = {0};
+  char           names[128]              = "";
+  hid_t          scale;
+
+  for (int c = 0; c < SAM_COMPONENTS; c++) {
+    numbers[c] = c;
+    (void)snprintf(names + strlen(names), sizeof(names) - strlen(names), "%s%s", c ? " " : "",
+                   loads ? SamComponentNames[c].load : SamComponentNames[c].rigid);
+  }
+  scale = SamFileCreateDataset(o->f, o->f->id, loads ? &load : &rigid, H5T_STD_I8LE, &shape, 0);
+  (void)SamFileNote(o->f, H5DSset_scale(scale, loads ? load.name : rigid.name));
+  SamFileWriteAttribute(o->f, scale, "flag_values", H5T_STD_I8LE, H5T_NATIVE_DOUBLE, SAM_COMPONENTS, numbers);
+  SamFileWriteTextAttribute(o->f, scale, "flag_meanings", names);
+  SamFileWriteSeries(o->f, scale, numbers);
+  return scale;
+}
+
+/* Names the rows and columns of the matrices of a group of columns. */
+static void AttachComponents(SamOutput o, SamOutputSeriesKind kind)
+{
+  const SamOutputSeries *s     = &SamOutputAllSeries[kind];
+  const hid_t            loads = CreateComponents(o, PETSC_TRUE), rigid = CreateComponents(o, PETSC_FALSE);
+
+  for (PetscInt c = 0; c < s->count; c++) {
+    if (o->columns[kind][c] < 0 || s->columns[c].kind != SAM_COLUMN_MATRIX) continue;
+    (void)SamFileNote(o->f, H5DSattach_scale(o->columns[kind][c], loads, 1));
+    (void)SamFileNote(o->f, H5DSattach_scale(o->columns[kind][c], rigid, 2));
+  }
+  (void)SamFileNote(o->f, H5Dclose(loads));
+  (void)SamFileNote(o->f, H5Dclose(rigid));
+}
+
 static hid_t CreateColumn(SamOutput o, hid_t group, const SamOutputColumn *column)
 {
   const int64_t   statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM,
                                 SAM_STATUS_EDGE_CONTACT};
   const PetscBool whole =
     (column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS) ? PETSC_TRUE : PETSC_FALSE;
-  const hid_t dataset =
-    SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, &series, 0);
+  const hid_t dataset = SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE,
+                                             column->kind == SAM_COLUMN_MATRIX ? &matrices : &series, 0);
 
   if (column->kind == SAM_COLUMN_STATUS) {
     SamFileWriteAttribute(o->f, dataset, "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
@@ -149,6 +194,7 @@ static void CreateSeries(SamOutput o, SamOutputSeriesKind kind)
     to[c] = CreateColumn(o, group, &s->columns[c]);
     (void)SamFileNote(o->f, H5DSattach_scale(to[c], to[0], 0));
   }
+  if (kind == SAM_SERIES_HISTORY && o->set.with[SAM_OUTPUT_STIFFNESS]) AttachComponents(o, kind);
   (void)SamFileNote(o->f, H5Gclose(group));
 }
 
@@ -257,10 +303,16 @@ hsize_t SamOutputLength(SamOutput o, hid_t dataset)
 
 void SamOutputReadSeries(SamOutput o, hid_t dataset, hid_t type, hsize_t first, hsize_t count, void *values)
 {
-  const hid_t space  = SamFileNote(o->f, H5Dget_space(dataset)),
-              memory = SamFileNote(o->f, H5Screate_simple(1, &count, NULL));
+  const hid_t space    = SamFileNote(o->f, H5Dget_space(dataset));
+  hsize_t     start[3] = {first, 0, 0}, size[3] = {0, 1, 1}, all;
+  hid_t       memory;
 
-  if (count) (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, NULL, &count, NULL));
+  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3)
+    (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
+  size[0] = count;
+  all     = count * size[1] * size[2];
+  memory  = SamFileNote(o->f, H5Screate_simple(1, &all, NULL));
+  if (count) (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, size, NULL));
   if (count) (void)SamFileNote(o->f, H5Dread(dataset, type, memory, space, o->f->transfer, values));
   (void)SamFileNote(o->f, H5Sclose(memory));
   (void)SamFileNote(o->f, H5Sclose(space));

@@ -236,22 +236,22 @@ PetscErrorCode SamOutputSetText(SamOutput o, const char name[], const char text[
 
 /* ---- steps ---- */
 
-/* Appends a number to a series; rank 0 writes it. */
-static void AppendNumber(SamOutput o, hid_t dataset, hid_t type, hsize_t index, const void *number)
+/* Appends a number to a series, or a square matrix of n rows; rank 0 writes it. */
+static void Append(SamOutput o, hid_t dataset, hid_t type, hsize_t index, hsize_t n, const void *numbers)
 {
-  const hsize_t size = index + 1, one = 1;
-  const hid_t   memory = SamFileNote(o->f, H5Screate_simple(1, &one, NULL));
+  const hsize_t size[3] = {index + 1, n, n}, start[3] = {index, 0, 0}, one[3] = {1, n, n}, all = n * n;
+  const hid_t   memory = SamFileNote(o->f, H5Screate_simple(1, &all, NULL));
   hid_t         space;
 
-  (void)SamFileNote(o->f, H5Dset_extent(dataset, &size));
+  (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
   space = SamFileNote(o->f, H5Dget_space(dataset));
   if (o->f->rank == 0) {
-    (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, &index, NULL, &one, NULL));
+    (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, one, NULL));
   } else {
     (void)SamFileNote(o->f, H5Sselect_none(space));
     (void)SamFileNote(o->f, H5Sselect_none(memory));
   }
-  (void)SamFileNote(o->f, H5Dwrite(dataset, type, memory, space, o->f->transfer, number));
+  (void)SamFileNote(o->f, H5Dwrite(dataset, type, memory, space, o->f->transfer, numbers));
   (void)SamFileNote(o->f, H5Sclose(space));
   (void)SamFileNote(o->f, H5Sclose(memory));
 }
@@ -271,15 +271,18 @@ static void AppendRow(SamOutput o, SamOutputSeriesKind kind, const void *row)
     switch (s->columns[c].kind) {
     case SAM_COLUMN_REAL:
       real = (double)*(const PetscReal *)place;
-      AppendNumber(o, o->columns[kind][c], H5T_NATIVE_DOUBLE, at, &real);
+      Append(o, o->columns[kind][c], H5T_NATIVE_DOUBLE, at, 1, &real);
       break;
     case SAM_COLUMN_INT:
       whole = (int64_t) * (const PetscInt *)place;
-      AppendNumber(o, o->columns[kind][c], H5T_NATIVE_INT64, at, &whole);
+      Append(o, o->columns[kind][c], H5T_NATIVE_INT64, at, 1, &whole);
       break;
     case SAM_COLUMN_STATUS:
       whole = (int64_t) * (const SamStatus *)place;
-      AppendNumber(o, o->columns[kind][c], H5T_NATIVE_INT64, at, &whole);
+      Append(o, o->columns[kind][c], H5T_NATIVE_INT64, at, 1, &whole);
+      break;
+    case SAM_COLUMN_MATRIX:
+      Append(o, o->columns[kind][c], H5T_NATIVE_DOUBLE, at, SAM_COMPONENTS, place);
       break;
     }
   }
@@ -356,7 +359,7 @@ PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time,
   if (values) {
     const double now = (double)time;
 
-    AppendNumber(o, o->time, H5T_NATIVE_DOUBLE, o->saved, &now);
+    Append(o, o->time, H5T_NATIVE_DOUBLE, o->saved, 1, &now);
     PetscCall(AppendFields(o, values, context));
     SamOutputCountVTK(o, o->saved + 1);
     o->saved_time = time;

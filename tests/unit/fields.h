@@ -184,17 +184,31 @@ static inline double Paraboloid(double x, double y, const void *radius)
   return (x * x + y * y) / (2 * *(const double *)radius);
 }
 
-/* n * n cells, half_width in units of a. */
-static inline Sphere NewSphereOf(SamPair pair, PetscInt n, double half_width)
+/* A paraboloid about a place: radius, x, y. */
+static inline double ParaboloidAt(double x, double y, const void *context)
 {
-  Sphere s = {.pair = pair, .R = 0.1, .a = 1e-3};
+  const double *at = (const double *)context;
+
+  return Paraboloid(x - at[1], y - at[2], at);
+}
+
+/* n * n cells, half_width in units of a, about (x, y). */
+static inline Sphere NewSphereOn(MPI_Comm comm, SamPair pair, PetscInt n, double half_width, double x, double y)
+{
+  Sphere       s     = {.pair = pair, .R = 0.1, .a = 1e-3};
+  const double at[3] = {s.R, x, y};
 
   s.N    = 4 * pair.modulus * s.a * s.a * s.a / (3 * s.R);
   s.p0   = 1.5 * s.N / (PETSC_PI * s.a * s.a);
-  s.grid = NewGrid(n, n, 2 * half_width * s.a, 2 * half_width * s.a);
-  s.h    = NewFrom(s.grid, Paraboloid, &s.R);
+  s.grid = NewGridOn(comm, n, n, 2 * half_width * s.a, 2 * half_width * s.a, x, y);
+  s.h    = NewFrom(s.grid, ParaboloidAt, at);
   sam_call(SamElasticityCreate(s.grid, &pair, &s.elasticity));
   return s;
+}
+
+static inline Sphere NewSphereOf(SamPair pair, PetscInt n, double half_width)
+{
+  return NewSphereOn(PETSC_COMM_WORLD, pair, n, half_width, 0, 0);
 }
 
 static inline Sphere NewSphere(PetscInt n, double half_width, double poisson)

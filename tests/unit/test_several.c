@@ -7,14 +7,7 @@ enum { STEPS = 3, BODIES = 2, N = 45 };
 
 static Case NewBodiesOn(MPI_Comm comm, int kind, const char *prefix, const char *options)
 {
-  Sphere s = {.pair = kind ? Dissimilar() : Steel(), .R = 0.1, .a = 1e-3};
-
-  s.N    = 4 * s.pair.modulus * s.a * s.a * s.a / (3 * s.R);
-  s.p0   = 1.5 * s.N / (PETSC_PI * s.a * s.a);
-  s.grid = NewGridOn(comm, N, N, 4 * s.a, 4 * s.a, 0, 0);
-  s.h    = NewFrom(s.grid, Paraboloid, &s.R);
-  sam_call(SamElasticityCreate(s.grid, &s.pair, &s.elasticity));
-  return NewCaseOn(s, MU, prefix, options);
+  return NewCaseOn(NewSphereOn(comm, kind ? Dissimilar() : Steel(), N, 2, 0, 0), MU, prefix, options);
 }
 
 static SamStep StepOf(const Case *c, int kind, int k)

@@ -27,6 +27,8 @@ typedef struct {
   double         dxi, deta;    /* steps of xi and eta from cell to cell */
 } SamFrame;
 
+/* SamFrameGetComponent - the rigid displacement of component k of a kind (1 m or rad) as a combination of the phi. */
+PETSC_EXTERN void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3]);
 /* SamFrameSet - the frame of a grid (borrowed) for what a balance controls. Not collective. */
 PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* SamFrameSetGiven - the same with all rigid displacements given as they stand in the balance. */

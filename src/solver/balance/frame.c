@@ -21,8 +21,7 @@ SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind)
   return balance;
 }
 
-/* The rigid displacement of unit component k as a combination of the phi. */
-static void ComponentRow(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3])
+void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3])
 {
   const double xc = grid->center[0], yc = grid->center[1], L = grid->length;
   const double normal[3][3]     = {{1, 0, 0}, {-yc, L, 0}, {xc, 0, L}};
@@ -61,7 +60,7 @@ PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
   for (PetscInt k = 0; k < 3; k++) {
     double row[3];
 
-    ComponentRow(grid, f->kind, k, row);
+    SamFrameGetComponent(grid, f->kind, k, row);
     if (balance->force[k]) {
       const PetscInt m = f->count;
 
@@ -107,7 +106,7 @@ void SamFrameGetLoads(const SamFrame *f, const double sums[3], PetscReal loads[3
   for (PetscInt k = 0; k < 3; k++) {
     double row[3];
 
-    ComponentRow(f->grid, f->kind, k, row);
+    SamFrameGetComponent(f->grid, f->kind, k, row);
     loads[k] = (row[0] * sums[0] + row[1] * sums[1] + row[2] * sums[2]) * f->grid->dx * f->grid->dy;
   }
 }

@@ -1,0 +1,41 @@
+/* The tangent stiffness of a solved load step. */
+#ifndef PETSAM_STIFFNESS_H
+#define PETSAM_STIFFNESS_H
+
+#include <petsam/contact.h>
+
+/*
+  The derivative of a contact with friction depends on the direction of its motion. Two are computed:
+    SAM_STIFFNESS_FORWARD   the motion of the step goes on: cells that slip go on slipping. This is the derivative of
+                            the tried step's loads with respect to its displacements, the step starting where it did.
+                            Not symmetric: where cells slip, tangential loads depend on the approach, and not the
+                            reverse. Across a step's own direction it counts that slip turns within the step: for a
+                            path of small steps it tends to the stiffness of stick there.
+    SAM_STIFFNESS_REVERSAL  the motion reverses at the end of the step: all cells in contact stick. Symmetric; also right
+                            where only the normal force grows.
+*/
+typedef enum { SAM_STIFFNESS_FORWARD, SAM_STIFFNESS_REVERSAL } SamStiffnessDirection;
+#define SAM_STIFFNESS_DIRECTIONS 2
+
+/* SamStiffness - d(load)/d(rigid displacement) in the order of SamComponent, and what it took. */
+typedef struct {
+  PetscReal k[SAM_COMPONENTS][SAM_COMPONENTS]; /* k[i][j] = d(load i)/d(rigid j): N/m, N/rad, N, N m/rad */
+  PetscBool converged;                         /* else, and where rotations do not exist, k is NaN */
+  PetscReal error;                             /* largest residual of a column, relative */
+  PetscInt  columns, applies, preconditions;   /* systems solved; products with the operator and its inverse */
+} SamStiffness;
+
+/*
+  SamStiffnessCompute - the tangent stiffness of the tried step. Displacements are relative to infinity, as everywhere.
+  The boundaries of contact, stick and slip do not move to first order: pressure vanishes at the edge of contact, and
+  where stick meets slip both |q| = mu p and ds = 0 hold. So the sets of cells are frozen, and a column solves
+    normal      S dp + B' dq = n on cells in contact,
+    tangential  C dq + B dp - t = d(ds), which is 0 on cells that stick; on cells that slip
+                dq = mu e dp - mu p/|ds| (I - e e') d(ds),  e = q/|q|,
+  n and t being the unit motion of the column, and B the coupling of dissimilar bodies. Leaves the contact unchanged.
+  Collective. Errors: PETSC_ERR_ORDER without a tried step.
+*/
+PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction,
+                                                SamStiffness *stiffness);
+
+#endif

@@ -1,0 +1,189 @@
+/*
+  The tangent stiffness: a linear system for each rigid motion, and the loads of its solutions.
+
+  A system with a symmetric matrix A gives its part of the stiffness as b_i.x_j + x_i.r_j, b being the columns, x the
+  solutions and r their residuals: symmetric, and wrong only by the square of the error of x. Without coupling the
+  matrices of pressure and shear are symmetric, and how slipping cells follow the pressure, the part that is not, comes
+  from the solutions for the shear, with no system of its own: it is the work of mu e dp on the slip of the motion.
+*/
+#include "stiffnessimpl.h"
+#include <math.h>
+
+enum { HALF = 3 }; /* normal or tangential motions */
+
+/* The solutions of some systems, and what the stiffness is made of; arrays of packed fields. */
+typedef struct {
+  SamFrozen f;
+  PetscInt  count; /* of systems */
+  double   *b[SAM_COMPONENTS], *x[SAM_COMPONENTS], *r[SAM_COMPONENTS];
+  double   *slip[HALF];                        /* of the tangential motions, without coupling; NULL: not wanted */
+  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* in the phi of the grid's frames, normal ones first */
+  PetscReal error;
+} Systems;
+
+/* Solves `count` systems of a part, for the motions from `first` on. */
+static PetscErrorCode Solve(Systems *s, SamFrozenPart part, PetscInt first, PetscInt count)
+{
+  PetscFunctionBegin;
+  s->f.part = part;
+  s->count  = count;
+  for (PetscInt i = 0; i < count; i++) {
+    const PetscInt n = SamFrozenSize(&s->f);
+    PetscReal      error;
+
+    PetscCall(PetscMalloc3(n, &s->b[i], n, &s->x[i], n, &s->r[i]));
+    SamFrozenColumn(&s->f, first + i, s->b[i]);
+    PetscCall(SamKrylovSolve(&s->f, s->b[i], s->x[i], s->r[i], &error));
+    s->error = SamLarger(s->error, error);
+    if (part != SAM_FROZEN_TANGENTIAL) continue;
+    PetscCall(PetscMalloc1(n, &s->slip[i]));
+    PetscCall(SamFrozenTakeSlip(&s->f, first + i, s->slip[i]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Free(Systems *s)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->count; i++) PetscCall(PetscFree3(s->b[i], s->x[i], s->r[i]));
+  for (PetscInt i = 0; i < HALF; i++) PetscCall(PetscFree(s->slip[i]));
+  s->count = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The block of the stiffness that symmetric systems give, of the motions from `first` on. */
+static PetscErrorCode AddSymmetric(Systems *s, PetscInt first)
+{
+  double some[SAM_COMPONENTS], more[SAM_COMPONENTS];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < s->count; j++) {
+    PetscCall(SamFrozenDots(&s->f, j + 1, s->b, s->x[j], some));
+    PetscCall(SamFrozenDots(&s->f, j + 1, s->x, s->r[j], more));
+    for (PetscInt i = 0; i <= j; i++) s->k[first + i][first + j] = s->k[first + j][first + i] = some[i] + more[i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Without coupling: the pressure, then the shear, and how the one changes with the other. */
+static PetscErrorCode ComputeUncoupled(Systems *s)
+{
+  double *follow[HALF];
+
+  PetscFunctionBegin;
+  PetscCall(Solve(s, SAM_FROZEN_NORMAL, 0, HALF));
+  PetscCall(AddSymmetric(s, 0));
+  for (PetscInt j = 0; j < HALF; j++) {
+    PetscCall(PetscCalloc1(2 * s->f.count, &follow[j]));
+    SamFrozenFollow(&s->f, s->x[j], follow[j]);
+  }
+  PetscCall(Free(s));
+  PetscCall(Solve(s, SAM_FROZEN_TANGENTIAL, HALF, HALF));
+  PetscCall(AddSymmetric(s, HALF));
+  for (PetscInt j = 0; j < HALF; j++) {
+    double dots[HALF];
+
+    PetscCall(SamFrozenDots(&s->f, HALF, s->slip, follow[j], dots));
+    for (PetscInt i = 0; i < HALF; i++) s->k[HALF + i][j] = -dots[i];
+    PetscCall(PetscFree(follow[j]));
+  }
+  PetscCall(Free(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The loads of a motion's solution, where the matrix is not symmetric. */
+static PetscErrorCode AddLoads(Systems *s, PetscInt j)
+{
+  const PetscInt m = s->f.count;
+  double        *motion[SAM_COMPONENTS], *traction, loads[SAM_COMPONENTS];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * m, &traction));
+  PetscCall(PetscArraycpy(traction, s->x[j], 3 * m));
+  SamFrozenFollow(&s->f, s->x[j], traction + m);
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++) {
+    PetscCall(PetscCalloc1(3 * m, &motion[i]));
+    SamFrozenMotion(&s->f, i, motion[i] + (i < HALF ? 0 : m));
+  }
+  PetscCall(SamFrozenDots(&s->f, SAM_COMPONENTS, motion, traction, loads));
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++) {
+    s->k[i][j] = loads[i];
+    PetscCall(PetscFree(motion[i]));
+  }
+  PetscCall(PetscFree(traction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Both at once. */
+static PetscErrorCode ComputeCoupled(Systems *s, SamStiffnessDirection direction)
+{
+  PetscFunctionBegin;
+  PetscCall(Solve(s, SAM_FROZEN_BOTH, 0, SAM_COMPONENTS));
+  if (direction == SAM_STIFFNESS_REVERSAL)
+    PetscCall(AddSymmetric(s, 0));
+  else
+    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) PetscCall(AddLoads(s, j));
+  PetscCall(Free(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The combination of a grid's phi that each rigid motion is: to[k][c] of phi k and component c. */
+static void SetMotions(SamGrid grid, double to[SAM_COMPONENTS][SAM_COMPONENTS])
+{
+  for (PetscInt kind = 0; kind < 2; kind++)
+    for (PetscInt c = 0; c < HALF; c++) {
+      double row[HALF];
+
+      SamFrameGetComponent(grid, (SamBalanceKind)kind, c, row);
+      for (PetscInt k = 0; k < HALF; k++) to[HALF * kind + k][SamComponentsOf[kind][c]] = row[k];
+    }
+}
+
+/* The stiffness of the six components. */
+static void Transform(const Systems *s, PetscBool rotations, SamStiffness *stiffness)
+{
+  double       to[SAM_COMPONENTS][SAM_COMPONENTS] = {{0}};
+  const double area                               = s->f.grid->dx * s->f.grid->dy;
+
+  SetMotions(s->f.grid, to);
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
+    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) {
+      double sum = 0;
+
+      for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+        for (PetscInt l = 0; l < SAM_COMPONENTS; l++) sum += to[k][i] * s->k[k][l] * to[l][j];
+      stiffness->k[i][j] =
+        !stiffness->converged || (!rotations && PetscMax(i, j) >= SAM_COMPONENT_MX) ? NAN : sum * area;
+    }
+}
+
+PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
+{
+  Systems             s = {.error = 0};
+  SamElasticityTraits traits;
+  SamElasticity       elasticity;
+  SamProblem          problem;
+  PetscInt            first[2], n[2];
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  PetscCall(SamElasticityGetPartPlace(elasticity, first, n));
+  PetscCall(SamFrozenCreate(contact, direction, &s.f));
+  if (s.f.coupled)
+    PetscCall(ComputeCoupled(&s, direction));
+  else
+    PetscCall(ComputeUncoupled(&s));
+  stiffness->error         = s.error;
+  stiffness->converged     = s.error <= SAM_STIFFNESS_RTOL ? PETSC_TRUE : PETSC_FALSE;
+  stiffness->columns       = SAM_COMPONENTS;
+  stiffness->applies       = s.f.applies;
+  stiffness->preconditions = s.f.preconditions;
+  Transform(&s, traits.rotations, stiffness);
+  PetscCall(SamFrozenDestroy(&s.f));
+  PetscCall(SamElasticitySetPart(elasticity, first, n));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,67 @@
+/* The inside of the tangent stiffness: a contact whose sets of cells are frozen, and its linear systems. */
+#ifndef PETSAM_STIFFNESSIMPL_H
+#define PETSAM_STIFFNESSIMPL_H
+
+#include <petsam/private/balanceimpl.h>
+#include <petsam/elasticity.h>
+#include <petsam/stiffness.h>
+
+/* The part of the tractions that a linear system has as unknowns. */
+typedef enum { SAM_FROZEN_NORMAL, SAM_FROZEN_TANGENTIAL, SAM_FROZEN_BOTH } SamFrozenPart;
+
+/*
+  SamFrozen - the cells in contact, packed row after row, and how they respond. Fields are packed arrays of up to three
+  components, each of `count` values: dp, dq_x, dq_y. In cells that slip dq is what lies along the circle; mu e dp, what
+  follows the pressure, is added to it (SamFrozenFollow()).
+*/
+typedef struct {
+  SamElasticity elasticity; /* of a part of the grid that holds the contact, or of all of it */
+  SamGrid       grid;
+  SamFrame      normal, tangential; /* the frames of that grid */
+  PetscBool     coupled;            /* pressure and shear act on each other */
+  PetscInt      count;              /* of this rank's cells in contact */
+  PetscInt     *start;              /* rows + 1: where the cells of each row begin among them */
+  PetscInt     *cell;               /* index of each in this rank's part of the grid */
+  double       *e[2];               /* e where a cell slips, 0 where it sticks */
+  double       *follow;             /* mu where a cell slips, 0 where it sticks */
+  double       *stiff;              /* |ds|/(mu p), m/Pa: what resists a turn of the slip; 0 where a cell sticks */
+  double       *free;               /* 1; 0 where there is no friction and thus no shear */
+  double        self[2];            /* influence of a cell on itself, normal and tangential, m/Pa */
+  Vec           p, q, u_z, u_t, w_z, w_t;
+  float        *r, *z; /* of two components */
+  /* the system that is solved */
+  SamFrozenPart part;
+  PetscInt      applies, preconditions;
+} SamFrozen;
+
+/* SamFrozenCreate, SamFrozenDestroy - of the tried step of a contact. Collective. Errors: PETSC_ERR_ORDER. */
+PETSC_INTERN PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection direction, SamFrozen *frozen);
+PETSC_INTERN PetscErrorCode SamFrozenDestroy(SamFrozen *frozen);
+/* SamFrozenSize - the number of a field's values on this rank in the system that is solved. Not collective. */
+PETSC_INTERN PetscInt SamFrozenSize(const SamFrozen *frozen);
+/* SamFrozenMotion - the unit motion along one of the six phi, packed: normal (one component) or tangential (two). */
+PETSC_INTERN void SamFrozenMotion(const SamFrozen *frozen, PetscInt k, double values[]);
+/* SamFrozenColumn - the right-hand side of a unit motion along one of the six phi, normal ones first. */
+PETSC_INTERN void SamFrozenColumn(const SamFrozen *frozen, PetscInt k, double column[]);
+/* SamFrozenApply - Ax = the system's matrix times x; leaves the displacements by x in u_z and u_t. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenApply(SamFrozen *frozen, const double x[], double Ax[]);
+/* SamFrozenPrecondition - z = approximate inverse of the matrix times r. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenPrecondition(SamFrozen *frozen, const double r[], double z[]);
+/* SamFrozenFollow - what the shear of slipping cells follows the pressure by: q += mu e p; packed. Not collective. */
+PETSC_INTERN void SamFrozenFollow(const SamFrozen *frozen, const double p[], double q[]);
+/* SamFrozenTakeSlip - d(ds) = C dq - t after a product with dq, t being the motion along phi k; packed. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt k, double slip[]);
+/* SamFrozenDots - the products of n fields with one more, the same on any number of ranks. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenDots(const SamFrozen *frozen, PetscInt n, double *const fields[],
+                                          const double field[], double dots[]);
+
+/* Of the residual of a system, relative. Symmetric parts of the stiffness are then right to 1e-8, others to 1e-5. */
+#define SAM_STIFFNESS_RTOL 1e-4
+/*
+  SamKrylovSolve - x from A x = b, and the residual b - A x, by GMRES, preconditioned from the right. `error` is the
+  residual's norm relative to that of b. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamKrylovSolve(SamFrozen *frozen, const double b[], double x[], double residual[],
+                                           PetscReal *error);
+
+#endif

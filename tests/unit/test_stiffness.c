@@ -1,0 +1,341 @@
+/* The tangent stiffness: closed forms, differences of trials in both directions, symmetry, and what it leaves alone. */
+#include "contacts.h"
+
+#include <petsam/stiffness.h>
+
+/* The components by short names; N stands alone in Sphere. */
+enum { Z, TX, TY, MX, MY, MZ };
+
+/* Steel without Poisson's ratio: then Cattaneo's and Mindlin's solution is exact. */
+#define PLAIN NewPair(210e9, 0, 210e9, 0)
+
+static SamStiffness Stiffness(const Case *c, SamStiffnessDirection direction)
+{
+  SamStiffness k;
+
+  sam_call(SamStiffnessCompute(c->contact, direction, &k));
+  return k;
+}
+
+/* Of two similar bodies. */
+static double NormalStiffness(const Case *c, double young, double poisson)
+{
+  return young / (1 - poisson * poisson) * c->s.a;
+}
+static double ShearStiffness(const Case *c, double young, double poisson)
+{
+  return 4 * c->s.a / (2 - poisson) * young / (2 * (1 + poisson));
+}
+
+/* Entries count in units of a, so that forces and moments can be compared. */
+static double Unit(const Case *c, PetscInt i)
+{
+  return i < SAM_COMPONENT_MX ? 1 : c->s.a;
+}
+
+/* ---- closed forms ---- */
+
+static void test_stuck_contact_is_as_stiff_as_a_bonded_disc(void **state)
+{
+  Case             c       = NewCase(Steel(), 128, 1.1, MU, "");
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  const double     a = c.s.a, kn = NormalStiffness(&c, 210e9, 0.3), kt = ShearStiffness(&c, 210e9, 0.3),
+               shear = 210e9 / 2.6;
+  SamStiffness k;
+
+  (void)state;
+  (void)Try(&c, &control);
+  k = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+  sam_assert(k.converged && k.columns == SAM_COMPONENTS);
+  sam_assert_close(k.k[Z][Z] / kn, 1, 3e-3);
+  sam_assert_close(k.k[TX][TX] / kt, 1, 3e-3);
+  sam_assert_close(k.k[MX][MX] / (2.0 / 3 * kn * a * a), 1, 5e-3);
+  sam_assert_close(k.k[MY][MY] / (2.0 / 3 * kn * a * a), 1, 5e-3);
+  sam_assert_close(k.k[MZ][MZ] / (8.0 / 3 * a * a * a * shear), 1, 5e-3);
+  DestroyCase(&c);
+}
+
+/* With t = (1 - T/mu N)^(1/3) the shear stiffness is k t, and dT/dN = mu (1 - t) while N falls. */
+static void test_slipping_contact_softens_as_mindlin_has_it(void **state)
+{
+  Case c = NewCase(PLAIN, 128, 1.1, MU, "");
+
+  (void)state;
+  for (PetscInt step = 0; step < 3; step++) {
+    const double part = 0.3 + 0.3 * (double)step, t = cbrt(1 - part), kt = ShearStiffness(&c, 210e9, 0),
+                 kn           = NormalStiffness(&c, 210e9, 0);
+    const SamControl control  = Loads(&c, 1, part, 0, 0);
+    const SamStep    solution = Try(&c, &control);
+    SamStiffness     k;
+
+    AssertGood(&solution);
+    k = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+    sam_assert_close(k.k[TX][TX] / (kt * t), 1, 5e-3);
+    sam_assert_close(k.k[TX][Z] / kn, MU * (1 - t), 5e-3 * MU);
+    sam_assert(k.k[Z][TX] == 0);
+    k = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+    sam_assert_close(k.k[TX][TX] / kt, 1, 5e-3);
+    sam_assert(k.k[TX][Z] == 0);
+  }
+  DestroyCase(&c);
+}
+
+/* While T falls from T*, the shear stiffness is that of growing by half as much from a stuck state. */
+static void test_unloading_softens_half_as_fast(void **state)
+{
+  Case             c  = NewCase(PLAIN, 128, 1.1, MU, "");
+  const SamControl up = Loads(&c, 1, 0.8, 0, 0), down = Loads(&c, 1, -0.2, 0, 0);
+  const double     kt = ShearStiffness(&c, 210e9, 0);
+
+  (void)state;
+  (void)Solve(&c, &up);
+  (void)Try(&c, &down);
+  sam_assert_close(Stiffness(&c, SAM_STIFFNESS_FORWARD).k[TX][TX] / (kt * cbrt(1 - 0.5)), 1, 5e-3);
+  DestroyCase(&c);
+}
+
+/* ---- differences ---- */
+
+/* The largest error of the columns against differences of trials, as a part of the largest entry. */
+static double ErrorOf(const Case *c, const SamStiffness *k, const PetscReal rigid[], double by)
+{
+  const double size  = by * c->s.a * c->s.a / c->s.R;
+  double       error = 0, most = 0;
+  SamControl   control;
+  SamStep      base;
+
+  sam_call(SamControlInitialize(&control));
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++) Displace(&control, (SamComponent)i, rigid[i]);
+  base = Try(c, &control);
+  for (PetscInt j = 0; j < SAM_COMPONENTS; j++) {
+    SamControl    moved = control;
+    const double  step  = size / Unit(c, j);
+    const SamStep other = (moved.value[j] += step, Try(c, &moved));
+
+    for (PetscInt i = 0; i < SAM_COMPONENTS; i++) {
+      const double unit = Unit(c, i) * Unit(c, j), difference = (other.load[i] - base.load[i]) / step / unit,
+                   entry = k->k[i][j] / unit;
+
+      error = fmax(error, fabs(difference - entry));
+      most  = fmax(most, fabs(entry));
+    }
+  }
+  return error / most;
+}
+
+/* Some load of all kinds, the solvers being exact enough for differences. */
+static Case NewLoaded(SamPair pair, PetscReal rigid[SAM_COMPONENTS])
+{
+  Case       c       = NewCase(pair, 48, 1.4, MU, "-normal_rtol 1e-11 -tangential_rtol 1e-10 -coupling_rtol 1e-10");
+  SamControl control = Loads(&c, 1, 0.5, -0.2, 0.15);
+  SamStep    step;
+
+  control.value[MX] = 0.05 * c.s.N * c.s.a;
+  control.value[MY] = -0.1 * c.s.N * c.s.a;
+  step              = Try(&c, &control);
+  sam_assert(step.status == SAM_STATUS_CONVERGED);
+  memcpy(rigid, step.rigid, sizeof(step.rigid));
+  return c;
+}
+
+static void CheckAgainstDifferences(SamPair pair, double limit)
+{
+  PetscReal rigid[SAM_COMPONENTS];
+  Case      c = NewLoaded(pair, rigid);
+  double    small, twice;
+
+  const SamStiffness k = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+
+  small = ErrorOf(&c, &k, rigid, 1e-5);
+  twice = ErrorOf(&c, &k, rigid, 1e-2);
+  if (getenv("SAM_SHOW")) print_message("# differences %g, of larger steps %g\n", small, twice);
+  sam_assert(small < limit);
+  sam_assert(twice > 2 * small); /* what is left is the step's */
+  DestroyCase(&c);
+}
+
+static void test_all_entries_are_derivatives_of_trials(void **state)
+{
+  (void)state;
+  CheckAgainstDifferences(Steel(), 1e-4);
+}
+
+static void test_all_entries_of_dissimilar_bodies_are_derivatives_of_trials(void **state)
+{
+  (void)state;
+  CheckAgainstDifferences(Dissimilar(), 1e-4);
+}
+
+/* Each motion backwards from the committed step, by little: all cells stick. */
+static void test_reversal_is_the_derivative_of_a_step_back(void **state)
+{
+  PetscReal    rigid[SAM_COMPONENTS];
+  Case         c = NewLoaded(Steel(), rigid);
+  SamStiffness k = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+  SamControl   control;
+  const double step = 1e-4 * c.s.a * c.s.a / c.s.R;
+  SamStep      base, back;
+
+  (void)state;
+  sam_call(SamControlInitialize(&control));
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++) Displace(&control, (SamComponent)i, rigid[i]);
+  base = Solve(&c, &control);
+  control.value[TX] -= step;
+  back = Try(&c, &control);
+  sam_assert_close((base.load[TX] - back.load[TX]) / step / k.k[TX][TX], 1, 2e-3);
+  control.value[TX] += step;
+  control.value[Z] += step; /* a growing normal force sticks, too */
+  back = Try(&c, &control);
+  sam_assert_close((back.load[Z] - base.load[Z]) / step / k.k[Z][Z], 1, 2e-3);
+  sam_assert_close((back.load[TX] - base.load[TX]) / step / k.k[Z][Z], 0, 2e-3);
+  DestroyCase(&c);
+}
+
+/* ---- symmetry ---- */
+
+static double Asymmetry(const Case *c, const SamStiffness *k)
+{
+  double apart = 0, most = 0;
+
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
+    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) {
+      apart = fmax(apart, fabs(k->k[i][j] - k->k[j][i]) / Unit(c, i) / Unit(c, j));
+      most  = fmax(most, fabs(k->k[i][j]) / Unit(c, i) / Unit(c, j));
+    }
+  return apart / most;
+}
+
+static void test_reversal_is_symmetric_and_sliding_on_is_not(void **state)
+{
+  (void)state;
+  for (PetscInt kind = 0; kind < 2; kind++) {
+    PetscReal    rigid[SAM_COMPONENTS];
+    Case         c = NewLoaded(kind ? Dissimilar() : Steel(), rigid);
+    SamStiffness k = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+
+    sam_assert(Asymmetry(&c, &k) <= 1e-12);
+    k = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+    sam_assert(Asymmetry(&c, &k) > 1e-2);
+    DestroyCase(&c);
+  }
+}
+
+/* Moments and rotations are about the origin, wherever the grid is: K moves as forces and motions do. */
+static void test_stiffness_of_a_contact_beside_the_origin(void **state)
+{
+  Case         c       = NewCase(Steel(), 40, 1.4, MU, ""), d;
+  SamControl   control = Loads(&c, 1, 0.5, 0, 0);
+  const double x = 3 * c.s.a, y = -2 * c.s.a;
+  SamStiffness k, moved;
+  SamStep      step;
+
+  (void)state;
+  step = Try(&c, &control);
+  AssertGood(&step);
+  k                 = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+  d                 = NewCaseOn(NewSphereOn(PETSC_COMM_WORLD, Steel(), 40, 1.4, x, y), MU, NULL, "");
+  control.value[MX] = -y * control.value[Z];
+  control.value[MY] = x * control.value[Z];
+  control.value[MZ] = -y * control.value[TX];
+  step              = Try(&d, &control);
+  AssertGood(&step);
+  moved = Stiffness(&d, SAM_STIFFNESS_FORWARD);
+  sam_assert_close(moved.k[Z][Z] / k.k[Z][Z], 1, 1e-6);
+  sam_assert_close(moved.k[TX][TX] / k.k[TX][TX], 1, 1e-5);
+  sam_assert_close(moved.k[MX][Z] / (-y * k.k[Z][Z]), 1, 1e-6);
+  sam_assert_close(moved.k[MY][MY] / (k.k[MY][MY] + x * x * k.k[Z][Z]), 1, 1e-6);
+  sam_assert_close(moved.k[MZ][TX] / (-y * k.k[TX][TX]), 1, 1e-4);
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
+/* ---- what it leaves alone, and what does not exist ---- */
+
+static void test_contact_goes_on_as_if_it_had_not_been_asked(void **state)
+{
+  Case c = NewCase(Dissimilar(), 44, 1.6, MU, ""), d = NewCase(Dissimilar(), 44, 1.6, MU, "");
+
+  (void)state;
+  for (PetscInt k = 1; k <= 3; k++) {
+    const SamControl control = Loads(&c, 1, 0.2 * (double)k, 0, 0.05);
+    const SamStep    one     = Try(&c, &control);
+    SamStep          other;
+
+    (void)Stiffness(&c, SAM_STIFFNESS_FORWARD);
+    (void)Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+    sam_call(SamContactCommit(c.contact));
+    other = Solve(&d, &control);
+    AssertSameSteps(&one, &other);
+  }
+  AssertSameFields(&c, &d);
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
+static void test_same_bits_on_any_number_of_ranks(void **state)
+{
+  Case             c       = NewCase(Steel(), 45, 1.4, MU, "");
+  Case             alone   = NewCaseOn(NewSphereOn(PETSC_COMM_SELF, Steel(), 45, 1.4, 0, 0), MU, NULL, "");
+  const SamControl control = Loads(&c, 1, 0.6, 0.2, 0.1);
+  SamStiffness     k, one;
+
+  (void)state;
+  (void)Try(&c, &control);
+  (void)Try(&alone, &control);
+  k   = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+  one = Stiffness(&alone, SAM_STIFFNESS_FORWARD);
+  sam_assert(!memcmp(k.k, one.k, sizeof(k.k)));
+  DestroyCase(&c);
+  DestroyCase(&alone);
+}
+
+static void test_surfaces_apart_have_no_stiffness(void **state)
+{
+  Case         c       = NewCase(Steel(), 32, 1.4, MU, "");
+  SamControl   control = Loads(&c, 0, 0, 0, 0);
+  SamStiffness k;
+
+  (void)state;
+  sam_fails(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, &k), PETSC_ERR_ORDER);
+  Displace(&control, SAM_COMPONENT_N, -1e-6);
+  (void)Try(&c, &control);
+  k = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+  sam_assert(k.converged);
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
+    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) sam_assert(k.k[i][j] == 0);
+  DestroyCase(&c);
+}
+
+/* Without friction there is no shear, and nothing but the pressure resists. */
+static void test_without_friction_only_the_pressure_resists(void **state)
+{
+  Case             c       = NewCase(Steel(), 40, 1.4, 0, "");
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  SamStiffness     k;
+
+  (void)state;
+  (void)Try(&c, &control);
+  k = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+  sam_assert(k.converged && k.k[Z][Z] > 0 && k.k[TX][TX] == 0 && k.k[MZ][MZ] == 0 && k.k[TX][Z] == 0);
+  DestroyCase(&c);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_stuck_contact_is_as_stiff_as_a_bonded_disc),
+    cmocka_unit_test(test_slipping_contact_softens_as_mindlin_has_it),
+    cmocka_unit_test(test_unloading_softens_half_as_fast),
+    cmocka_unit_test(test_all_entries_are_derivatives_of_trials),
+    cmocka_unit_test(test_all_entries_of_dissimilar_bodies_are_derivatives_of_trials),
+    cmocka_unit_test(test_reversal_is_the_derivative_of_a_step_back),
+    cmocka_unit_test(test_reversal_is_symmetric_and_sliding_on_is_not),
+    cmocka_unit_test(test_stiffness_of_a_contact_beside_the_origin),
+    cmocka_unit_test(test_contact_goes_on_as_if_it_had_not_been_asked),
+    cmocka_unit_test(test_same_bits_on_any_number_of_ranks),
+    cmocka_unit_test(test_surfaces_apart_have_no_stiffness),
+    cmocka_unit_test(test_without_friction_only_the_pressure_resists),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
