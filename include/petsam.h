@@ -21,6 +21,7 @@
 #include <petsam/life.h>
 #include <petsam/output.h>
 #include <petsam/checkpoint.h>
+#include <petsam/setup.h>
 #include <petsam/results.h>
 #include <petsam/stress.h>
 #include <petsam/fatigue.h>

@@ -122,6 +122,16 @@ PETSC_EXTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal tim
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteCycle(SamOutput output, const SamLifeReport *cycle);
 /*
+  What results hold, by the names that it has there:
+  SamFieldGet - a field of a contact's solution (SamContactGetSolution()), and of its wear (NULL: none), into a vector
+  of one component; states as real numbers. Collective.
+  SamStepGetNumber - a number of a step. Not collective.
+  Both tell whether there is one of that name.
+*/
+PETSC_EXTERN PetscErrorCode SamFieldGet(SamContact contact, SamWear wear, const char name[], Vec field,
+                                        PetscBool *found);
+PETSC_EXTERN PetscBool      SamStepGetNumber(const SamStep *step, const char name[], PetscReal *value);
+/*
   SamOutputGetSaved - the number of load steps in the file, the number of those with fields, and the time (s) of the
   last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.
 */

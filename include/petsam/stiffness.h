@@ -7,12 +7,13 @@
 /*
   The derivative of a contact with friction depends on the direction of its motion. Two are computed:
     SAM_STIFFNESS_FORWARD   the motion of the step goes on: cells that slip go on slipping. This is the derivative of
-                            the tried step's loads with respect to its displacements, the step starting where it did.
+                            the tried step's loads with respect to its displacements, the step starting where it
+                            did.
                             Not symmetric: where cells slip, tangential loads depend on the approach, and not the
                             reverse. Across a step's own direction it counts that slip turns within the step: for a
                             path of small steps it tends to the stiffness of stick there.
-    SAM_STIFFNESS_REVERSAL  the motion reverses at the end of the step: all cells in contact stick. Symmetric; also right
-                            where only the normal force grows.
+    SAM_STIFFNESS_REVERSAL  the motion reverses at the end of the step: all cells in contact stick. Symmetric; also
+                            right where only the normal force grows.
 */
 typedef enum { SAM_STIFFNESS_FORWARD, SAM_STIFFNESS_REVERSAL } SamStiffnessDirection;
 #define SAM_STIFFNESS_DIRECTIONS 2

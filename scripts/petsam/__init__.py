@@ -4,6 +4,7 @@
     results = petsam.open("sphere.h5")
     print(results.history["stick_area"][-1], results.field("pressure").max())
 
+Contact         a contact in this process: steps, stiffness, fields (contact.py)
 open            reading of files of petsam and petsam-stress: Results (results.py) or Stresses (stresses.py)
 closed          closed solutions of contact mechanics
 plot            pictures: petsam-plot
@@ -19,10 +20,31 @@ import importlib
 
 from .errors import Error, Missing
 
-__all__ = ["Error", "Missing", "Results", "Snapshot", "Stresses", "open"]
+__all__ = [
+    "Contact",
+    "ContactError",
+    "EdgeContactWarning",
+    "Error",
+    "Missing",
+    "NoEquilibrium",
+    "NotConverged",
+    "Results",
+    "Snapshot",
+    "Stresses",
+    "open",
+]
 
 # names that need libraries: their modules are imported when they are first asked for
-_HOMES = {"Results": ".results", "Snapshot": ".results", "Stresses": ".stresses"}
+_HOMES = {
+    "Contact": ".contact",
+    "ContactError": ".contact",
+    "EdgeContactWarning": ".contact",
+    "NoEquilibrium": ".contact",
+    "NotConverged": ".contact",
+    "Results": ".results",
+    "Snapshot": ".results",
+    "Stresses": ".stresses",
+}
 
 
 def __getattr__(name):

@@ -2,7 +2,7 @@
 #ifndef PETSAM_APP_FILES_H
 #define PETSAM_APP_FILES_H
 
-#include "arguments.h"
+#include <petsam/private/arguments.h>
 
 /*
   SamFiles - the names of all files of a program, so that none that it writes replaces one that it reads, or another

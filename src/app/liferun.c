@@ -76,13 +76,13 @@ static PetscErrorCode Start(SamRun *run, PetscBool *ended)
     SamStep    step;
 
     PetscCall(SamHistoryGetStep(run->history, k, &control));
-    PetscCall(SamContactTry(run->contact, &control, &step));
+    PetscCall(SamContactTry(run->setup.contact, &control, &step));
     *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
     if (*ended) {
       PetscCall(SamReportMessage(run->report, "before the first cycle", &step));
       run->point.worst = step.status;
     } else {
-      PetscCall(SamContactCommit(run->contact));
+      PetscCall(SamContactCommit(run->setup.contact));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -144,7 +144,7 @@ static PetscErrorCode ComputeCycle(SamRun *run, PetscBool *ended)
   SamLifeReport r;
 
   PetscFunctionBegin;
-  PetscCall(SamReportBeginCycle(run->report, run->contact));
+  PetscCall(SamReportBeginCycle(run->report, run->setup.contact));
   PetscCall(SamLifeCompute(run->life, &r));
   *ended = r.cycles >= run->wearing.cycles || r.step.status != SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
   if (r.step.status != SAM_STATUS_CONVERGED) PetscCall(EndLife(run, &r, "after"));
@@ -193,8 +193,8 @@ PetscErrorCode SamRunCreateWear(SamRun *run)
   PetscInt     start;
 
   PetscFunctionBegin;
-  if (!run->wearing.on) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamWearCreate(run->contact, run->wearing.law, run->wearing.coefficient, &run->wear));
+  if (!run->wearing.laws.on) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamWearCreate(run->setup.contact, run->wearing.laws.law, run->wearing.laws.coefficient, &run->wear));
   run->output_settings.wear                  = run->wear;
   run->output_settings.with[SAM_OUTPUT_WEAR] = PETSC_TRUE;
   run->point.wear                            = run->wear;

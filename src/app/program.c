@@ -106,29 +106,6 @@ static void ReturnLargeFields(void)
 #endif
 }
 
-/*
-  Without an MPI launcher no network is needed. Open MPI would look for one and start a daemon, which takes longer than
-  a small problem and is not possible everywhere. Settings of the user are not changed.
-*/
-static void PrepareMPI(void)
-{
-#if defined(OPEN_MPI)
-  static const char *const signs[] = {
-    "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK", "PMI_ID", "PMI_FD", "PMI_SIZE", "SLURM_STEP_ID",
-    "ALPS_APP_PE",          NULL};
-
-  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0); /* its semaphores fail where /dev/shm is full */
-  launched = PETSC_FALSE;
-  for (int k = 0; signs[k]; k++)
-    if (getenv(signs[k])) launched = PETSC_TRUE;
-  if (launched) return;
-  (void)setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  (void)setenv("OMPI_MCA_orte_create_session_dirs", "0", 0); /* else concurrent programs would share one */
-  (void)setenv("OMPI_MCA_pml", "ob1", 0);
-  (void)setenv("OMPI_MCA_btl", "self", 0);
-#endif
-}
-
 /* Signals at which PETSc would print a trace, though nothing is wrong in the program; nohup has one ignored. */
 static const int usual[] = {SIGHUP, SIGQUIT, SIGTERM, SIGPIPE, SIGURG};
 enum { USUAL = sizeof(usual) / sizeof(usual[0]) };
@@ -169,7 +146,7 @@ static PetscErrorCode Run(const SamArguments *arguments)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(program->setup(program->context, arguments));
-  PetscCall(SamArgumentsRefuseUnknown());
+  PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD));
   PetscCall(program->run(program->context));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -196,7 +173,7 @@ int SamProgramMain(const SamProgram *given, int argc, char **argv)
   program = given;
   (void)signal(SIGXFSZ, SIG_IGN); /* a file at its size limit becomes an error of the call that writes */
   ReturnLargeFields();
-  PrepareMPI();
+  launched = SamPrepareMPI();
   if (MPI_Init(&argc, &argv)) return EXIT_FAILURE;
   SamArgumentsExamine(&argc, &argv, &arguments);
   code = StartPetsc(&argc, &argv);

@@ -2,7 +2,7 @@
 #ifndef PETSAM_APP_PROGRAM_H
 #define PETSAM_APP_PROGRAM_H
 
-#include "arguments.h"
+#include <petsam/private/arguments.h>
 
 /* A program, and its functions, which are called with its context; all but the last three may raise errors. */
 typedef struct {

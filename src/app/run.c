@@ -3,27 +3,6 @@
 
 /* ---- set-up ---- */
 
-/* Makes the problem, and reads the options of the gap, which is filled only after the memory check. */
-static PetscErrorCode CreateProblem(SamRun *run, const SamOptions *from)
-{
-  SamElasticityTraits traits;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateFromOptions(from, &run->grid));
-  PetscCall(SamPairSetFromOptions(&run->pair, from));
-  PetscCall(SamElasticityCreate(run->grid, &run->pair, &run->elasticity));
-  PetscCall(SamElasticitySetOptionsPrefix(run->elasticity, from->prefix));
-  PetscCall(SamElasticitySetFromOptions(run->elasticity));
-  PetscCall(SamElasticityGetTraits(run->elasticity, &traits));
-  run->needs.coupled = traits.coupled;
-  PetscCall(SamProblemCreate(run->elasticity, &run->problem));
-  PetscCall(SamProblemSetFrictionFromOptions(run->problem, from));
-  PetscCall(SamGapCreate(from->comm, &run->gap));
-  PetscCall(SamGapSetOptionsPrefix(run->gap, from->prefix));
-  PetscCall(SamGapSetFromOptions(run->gap));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Refuses bulk stress of a rigid body, and of periodic ones. */
 static PetscErrorCode CheckBulkStress(const SamRun *run, const SamControl *control, PetscBool periodic,
                                       const SamOptions *from)
@@ -33,13 +12,13 @@ static PetscErrorCode CheckBulkStress(const SamRun *run, const SamControl *contr
   PetscFunctionBegin;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const double stress = (double)control->bulk_stress[body][k], young = (double)run->pair.young[body];
+      const double stress = (double)control->bulk_stress[body][k], young = (double)run->setup.pair.young[body];
 
       PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %g is more than Young's modulus, %g", prefix,
                  SamBulkNames[body][k].name, stress, young);
 
-      PetscCheck(stress == 0 || !isinf(run->pair.young[body]), from->comm, SAM_ERR_USER,
+      PetscCheck(stress == 0 || !isinf(run->setup.pair.young[body]), from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %g: -%sbody%" PetscInt_FMT
                  "_young is inf: a rigid body does not stretch",
                  prefix, SamBulkNames[body][k].name, stress, prefix, body + 1);
@@ -59,8 +38,8 @@ static PetscErrorCode CheckComponents(SamRun *run, const SamOptions *from)
   PetscInt            count;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(run->elasticity, &traits));
-  PetscCall(SamElasticityGetType(run->elasticity, &type));
+  PetscCall(SamElasticityGetTraits(run->setup.elasticity, &traits));
+  PetscCall(SamElasticityGetType(run->setup.elasticity, &type));
   PetscCall(SamHistoryGetCount(run->history, &count));
   for (PetscInt k = 0; k < count; k++) {
     SamControl control;
@@ -86,19 +65,23 @@ static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamWearingSetFromOptions(w, from));
   if (!help) PetscCall(SamWearingCheckCycle(w, run->history, from));
-  if (w->points) PetscCall(SamProblemSetFriction(run->problem, w->friction[0]));
-  PetscCall(SamProblemHasFriction(run->problem, &run->needs.friction));
-  PetscCheck(!w->on || run->needs.friction || help, from->comm, SAM_ERR_USER,
+  if (w->points) PetscCall(SamProblemSetFriction(run->setup.problem, w->friction[0]));
+  PetscCall(SamProblemHasFriction(run->setup.problem, &run->needs.friction));
+  PetscCheck(!w->laws.on || run->needs.friction || help, from->comm, SAM_ERR_USER,
              "-wear_coefficient or -wear_energy is given without -friction: surfaces wear where friction acts");
-  run->needs.wear = w->on;
+  run->needs.wear = w->laws.on;
   run->needs.life = w->cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
 {
+  SamElasticityTraits traits;
+
   PetscFunctionBegin;
-  PetscCall(CreateProblem(run, from));
+  PetscCall(SamSetupReadOptions(&run->setup, from));
+  PetscCall(SamElasticityGetTraits(run->setup.elasticity, &traits));
+  run->needs.coupled = traits.coupled;
   PetscCall(SamHistoryCreateFromOptions(from, &run->history));
   PetscCall(SamHistoryGetCount(run->history, &run->needs.steps));
   run->point.history = run->history;
@@ -125,17 +108,13 @@ PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments)
 {
   const SamOptions from = {PETSC_COMM_WORLD, NULL};
   PetscBool        help;
-  Vec              gap;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(ReadOptions(run, &from));
   PetscCall(SamRunCheckFiles(run, from.comm, arguments));
-  PetscCall(SamRunRefuseTooLarge(run->grid, &run->needs, &from));
-  PetscCall(SamProblemGetGap(run->problem, &gap));
-  if (!help) PetscCall(SamGapFill(run->gap, run->grid, gap));
-  PetscCall(SamContactCreate(run->problem, &run->contact));
-  PetscCall(SamContactSetFromOptions(run->contact));
+  PetscCall(SamRunRefuseTooLarge(run->setup.grid, &run->needs, &from));
+  PetscCall(SamSetupCreateContact(&run->setup, &from));
   if (!help) PetscCall(SamRunCreateWear(run));
   if (!help) PetscCall(SamRunCollectParameters(run));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -150,12 +129,8 @@ PetscErrorCode SamRunTearDown(SamRun *run)
   PetscCall(SamLifeDestroy(&run->life));
   PetscCall(SamWearDestroy(&run->wear));
   PetscCall(SamWearingDestroy(&run->wearing));
-  PetscCall(SamContactDestroy(&run->contact));
-  PetscCall(SamProblemDestroy(&run->problem));
-  PetscCall(SamElasticityDestroy(&run->elasticity));
   PetscCall(SamHistoryDestroy(&run->history));
-  PetscCall(SamGapDestroy(&run->gap));
-  PetscCall(SamGridDestroy(&run->grid));
+  PetscCall(SamSetupDestroy(&run->setup));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -166,7 +141,7 @@ static PetscErrorCode CreateResults(SamRun *run)
   char *all;
 
   PetscFunctionBegin;
-  PetscCall(SamOutputCreate(run->grid, run->filename, &run->output_settings, &run->output));
+  PetscCall(SamOutputCreate(run->setup.grid, run->filename, &run->output_settings, &run->output));
   PetscCall(PetscOptionsGetAll(NULL, &all));
   PetscCall(SamOutputSetText(run->output, "options", all));
   PetscCall(PetscFree(all));
@@ -185,7 +160,8 @@ static PetscErrorCode ContinueResults(SamRun *run)
     PetscCall(SamHistoryGetStep(run->history, run->point.steps - 1, &last));
     run->last_time = last.time;
   }
-  PetscCall(SamOutputContinue(run->grid, run->filename, &run->output_settings, &run->parameters, &point, &run->output));
+  PetscCall(
+    SamOutputContinue(run->setup.grid, run->filename, &run->output_settings, &run->parameters, &point, &run->output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -200,17 +176,17 @@ static PetscErrorCode Begin(SamRun *run)
   run->last_time = PETSC_NINFINITY;
   PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
   if (restart) {
-    PetscCall(SamCheckpointsRestart(run->checkpoints, run->contact, &run->parameters, &run->point));
+    PetscCall(SamCheckpointsRestart(run->checkpoints, run->setup.contact, &run->parameters, &run->point));
     PetscCall(SamReportSetRestart(run->report, restart, &run->point));
   }
-  PetscCall(SamCheckpointsBegin(run->checkpoints, run->grid));
+  PetscCall(SamCheckpointsBegin(run->checkpoints, run->setup.grid));
   if (run->has_output && restart)
     PetscCall(ContinueResults(run));
   else if (run->has_output)
     PetscCall(CreateResults(run));
   if (run->output) PetscCall(SamOutputHasReplaced(run->output, &replaced));
   PetscCall(PetscSNPrintf(results, sizeof(results), "%s%s", run->filename, replaced ? ", replacing those there" : ""));
-  PetscCall(SamReportBanner(run->report, run->grid, SamRunMemory(run->grid, &run->needs), run->needs.steps,
+  PetscCall(SamReportBanner(run->report, run->setup.grid, SamRunMemory(run->setup.grid, &run->needs), run->needs.steps,
                             run->has_output ? results : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -224,7 +200,7 @@ PetscErrorCode SamRunWriteLastFields(SamRun *run)
   PetscCall(SamOutputGetSaved(run->output, NULL, NULL, &saved));
   if (run->last_time <= saved) PetscFunctionReturn(PETSC_SUCCESS);
   run->writing = PETSC_TRUE;
-  PetscCall(SamOutputWriteFields(run->output, run->last_time, run->contact));
+  PetscCall(SamOutputWriteFields(run->output, run->last_time, run->setup.contact));
   run->writing = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -237,7 +213,7 @@ PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due)
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
   if (none) PetscCall(SamRunWriteLastFields(run));
   run->writing = PETSC_TRUE;
-  PetscCall(SamOutputWriteStep(run->output, step, due && !none ? run->contact : NULL));
+  PetscCall(SamOutputWriteStep(run->output, step, due && !none ? run->setup.contact : NULL));
   run->writing   = PETSC_FALSE;
   run->last_time = step->control.time;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -300,7 +276,7 @@ PetscErrorCode SamRunComputeStiffness(SamRun *run, SamStep *step)
   for (PetscInt k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) {
     SamStiffness s;
 
-    PetscCall(SamStiffnessCompute(run->contact, (SamStiffnessDirection)k, &s));
+    PetscCall(SamStiffnessCompute(run->setup.contact, (SamStiffnessDirection)k, &s));
     PetscCall(PetscMemcpy(step->stiffness[k], s.k, sizeof(s.k)));
     if (!s.converged && !step->message[0])
       PetscCall(PetscSNPrintf(step->message, sizeof(step->message),
@@ -319,8 +295,8 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetStep(run->history, k, &control));
-  PetscCall(SamReportBeginStep(run->report, k, run->contact));
-  PetscCall(SamContactTry(run->contact, &control, &step));
+  PetscCall(SamReportBeginStep(run->report, k, run->setup.contact));
+  PetscCall(SamContactTry(run->setup.contact, &control, &step));
   PetscCall(SamRunComputeStiffness(run, &step));
   PetscCall(WearStep(run, &step));
   due = ((k + 1) % run->output_every == 0 || k + 1 == run->needs.steps || step.status == SAM_STATUS_NOT_CONVERGED)
@@ -329,7 +305,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
   PetscCall(SamRunWriteStep(run, &step, due));
   PetscCall(SamReportEndStep(run->report, &step)); /* after writing: a reported step is in the file */
   *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
-  if (!*ended) PetscCall(SamContactCommit(run->contact));
+  if (!*ended) PetscCall(SamContactCommit(run->setup.contact));
   if (!*ended && run->wear) PetscCall(SamWearMoveGap(run->wear));
   if (*ended || !run->point.worst) run->point.worst = step.status;
   run->point.steps++;
@@ -341,7 +317,8 @@ PetscErrorCode SamRunCheckpoint(SamRun *run)
 {
   PetscFunctionBegin;
   run->writing = PETSC_TRUE;
-  PetscCall(SamCheckpointsAfterStep(run->checkpoints, run->contact, &run->parameters, &run->point, &run->stopped));
+  PetscCall(
+    SamCheckpointsAfterStep(run->checkpoints, run->setup.contact, &run->parameters, &run->point, &run->stopped));
   run->writing = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,7 +4,7 @@
 
 #include <petsam.h>
 #include <petsam/private/baseimpl.h>
-#include "arguments.h"
+#include <petsam/private/arguments.h>
 #include "checkpoints.h"
 #include "report.h"
 #include "wearing.h"
@@ -16,12 +16,7 @@ typedef struct {
 } SamRunNeeds;
 
 typedef struct {
-  SamGrid           grid;
-  SamPair           pair;
-  SamGap            gap;
-  SamElasticity     elasticity;
-  SamProblem        problem;
-  SamContact        contact;
+  SamSetup          setup;
   SamWearing        wearing;
   SamWear           wear; /* NULL: none */
   SamLife           life; /* NULL: none */

@@ -11,42 +11,6 @@
 /* The most cycles of a life. */
 #define MOST_CYCLES 1e12
 
-/* ---- laws ---- */
-
-/* One law's coefficients of both bodies; `given`: one of them is set. */
-static PetscErrorCode ReadLaw(const SamOptions *from, const char name[], const char text[], PetscReal coefficient[2],
-                              PetscBool *given)
-{
-  PetscFunctionBegin;
-  *given = PETSC_FALSE;
-  for (int body = 0; body < 2; body++) {
-    char      option[32], help[96];
-    PetscBool set;
-
-    PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", name, body + 1));
-    PetscCall(PetscSNPrintf(help, sizeof(help), "%s of body %d", text, body + 1));
-    PetscCall(SamOptionsReal(from, option, help, SAM_RANGE_NONNEGATIVE, &coefficient[body], &set));
-    if (set) *given = PETSC_TRUE;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ReadLaws(SamWearing *w, const SamOptions *from)
-{
-  PetscReal archard[2] = {0, 0}, energy[2] = {0, 0};
-  PetscBool given[2];
-
-  PetscFunctionBegin;
-  PetscCall(ReadLaw(from, "wear_coefficient", "Archard's wear, depth = k p |ds|: k (1/Pa)", archard, &given[0]));
-  PetscCall(ReadLaw(from, "wear_energy", "wear by energy, depth = alpha |q.ds|: alpha (m3/J)", energy, &given[1]));
-  PetscCheck(!given[0] || !given[1], from->comm, SAM_ERR_USER,
-             "-wear_coefficient1 or 2 and -wear_energy1 or 2 are given: a run has one law of wear");
-  w->law = given[1] ? SAM_WEAR_ENERGY : SAM_WEAR_ARCHARD;
-  PetscCall(PetscArraycpy(w->coefficient, given[1] ? energy : archard, 2));
-  w->on = w->coefficient[0] + w->coefficient[1] > 0 ? PETSC_TRUE : PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- cycles ---- */
 
 static int Compare(const void *a, const void *b)
@@ -116,7 +80,7 @@ static PetscErrorCode CheckPresent(const SamWearing *w, const SamOptions *from)
   PetscBool set;
 
   PetscFunctionBegin;
-  PetscCheck(w->on || w->cycles == 0, from->comm, SAM_ERR_USER,
+  PetscCheck(w->laws.on || w->cycles == 0, from->comm, SAM_ERR_USER,
              "-wear_cycles is given, but no wear: give one of -wear_coefficient1, -wear_coefficient2, -wear_energy1, "
              "-wear_energy2 a number > 0");
   for (size_t k = 0; k < sizeof(life) / sizeof(life[0]) && w->cycles == 0; k++) {
@@ -202,7 +166,7 @@ PetscErrorCode SamWearingSetFromOptions(SamWearing *w, const SamOptions *from)
   *w = (SamWearing){.cycles = 0};
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(from, "Wear"));
-  PetscCall(ReadLaws(w, from));
+  PetscCall(SamWearLawsSetFromOptions(&w->laws, from));
   PetscCall(SamOptionsReal(from, "wear_cycles", "the history is a closed cycle, repeated so often", SAM_RANGE_POSITIVE,
                            &w->cycles, NULL));
   PetscCall(CheckWhole("wear_cycles", w->cycles, PETSC_TRUE, from));

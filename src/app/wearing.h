@@ -3,15 +3,13 @@
 #define PETSAM_APP_WEARING_H
 
 #include <petsam/life.h>
-#include <petsam/problem.h>
+#include <petsam/setup.h>
 #include "history.h"
 
 #define SAM_WEARING_OUTPUTS 256 /* most cycles whose fields are asked for */
 
 typedef struct {
-  PetscBool       on; /* a coefficient is not 0 */
-  SamWearLaw      law;
-  PetscReal       coefficient[2];
+  SamWearLaws     laws;
   PetscReal       cycles; /* of a life; 0: the history runs once, and every step wears */
   SamLifeSettings life;
   PetscInt        outputs;

@@ -5,40 +5,41 @@
   Of the numbers there are two series: one of all steps, and one of the computed cycles of a life.
 */
 #include "ioimpl.h"
+#include <string.h>
 
 /* ---- fields ---- */
 
-static PetscErrorCode ComputeSlip(SamOutput o, SamContact contact, PetscInt component, Vec field)
+static PetscErrorCode ComputeSlip(SamContact contact, SamWear wear, PetscInt component, Vec field)
 {
   PetscFunctionBegin;
-  (void)o;
+  (void)wear;
   PetscCall(SamContactComputeSlip(contact, component, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ComputeGap(SamOutput o, SamContact contact, PetscInt component, Vec field)
+static PetscErrorCode ComputeGap(SamContact contact, SamWear wear, PetscInt component, Vec field)
 {
   PetscFunctionBegin;
-  (void)o;
+  (void)wear;
   (void)component;
   PetscCall(SamContactComputeGap(contact, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ComputeState(SamOutput o, SamContact contact, PetscInt component, Vec field)
+static PetscErrorCode ComputeState(SamContact contact, SamWear wear, PetscInt component, Vec field)
 {
   PetscFunctionBegin;
-  (void)o;
+  (void)wear;
   (void)component;
   PetscCall(SamContactComputeState(contact, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ComputeDepth(SamOutput o, SamContact contact, PetscInt body, Vec field)
+static PetscErrorCode ComputeDepth(SamContact contact, SamWear wear, PetscInt body, Vec field)
 {
   PetscFunctionBegin;
   (void)contact;
-  PetscCall(SamWearGetDepth(o->set.wear, body, field));
+  PetscCall(SamWearGetDepth(wear, body, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -155,6 +156,59 @@ static const SamOutputColumn wear[] = {
   CYCLE("contact_area", "m2", "area in contact at the end of the cycle", SAM_COLUMN_REAL, contact_area),
   CYCLE("pressure_max", "Pa", "largest pressure at the end of the cycle", SAM_COLUMN_REAL, pressure),
   CYCLE("computed", "1", "cycles computed so far", SAM_COLUMN_INT, computed)};
+
+/* ---- by name ---- */
+
+static PetscErrorCode CopyComponent(Vec from, PetscInt component, Vec to)
+{
+  const double *values;
+  double       *copy;
+  PetscInt      cells;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(to, &cells));
+  PetscCall(VecGetArrayRead(from, &values));
+  PetscCall(VecGetArrayWrite(to, &copy));
+  PetscCall(PetscArraycpy(copy, values + component * cells, cells));
+  PetscCall(VecRestoreArrayWrite(to, &copy));
+  PetscCall(VecRestoreArrayRead(from, &values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFieldGet(SamContact contact, SamWear worn, const char name[], Vec field, PetscBool *found)
+{
+  const SamSolution *solution;
+
+  PetscFunctionBegin;
+  *found = PETSC_FALSE;
+  for (PetscInt f = 0; f < SamOutputFieldCount && !*found; f++) {
+    const SamOutputField *known = &SamOutputFields[f];
+
+    if (strcmp(known->label.name, name) || (known->option == SAM_OUTPUT_WEAR && !worn)) continue;
+    *found = PETSC_TRUE;
+    if (known->compute) {
+      PetscCall(known->compute(contact, worn, known->component, field));
+    } else {
+      PetscCall(SamContactGetSolution(contact, &solution));
+      PetscCall(CopyComponent(*(const Vec *)((const char *)solution + known->offset), known->component, field));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamStepGetNumber(const SamStep *step, const char name[], PetscReal *value)
+{
+  for (size_t c = 0; c < sizeof(history) / sizeof(history[0]); c++) {
+    const char *const place = (const char *)step + history[c].offset;
+
+    if (strcmp(history[c].label.name, name) || history[c].kind == SAM_COLUMN_MATRIX) continue;
+    *value = history[c].kind == SAM_COLUMN_REAL  ? *(const PetscReal *)place
+             : history[c].kind == SAM_COLUMN_INT ? (PetscReal) * (const PetscInt *)place
+                                                 : (PetscReal) * (const SamStatus *)place;
+    return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
 
 const SamOutputSeries SamOutputAllSeries[SAM_SERIES] = {{"history", history, sizeof(history) / sizeof(history[0])},
                                                         {"wear", wear, sizeof(wear) / sizeof(wear[0])}};

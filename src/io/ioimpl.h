@@ -202,7 +202,7 @@ typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE } SamOutputFieldKind;
 typedef struct {
   SamOutputLabel     label;
   SamOutputFieldKind kind;
-  PetscErrorCode (*compute)(SamOutput output, SamContact contact, PetscInt component, Vec field); /* NULL: stored */
+  PetscErrorCode (*compute)(SamContact contact, SamWear wear, PetscInt component, Vec field); /* NULL: stored */
   size_t          offset; /* of the Vec in SamSolution */
   PetscInt        component;
   SamOutputOption option; /* SAM_OUTPUT_OPTIONS: none, the field is always there */

@@ -409,7 +409,7 @@ static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, c
   PetscCall(Release(from));
   if (field->compute) {
     if (!o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
-    PetscCall(field->compute(o, from->contact, field->component, o->work));
+    PetscCall(field->compute(from->contact, o->set.wear, field->component, o->work));
     from->field = o->work;
   } else {
     PetscCall(SamContactGetSolution(from->contact, &solution));

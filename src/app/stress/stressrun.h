@@ -2,7 +2,7 @@
 #ifndef PETSAM_APP_STRESS_RUN_H
 #define PETSAM_APP_STRESS_RUN_H
 
-#include "../arguments.h"
+#include <petsam/private/arguments.h>
 #include "request.h"
 #include <petsam/control.h>
 

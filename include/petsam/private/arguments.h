@@ -1,6 +1,6 @@
 /* The words of the command line, and all that PETSc reads besides, looked through before PETSc acts on them. */
-#ifndef PETSAM_APP_ARGUMENTS_H
-#define PETSAM_APP_ARGUMENTS_H
+#ifndef PETSAM_ARGUMENTS_H
+#define PETSAM_ARGUMENTS_H
 
 #include <petsam/base.h>
 
@@ -20,12 +20,17 @@ typedef struct {
   options that load code or start programs. After a mistake nothing is left for PETSc to read. To be called between
   MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
 */
-PETSC_INTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
-PETSC_INTERN void SamArgumentsFree(SamArguments *arguments);
+PETSC_EXTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
+/*
+  SamArgumentsExamineText - looks through options in one text, and the options files that they name, likewise; -help
+  and -version are mistakes. Rank 0 looks and tells the others. Collective over `comm`.
+*/
+PETSC_EXTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *arguments);
+PETSC_EXTERN void SamArgumentsFree(SamArguments *arguments);
 /*
   SamArgumentsRefuseUnknown - refuses options that the set-up has not read: they are misspelled, or have no effect.
-  Collective. Errors: SAM_ERR_USER.
+  Collective. Errors: SAM_ERR_USER, raised on `comm`.
 */
-PETSC_INTERN PetscErrorCode SamArgumentsRefuseUnknown(void);
+PETSC_EXTERN PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm);
 
 #endif

@@ -4,7 +4,7 @@
 
   Rank 0 looks and tells the others. Words are examined one by one: an option, which may be followed by its value.
 */
-#include "arguments.h"
+#include <petsam/private/arguments.h>
 #include <petsam/private/baseimpl.h>
 #include <errno.h>
 #include <stdarg.h>
@@ -204,13 +204,15 @@ static void ExamineUsualFiles(SamArguments *a, int argc, char **argv)
   }
 }
 
-static void ExamineEnvironment(SamArguments *a)
+/* The words of a text, NULL: none. */
+static void ExamineText(SamArguments *a, const char where[], const char text[])
 {
-  const char *text = getenv("PETSC_OPTIONS");
-  char       *copy = text ? strdup(text) : NULL, *words[256];
+  const size_t most  = text ? strlen(text) / 2 + 1 : 0;
+  char        *copy  = text ? strdup(text) : NULL;
+  char       **words = most ? (char **)malloc(most * sizeof(*words)) : NULL;
 
-  if (!copy) return;
-  ExamineWords(a, "PETSC_OPTIONS: ", Split(copy, words, 256), words);
+  if (copy && words) ExamineWords(a, where, Split(copy, words, (int)most), words);
+  free(words);
   free(copy);
 }
 
@@ -233,6 +235,23 @@ static void TakeHelpAndVersion(int *argc, char **argv, SamArguments *a)
   argv[kept] = NULL;
 }
 
+/* Rank 0 tells the others what it has found. */
+static void TellAll(MPI_Comm comm, SamArguments *a)
+{
+  (void)MPI_Bcast(&a->code, (int)sizeof(a->code), MPI_BYTE, 0, comm);
+  (void)MPI_Bcast(a->message, (int)sizeof(a->message), MPI_CHAR, 0, comm);
+}
+
+void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *a)
+{
+  int rank;
+
+  memset(a, 0, sizeof(*a));
+  (void)MPI_Comm_rank(comm, &rank);
+  if (rank == 0) ExamineText(a, "", text);
+  TellAll(comm, a);
+}
+
 void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
 {
   static char *none[] = {"petsam", "-skip_petscrc", NULL};
@@ -243,11 +262,10 @@ void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
   (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
     ExamineWords(a, "", *argc - 1, *argv + 1);
-    ExamineEnvironment(a);
+    ExamineText(a, "PETSC_OPTIONS: ", getenv("PETSC_OPTIONS"));
     ExamineUsualFiles(a, *argc, *argv);
   }
-  (void)MPI_Bcast(&a->code, (int)sizeof(a->code), MPI_BYTE, 0, MPI_COMM_WORLD);
-  (void)MPI_Bcast(a->message, (int)sizeof(a->message), MPI_CHAR, 0, MPI_COMM_WORLD);
+  TellAll(MPI_COMM_WORLD, a);
   if (!a->code) return;
   (void)unsetenv("PETSC_OPTIONS");
   (void)unsetenv("PETSC_OPTIONS_YAML");
@@ -261,7 +279,7 @@ void SamArgumentsFree(SamArguments *a)
   a->count = 0;
 }
 
-PetscErrorCode SamArgumentsRefuseUnknown(void)
+PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm)
 {
   /* options that PETSc itself reads only in PetscFinalize() */
   static const char *const late[] = {"-malloc_dump",
@@ -292,7 +310,7 @@ PetscErrorCode SamArgumentsRefuseUnknown(void)
     PetscCall(
       PetscSNPrintf(first, sizeof(first), "-%s%s%s", names[0], values[0] ? " " : "", values[0] ? values[0] : ""));
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
-  PetscCheck(!first[0], PETSC_COMM_WORLD, SAM_ERR_USER,
-             "%s: unknown option, or one that has no effect with the others given", first);
+  PetscCheck(!first[0], comm, SAM_ERR_USER, "%s: unknown option, or one that has no effect with the others given",
+             first);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,101 @@
+/*
+  petsam inside another program: a contact between two bodies, that takes loads or displacements and returns the rest.
+
+  This header needs no other. Link with libpetsam (pkg-config petsam). examples/embed has programs in C and Fortran and
+  a page on how a dynamics code uses it; scripts/petsam has the same for Python.
+
+  The six components stand in this order wherever they are in a row or a matrix, loads and their conjugates:
+      0 N (N)      1 Tx (N)     2 Ty (N)     3 Mx (N m)    4 My (N m)    5 Mz (N m)
+      0 d_z (m)    1 d_x (m)    2 d_y (m)    3 r_x (rad)   4 r_y (rad)   5 r_z (rad)
+  Body 1 moves, body 2 is fixed; loads act on body 1, about x = y = 0. Displacements are relative to infinity: they
+  contain the compliance of both half-spaces. All units are SI.
+
+  Functions return 0, or what was wrong, as the program petsam ends with:
+      2   a wrong argument or option     3   a file that cannot be used
+      10  a step did not converge        11  no equilibrium: gross slip, or a moment that no pressure balances
+      12  contact reached the edge of the grid (the step has a solution nevertheless)
+      others  of PETSc
+  petsam_message() then says it in words. No function prints, ends the process, or leaves a contact in a state that
+  cannot be used: after an error it is as before, or as after petsam_reject().
+
+  MPI and PETSc are started by the first petsam_create() if nobody has, and are then ended when the process ends. A
+  program that uses PETSc itself starts it before.
+  Threads: only one thread at a time may be in a function of this header.
+  Ranks: a contact belongs to a communicator. All functions but petsam_message() are collective over it, with the same
+  arguments on all ranks; results are the same on all of them. Contacts on different communicators do not wait for each
+  other. Fields are spread by rows: each rank has those that petsam_grid() tells, as an array of (rows, nx).
+*/
+#ifndef PETSAM_EMBED_H
+#define PETSAM_EMBED_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct petsam_contact petsam_contact;
+
+/*
+  petsam_create - a contact of bodies that have never touched. `comm`: MPI_Comm_c2f() of a communicator, or -1 for this
+  process alone. `options`: those of the program petsam for the grid, the bodies, friction, the gap, wear and the
+  solvers, as on the command line; loads are given to petsam_try(). -gap_type flat, for one, may stand for a gap that
+  petsam_set_field() gives. Bulk stresses are constant. *c is NULL after an error.
+*/
+int petsam_create(int comm, const char *options, petsam_contact **c);
+/*
+  petsam_grid - the numbers of cells, the widths and the centre (m) in x and y, and this rank's rows, which may be 0.
+  The centre of cell (i, j) is at x = center[0] - size[0]/2 + (i + 1/2) size[0]/n[0], and so for y. NULL for what is not
+  wanted.
+*/
+int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], int *first_row, int *rows);
+/*
+  petsam_set_field - "gap": the separation of the undeformed, unworn bodies, m; "friction": the coefficient, >= 0. This
+  rank's rows. Slip belongs to a place and is kept; the pressure is solved again in the next step. Forgets a tried step.
+*/
+int petsam_set_field(petsam_contact *c, const char *name, const double *values);
+/*
+  petsam_try - solves a step from the committed state. `time` (s) is only noted. force[i] is 1 where value[i] is a load,
+  0 where it is a displacement. `load` and `rigid` become all twelve, given or found; NaN where there is none (NULL: not
+  wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose fields and numbers can be
+  asked for; 10 cannot be committed.
+*/
+int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
+               double rigid[6]);
+/*
+  petsam_commit - the tried step becomes the state from which the next one goes on; bodies wear by it, if they do.
+  petsam_reject - forgets a tried step, if there is one: later steps are, to the last bit, as if it had not been tried.
+*/
+int petsam_commit(petsam_contact *c);
+int petsam_reject(petsam_contact *c);
+/*
+  petsam_stiffness - d(loads)/d(displacements) of the tried step, k[6 i + j] of load i and displacement j. `reversal` 0:
+  cells that slip go on slipping; the derivative of petsam_try() at fixed committed state, not symmetric. 1: at the
+  instant at which the motion reverses: all cells in contact stick; symmetric. NaN for components that do not exist.
+  10: the linear systems did not converge.
+*/
+int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
+/*
+  petsam_get_field - a field of the tried step, else of the committed one, by its name in a results file (README,
+  Results): "pressure", "shear_x", "slip_x", "state", "gap" (of the deformed bodies), "wear_depth1" ... This rank's
+  rows.
+  petsam_get_number - a number of the last step that was tried, or after petsam_reject() of the committed one, by its
+  name in /history: "contact_area", "dissipated_energy", "stored_energy", "status", "load_n" ...
+*/
+int petsam_get_field(petsam_contact *c, const char *name, double *values);
+int petsam_get_number(petsam_contact *c, const char *name, double *value);
+/*
+  petsam_save - writes the committed state to a file, safely: an older file of the name becomes name.1.
+  petsam_load - gives a contact of the same options the state in a file, to the last bit, on any number of ranks.
+  Forgets a tried step. Of the step's numbers only loads, displacements and time are known then.
+*/
+int petsam_save(petsam_contact *c, const char *file);
+int petsam_load(petsam_contact *c, const char *file);
+/* petsam_message - what was wrong with the last call, or a warning; empty: nothing. NULL asks for petsam_create()'s. */
+const char *petsam_message(const petsam_contact *c);
+/* petsam_destroy - frees a contact and sets the handle to NULL. */
+void petsam_destroy(petsam_contact **c);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

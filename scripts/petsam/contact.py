@@ -1,0 +1,313 @@
+"""A contact in this process: loads or displacements in, the rest out. libpetsam through ctypes. SI units.
+
+    import petsam
+    steel = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+    sphere = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf")
+    with petsam.Contact(grid_n=256, grid_size=2.6e-3, friction=0.1, **steel, **sphere) as contact:
+        step = contact.try_step(load_n=1000, disp_x=1e-6)
+        print(step.load_tx, contact.number("contact_area"), contact.stiffness()[1, 1])
+        contact.commit()
+
+The life of a contact, and what each number means: include/petsam/embed.h and examples/embed/README.md.
+"""
+
+import ctypes
+import os
+import shutil
+import sys
+import threading
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from .environment import TREE
+from .errors import Error, Missing
+
+LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
+RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # m, rad
+NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
+
+
+class ContactError(Error):
+    """What a contact refuses, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
+
+    def __init__(self, code, message):
+        super().__init__(message)
+        self.code = code
+
+
+class NotConverged(ContactError):
+    """A step (step) or stiffness did not converge."""
+
+    step = None
+
+
+class NoEquilibrium(ContactError):
+    """No equilibrium exists for a step (step): gross slip, or a moment that no pressure balances."""
+
+    step = None
+
+
+class EdgeContactWarning(UserWarning):
+    """The contact has reached the edge of the grid: the answer depends on the grid."""
+
+
+class Step:
+    """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, and each of them by its name."""
+
+    def __init__(self, time, load, rigid, status, message):
+        self.time, self.load, self.rigid, self.status, self.message = time, load, rigid, status, message
+
+    def __getattr__(self, name):
+        for names, values in ((LOADS, self.load), (RIGIDS, self.rigid)):
+            if name in names:
+                return float(values[names.index(name)])
+        raise AttributeError(name)
+
+    def __repr__(self):
+        pairs = [f"{name}={value:.6g}" for name, value in zip(LOADS + RIGIDS, [*self.load, *self.rigid])]
+        return f"Step(time={self.time:g}, status={self.status}, {', '.join(pairs)})"
+
+
+# ---------------------------------------------------------------- the library
+
+_lock = threading.RLock()  # one thread at a time may be in the library
+_library = None
+
+
+def _candidates():
+    """Where libpetsam may be: $PETSAM_LIBRARY, the build tree, the prefix of these scripts or of petsam on PATH."""
+    if os.environ.get("PETSAM_LIBRARY"):
+        return [os.environ["PETSAM_LIBRARY"]]
+    folders = [TREE / "build" / "lib", TREE.parents[1] / "lib"]
+    program = os.environ.get("PETSAM") or shutil.which("petsam")
+    if program:
+        folders.append(Path(program).resolve().parents[1] / "lib")
+    found = [str(folder / "libpetsam.so") for folder in folders if (folder / "libpetsam.so").exists()]
+    return [*found, "libpetsam.so"]
+
+
+def _share_mpi():
+    """Makes the symbols of MPI known to the parts that it loads itself; those of HDF5 would disturb h5py's own."""
+    try:
+        with open("/proc/self/maps") as maps:
+            names = {line.split()[-1] for line in maps if "/libmpi.so" in line}
+    except OSError:
+        return
+    for name in names:
+        ctypes.CDLL(name, mode=ctypes.RTLD_GLOBAL)
+
+
+def _load():
+    global _library
+    if _library is None:
+        reason = ""
+        for name in _candidates():
+            try:
+                _library = ctypes.CDLL(name)
+                break
+            except OSError as error:
+                reason = reason or str(error)
+        if _library is None:
+            raise Missing(f"no libpetsam: {reason}; run make or make install, or set PETSAM_LIBRARY")
+        _share_mpi()
+        _library.petsam_message.restype = ctypes.c_char_p
+        _library.petsam_destroy.restype = None
+    return _library
+
+
+def _words(options):
+    """Options as on the command line."""
+    words = []
+    for name, value in options.items():
+        if isinstance(value, bool):
+            value = "true" if value else "false"
+        elif isinstance(value, (list, tuple, np.ndarray)):
+            value = ",".join(_number(one) for one in value)
+        elif not isinstance(value, (str, os.PathLike)):
+            value = _number(value)
+        value = os.fspath(value)
+        words += [f"-{name}", f'"{value}"' if any(c.isspace() for c in value) else value]
+    return " ".join(words)
+
+
+def _number(value):
+    return str(value) if isinstance(value, (int, np.integer)) else repr(float(value))
+
+
+# ---------------------------------------------------------------- contacts
+
+
+class Contact:
+    """A contact of two bodies that have never touched.
+
+    Keywords are the options of the program petsam (README): grid_n=256, grid_size=(2e-3, 1e-3), friction=0.1,
+    gap_type="sphere", wear_coefficient1=1e-14, ... Loads are given to try_step(). comm, a communicator of mpi4py,
+    spreads the contact over its ranks, which then call all functions together; None: this process alone.
+
+    n, size, center   cells, widths and centre (m) of the grid in x and y
+    x, y              cell centres, m; y of this rank's rows
+    first_row, rows   this rank's rows: fields are arrays of (rows, n[0])
+    """
+
+    def __init__(self, comm=None, **options):
+        self._contact = ctypes.c_void_p()
+        self._c = _load()
+        with _lock:
+            code = self._c.petsam_create(
+                ctypes.c_int(-1 if comm is None else comm.py2f()), _words(options).encode(), ctypes.byref(self._contact)
+            )
+            self._check(code)
+        self._read_grid()
+
+    def _read_grid(self):
+        n, size, center = (ctypes.c_int * 2)(), (ctypes.c_double * 2)(), (ctypes.c_double * 2)()
+        first, rows = ctypes.c_int(), ctypes.c_int()
+        self._call("grid", n, size, center, ctypes.byref(first), ctypes.byref(rows))
+        self.n, self.size, self.center = tuple(n), tuple(size), tuple(center)
+        self.first_row, self.rows = first.value, rows.value
+        x, y = (self.center[k] + ((np.arange(self.n[k]) + 0.5) / self.n[k] - 0.5) * self.size[k] for k in range(2))
+        self.x, self.y = x, y[self.first_row : self.first_row + self.rows]
+
+    # ------------------------------------------------------------ calls
+
+    def _message(self):
+        return self._c.petsam_message(self._contact).decode(errors="replace")
+
+    def _check(self, code):
+        if code in (0, EDGE):
+            return
+        kind = {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium}.get(code, ContactError)
+        raise kind(code, self._message())
+
+    def _call(self, name, *arguments):
+        """Call a function of the library; an exception where it fails. Its code."""
+        if not self._contact:
+            raise ContactError(2, "the contact is closed")
+        with _lock:
+            code = getattr(self._c, f"petsam_{name}")(self._contact, *arguments)
+            self._check(code)
+        return code
+
+    # ------------------------------------------------------------ steps
+
+    def try_step(self, time=0.0, **given):
+        """Solve a step from the committed state: a Step.
+
+        Each component is given by its load (load_n, N ... load_mz, N m) or its displacement (disp_z, m ... rot_z, rad);
+        what is not given is a load of 0. NoEquilibrium or NotConverged where there is no solution, with the step; an
+        EdgeContactWarning where the contact has reached the edge of the grid. Replaces an earlier try.
+        """
+        force, value = (ctypes.c_int * 6)(*[1] * 6), (ctypes.c_double * 6)()
+        for name, number in given.items():
+            if name not in LOADS + RIGIDS:
+                raise TypeError(f"try_step: {name}: expected {', '.join(LOADS + RIGIDS)}")
+            k = (LOADS + RIGIDS).index(name) % 6
+            if LOADS[k] in given and RIGIDS[k] in given:
+                raise TypeError(f"try_step: {LOADS[k]} and {RIGIDS[k]} are conjugate: give one of them")
+            force[k], value[k] = name in LOADS, number
+        if "load_n" not in given and "disp_z" not in given:
+            raise TypeError("try_step: load_n or disp_z is missing")
+        load, rigid = np.full(6, np.nan), np.full(6, np.nan)
+        code = 0
+        try:
+            code = self._call("try", ctypes.c_double(time), force, value, _pointer(load), _pointer(rigid))
+        except (NotConverged, NoEquilibrium) as error:
+            error.step = Step(time, load, rigid, error.code, str(error))
+            raise
+        step = Step(time, load, rigid, code, self._message())
+        if code == EDGE:
+            warnings.warn(step.message, EdgeContactWarning, stacklevel=2)
+        return step
+
+    def commit(self):
+        """Make the tried step the state from which the next one goes on; bodies wear by it, if they do."""
+        self._call("commit")
+
+    def reject(self):
+        """Forget the tried step: later ones are, to the last bit, as if it had not been tried."""
+        self._call("reject")
+
+    def stiffness(self, reversal=False):
+        """d(loads)/d(displacements) of the tried step, (6, 6): N/m, N/rad, N, N m/rad.
+
+        Cells that slip go on slipping: the derivative of try_step(); or, with reversal, all cells in contact stick.
+        """
+        k = np.empty((6, 6))
+        self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
+        return k
+
+    # ------------------------------------------------------------ fields and numbers
+
+    def field(self, name, out=None):
+        """A field of the tried step, else of the committed one, by its name in results; this rank's rows.
+
+        out is an array to write to: of (rows, n[0]) doubles, contiguous.
+        """
+        shape = (self.rows, self.n[0])
+        if out is None:
+            out = np.empty(shape)
+        elif out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous:
+            raise ValueError(f"out is not a contiguous array of doubles of shape {shape}")
+        self._call("get_field", name.encode(), _pointer(out))
+        return out
+
+    __getitem__ = field
+
+    def number(self, name):
+        """A number of the last step, by its name in /history: contact_area, dissipated_energy, ..."""
+        value = ctypes.c_double()
+        self._call("get_number", name.encode(), ctypes.byref(value))
+        return value.value
+
+    def set_field(self, name, values):
+        """Give the gap (separation of the undeformed, unworn bodies, m) or the friction: (rows, n[0]) or a number."""
+        values = np.ascontiguousarray(np.broadcast_to(values, (self.rows, self.n[0])), dtype=float)
+        self._call("set_field", name.encode(), _pointer(values))
+
+    __setitem__ = set_field
+
+    @property
+    def gap(self):
+        """The gap of the deformed bodies, m. Setting it gives the separation of the undeformed ones."""
+        return self.field("gap")
+
+    @gap.setter
+    def gap(self, values):
+        self.set_field("gap", values)
+
+    def _set_friction(self, values):
+        self.set_field("friction", values)
+
+    friction = property(None, _set_friction, doc="The coefficient of friction, a number or a field; to be set.")
+
+    # ------------------------------------------------------------ files, end
+
+    def save(self, file):
+        """Write the committed state to a file."""
+        self._call("save", os.fsencode(file))
+
+    def load(self, file):
+        """Take over the state in a file, which a contact of the same options has saved."""
+        self._call("load", os.fsencode(file))
+
+    def close(self):
+        """Free the contact."""
+        if self._contact:
+            with _lock:
+                self._c.petsam_destroy(ctypes.byref(self._contact))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        if getattr(self, "_contact", None) and sys is not None and not sys.is_finalizing():
+            self.close()
+
+
+def _pointer(array):
+    return array.ctypes.data_as(ctypes.c_void_p)

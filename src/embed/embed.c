@@ -1,0 +1,488 @@
+/*
+  A contact in another program: plain C types outside, the library's objects inside.
+
+  Each function enters, so that options are those of the contact and errors become messages; does its work by PETSc's
+  rules; and leaves with a code of the programs. Errors are raised on all ranks of a contact.
+*/
+#include "embedimpl.h"
+#include <petsam/private/arguments.h>
+#include <petsam/private/baseimpl.h>
+#include <stdarg.h>
+
+/* What petsam_create() has to say when there is no contact to say it. */
+static char created[SAM_EMBED_MESSAGE];
+
+/* ---- entering and leaving ---- */
+
+/* Keeps the message of an error instead of printing it. */
+static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                                  PetscErrorType type, const char *message, void *context)
+{
+  (void)comm;
+  (void)line;
+  (void)function;
+  (void)file;
+  if (type == PETSC_ERROR_INITIAL) {
+    (void)snprintf((char *)context, SAM_EMBED_MESSAGE, "%s", message ? message : "");
+    if (code == PETSC_ERR_MEM) (void)snprintf((char *)context, SAM_EMBED_MESSAGE, "not enough memory: %s", message);
+  }
+  return code;
+}
+
+static void Enter(petsam_contact *c)
+{
+  c->message[0] = '\0';
+  (void)PetscPushErrorHandler(KeepMessage, c->message);
+  (void)PetscOptionsPush(c->options);
+}
+
+/* The code of a program for an error; wrong arguments are mistakes of usage here. */
+static int CodeOf(PetscErrorCode code)
+{
+  switch ((int)code) {
+  case SAM_ERR_USER:
+  case PETSC_ERR_ARG_OUTOFRANGE:
+  case PETSC_ERR_ORDER:
+    return SAM_EMBED_USAGE;
+  case SAM_ERR_FILE:
+    return SAM_EMBED_FILE;
+  case PETSC_ERR_NOT_CONVERGED:
+    return SAM_STATUS_NOT_CONVERGED;
+  default:
+    return (int)code;
+  }
+}
+
+static int Leave(petsam_contact *c, PetscErrorCode code)
+{
+  (void)PetscOptionsPop();
+  (void)PetscPopErrorHandler();
+  if (code && !c->message[0]) (void)snprintf(c->message, sizeof(c->message), "error %d of PETSc", (int)code);
+  return CodeOf(code);
+}
+
+/* A mistake that needs no PETSc to be found; the same on all ranks. */
+static int Refuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+static int Refuse(petsam_contact *c, const char format[], ...)
+{
+  va_list values;
+
+  va_start(values, format);
+  (void)vsnprintf(c->message, sizeof(c->message), format, values);
+  va_end(values);
+  return SAM_EMBED_USAGE;
+}
+
+const char *petsam_message(const petsam_contact *c)
+{
+  return c ? c->message : created;
+}
+
+/* ---- creation ---- */
+
+/* Loads are given to petsam_try(); a name that the program knows deserves to be told so. */
+static PetscErrorCode RefuseLoads(const petsam_contact *c)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) {
+    const char *name = k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load;
+    char        option[32];
+    PetscBool   set;
+
+    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
+    PetscCall(PetscOptionsHasName(NULL, NULL, option, &set));
+    PetscCheck(!set, c->comm, SAM_ERR_USER, "-%s: loads and displacements are given with each try, not as options",
+               name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadBulkStress(petsam_contact *c, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCall(SamControlInitialize(&c->control));
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
+      PetscCall(SamOptionsReal(from, SamBulkNames[body][k].name, SamBulkNames[body][k].text, SAM_RANGE_ANY,
+                               &c->control.bulk_stress[body][k], NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Rank 0's options count. */
+static PetscErrorCode InsertOptions(petsam_contact *c, const char options[])
+{
+  SamArguments arguments;
+  int          length = (int)strlen(options) + 1, rank;
+  char        *copy;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(c->comm, &rank));
+  PetscCallMPI(MPI_Bcast(&length, 1, MPI_INT, 0, c->comm));
+  PetscCall(PetscMalloc1(length, &copy));
+  if (rank == 0) PetscCall(PetscArraycpy(copy, options, length));
+  PetscCallMPI(MPI_Bcast(copy, length, MPI_CHAR, 0, c->comm));
+  SamArgumentsExamineText(c->comm, copy, &arguments);
+  SamArgumentsFree(&arguments);
+  PetscCheck(!arguments.code, c->comm, arguments.code, "%s", arguments.message);
+  PetscCall(PetscOptionsInsertString(c->options, copy));
+  PetscCall(PetscFree(copy));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create(petsam_contact *c, const char options[])
+{
+  const SamOptions from = {c->comm, NULL};
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(InsertOptions(c, options));
+  PetscCall(RefuseLoads(c));
+  PetscCall(SamSetupReadOptions(&c->setup, &from));
+  PetscCall(SamWearLawsSetFromOptions(&c->laws, &from));
+  PetscCall(ReadBulkStress(c, &from));
+  PetscCall(SamSetupCreateContact(&c->setup, &from));
+  PetscCall(SamArgumentsRefuseUnknown(c->comm));
+  PetscCall(SamGridCreateVec(c->setup.grid, 1, &c->work));
+  if (c->laws.on) PetscCall(SamWearCreate(c->setup.contact, c->laws.law, c->laws.coefficient, &c->wear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(petsam_contact *c)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&c->work));
+  PetscCall(SamWearDestroy(&c->wear));
+  PetscCall(SamSetupDestroy(&c->setup));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void petsam_destroy(petsam_contact **c)
+{
+  PetscBool has;
+
+  if (!c || !*c) return;
+  if (!PetscInitialized(&has) && has) {
+    Enter(*c);
+    (void)Leave(*c, Destroy(*c));
+    (void)PetscOptionsDestroy(&(*c)->options);
+  }
+  free(*c);
+  *c = NULL;
+}
+
+int petsam_create(int comm, const char *options, petsam_contact **contact)
+{
+  petsam_contact *c;
+  int             code;
+
+  created[0] = '\0';
+  if (!contact || !options) {
+    (void)snprintf(created, sizeof(created), "petsam_create: a pointer is NULL");
+    return SAM_EMBED_USAGE;
+  }
+  *contact = NULL;
+  code     = SamEmbedStart(created, sizeof(created));
+  if (code) return code;
+  c = (petsam_contact *)calloc(1, sizeof(*c));
+  if (!c || PetscOptionsCreate(&c->options)) {
+    (void)snprintf(created, sizeof(created), "not enough memory");
+    free(c);
+    return PETSC_ERR_MEM;
+  }
+  c->comm = comm == -1 ? MPI_COMM_SELF : MPI_Comm_f2c((MPI_Fint)comm);
+  Enter(c);
+  code = Leave(c, Create(c, options));
+  (void)snprintf(created, sizeof(created), "%s", c->message);
+  if (code)
+    petsam_destroy(&c);
+  else
+    *contact = c;
+  return code;
+}
+
+/* ---- what is given ---- */
+
+int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], int *first_row, int *rows)
+{
+  const SamGrid grid = c ? c->setup.grid : NULL;
+
+  if (!c) return SAM_EMBED_USAGE;
+  c->message[0] = '\0';
+  for (int k = 0; k < 2; k++) {
+    if (n) n[k] = (int)(k ? grid->ny : grid->nx);
+    if (size) size[k] = (double)grid->width[k];
+    if (center) center[k] = (double)grid->center[k];
+  }
+  if (first_row) *first_row = (int)grid->row_start;
+  if (rows) *rows = (int)grid->rows;
+  return 0;
+}
+
+/* Forgets the tried step. */
+static PetscErrorCode Forget(petsam_contact *c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactReject(c->setup.contact));
+  c->last      = c->committed;
+  c->has_last  = c->has_committed;
+  c->has_tried = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The gap of the unworn bodies; what has been removed stays. */
+static PetscErrorCode SetGap(petsam_contact *c, Vec gap)
+{
+  Vec load;
+
+  PetscFunctionBegin;
+  if (!c->wear) {
+    PetscCall(SamProblemSetGap(c->setup.problem, gap));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamGridCreateVec(c->setup.grid, 1, &load));
+  PetscCall(SamWearGetLoad(c->wear, load));
+  PetscCall(SamWearDestroy(&c->wear));
+  PetscCall(SamProblemSetGap(c->setup.problem, gap));
+  PetscCall(SamWearCreate(c->setup.contact, c->laws.law, c->laws.coefficient, &c->wear));
+  PetscCall(SamWearSetLoad(c->wear, load));
+  PetscCall(VecDestroy(&load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetField(petsam_contact *c, const char name[], const double values[])
+{
+  const PetscBool gap = !strcmp(name, "gap") ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool       finite;
+  double         *cells;
+
+  PetscFunctionBegin;
+  PetscCheck(gap || !strcmp(name, "friction"), c->comm, SAM_ERR_USER, "%s: expected gap or friction", name);
+  PetscCall(VecGetArrayWrite(c->work, &cells));
+  PetscCall(PetscArraycpy(cells, values, c->setup.grid->cells));
+  PetscCall(VecRestoreArrayWrite(c->work, &cells));
+  PetscCall(SamGridIsFinite(c->setup.grid, c->work, &finite));
+  PetscCheck(finite, c->comm, SAM_ERR_USER, "%s: not all values are finite numbers", name);
+  PetscCall(Forget(c));
+  if (gap)
+    PetscCall(SetGap(c, c->work));
+  else
+    PetscCall(SamProblemSetFrictionField(c->setup.problem, c->work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_set_field(petsam_contact *c, const char *name, const double *values)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!name || (!values && c->setup.grid->cells)) return Refuse(c, "petsam_set_field: a pointer is NULL");
+  Enter(c);
+  return Leave(c, SetField(c, name, values));
+}
+
+/* ---- steps ---- */
+
+static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
+{
+  PetscReal depth[2];
+
+  PetscFunctionBegin;
+  PetscCall(Forget(c));
+  PetscCall(SamContactTry(c->setup.contact, control, &c->last));
+  c->has_last  = PETSC_TRUE;
+  c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
+  if (c->wear) PetscCall(SamWearGetVolumes(c->wear, c->last.wear_volume, depth));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
+               double rigid[6])
+{
+  SamControl control;
+  int        code;
+
+  if (!c) return SAM_EMBED_USAGE;
+  if (!force || !value) return Refuse(c, "petsam_try: a pointer is NULL");
+  control      = c->control;
+  control.time = time;
+  for (int k = 0; k < SAM_COMPONENTS; k++) {
+    control.force[k] = force[k] ? PETSC_TRUE : PETSC_FALSE;
+    control.value[k] = value[k];
+  }
+  Enter(c);
+  code = Leave(c, Try(c, &control));
+  if (code) return code;
+  for (int k = 0; k < SAM_COMPONENTS; k++) {
+    if (load) load[k] = (double)c->last.load[k];
+    if (rigid) rigid[k] = (double)c->last.rigid[k];
+  }
+  (void)snprintf(c->message, sizeof(c->message), "%s", c->last.message);
+  return (int)c->last.status;
+}
+
+static PetscErrorCode Commit(petsam_contact *c)
+{
+  PetscReal depth[2];
+
+  PetscFunctionBegin;
+  PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
+  PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
+             "the tried step did not converge, and cannot be committed: %s", c->last.message);
+  if (c->wear) PetscCall(SamWearCountStep(c->wear));
+  PetscCall(SamContactCommit(c->setup.contact));
+  if (c->wear) {
+    PetscCall(SamWearApply(c->wear, 1));
+    PetscCall(SamWearMoveGap(c->wear));
+    PetscCall(SamWearGetVolumes(c->wear, c->last.wear_volume, depth));
+  }
+  c->has_tried     = PETSC_FALSE;
+  c->has_committed = PETSC_TRUE;
+  c->committed     = c->last;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_commit(petsam_contact *c)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  Enter(c);
+  return Leave(c, Commit(c));
+}
+
+int petsam_reject(petsam_contact *c)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  Enter(c);
+  return Leave(c, Forget(c));
+}
+
+static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[])
+{
+  SamStiffness s;
+
+  PetscFunctionBegin;
+  PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to compute a stiffness of");
+  PetscCall(SamStiffnessCompute(c->setup.contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, &s));
+  for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
+    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) k[SAM_COMPONENTS * i + j] = (double)s.k[i][j];
+  PetscCheck(s.converged, c->comm, PETSC_ERR_NOT_CONVERGED,
+             "the tangent stiffness did not converge: relative residual %.2g", (double)s.error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_stiffness(petsam_contact *c, int reversal, double k[36])
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!k) return Refuse(c, "petsam_stiffness: a pointer is NULL");
+  Enter(c);
+  return Leave(c, Stiffness(c, reversal ? PETSC_TRUE : PETSC_FALSE, k));
+}
+
+/* ---- what is found ---- */
+
+static PetscErrorCode GetField(petsam_contact *c, const char name[], double values[])
+{
+  const double *cells;
+  PetscBool     found;
+
+  PetscFunctionBegin;
+  PetscCheck(c->has_tried || c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been solved yet", name);
+  PetscCall(SamFieldGet(c->setup.contact, c->wear, name, c->work, &found));
+  PetscCheck(found, c->comm, SAM_ERR_USER, "%s: there is no field of this name", name);
+  PetscCall(VecGetArrayRead(c->work, &cells));
+  PetscCall(PetscArraycpy(values, cells, c->setup.grid->cells));
+  PetscCall(VecRestoreArrayRead(c->work, &cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_get_field(petsam_contact *c, const char *name, double *values)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!name || (!values && c->setup.grid->cells)) return Refuse(c, "petsam_get_field: a pointer is NULL");
+  Enter(c);
+  return Leave(c, GetField(c, name, values));
+}
+
+int petsam_get_number(petsam_contact *c, const char *name, double *value)
+{
+  PetscReal number;
+
+  if (!c) return SAM_EMBED_USAGE;
+  if (!name || !value) return Refuse(c, "petsam_get_number: a pointer is NULL");
+  if (!c->has_last) return Refuse(c, "%s: no step has been tried yet", name);
+  if (!SamStepGetNumber(&c->last, name, &number)) return Refuse(c, "%s: there is no number of this name", name);
+  c->message[0] = '\0';
+  *value        = (double)number;
+  return 0;
+}
+
+/* ---- files ---- */
+
+static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parameters)
+{
+  PetscFunctionBegin;
+  parameters->count = 0;
+  PetscCall(SamSetupAddParameters(&c->setup, parameters));
+  PetscCall(SamWearLawsAddParameters(&c->laws, "steps", parameters));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Save(petsam_contact *c, const char file[])
+{
+  SamCheckpoint  checkpoint;
+  SamParameters  parameters;
+  PetscErrorCode code;
+
+  PetscFunctionBegin;
+  PetscCheck(c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been committed yet", file);
+  PetscCall(CollectParameters(c, &parameters));
+  PetscCall(SamCheckpointCreate(c->setup.grid, file, &checkpoint));
+  code = SamCheckpointWrite(checkpoint, c->setup.contact, c->wear, &parameters, 0, NULL);
+  PetscCall(SamCheckpointDestroy(&checkpoint));
+  PetscCall(code);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_save(petsam_contact *c, const char *file)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!file) return Refuse(c, "petsam_save: a pointer is NULL");
+  Enter(c);
+  return Leave(c, Save(c, file));
+}
+
+/* The numbers of the committed step that its state holds. */
+static PetscErrorCode KnowState(petsam_contact *c)
+{
+  SamContactState state;
+  SamStep        *step = &c->committed;
+  PetscReal       depth[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(c->setup.contact, &state));
+  *step              = (SamStep){.control = state.now.control};
+  step->check        = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
+  step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = NAN;
+  PetscCall(PetscArraycpy(step->load, state.now.load, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(step->rigid, state.now.rigid, SAM_COMPONENTS));
+  if (c->wear) PetscCall(SamWearGetVolumes(c->wear, step->wear_volume, depth));
+  c->has_committed = state.steps > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(Forget(c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Load(petsam_contact *c, const char file[])
+{
+  SamParameters parameters;
+
+  PetscFunctionBegin;
+  PetscCall(CollectParameters(c, &parameters));
+  PetscCall(SamCheckpointRead(file, c->setup.contact, c->wear, &parameters, 0, NULL));
+  PetscCall(KnowState(c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_load(petsam_contact *c, const char *file)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!file) return Refuse(c, "petsam_load: a pointer is NULL");
+  Enter(c);
+  return Leave(c, Load(c, file));
+}

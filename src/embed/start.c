@@ -1,0 +1,64 @@
+/*
+  MPI and PETSc in a process that belongs to somebody else.
+
+  What is started here is ended when the process ends, if MPI is still there by then: a process that has ended MPI
+  itself has no use for an end of PETSc. PETSc's world is each process alone, so that processes can start it one by one;
+  its objects live on the communicators they are given all the same.
+*/
+#include "embedimpl.h"
+#include <petsam/private/baseimpl.h>
+#include <stdlib.h>
+
+static PetscBool began_mpi = PETSC_FALSE, began_petsc = PETSC_FALSE;
+
+static void End(void)
+{
+  PetscBool has;
+  int       ended;
+
+  if (MPI_Finalized(&ended) || ended) return;
+  if (began_petsc && !PetscInitialized(&has) && has) {
+    (void)SamFinalize();
+    (void)PetscFinalize();
+  }
+  if (began_mpi) (void)MPI_Finalize();
+}
+
+static int StartMPI(void)
+{
+  int has, ended, provided;
+
+  if (MPI_Finalized(&ended) || ended) return SAM_EMBED_USAGE;
+  if (MPI_Initialized(&has)) return SAM_EMBED_USAGE;
+  if (has) return 0;
+  (void)SamPrepareMPI();
+  if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided)) return SAM_EMBED_USAGE;
+  SamForgetPreparation();
+  began_mpi = PETSC_TRUE;
+  return 0;
+}
+
+int SamEmbedStart(char message[], size_t size)
+{
+  static char *words[] = {"petsam", "-no_signal_handler", "-skip_petscrc", NULL};
+  static int   registered;
+
+  char    **argv = words;
+  int       argc = 3;
+  PetscBool has;
+
+  if (StartMPI()) {
+    (void)snprintf(message, size, "MPI cannot be started: it has been ended in this process, or refuses");
+    return SAM_EMBED_USAGE;
+  }
+  if (!registered) (void)atexit(End);
+  registered = 1;
+  if (!PetscInitialized(&has) && has) return 0;
+  PETSC_COMM_WORLD = MPI_COMM_SELF;
+  began_petsc      = PETSC_TRUE;
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) {
+    (void)snprintf(message, size, "PETSc cannot be started: are PETSC_OPTIONS right?");
+    return SAM_EMBED_USAGE;
+  }
+  return 0;
+}
