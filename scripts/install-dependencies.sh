@@ -3,7 +3,7 @@
 # Python for the scripts. Asks no questions; uses sudo unless run by root.
 set -eu
 
-packages="gcc make pkg-config libopenmpi-dev openmpi-bin petsc-dev libfftw3-dev libfftw3-mpi-dev \
+packages="gcc gfortran make pkg-config libopenmpi-dev openmpi-bin petsc-dev libfftw3-dev libfftw3-mpi-dev \
 libhdf5-openmpi-dev libcmocka-dev python3 python3-venv"
 
 if ! command -v apt-get >/dev/null; then

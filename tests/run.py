@@ -18,6 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TIMEOUT = 120  # seconds for one unit test program
+WORKERS = 4  # most files of whole-program tests at a time; runs on several ranks share the cores
 
 
 def environment():
@@ -77,6 +78,8 @@ def run_units(programs, ranks):
 def run_pytest(build, names):
     python = build / "venv" / "bin" / "python"
     words = [str(python), "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", str(ROOT / "tests" / "program")]
+    if not names:
+        words += ["-n", str(min(os.cpu_count() or 1, WORKERS)), "--dist", "loadfile"]
     if names:
         words += ["-k", " or ".join(names)]
     done = subprocess.run(

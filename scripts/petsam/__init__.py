@@ -20,6 +20,7 @@ import importlib
 
 from .errors import Error, Missing
 
+__version__ = "0.1.0"
 __all__ = [
     "Contact",
     "ContactError",

@@ -5,7 +5,6 @@
 module petsam
   use, intrinsic :: iso_c_binding
   implicit none
-  private :: c_strlen, message_of
 
   integer(c_int), parameter :: petsam_alone = -1_c_int ! the communicator of this process alone
 
@@ -88,12 +87,12 @@ module petsam
       type(c_ptr), intent(inout) :: contact
     end subroutine
 
-    type(c_ptr) function message_of(contact) bind(c, name="petsam_message")
+    type(c_ptr) function petsam_c_message(contact) bind(c, name="petsam_message")
       import :: c_ptr
       type(c_ptr), value :: contact
     end function
 
-    integer(c_size_t) function c_strlen(text) bind(c, name="strlen")
+    integer(c_size_t) function petsam_c_length(text) bind(c, name="strlen")
       import :: c_size_t, c_ptr
       type(c_ptr), value :: text
     end function
@@ -109,8 +108,8 @@ contains
     type(c_ptr) :: at
     integer :: k
 
-    at = message_of(contact)
-    call c_f_pointer(at, letters, [c_strlen(at)])
+    at = petsam_c_message(contact)
+    call c_f_pointer(at, letters, [petsam_c_length(at)])
     allocate (character(len=size(letters)) :: text)
     do k = 1, size(letters)
       text(k:k) = letters(k)

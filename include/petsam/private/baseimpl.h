@@ -56,9 +56,9 @@ PETSC_EXTERN PetscClassId  SAM_CLASSID;
 
 /* ---- start ---- */
 /*
-  SamPrepareMPI - to be called before MPI_Init(). Returns whether an MPI launcher has started the process. Without one no
-  network is needed: Open MPI would look for one and start a daemon, which takes longer than a small problem and is not
-  possible everywhere. Settings of the user are not changed. Not collective.
+  SamPrepareMPI - to be called before MPI_Init(). Returns whether an MPI launcher has started the process. Without one
+  no network is needed: Open MPI would look for one and start a daemon, which takes longer than a small problem and is
+  not possible everywhere. Settings of the user are not changed. Not collective.
   SamForgetPreparation - takes the settings back after MPI_Init(), so that programs that the process starts can be
   launched with MPI.
 */

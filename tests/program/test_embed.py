@@ -1,0 +1,288 @@
+"""Contacts in programs in C, Fortran and Python, built against the installed files: the bits of the program petsam."""
+
+import os
+import shutil
+import struct
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from conftest import PROGRAM, environment
+from support import ROOT, words
+
+HERE = ROOT / "tests" / "program"
+CASE = dict(
+    grid_n=(45, 40),
+    grid_size=(3e-3, 2.8e-3),
+    body1_young=210e9,
+    body1_poisson=0.3,
+    body2_young=70e9,
+    body2_poisson=0.2,
+    friction=0.15,
+    gap_type="sphere",
+    gap_radius1=0.1,
+    gap_radius2="inf",
+)
+STEPS = [
+    dict(load_n=900.0 + 30 * k, disp_x=1e-7 * (1.3 * k if k <= 3 else 1.3 * (6 - k) - 1.9), load_ty=5.0, load_my=0.01)
+    for k in range(1, 6)
+]
+LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
+RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory):
+    """make install."""
+    folder = tmp_path_factory.mktemp("prefix")
+    build = os.path.relpath(PROGRAM.parents[1], ROOT)
+    words = ["make", "-s", "install", "B=" + build, f"prefix={folder}"]
+    subprocess.run(words, cwd=ROOT, check=True, capture_output=True, timeout=600)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory, launcher):
+    """What the program petsam finds for the same steps: rows of loads, displacements; stiffness; stored energy."""
+    folder = tmp_path_factory.mktemp("program")
+    rows = ["time," + ",".join(STEPS[0])]
+    rows += [",".join(map(repr, (float(k), *step.values()))) for k, step in enumerate(STEPS, 1)]
+    (folder / "history.csv").write_text("\n".join(rows))
+    command = [str(PROGRAM), *words(CASE), "-history", "history.csv", "-stiffness", "-output", "out.h5"]
+    done = subprocess.run(command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(folder / "out.h5") as file:
+        found = {name: data[:] for name, data in file["history"].items()}
+        return dict(found, shear_x=file["shear_x"][:])
+
+
+def bits(results, names):
+    return np.column_stack([results[name] for name in names])
+
+
+def compile_it(prefix, folder, compiler, *sources):
+    out = folder / "embedded"
+    command = [compiler, "-Wall", "-Wextra", "-Werror", *map(str, sources), "-o", str(out), f"-I{prefix}/include"]
+    command += [f"-L{prefix}/lib", "-lpetsam", f"-Wl,-rpath,{prefix}/lib", "-lm"]
+    subprocess.run(command, cwd=folder, check=True, timeout=120)
+    return out
+
+
+def launch(launcher, ranks, *command):
+    words = [*launcher, "-n", str(ranks), *map(str, command)] if ranks else [*map(str, command)]
+    done = subprocess.run(words, env=environment(), capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+# ---------------------------------------------------------------- C and Fortran
+
+
+@pytest.mark.parametrize("ranks", [0, 1, 2, 3])
+def test_c_program_has_the_bits_of_petsam(prefix, tmp_path, launcher, expected, ranks):
+    """0: without MPI of its own, and without a launcher."""
+    program = compile_it(prefix, tmp_path, "mpicc", HERE / "embedded.c")
+    text = launch(launcher, ranks, program, " ".join(words(CASE)), *(["world"] if ranks else []))
+    found = np.array([[float.fromhex(word) for word in line.split()] for line in text.splitlines()])
+    assert found.shape == (5, 49)
+    assert np.array_equal(found[:, 0:12:2], bits(expected, LOADS))
+    assert np.array_equal(found[:, 1:12:2], bits(expected, RIGIDS))
+    assert np.array_equal(found[:, 12:48].reshape(5, 6, 6), expected["stiffness"])
+    assert np.array_equal(found[:, 48], expected["stored_energy"])
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_fortran_program_has_the_bits_of_petsam(prefix, tmp_path, launcher, expected, ranks):
+    module = prefix / "share/petsam/examples/embed/fortran/petsam.f90"
+    program = compile_it(prefix, tmp_path, "mpif90", module, HERE / "embedded.f90")
+    *lines, message = launch(launcher, ranks, program, " ".join(words(CASE))).splitlines()
+    found = np.array([[struct.unpack(">d", bytes.fromhex(word))[0] for word in line.split()] for line in lines])
+    assert np.array_equal(found, np.hstack([bits(expected, LOADS), bits(expected, RIGIDS)]))
+    assert "gross slip" in message
+
+
+def test_examples_run(prefix, tmp_path, launcher):
+    examples = prefix / "share/petsam/examples/embed"
+    text = launch(launcher, 0, compile_it(prefix, tmp_path, "gcc", examples / "c/contact.c"))
+    assert [line.split()[1] for line in text.splitlines()] == ["20.00", "40.00", "60.00", "0.00", "-60.00"]
+    fortran = examples / "fortran"
+    text = launch(launcher, 2, compile_it(prefix, tmp_path, "mpif90", fortran / "petsam.f90", fortran / "contact.f90"))
+    stiffness = [float(line.split()[-2]) for line in text.splitlines()]
+    assert len(stiffness) == 5 and stiffness[0] > stiffness[1] > stiffness[2] > 1.2e8
+
+
+# ---------------------------------------------------------------- Python
+
+
+def run_python(text, folder, check=0, **variables):
+    """Run a program in Python, in a process of its own, which has the package and the library of the build."""
+    env = dict(
+        environment(), PYTHONPATH=str(ROOT / "scripts"), PETSAM_LIBRARY=str(PROGRAM.parents[1] / "lib/libpetsam.so")
+    )
+    env.update(variables)
+    (folder / "program.py").write_text(text)
+    done = subprocess.run(
+        [sys.executable, "program.py"], cwd=folder, env=env, capture_output=True, text=True, timeout=300
+    )
+    assert done.returncode == check, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_python_has_the_bits_of_petsam(tmp_path, expected):
+    run_python(
+        f"""
+import h5py, petsam, numpy as np
+case, steps = {CASE!r}, {STEPS!r}
+tables = {{name: [] for name in ("load", "rigid", "stiffness", "reversal", "shear_x")}}
+with petsam.Contact(**case) as contact, petsam.Contact(**case) as other:
+    for k, step in enumerate(steps, 1):
+        one = contact.try_step(time=k, **step)
+        other.try_step(load_n=100)
+        tables["load"].append(one.load)
+        tables["rigid"].append(one.rigid)
+        tables["stiffness"].append(contact.stiffness())
+        tables["reversal"].append(contact.stiffness(reversal=True))
+        tables["shear_x"].append(contact["shear_x"])
+        contact.commit()
+        assert one.load_n == one.load[0] and one.rot_z == one.rigid[5] and contact.number("time") == k
+    assert contact.x.size == 45 and contact.y.size == contact.rows == 40 and contact.first_row == 0
+    area = contact.size[0] / contact.n[0] * contact.size[1] / contact.n[1]
+    assert abs(contact["pressure"].sum() * area - one.load_n) < 1e-9 * one.load_n
+np.savez("tables.npz", **tables)
+""",
+        tmp_path,
+    )
+    found = np.load(tmp_path / "tables.npz")
+    assert np.array_equal(found["load"], bits(expected, LOADS)) and np.array_equal(
+        found["rigid"], bits(expected, RIGIDS)
+    )
+    assert np.array_equal(found["stiffness"], expected["stiffness"])
+    assert np.array_equal(found["reversal"], expected["stiffness_reversal"])
+    assert np.array_equal(found["shear_x"], expected["shear_x"])
+
+
+def test_mistakes_in_python_are_exceptions_and_the_process_lives(tmp_path):
+    text = run_python(
+        f"""
+import os, petsam, warnings, numpy as np
+case = {CASE!r}
+def told(kind, function, *words, **given):
+    try:
+        function(*words, **given)
+    except kind as error:
+        print(type(error).__name__, error)
+    else:
+        raise SystemExit("no exception")
+told(petsam.ContactError, petsam.Contact, **dict(case, friction=-1))
+told(petsam.ContactError, petsam.Contact, **dict(case, frction=1))
+told(petsam.ContactError, petsam.Contact, **dict(case, gap_type="file", gap_file="no where.h5"))
+contact = petsam.Contact(**case)
+told(petsam.ContactError, contact.commit)
+told(petsam.ContactError, contact.field, "pressure")
+told(TypeError, contact.try_step, load_m=1)
+told(TypeError, contact.try_step, load_n=1, disp_z=1)
+told(TypeError, contact.try_step, load_tx=1)
+told(petsam.NoEquilibrium, contact.try_step, load_n=1000, load_tx=500)
+told(ValueError, contact.set_field, "gap", np.zeros((3, 4)))
+told(petsam.ContactError, contact.set_field, "gap", np.full((40, 45), np.nan))
+told(petsam.ContactError, contact.load, "nowhere.h5")
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter("always")
+    assert contact.try_step(load_n=1e5).status == 12 and "edge" in str(caught[0].message)
+contact.friction, contact.gap = 0.2, 0.0
+assert contact.try_step(load_n=1, disp_x=0).status == 12
+contact.close()
+told(petsam.ContactError, contact.commit)
+assert not any("OMPI_MCA_btl" in line for line in open("/proc/self/environ").read().split("\\0"))
+print("alive")
+""",
+        tmp_path,
+    )
+    lines = text.splitlines()
+    for word, line in zip(
+        ["-friction -1", "-frction 1: unknown", "no where.h5", "no tried step", "no step has been solved", "load_m"],
+        lines,
+    ):
+        assert word in line
+    assert lines[-1] == "alive" and "gross slip" in text
+
+
+def test_state_is_saved_and_loaded(tmp_path):
+    run_python(
+        f"""
+import petsam, numpy as np
+case = dict({CASE!r}, wear_energy1=1e-13)
+one, other = petsam.Contact(**case), petsam.Contact(**case)
+for k in range(3):
+    one.try_step(load_n=1000, load_tx=40.0 * k)
+    one.commit()
+one.save("state.h5")
+other.load("state.h5")
+assert one.number("wear_volume1") == other.number("wear_volume1") > 0
+a, b = one.try_step(load_n=1000, disp_x=0), other.try_step(load_n=1000, disp_x=0)
+assert np.array_equal(a.load, b.load) and np.array_equal(one["wear_depth1"], other["wear_depth1"])
+""",
+        tmp_path,
+    )
+
+
+def test_many_trials_neither_leak_nor_slow_down(tmp_path):
+    """The second half of many trials takes no more memory."""
+    text = run_python(
+        f"""
+import petsam, resource
+contact = petsam.Contact(**dict({CASE!r}, body2_young=210e9, body2_poisson=0.3, grid_n=24))
+size = lambda: int(open("/proc/self/statm").read().split()[1])
+contact.try_step(load_n=1000)
+contact.commit()
+for k in range(1200):
+    contact.try_step(load_n=1000, disp_x=1e-7 * (k % 5))
+    if k % 4 == 0:
+        contact.stiffness()
+    contact.reject()
+    if k == 400:
+        before = size()
+print(size() / before)
+""",
+        tmp_path,
+    )
+    assert float(text) < 1.01
+
+
+def test_package_is_installed_by_pip(tmp_path):
+    """The package and its commands, from a copy, since setuptools leaves files beside its sources."""
+    scripts, target = tmp_path / "scripts", tmp_path / "site"
+    shutil.copytree(ROOT / "scripts", scripts, ignore=shutil.ignore_patterns("__pycache__"))
+    pip = [sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--disable-pip-version-check"]
+    subprocess.run([*pip, "--target", target, scripts], check=True, timeout=300)
+    text = run_python(
+        "import petsam; c = petsam.Contact(grid_n=8, grid_size=1, body1_young=1e9, body1_poisson=0, body2_young=1e9,"
+        " body2_poisson=0, gap_type='flat', allow_edge_contact=True); print(petsam.__file__, c.n)",
+        tmp_path,
+        PYTHONPATH=str(target),
+    )
+    assert str(target) in text and "(8, 8)" in text
+    assert (target / "bin" / "petsam-plot").exists()
+
+
+def test_threads_take_turns(tmp_path):
+    """Two threads of Python with a contact each."""
+    run_python(
+        f"""
+import petsam, threading, numpy as np
+case, found = {CASE!r}, {{}}
+def work(name):
+    with petsam.Contact(**case) as contact:
+        for k in range(1, 6):
+            found[name] = contact.try_step(load_n=1000, load_tx=20.0 * k).rigid
+            contact.commit()
+threads = [threading.Thread(target=work, args=(name,)) for name in "ab"]
+[one.start() for one in threads]
+[one.join() for one in threads]
+assert np.array_equal(found["a"], found["b"])
+""",
+        tmp_path,
+    )
