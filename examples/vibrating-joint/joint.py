@@ -10,6 +10,7 @@ odd harmonics; at `samples` instants of a cycle the contact is asked for f, and 
 """
 
 import numpy as np
+
 import petsam
 
 PUNCH = dict(
@@ -39,47 +40,35 @@ ITERATIONS = 20
 class Joint:
     """The contact, asked for its forces over a cycle of motion; counts what it is asked for."""
 
-    def __init__(self, cells, worn=None):
+    def __init__(self, cells, worn=0.0):
         """worn: the depth that has been removed of both bodies, (cells, cells), m."""
         self.contact = petsam.Contact(grid_n=cells, **PUNCH)
-        if worn is not None:
-            self._press()
-            self.contact.commit()
-            # the gap of unworn bodies is what is left when elastic and rigid displacements are taken off that of now
-            self.contact.gap = self._unworn() + worn
+        beyond = np.maximum(np.hypot(self.contact.x, self.contact.y[:, None]) - PUNCH["gap_flat_radius"], 0.0)
+        self.contact.gap = beyond**2 / (2.0 * PUNCH["gap_edge_radius"]) + worn
         self.trials = self.stiffnesses = 0
-
-    def _press(self):
-        return self.contact.try_step(load_n=NORMAL, disp_x=0.0, disp_y=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0)
-
-    def _unworn(self):
-        step, x, y = self._press(), self.contact.x, self.contact.y[:, None]
-        lift = self.contact.field("gap") - self.contact.field("displacement_z")
-        return lift + step.disp_z - y * step.rot_x + x * step.rot_y
 
     def _try(self, motion):
         self.trials += 1
         return self.contact.try_step(load_n=NORMAL, disp_x=motion[0], disp_y=0.0, rot_x=0.0, rot_y=motion[1], rot_z=0.0)
 
-    def _rest(self):
+    def rest(self):
         """Bodies apart and together again: without any shear that is left from before."""
         self.contact.try_step(disp_z=-1e-6, disp_x=0.0, disp_y=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0)
         self.contact.commit()
         self._try((0.0, 0.0))
         self.contact.commit()
 
-    def forces(self, motion, tangent=True):
-        """(T_x, M_y) over a cycle of motion (samples, 2) that repeats, and their (samples, 2, samples, 2) derivative.
-
-        A first cycle, with half of the steps, makes the second one periodic.
-        """
-        count = len(motion)
-        self._rest()
-        for one in motion[:-1:2]:
+    def run_in(self, motion):
+        """A first cycle, with half of the steps, after which the contact repeats itself."""
+        self.rest()
+        for one in [*motion[:-1:2], motion[-1]]:
             self._try(one)
             self.contact.commit()
-        self._try(motion[-1])
-        self.contact.commit()
+
+    def forces(self, motion, tangent=True):
+        """(T_x, M_y) over a cycle of motion (samples, 2) that repeats, and the derivative (samples, 2, samples, 2)."""
+        count = len(motion)
+        self.run_in(motion)
         loads, stiffness = np.empty((count, 2)), np.empty((count, 2, 2))
         for k, one in enumerate(motion):
             step = self._try(one)
@@ -88,6 +77,17 @@ class Joint:
                 stiffness[k] = self._tangent()
             self.contact.commit()
         return loads, derivative(motion, stiffness) if tangent else None
+
+    def slip(self, motion):
+        """How far each cell slips to and fro along x in a cycle, m, and the dissipated energy of the cycle, J."""
+        self.run_in(motion)
+        slips, energy = [], 0.0
+        for one in motion:
+            self._try(one)
+            slips.append(np.where(self.contact["pressure"] > 0.0, self.contact["slip_x"], np.nan))
+            energy += self.contact.number("dissipated_energy")
+            self.contact.commit()
+        return np.max(slips, axis=0) - np.min(slips, axis=0), energy
 
     def _tangent(self):
         """d(T_x, M_y)/d(d_x, r_y) at constant N: d_z follows."""
@@ -152,7 +152,7 @@ def linear(omega, damping):
 
 def stuck(joint):
     """The stiffness of the stuck joint (2, 2), its lowest resonance (rad/s), and the damping coefficient (N s/m)."""
-    joint._rest()
+    joint.rest()
     joint._try((1e-12, 0.0))
     k = joint._tangent()
     omega = np.sqrt(np.min(np.linalg.eigvals(np.linalg.solve(M, K + k)).real))
@@ -223,13 +223,11 @@ def response(joint, omegas, force, by_differences=False):
     found = []
     stiff = np.einsum("ab,pq->apbq", np.eye(COUNT), k).reshape(2 * COUNT, 2 * COUNT)
     for n, omega in enumerate(omegas):
-        if n == 0:
+        if n == 0:  # as if it were stuck
             drive = np.zeros((COUNT, 2))
             drive[0] = force * DRIVE
             x = np.linalg.solve(linear(omega, damping) + stiff, drive.ravel())
-        elif n == 1:
-            x = found[0]
-        else:
+        elif n > 1:
             x = found[-1] + (found[-1] - found[-2]) * (omega - omegas[n - 1]) / (omegas[n - 1] - omegas[n - 2])
         x = balance.solve(x, omega, force, by_differences=by_differences)
         found.append(x)

@@ -12,8 +12,11 @@
 #include "stiffnessimpl.h"
 #include <math.h>
 
-/* Cells at their bound whose slip in the step is less than this part of what their bound moves them stick. */
-#define STILL 1e-6
+/*
+  Slip in a step that is less than this part of what the largest bound moves a cell by is the solver's error, and the
+  cell sticks.
+*/
+#define STILL 1e-5
 
 /* ---- creation ---- */
 
@@ -85,17 +88,16 @@ static PetscErrorCode FindCells(SamFrozen *f, const double p[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether each cell sticks or slips, and how stiff it is then. */
-static void SetCells(SamFrozen *f, SamStiffnessDirection direction, const double p[], const double bound[],
-                     const double q[], const double path[])
+/* Whether each cell sticks or slips, and how stiff it is then; a slip is more than `still` (m). */
+static void SetCells(SamFrozen *f, double still, const double p[], const double bound[], const double q[],
+                     const double path[])
 {
   const ptrdiff_t cells = f->grid->cells;
 
   for (PetscInt m = 0; m < f->count; m++) {
     const PetscInt  k = f->cell[m];
     const double    b = bound[k], size = hypot(q[k], q[k + cells]);
-    const PetscBool slips = direction == SAM_STIFFNESS_FORWARD && path[k] > STILL * f->self[1] * b && size > 0 &&
-                                SamStateOf(p[k], q[k], q[k + cells], b) == SAM_STATE_SLIP
+    const PetscBool slips = path[k] > still && size > 0 && SamStateOf(p[k], q[k], q[k + cells], b) == SAM_STATE_SLIP
                               ? PETSC_TRUE
                               : PETSC_FALSE;
 
@@ -110,8 +112,12 @@ static void SetCells(SamFrozen *f, SamStiffnessDirection direction, const double
 static PetscErrorCode PackCells(SamFrozen *f, SamStiffnessDirection direction, const Fields *from)
 {
   const double *p, *b, *q, *path;
+  double        still;
+  PetscReal     most;
 
   PetscFunctionBegin;
+  PetscCall(VecMax(from->bound, NULL, &most));
+  still = direction == SAM_STIFFNESS_FORWARD ? STILL * f->self[1] * (double)most : INFINITY;
   PetscCall(VecGetArrayRead(from->pressure, &p));
   PetscCall(VecGetArrayRead(from->bound, &b));
   PetscCall(VecGetArrayRead(from->shear, &q));
@@ -119,7 +125,7 @@ static PetscErrorCode PackCells(SamFrozen *f, SamStiffnessDirection direction, c
   PetscCall(FindCells(f, p));
   PetscCall(PetscMalloc5(f->count, &f->e[0], f->count, &f->e[1], f->count, &f->follow, f->count, &f->stiff, f->count,
                          &f->free));
-  SetCells(f, direction, p, b, q, path);
+  SetCells(f, still, p, b, q, path);
   PetscCall(VecRestoreArrayRead(from->path, &path));
   PetscCall(VecRestoreArrayRead(from->shear, &q));
   PetscCall(VecRestoreArrayRead(from->bound, &b));

@@ -53,6 +53,40 @@ static void test_dissipation_is_work_at_the_final_shear_less_that_of_the_elastic
   DestroyCase(&c);
 }
 
+/* Hertz: U = 2/5 N d_z. */
+static void test_stored_energy_is_that_of_hertz(void **state)
+{
+  Case             c       = NewCase(Steel(), 64, 1.3, 0, "");
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  const SamStep    step    = Try(&c, &control);
+
+  (void)state;
+  sam_assert_close(step.stored_energy / (0.4 * c.s.N * step.rigid[SAM_COMPONENT_N]), 1, 2e-3);
+  DestroyCase(&c);
+}
+
+/* The work of the tangential force over a loop goes into stored and dissipated energy, at any moment. */
+static void test_work_is_stored_or_dissipated(void **state)
+{
+  Case       c       = NewCase(Dissimilar(), 40, 1.4, MU, "");
+  SamControl control = Loads(&c, 1, 0, 0, 0);
+  SamStep    step    = Solve(&c, &control), before;
+  double     work = 0, stored = step.stored_energy, dissipated = 0;
+
+  (void)state;
+  for (PetscInt k = 1; k <= 36; k++) {
+    before                          = step;
+    control.value[SAM_COMPONENT_TX] = 0.9 * MU * c.s.N * sin(PETSC_PI / 12 * (double)k);
+    step                            = Solve(&c, &control);
+    for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
+      work += 0.5 * (step.load[i] + before.load[i]) * (step.rigid[i] - before.rigid[i]);
+    dissipated += step.dissipated_energy;
+    sam_assert_close(step.stored_energy - stored + dissipated, work, 0.02 * (dissipated + fabs(work)));
+  }
+  sam_assert(work > 0);
+  DestroyCase(&c);
+}
+
 /* A given displacement is kept; prescribing the load that it takes gives the same displacement again. */
 static void test_loads_and_displacements_are_two_ways_to_give_the_same_step(void **state)
 {
@@ -439,6 +473,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_step_with_all_tangential_loads_passes_its_check),
     cmocka_unit_test(test_second_step_with_the_same_load_dissipates_nothing),
     cmocka_unit_test(test_dissipation_is_work_at_the_final_shear_less_that_of_the_elastic_part),
+    cmocka_unit_test(test_stored_energy_is_that_of_hertz),
+    cmocka_unit_test(test_work_is_stored_or_dissipated),
     cmocka_unit_test(test_loads_and_displacements_are_two_ways_to_give_the_same_step),
     cmocka_unit_test(test_directions_x_and_y_are_alike),
     cmocka_unit_test(test_gross_slip_is_told_with_its_limit),

@@ -320,6 +320,65 @@ static void test_without_friction_only_the_pressure_resists(void **state)
   DestroyCase(&c);
 }
 
+/* A try that repeats the committed step slips nowhere. */
+static void test_held_contact_sticks(void **state)
+{
+  Case             c       = NewCase(Steel(), 40, 1.4, MU, "");
+  const SamControl control = Loads(&c, 1, 0.6, 0.1, 0.1);
+  SamStiffness     on, back;
+
+  (void)state;
+  (void)Solve(&c, &control);
+  (void)Try(&c, &control);
+  on   = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+  back = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+  sam_assert(!memcmp(on.k, back.k, sizeof(on.k)));
+  DestroyCase(&c);
+}
+
+/* Surfaces that repeat do not rotate; the others are derivatives of trials. */
+static void test_periodic_bodies_have_no_rotations(void **state)
+{
+  Sphere       s = NewSphereOf(Steel(), 40, 2);
+  SamControl   control, moved;
+  SamStep      one, other;
+  SamStiffness k;
+  Case         c;
+
+  (void)state;
+  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
+  c       = NewCaseOn(s, MU, NULL, "-normal_rtol 1e-11 -tangential_rtol 1e-10");
+  control = Loads(&c, 1, 0.5, 0, 0);
+  one     = Try(&c, &control);
+  for (PetscInt i = 0; i < SAM_COMPONENT_MX; i++) Displace(&control, (SamComponent)i, one.rigid[i]);
+  moved = control;
+  moved.value[TX] += 1e-5 * one.rigid[TX];
+  other = Try(&c, &moved);
+  one   = Try(&c, &control);
+  k     = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+  sam_assert(k.converged && isnan(k.k[MX][MX]) && isnan(k.k[TX][MZ]) && isnan(k.k[MY][Z]));
+  sam_assert_close((other.load[TX] - one.load[TX]) / (moved.value[TX] - control.value[TX]) / k.k[TX][TX], 1, 1e-3);
+  DestroyCase(&c);
+}
+
+/* In full contact of periodic bodies the approach does not decide the pressure: that stiffness is infinite. */
+static void test_full_periodic_contact_has_no_stiffness(void **state)
+{
+  Sphere       s = NewSphereOf(Steel(), 32, 0.1);
+  SamControl   control;
+  SamStiffness k;
+  Case         c;
+
+  (void)state;
+  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
+  c       = NewCaseOn(s, MU, NULL, "");
+  control = Loads(&c, 1, 0, 0, 0);
+  (void)Try(&c, &control);
+  k = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+  sam_assert(!k.converged && isnan(k.k[Z][Z]) && isnan(k.k[TX][TX]));
+  DestroyCase(&c);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -335,6 +394,9 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_same_bits_on_any_number_of_ranks),
     cmocka_unit_test(test_surfaces_apart_have_no_stiffness),
     cmocka_unit_test(test_without_friction_only_the_pressure_resists),
+    cmocka_unit_test(test_held_contact_sticks),
+    cmocka_unit_test(test_periodic_bodies_have_no_rotations),
+    cmocka_unit_test(test_full_periodic_contact_has_no_stiffness),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -1,0 +1,151 @@
+"""Draw the response of the vibrating joint, and check it.
+
+Reads fresh.npz, worn.npz and life.h5, which examples/vibrating-joint/run.sh writes to a directory, prints tables, draws
+response.png and worn.png, and fails when a check does not hold:
+  linear   at the smallest drive the peak lies where the stuck joint has its resonance, but for what slips a little
+  power    at each peak the drive's power is what friction and the damper take
+  curves   the Jacobian by differences leads to the same curve as that by the tangent stiffness
+"""
+
+import os
+import sys
+
+import joint
+import numpy as np
+from matplotlib import colors
+from vibrate import CYCLES, FORCES, WEARING
+
+import petsam
+from petsam import comparison
+from petsam.errors import Missing
+from petsam.plot.style import frame, plt, save, tint
+
+LINEAR, POWER, SAME = 0.02, 0.02, 1e-3
+
+
+def read(path):
+    """The curves in a file of vibrate.py."""
+    if not os.path.exists(path):
+        raise Missing(f"{path}: no such file")
+    with np.load(path) as file:
+        count = 1 + max(int(name.rpartition("_")[2]) for name in file)
+        names = {name.rpartition("_")[0] for name in file}
+        return [{name: file[f"{name}_{k}"] for name in names} for k in range(count)]
+
+
+def powers(one):
+    """Work of the drive in a cycle at the peak, and what friction and the damper dissipate, J."""
+    peak = int(np.argmax(one["amplitude"]))
+    x, omega = one["coefficients"][peak].reshape(joint.COUNT, 2) @ joint.DRIVE, 2.0 * np.pi * one["frequency"][peak]
+    damping = 2.0 * joint.DAMPING * joint.MASS * one["stuck"]
+    harmonics = np.repeat(joint.HARMONICS, 2)
+    return np.pi * one["force"] * x[1], one["energy"] + np.pi * damping * omega * np.sum(harmonics * x**2)
+
+
+class Comparison:
+    """All curves; the last two of fresh.npz are a part of one, by differences and by the tangent stiffness."""
+
+    def __init__(self, directory):
+        *self.fresh, self.differences, self.tangent = read(os.path.join(directory, "fresh.npz"))
+        self.worn = [self.fresh[FORCES.index(WEARING)], *read(os.path.join(directory, "worn.npz"))]
+        self.life = petsam.open(os.path.join(directory, "life.h5"))
+        wear = self.life.wear
+        self.numbers = {
+            "drives": [self._row(one) for one in self.fresh],
+            "worn": [
+                dict(
+                    self._row(one),
+                    cycles=cycles,
+                    volume=1e9 * float(np.interp(cycles, wear["cycle"], wear["volume1"])),
+                    depth=1e6 * float(np.interp(cycles, wear["cycle"], wear["depth_max1"])),
+                )
+                for cycles, one in zip(CYCLES, self.worn)
+            ],
+            "steps": {name: int(one["trials"]) for name, one in self._jacobians()},
+            "same": float(np.max(np.abs(self.differences["amplitude"] / self.tangent["amplitude"] - 1.0))),
+        }
+
+    def _jacobians(self):
+        return ("differences", self.differences), ("tangent", self.tangent)
+
+    @staticmethod
+    def _row(one):
+        peak = int(np.argmax(one["amplitude"]))
+        drive, taken = powers(one)
+        return {
+            "force": float(one["force"]),
+            "frequency": float(one["frequency"][peak]),
+            "shift": float(2.0 * np.pi * one["frequency"][peak] / one["stuck"] - 1.0),
+            "compliance": 1e9 * float(one["amplitude"][peak] / one["force"]),
+            "reach": float(np.max(np.abs(one["loads"][:, 0])) / joint.LIMIT),
+            "energy": float(one["energy"]),
+            "power": float(taken / drive - 1.0),
+        }
+
+    def tables(self):
+        """What is printed; fails when a check does not hold."""
+        n = self.numbers
+        columns = "drive, N = force:.0f; peak, Hz = frequency:.1f; shift = shift:+.3f; nm/N = compliance:.2f"
+        columns += "; T/mu N = reach:.3f; friction, J = energy:.4f"
+        yield "peaks of the response curves", columns, n["drives"]
+        yield (
+            f"the same drive, {WEARING:g} N, after cycles at its peak; volume and depth of each face",
+            "cycles = cycles; V, mm3 = volume:.4f; depth, um = depth:.3f; " + columns.partition("; ")[2],
+            n["worn"],
+        )
+        steps = n["steps"]
+        fewer = steps["differences"] / steps["tangent"]
+        yield (
+            f"\ncontact steps: {steps['differences']} by differences, {steps['tangent']} with the Jacobian by "
+            f"the tangent stiffness, {fewer:.1f} times fewer; the curves differ by {n['same']:.1e}"
+        )
+        first, power = n["drives"][0]["shift"], max(abs(row["power"]) for row in n["drives"] + n["worn"])
+        yield f"check: shift at the smallest drive {first:+.3f} (allowed {LINEAR:g}), power {power:.1e} ({POWER:g})"
+        if not (abs(first) < LINEAR and power < POWER and n["same"] < SAME):
+            raise petsam.Error("the vibration is wrong")
+
+    def draw(self, directory):
+        """Response, loops and slip of the fresh joint; response and scar of the worn one."""
+        self._draw_fresh(directory)
+        self._draw_worn(directory)
+
+    def _draw_fresh(self, directory):
+        figure, (left, middle, right) = plt.subplots(1, 3, figsize=(13.0, 4.0), constrained_layout=True)
+        for k, one in enumerate(self.fresh):
+            color = tint(k, len(self.fresh))
+            label = f"{float(one['force']) / 1e3:g} kN"
+            left.plot(one["frequency"], 1e9 * one["amplitude"] / one["force"], ".-", color=color, label=label)
+            x, t = 1e6 * (one["motion"][:, 0] - one["loads"][:, 0] / one["stiffness"]), one["loads"][:, 0] / joint.LIMIT
+            middle.plot(np.append(x, x[0]), np.append(t, t[0]), color=color)
+        frame(left, "amplitude over drive", "drive, Hz", "nm/N")
+        left.legend(title="drive")
+        frame(middle, "loops at the peaks, less the stuck joint's part", "d_x - T_x/k, um", "T_x/(mu N)")
+        self._draw_slip(figure, right, self.fresh[-1], f"{FORCES[-1] / 1e3:g} kN")
+        save(figure, directory, "response.png")
+
+    def _draw_slip(self, figure, axis, one, label):
+        r = self.life
+        slip = 1e6 * one["slip"]
+        image = axis.pcolormesh(1e3 * r.x, 1e3 * r.y, slip, norm=colors.Normalize(0.0), rasterized=True)
+        axis.contour(1e3 * r.x, 1e3 * r.y, np.nan_to_num(slip), levels=[0.1], colors="w", linewidths=0.8)
+        axis.set_aspect("equal")
+        frame(axis, f"slip to and fro at the peak, {label}, um", "x, mm", "y, mm")
+        figure.colorbar(image, ax=axis)
+
+    def _draw_worn(self, directory):
+        figure, (left, right) = plt.subplots(1, 2, figsize=(9.0, 4.0), constrained_layout=True)
+        for k, (cycles, one) in enumerate(zip(CYCLES, self.worn)):
+            color, label = tint(k, len(CYCLES)), f"{cycles:g} cycles"
+            left.plot(one["frequency"], 1e9 * one["amplitude"] / one["force"], ".-", color=color, label=label)
+            if cycles:
+                middle = np.argmin(np.abs(self.life.y))
+                depth = self.life.field("wear_depth1", self.life.of_cycle(cycles))[middle]
+                right.plot(1e3 * self.life.x, 1e6 * depth, color=color, label=label)
+        frame(left, f"amplitude over drive, {WEARING / 1e3:g} kN", "drive, Hz", "nm/N")
+        left.legend()
+        frame(right, "depth removed of each face on y = 0", "x, mm", "um")
+        save(figure, directory, "worn.png")
+
+
+if __name__ == "__main__":
+    sys.exit(comparison.main(Comparison, __doc__, "vibrating-joint"))
