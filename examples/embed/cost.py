@@ -13,12 +13,12 @@ SPHERE = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", friction=0.
 REPEATS = 40
 
 
-def seconds(function):
-    """The median CPU time of a call, ms."""
+def seconds(calls):
+    """The median CPU time of some calls, ms."""
     times = []
-    for k in range(REPEATS):
+    for call in calls:
         begin = time.process_time()
-        function(k)
+        call()
         times.append(1e3 * (time.process_time() - begin))
     return statistics.median(times)
 
@@ -30,9 +30,10 @@ def main():
             for k in range(1, 7):
                 at = contact.try_step(load_n=1000, load_tx=10.0 * k).disp_x
                 contact.commit()
-            tries = seconds(lambda k: contact.try_step(load_n=1000, disp_x=at * (1.0 + 1e-3 * (k % 20 + 1))))
-            stiffness = seconds(lambda k: contact.stiffness())
-            rejects = seconds(lambda k: contact.reject())
+            moves = [at * (1.0 + 1e-3 * (k % 20 + 1)) for k in range(REPEATS)]
+            tries = seconds([lambda x=x: contact.try_step(load_n=1000, disp_x=x) for x in moves])
+            stiffness = seconds([contact.stiffness] * REPEATS)
+            rejects = seconds([contact.reject] * REPEATS)
             print(f"{n:4d}^2 {tries:12.1f} {stiffness:14.1f} {rejects:11.3f}")
 
 
