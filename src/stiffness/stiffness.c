@@ -157,20 +157,19 @@ static void Transform(const Systems *s, PetscBool rotations, SamStiffness *stiff
     }
 }
 
+/* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
 {
   Systems             s = {.error = 0};
   SamElasticityTraits traits;
   SamElasticity       elasticity;
   SamProblem          problem;
-  PetscInt            first[2], n[2];
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  PetscCall(SamElasticityGetPartPlace(elasticity, first, n));
   PetscCall(SamFrozenCreate(contact, direction, &s.f));
   if (s.f.coupled)
     PetscCall(ComputeCoupled(&s, direction));
@@ -183,7 +182,6 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   stiffness->preconditions = s.f.preconditions;
   Transform(&s, traits.rotations, stiffness);
   PetscCall(SamFrozenDestroy(&s.f));
-  PetscCall(SamElasticitySetPart(elasticity, first, n));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

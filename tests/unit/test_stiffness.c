@@ -191,6 +191,62 @@ static void test_reversal_is_the_derivative_of_a_step_back(void **state)
   DestroyCase(&c);
 }
 
+/* ---- by elimination ---- */
+
+/* x from the symmetric A x = b of order n, by Gauss; A and b are overwritten. */
+static void Eliminate(int n, double A[], double b[])
+{
+  for (int k = 0; k < n; k++)
+    for (int i = k + 1; i < n; i++) {
+      const double part = A[i * n + k] / A[k * n + k];
+
+      for (int j = k; j < n; j++) A[i * n + j] -= part * A[k * n + j];
+      b[i] -= part * b[k];
+    }
+  for (int k = n - 1; k >= 0; k--) {
+    for (int j = k + 1; j < n; j++) b[k] -= A[k * n + j] * b[j];
+    b[k] /= A[k * n + k];
+  }
+}
+
+/* The systems are solved to 1e-4, and symmetric entries are right to the square of that. */
+static void test_normal_stiffness_is_that_of_the_whole_matrix(void **state)
+{
+  Case             c       = NewCase(Steel(), 20, 1.4, MU, "");
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  const SamGrid    grid    = c.s.grid;
+  double          *p, *A, *b, sum = 0;
+  int              n = 0, cell[400];
+
+  (void)state;
+  (void)Try(&c, &control);
+  p = Whole(grid, 1, SolutionOf(&c)->pressure);
+  for (int k = 0; k < 400; k++)
+    if (p[k] > 0) cell[n++] = k;
+  A = (double *)malloc(sizeof(*A) * (size_t)(n * n));
+  b = (double *)malloc(sizeof(*b) * (size_t)n);
+  for (int i = 0; i < n; i++) {
+    Vec     unit = NewField(grid, 1);
+    double *u;
+
+    AddAt(grid, 0, cell[i] % 20, cell[i] / 20, 1, unit);
+    sam_call(SamElasticityApplyNormal(c.s.elasticity, unit, unit));
+    u = Whole(grid, 1, unit);
+    for (int j = 0; j < n; j++) A[i * n + j] = u[cell[j]];
+    b[i] = 1;
+    free(u);
+    sam_call(VecDestroy(&unit));
+  }
+  Eliminate(n, A, b);
+  for (int i = 0; i < n; i++) sum += b[i] * grid->dx * grid->dy;
+  sam_assert(n > 100);
+  sam_assert_close(Stiffness(&c, SAM_STIFFNESS_FORWARD).k[Z][Z] / sum, 1, 1e-8);
+  free(A);
+  free(b);
+  free(p);
+  DestroyCase(&c);
+}
+
 /* ---- symmetry ---- */
 
 static double Asymmetry(const Case *c, const SamStiffness *k)
@@ -388,6 +444,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_all_entries_are_derivatives_of_trials),
     cmocka_unit_test(test_all_entries_of_dissimilar_bodies_are_derivatives_of_trials),
     cmocka_unit_test(test_reversal_is_the_derivative_of_a_step_back),
+    cmocka_unit_test(test_normal_stiffness_is_that_of_the_whole_matrix),
     cmocka_unit_test(test_reversal_is_symmetric_and_sliding_on_is_not),
     cmocka_unit_test(test_stiffness_of_a_contact_beside_the_origin),
     cmocka_unit_test(test_contact_goes_on_as_if_it_had_not_been_asked),
