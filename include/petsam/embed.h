@@ -70,7 +70,7 @@ int petsam_reject(petsam_contact *c);
   petsam_stiffness - d(loads)/d(displacements) of the tried step, k[6 i + j] of load i and displacement j. `reversal` 0:
   cells that slip go on slipping; the derivative of petsam_try() at fixed committed state, not symmetric. 1: at the
   instant at which the motion reverses: all cells in contact stick; symmetric. NaN for components that do not exist.
-  10: the linear systems did not converge.
+  10: the step or the linear systems did not converge.
 */
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
 /*
@@ -84,7 +84,8 @@ int petsam_get_field(petsam_contact *c, const char *name, double *values);
 int petsam_get_number(petsam_contact *c, const char *name, double *value);
 /*
   petsam_save - writes the committed state to a file, safely: an older file of the name becomes name.1.
-  petsam_load - gives a contact of the same options the state in a file, to the last bit, on any number of ranks.
+  petsam_load - gives a contact of the same options, and with the same gap and friction if these have been given, the
+  state in a file, to the last bit, on any number of ranks.
   Forgets a tried step. Of the step's numbers only loads, displacements and time are known then.
 */
 int petsam_save(petsam_contact *c, const char *file);

@@ -33,8 +33,11 @@ class ContactError(Error):
     """What a contact refuses, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
 
     def __init__(self, code, message):
-        super().__init__(message)
-        self.code = code
+        super().__init__(code, message)  # so that it can be pickled
+        self.code, self.message = code, message
+
+    def __str__(self):
+        return self.message
 
 
 class NotConverged(ContactError):
@@ -58,12 +61,8 @@ class Step:
 
     def __init__(self, time, load, rigid, status, message):
         self.time, self.load, self.rigid, self.status, self.message = time, load, rigid, status, message
-
-    def __getattr__(self, name):
-        for names, values in ((LOADS, self.load), (RIGIDS, self.rigid)):
-            if name in names:
-                return float(values[names.index(name)])
-        raise AttributeError(name)
+        for name, value in zip(LOADS + RIGIDS, [*load, *rigid]):
+            setattr(self, name, float(value))
 
     def __repr__(self):
         pairs = [f"{name}={value:.6g}" for name, value in zip(LOADS + RIGIDS, [*self.load, *self.rigid])]
@@ -99,21 +98,28 @@ def _share_mpi():
         ctypes.CDLL(name, mode=ctypes.RTLD_GLOBAL)
 
 
+def _find():
+    reason = ""
+    for name in _candidates():
+        try:
+            found = ctypes.CDLL(name)
+            found.petsam_message.restype = ctypes.c_char_p
+            found.petsam_destroy.restype = None
+            return found
+        except OSError as error:
+            reason = reason or str(error)
+        except AttributeError:
+            reason = reason or f"{name} is another library, or an older one"
+    raise Missing(f"no libpetsam: {reason}; run make or make install, or set PETSAM_LIBRARY")
+
+
 def _load():
     global _library
-    if _library is None:
-        reason = ""
-        for name in _candidates():
-            try:
-                _library = ctypes.CDLL(name)
-                break
-            except OSError as error:
-                reason = reason or str(error)
+    with _lock:
         if _library is None:
-            raise Missing(f"no libpetsam: {reason}; run make or make install, or set PETSAM_LIBRARY")
-        _share_mpi()
-        _library.petsam_message.restype = ctypes.c_char_p
-        _library.petsam_destroy.restype = None
+            found = _find()
+            _share_mpi()
+            _library = found
     return _library
 
 
@@ -121,19 +127,21 @@ def _words(options):
     """Options as on the command line."""
     words = []
     for name, value in options.items():
-        if isinstance(value, bool):
+        if isinstance(value, (bool, np.bool_)):
             value = "true" if value else "false"
         elif isinstance(value, (list, tuple, np.ndarray)):
-            value = ",".join(_number(one) for one in value)
+            value = ",".join(_number(one) for one in np.atleast_1d(value))
         elif not isinstance(value, (str, os.PathLike)):
             value = _number(value)
         value = os.fspath(value)
+        if '"' in value:
+            raise ValueError(f"{name}={value!r}: a value cannot hold a quotation mark")
         words += [f"-{name}", f'"{value}"' if any(c.isspace() for c in value) else value]
     return " ".join(words)
 
 
 def _number(value):
-    return str(value) if isinstance(value, (int, np.integer)) else repr(float(value))
+    return str(value) if isinstance(value, (str, int, np.integer)) else repr(float(value))
 
 
 # ---------------------------------------------------------------- contacts
@@ -248,8 +256,10 @@ class Contact:
         shape = (self.rows, self.n[0])
         if out is None:
             out = np.empty(shape)
-        elif out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous:
-            raise ValueError(f"out is not a contiguous array of doubles of shape {shape}")
+        elif out.shape != shape or out.dtype != np.float64 or not out.flags.carray:
+            raise ValueError(f"out is not a contiguous array of doubles of shape {shape} that can be written to")
+        if not isinstance(name, str):
+            raise TypeError(f"{name!r} is no name of a field")
         self._call("get_field", name.encode(), _pointer(out))
         return out
 
@@ -268,14 +278,11 @@ class Contact:
 
     __setitem__ = set_field
 
-    @property
-    def gap(self):
-        """The gap of the deformed bodies, m. Setting it gives the separation of the undeformed ones."""
-        return self.field("gap")
-
-    @gap.setter
-    def gap(self, values):
+    def _set_gap(self, values):
         self.set_field("gap", values)
+
+    # what has been given cannot be asked for: field("gap") is the gap of the deformed bodies
+    gap = property(None, _set_gap, doc="The separation of the undeformed, unworn bodies, m; to be set.")
 
     def _set_friction(self, values):
         self.set_field("friction", values)
@@ -297,6 +304,14 @@ class Contact:
         if self._contact:
             with _lock:
                 self._c.petsam_destroy(ctypes.byref(self._contact))
+
+    def __copy__(self):
+        raise TypeError("a contact cannot be copied or pickled; save() and load() pass its state on")
+
+    __reduce__ = __copy__
+
+    def __deepcopy__(self, memory):
+        return self.__copy__()
 
     def __enter__(self):
         return self

@@ -91,7 +91,7 @@ static void ExamineOption(SamArguments *a, const char where[], const char option
     ExamineFile(a, "-options_file ", value, depth + 1);
 }
 
-/* Words separated by white space, of which the text is changed; quotes keep words together. */
+/* Words separated by white space, of which the text is changed; double quotes keep words together, as PETSc has it. */
 static int Split(char text[], char *words[], int most)
 {
   int count = 0;
@@ -101,7 +101,10 @@ static int Split(char text[], char *words[], int most)
 
     text += strspn(text, stop);
     if (!*text) break;
-    if (*text == '"' || *text == '\'') stop = *text++ == '"' ? "\"" : "'";
+    if (*text == '"') {
+      stop = "\"";
+      text++;
+    }
     words[count++] = text;
     text += strcspn(text, stop);
     if (*text) *text++ = '\0';
@@ -204,6 +207,36 @@ static void ExamineUsualFiles(SamArguments *a, int argc, char **argv)
   }
 }
 
+void SamArgumentsSeparate(char text[])
+{
+  PetscBool quoted = PETSC_FALSE;
+
+  for (; *text; text++) {
+    if (*text == '"') quoted = quoted ? PETSC_FALSE : PETSC_TRUE;
+    if (!quoted && strchr("\t\r\n\v\f", *text)) *text = ' ';
+  }
+}
+
+/* Makes PETSC_OPTIONS such a text. */
+static void SeparateEnvironment(void)
+{
+  char *text = getenv("PETSC_OPTIONS") ? strdup(getenv("PETSC_OPTIONS")) : NULL;
+
+  if (!text) return;
+  SamArgumentsSeparate(text);
+  (void)setenv("PETSC_OPTIONS", text, 1);
+  free(text);
+}
+
+/* Whether a text ends within quotes. */
+static PetscBool IsOpen(const char text[])
+{
+  int quotes = 0;
+
+  for (; *text; text++) quotes += *text == '"';
+  return quotes % 2 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* The words of a text, NULL: none. */
 static void ExamineText(SamArguments *a, const char where[], const char text[])
 {
@@ -211,6 +244,7 @@ static void ExamineText(SamArguments *a, const char where[], const char text[])
   char        *copy  = text ? strdup(text) : NULL;
   char       **words = most ? (char **)malloc(most * sizeof(*words)) : NULL;
 
+  if (copy && IsOpen(copy)) Complain(a, SAM_ERR_USER, "%sa quotation mark is not closed", where);
   if (copy && words) ExamineWords(a, where, Split(copy, words, (int)most), words);
   free(words);
   free(copy);
@@ -259,6 +293,7 @@ void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
 
   memset(a, 0, sizeof(*a));
   TakeHelpAndVersion(argc, *argv, a);
+  SeparateEnvironment();
   (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
     ExamineWords(a, "", *argc - 1, *argv + 1);
@@ -279,7 +314,7 @@ void SamArgumentsFree(SamArguments *a)
   a->count = 0;
 }
 
-PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm)
+PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
 {
   /* options that PETSc itself reads only in PetscFinalize() */
   static const char *const late[] = {"-malloc_dump",
@@ -300,7 +335,7 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm)
   char                     first[128] = "";
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; late[k]; k++) {
+  for (PetscInt k = 0; program && late[k]; k++) {
     PetscBool ignored;
 
     PetscCall(PetscOptionsHasName(NULL, NULL, late[k], &ignored));

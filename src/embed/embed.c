@@ -29,11 +29,23 @@ static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function,
   return code;
 }
 
-static void Enter(petsam_contact *c)
+/* Whether MPI and PETSc are still there. */
+static PetscBool IsAlive(void)
 {
+  PetscBool has;
+  int       ended;
+
+  return !MPI_Finalized(&ended) && !ended && !PetscInitialized(&has) && has ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscBool SamEmbedEnter(petsam_contact *c)
+{
+  (void)snprintf(c->message, sizeof(c->message), "MPI or PETSc has been ended");
+  if (!IsAlive()) return PETSC_FALSE;
   c->message[0] = '\0';
   (void)PetscPushErrorHandler(KeepMessage, c->message);
   (void)PetscOptionsPush(c->options);
+  return PETSC_TRUE;
 }
 
 /* The code of a program for an error; wrong arguments are mistakes of usage here. */
@@ -53,7 +65,7 @@ static int CodeOf(PetscErrorCode code)
   }
 }
 
-static int Leave(petsam_contact *c, PetscErrorCode code)
+int SamEmbedLeave(petsam_contact *c, PetscErrorCode code)
 {
   (void)PetscOptionsPop();
   (void)PetscPopErrorHandler();
@@ -61,9 +73,7 @@ static int Leave(petsam_contact *c, PetscErrorCode code)
   return CodeOf(code);
 }
 
-/* A mistake that needs no PETSc to be found; the same on all ranks. */
-static int Refuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-static int Refuse(petsam_contact *c, const char format[], ...)
+int SamEmbedRefuse(petsam_contact *c, const char format[], ...)
 {
   va_list values;
 
@@ -83,7 +93,15 @@ const char *petsam_message(const petsam_contact *c)
 /* Loads are given to petsam_try(); a name that the program knows deserves to be told so. */
 static PetscErrorCode RefuseLoads(const petsam_contact *c)
 {
+  static const char *const asks[] = {"-help", "-h", "-version"};
+
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3; k++) {
+    PetscBool set;
+
+    PetscCall(PetscOptionsHasName(NULL, NULL, asks[k], &set));
+    PetscCheck(!set, c->comm, SAM_ERR_USER, "%s is for the program petsam", asks[k]);
+  }
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) {
     const char *name = k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load;
     char        option[32];
@@ -121,11 +139,12 @@ static PetscErrorCode InsertOptions(petsam_contact *c, const char options[])
   PetscCall(PetscMalloc1(length, &copy));
   if (rank == 0) PetscCall(PetscArraycpy(copy, options, length));
   PetscCallMPI(MPI_Bcast(copy, length, MPI_CHAR, 0, c->comm));
+  SamArgumentsSeparate(copy);
   SamArgumentsExamineText(c->comm, copy, &arguments);
   SamArgumentsFree(&arguments);
-  PetscCheck(!arguments.code, c->comm, arguments.code, "%s", arguments.message);
-  PetscCall(PetscOptionsInsertString(c->options, copy));
+  if (!arguments.code) PetscCall(PetscOptionsInsertString(c->options, copy));
   PetscCall(PetscFree(copy));
+  PetscCheck(!arguments.code, c->comm, arguments.code, "%s", arguments.message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -141,7 +160,7 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscCall(SamWearLawsSetFromOptions(&c->laws, &from));
   PetscCall(ReadBulkStress(c, &from));
   PetscCall(SamSetupCreateContact(&c->setup, &from));
-  PetscCall(SamArgumentsRefuseUnknown(c->comm));
+  PetscCall(SamArgumentsRefuseUnknown(c->comm, PETSC_FALSE));
   PetscCall(SamGridCreateVec(c->setup.grid, 1, &c->work));
   if (c->laws.on) PetscCall(SamWearCreate(c->setup.contact, c->laws.law, c->laws.coefficient, &c->wear));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -158,12 +177,9 @@ static PetscErrorCode Destroy(petsam_contact *c)
 
 void petsam_destroy(petsam_contact **c)
 {
-  PetscBool has;
-
   if (!c || !*c) return;
-  if (!PetscInitialized(&has) && has) {
-    Enter(*c);
-    (void)Leave(*c, Destroy(*c));
+  if (SamEmbedEnter(*c)) {
+    (void)SamEmbedLeave(*c, Destroy(*c));
     (void)PetscOptionsDestroy(&(*c)->options);
   }
   free(*c);
@@ -190,8 +206,10 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
     return PETSC_ERR_MEM;
   }
   c->comm = comm == -1 ? MPI_COMM_SELF : MPI_Comm_f2c((MPI_Fint)comm);
-  Enter(c);
-  code = Leave(c, Create(c, options));
+  if (c->comm == MPI_COMM_NULL)
+    code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or one that this rank does not belong to");
+  else
+    code = SamEmbedEnter(c) ? SamEmbedLeave(c, Create(c, options)) : SAM_EMBED_USAGE;
   (void)snprintf(created, sizeof(created), "%s", c->message);
   if (code)
     petsam_destroy(&c);
@@ -218,8 +236,7 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
   return 0;
 }
 
-/* Forgets the tried step. */
-static PetscErrorCode Forget(petsam_contact *c)
+PetscErrorCode SamEmbedForget(petsam_contact *c)
 {
   PetscFunctionBegin;
   PetscCall(SamContactReject(c->setup.contact));
@@ -235,6 +252,8 @@ static PetscErrorCode SetGap(petsam_contact *c, Vec gap)
   Vec load;
 
   PetscFunctionBegin;
+  c->has_gap = PETSC_TRUE;
+  PetscCall(SamCheckpointChecksum(c->setup.grid, gap, &c->gap));
   if (!c->wear) {
     PetscCall(SamProblemSetGap(c->setup.problem, gap));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -262,7 +281,7 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
   PetscCall(VecRestoreArrayWrite(c->work, &cells));
   PetscCall(SamGridIsFinite(c->setup.grid, c->work, &finite));
   PetscCheck(finite, c->comm, SAM_ERR_USER, "%s: not all values are finite numbers", name);
-  PetscCall(Forget(c));
+  PetscCall(SamEmbedForget(c));
   if (gap)
     PetscCall(SetGap(c, c->work));
   else
@@ -273,9 +292,9 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
 int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 {
   if (!c) return SAM_EMBED_USAGE;
-  if (!name || (!values && c->setup.grid->cells)) return Refuse(c, "petsam_set_field: a pointer is NULL");
-  Enter(c);
-  return Leave(c, SetField(c, name, values));
+  if (!name || (!values && c->setup.grid->cells)) return SamEmbedRefuse(c, "petsam_set_field: a pointer is NULL");
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  return SamEmbedLeave(c, SetField(c, name, values));
 }
 
 /* ---- steps ---- */
@@ -285,7 +304,7 @@ static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
   PetscReal depth[2];
 
   PetscFunctionBegin;
-  PetscCall(Forget(c));
+  PetscCall(SamEmbedForget(c));
   PetscCall(SamContactTry(c->setup.contact, control, &c->last));
   c->has_last  = PETSC_TRUE;
   c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
@@ -300,15 +319,16 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
   int        code;
 
   if (!c) return SAM_EMBED_USAGE;
-  if (!force || !value) return Refuse(c, "petsam_try: a pointer is NULL");
+  if (!force || !value) return SamEmbedRefuse(c, "petsam_try: a pointer is NULL");
+  if (!isfinite(time)) return SamEmbedRefuse(c, "petsam_try: time is not a finite number");
   control      = c->control;
   control.time = time;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
     control.force[k] = force[k] ? PETSC_TRUE : PETSC_FALSE;
     control.value[k] = value[k];
   }
-  Enter(c);
-  code = Leave(c, Try(c, &control));
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  code = SamEmbedLeave(c, Try(c, &control));
   if (code) return code;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
     if (load) load[k] = (double)c->last.load[k];
@@ -323,6 +343,8 @@ static PetscErrorCode Commit(petsam_contact *c)
   PetscReal depth[2];
 
   PetscFunctionBegin;
+  PetscCheck(!c->has_last || c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
+             "the last try has no solution, and cannot be committed: %s", c->last.message);
   PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
   PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and cannot be committed: %s", c->last.message);
@@ -342,15 +364,15 @@ static PetscErrorCode Commit(petsam_contact *c)
 int petsam_commit(petsam_contact *c)
 {
   if (!c) return SAM_EMBED_USAGE;
-  Enter(c);
-  return Leave(c, Commit(c));
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  return SamEmbedLeave(c, Commit(c));
 }
 
 int petsam_reject(petsam_contact *c)
 {
   if (!c) return SAM_EMBED_USAGE;
-  Enter(c);
-  return Leave(c, Forget(c));
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  return SamEmbedLeave(c, SamEmbedForget(c));
 }
 
 static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[])
@@ -359,6 +381,8 @@ static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[
 
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to compute a stiffness of");
+  PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
+             "the tried step did not converge, and has no stiffness: %s", c->last.message);
   PetscCall(SamStiffnessCompute(c->setup.contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, &s));
   for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
     for (PetscInt j = 0; j < SAM_COMPONENTS; j++) k[SAM_COMPONENTS * i + j] = (double)s.k[i][j];
@@ -370,9 +394,9 @@ static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36])
 {
   if (!c) return SAM_EMBED_USAGE;
-  if (!k) return Refuse(c, "petsam_stiffness: a pointer is NULL");
-  Enter(c);
-  return Leave(c, Stiffness(c, reversal ? PETSC_TRUE : PETSC_FALSE, k));
+  if (!k) return SamEmbedRefuse(c, "petsam_stiffness: a pointer is NULL");
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  return SamEmbedLeave(c, Stiffness(c, reversal ? PETSC_TRUE : PETSC_FALSE, k));
 }
 
 /* ---- what is found ---- */
@@ -395,9 +419,9 @@ static PetscErrorCode GetField(petsam_contact *c, const char name[], double valu
 int petsam_get_field(petsam_contact *c, const char *name, double *values)
 {
   if (!c) return SAM_EMBED_USAGE;
-  if (!name || (!values && c->setup.grid->cells)) return Refuse(c, "petsam_get_field: a pointer is NULL");
-  Enter(c);
-  return Leave(c, GetField(c, name, values));
+  if (!name || (!values && c->setup.grid->cells)) return SamEmbedRefuse(c, "petsam_get_field: a pointer is NULL");
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  return SamEmbedLeave(c, GetField(c, name, values));
 }
 
 int petsam_get_number(petsam_contact *c, const char *name, double *value)
@@ -405,84 +429,10 @@ int petsam_get_number(petsam_contact *c, const char *name, double *value)
   PetscReal number;
 
   if (!c) return SAM_EMBED_USAGE;
-  if (!name || !value) return Refuse(c, "petsam_get_number: a pointer is NULL");
-  if (!c->has_last) return Refuse(c, "%s: no step has been tried yet", name);
-  if (!SamStepGetNumber(&c->last, name, &number)) return Refuse(c, "%s: there is no number of this name", name);
+  if (!name || !value) return SamEmbedRefuse(c, "petsam_get_number: a pointer is NULL");
+  if (!c->has_last) return SamEmbedRefuse(c, "%s: no step has been tried yet", name);
+  if (!SamStepGetNumber(&c->last, name, &number)) return SamEmbedRefuse(c, "%s: there is no number of this name", name);
   c->message[0] = '\0';
   *value        = (double)number;
   return 0;
-}
-
-/* ---- files ---- */
-
-static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parameters)
-{
-  PetscFunctionBegin;
-  parameters->count = 0;
-  PetscCall(SamSetupAddParameters(&c->setup, parameters));
-  PetscCall(SamWearLawsAddParameters(&c->laws, "steps", parameters));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Save(petsam_contact *c, const char file[])
-{
-  SamCheckpoint  checkpoint;
-  SamParameters  parameters;
-  PetscErrorCode code;
-
-  PetscFunctionBegin;
-  PetscCheck(c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been committed yet", file);
-  PetscCall(CollectParameters(c, &parameters));
-  PetscCall(SamCheckpointCreate(c->setup.grid, file, &checkpoint));
-  code = SamCheckpointWrite(checkpoint, c->setup.contact, c->wear, &parameters, 0, NULL);
-  PetscCall(SamCheckpointDestroy(&checkpoint));
-  PetscCall(code);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-int petsam_save(petsam_contact *c, const char *file)
-{
-  if (!c) return SAM_EMBED_USAGE;
-  if (!file) return Refuse(c, "petsam_save: a pointer is NULL");
-  Enter(c);
-  return Leave(c, Save(c, file));
-}
-
-/* The numbers of the committed step that its state holds. */
-static PetscErrorCode KnowState(petsam_contact *c)
-{
-  SamContactState state;
-  SamStep        *step = &c->committed;
-  PetscReal       depth[2];
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetState(c->setup.contact, &state));
-  *step              = (SamStep){.control = state.now.control};
-  step->check        = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
-  step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = NAN;
-  PetscCall(PetscArraycpy(step->load, state.now.load, SAM_COMPONENTS));
-  PetscCall(PetscArraycpy(step->rigid, state.now.rigid, SAM_COMPONENTS));
-  if (c->wear) PetscCall(SamWearGetVolumes(c->wear, step->wear_volume, depth));
-  c->has_committed = state.steps > 0 ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(Forget(c));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Load(petsam_contact *c, const char file[])
-{
-  SamParameters parameters;
-
-  PetscFunctionBegin;
-  PetscCall(CollectParameters(c, &parameters));
-  PetscCall(SamCheckpointRead(file, c->setup.contact, c->wear, &parameters, 0, NULL));
-  PetscCall(KnowState(c));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-int petsam_load(petsam_contact *c, const char *file)
-{
-  if (!c) return SAM_EMBED_USAGE;
-  if (!file) return Refuse(c, "petsam_load: a pointer is NULL");
-  Enter(c);
-  return Leave(c, Load(c, file));
 }

@@ -21,6 +21,8 @@ struct petsam_contact {
   PetscBool    has_committed, has_last; /* whether these hold numbers */
   PetscBool    has_tried;               /* a tried step */
   Vec          work;
+  PetscBool    has_gap; /* a gap has been given, */
+  uint64_t     gap;     /* of this checksum */
   char         message[SAM_EMBED_MESSAGE];
 };
 
@@ -28,5 +30,18 @@ struct petsam_contact {
   SamEmbedStart - starts MPI and PETSc if nobody has. Returns 0, or 2 with a message. Not collective.
 */
 PETSC_INTERN int SamEmbedStart(char message[], size_t size);
+
+/*
+  SamEmbedEnter - begins a call: options are those of the contact, errors become messages. False, with a message: MPI or
+  PETSc has been ended.
+  SamEmbedLeave - ends it; returns the code of a program for an error.
+  SamEmbedRefuse - says what is wrong, and returns 2; for mistakes that need no PETSc to be found, the same on all ranks.
+  None is collective.
+*/
+PETSC_INTERN PetscBool SamEmbedEnter(petsam_contact *c);
+PETSC_INTERN int       SamEmbedLeave(petsam_contact *c, PetscErrorCode code);
+PETSC_INTERN int       SamEmbedRefuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+/* SamEmbedForget - forgets the tried step. Collective. */
+PETSC_INTERN PetscErrorCode SamEmbedForget(petsam_contact *c);
 
 #endif

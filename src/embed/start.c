@@ -6,6 +6,7 @@
   its objects live on the communicators they are given all the same.
 */
 #include "embedimpl.h"
+#include <petsam/private/arguments.h>
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 
@@ -43,9 +44,10 @@ int SamEmbedStart(char message[], size_t size)
   static char *words[] = {"petsam", "-no_signal_handler", "-skip_petscrc", NULL};
   static int   registered;
 
-  char    **argv = words;
-  int       argc = 3;
-  PetscBool has;
+  SamArguments arguments;
+  char       **argv = words;
+  int          argc = 3;
+  PetscBool    has;
 
   if (StartMPI()) {
     (void)snprintf(message, size, "MPI cannot be started: it has been ended in this process, or refuses");
@@ -54,6 +56,12 @@ int SamEmbedStart(char message[], size_t size)
   if (!registered) (void)atexit(End);
   registered = 1;
   if (!PetscInitialized(&has) && has) return 0;
+  SamArgumentsExamineText(MPI_COMM_SELF, getenv("PETSC_OPTIONS"), &arguments);
+  SamArgumentsFree(&arguments);
+  if (arguments.code) {
+    (void)snprintf(message, size, "PETSC_OPTIONS: %s", arguments.message);
+    return SAM_EMBED_USAGE;
+  }
   PETSC_COMM_WORLD = MPI_COMM_SELF;
   began_petsc      = PETSC_TRUE;
   if (PetscInitialize(&argc, &argv, NULL, NULL)) {

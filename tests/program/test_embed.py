@@ -114,6 +114,30 @@ def test_examples_run(prefix, tmp_path, launcher):
     assert len(stiffness) == 5 and stiffness[0] > stiffness[1] > stiffness[2] > 1.2e8
 
 
+ENDED = """
+#include <mpi.h>
+#include <petsam/embed.h>
+int main(int argc, char **argv)
+{
+  const int force[6] = {1, 1, 1, 1, 1, 1};
+  const double value[6] = {1000, 0, 0, 0, 0, 0};
+  petsam_contact *c;
+
+  MPI_Init(&argc, &argv);
+  if (petsam_create(-1, argv[1], &c) || petsam_try(c, 0, force, value, 0, 0)) return 9;
+  MPI_Finalize();
+  if (petsam_try(c, 0, force, value, 0, 0) != 2) return 8;
+  petsam_destroy(&c);
+  return c ? 7 : 0;
+}
+"""
+
+
+def test_host_may_end_mpi_before_the_contact(prefix, tmp_path, launcher):
+    (tmp_path / "ended.c").write_text(ENDED)
+    launch(launcher, 0, compile_it(prefix, tmp_path, "mpicc", tmp_path / "ended.c"), " ".join(words(CASE)))
+
+
 # ---------------------------------------------------------------- Python
 
 
@@ -268,8 +292,36 @@ def test_package_is_installed_by_pip(tmp_path):
     assert (target / "bin" / "petsam-plot").exists()
 
 
+def test_errors_and_steps_pass_between_processes(tmp_path):
+    run_python(
+        f"""
+import concurrent.futures, copy, multiprocessing, pickle, petsam
+case = {CASE!r}
+def work(load):
+    with petsam.Contact(**case) as contact:
+        return contact.try_step(load_n=1000, load_tx=load)
+if __name__ == "__main__":
+    with concurrent.futures.ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        assert pool.submit(work, 10).result().load_tx > 9.99
+        try:
+            pool.submit(work, 1000).result()
+        except petsam.NoEquilibrium as error:
+            assert "gross slip" in str(error) and error.code == 11 and error.step.load_tx == 1000
+    with petsam.Contact(**case) as contact:
+        for copied in copy.copy, copy.deepcopy, pickle.dumps:
+            try:
+                copied(contact)
+            except TypeError:
+                pass
+            else:
+                raise SystemExit("copied")
+""",
+        tmp_path,
+    )
+
+
 def test_threads_take_turns(tmp_path):
-    """Two threads of Python with a contact each."""
+    """Threads of Python with a contact each, all of which may be the first one."""
     run_python(
         f"""
 import petsam, threading, numpy as np
@@ -279,10 +331,10 @@ def work(name):
         for k in range(1, 6):
             found[name] = contact.try_step(load_n=1000, load_tx=20.0 * k).rigid
             contact.commit()
-threads = [threading.Thread(target=work, args=(name,)) for name in "ab"]
+threads = [threading.Thread(target=work, args=(name,)) for name in "abcd"]
 [one.start() for one in threads]
 [one.join() for one in threads]
-assert np.array_equal(found["a"], found["b"])
+assert all(np.array_equal(found["a"], found[name]) for name in "bcd")
 """,
         tmp_path,
     )

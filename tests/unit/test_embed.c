@@ -136,6 +136,8 @@ static void Refuses(const char *options, int code, const char *words)
 
 static void test_wrong_options_are_named(void **state)
 {
+  petsam_contact *c;
+
   (void)state;
   Refuses(OPTIONS " -frictoin 0.2", 2, "-frictoin 0.2: unknown option");
   Refuses(OPTIONS " -friction -1", 2, "-friction -1");
@@ -145,6 +147,11 @@ static void test_wrong_options_are_named(void **state)
   Refuses(OPTIONS " -options_file nowhere.opts", 3, "nowhere.opts");
   Refuses(OPTIONS " -gap_rough_file nowhere.h5", 3, "nowhere.h5");
   Refuses(OPTIONS " -python here", 2, "-python");
+  Refuses(OPTIONS " -help", 2, "-help");
+  Refuses(OPTIONS " -log_view", 2, "-log_view");
+  Refuses(OPTIONS " -gap_rough_file \"a.h5", 2, "quotation mark");
+  Refuses(OPTIONS "\n-frictoin\t0.2\n", 2, "-frictoin 0.2: unknown option");
+  sam_assert(petsam_create((int)MPI_Comm_c2f(MPI_COMM_NULL), OPTIONS, &c) == 2 && Says(NULL, "no communicator"));
   sam_assert(petsam_create(World(), NULL, NULL) == 2);
 }
 
@@ -176,11 +183,22 @@ static void test_mistakes_leave_a_contact_that_goes_on(void **state)
   /* more than friction bears: no solution, the numbers of the step are there, and nothing can be committed */
   sam_assert(TryLoads(c, 1000, 400, NULL, rigid) == 11 && Says(c, "gross slip"));
   sam_assert(isnan(rigid[1]) && petsam_get_number(c, "status", &number) == 0 && number == 11);
-  sam_assert(petsam_commit(c) == 2);
+  sam_assert(petsam_commit(c) == 2 && Says(c, "gross slip"));
+  sam_assert(petsam_try(c, NAN, force, away, NULL, NULL) == 2 && Says(c, "time"));
   sam_assert(petsam_try(c, 0, displaced, away, NULL, NULL) == 0); /* bodies apart */
   sam_assert(petsam_commit(c) == 0);
   sam_assert(TryLoads(c, 1000, 100, NULL, NULL) == 0 && petsam_commit(c) == 0);
   free(field);
+  petsam_destroy(&c);
+}
+
+/* Options may stand on several lines. */
+static void test_white_space_separates_options(void **state)
+{
+  petsam_contact *c = NewContact(World(), BODIES "\n-grid_n\t44 \r\n -grid_size 3e-3\n\t-friction 0.3\n");
+
+  (void)state;
+  sam_assert(TryLoads(c, 1000, 250, NULL, NULL) == 0);
   petsam_destroy(&c);
 }
 
@@ -284,6 +302,26 @@ static void test_saved_state_goes_on_in_another_contact(void **state)
   petsam_destroy(&e);
 }
 
+/* Of another gap, though the options are the same. */
+static void test_state_of_another_gap_is_refused(void **state)
+{
+  petsam_contact *c = NewContact(World(), OPTIONS), *d = NewContact(World(), OPTIONS);
+  Sphere          s = NewSphereOf(Steel(), 44, 1.5);
+
+  (void)state;
+  GiveGap(c, &s);
+  sam_assert(TryLoads(c, 1000, 100, NULL, NULL) == 0 && petsam_commit(c) == 0 && petsam_save(c, "given.h5") == 0);
+  sam_assert(petsam_load(d, "given.h5") == 2 && Says(d, "given_gap") && !strstr(petsam_message(d), "-restart"));
+  GiveGap(d, &s);
+  sam_assert(petsam_load(d, "given.h5") == 0);
+  sam_call(VecScale(s.h, 0.5));
+  GiveGap(d, &s);
+  sam_assert(petsam_load(d, "given.h5") == 2);
+  DestroySphere(&s);
+  petsam_destroy(&c);
+  petsam_destroy(&d);
+}
+
 /* A worn body's gap may be given anew: what has been removed stays. */
 static void test_wear_stays_when_the_gap_is_given_anew(void **state)
 {
@@ -311,11 +349,13 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_rejected_try_leaves_no_trace),
     cmocka_unit_test(test_wrong_options_are_named),
     cmocka_unit_test(test_mistakes_leave_a_contact_that_goes_on),
+    cmocka_unit_test(test_white_space_separates_options),
     cmocka_unit_test(test_step_that_does_not_converge_is_not_committed),
     cmocka_unit_test(test_contacts_live_together),
     cmocka_unit_test(test_contact_of_some_ranks),
     cmocka_unit_test(test_given_fields_replace_those_of_options),
     cmocka_unit_test(test_saved_state_goes_on_in_another_contact),
+    cmocka_unit_test(test_state_of_another_gap_is_refused),
     cmocka_unit_test(test_wear_stays_when_the_gap_is_given_anew),
   };
 

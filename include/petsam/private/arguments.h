@@ -21,6 +21,8 @@ typedef struct {
   MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
 */
 PETSC_EXTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
+/* SamArgumentsSeparate - makes all white space in a text outside of quotes what PETSc separates options by: spaces. */
+PETSC_EXTERN void SamArgumentsSeparate(char text[]);
 /*
   SamArgumentsExamineText - looks through options in one text, and the options files that they name, likewise; -help
   and -version are mistakes. Rank 0 looks and tells the others. Collective over `comm`.
@@ -29,8 +31,9 @@ PETSC_EXTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamA
 PETSC_EXTERN void SamArgumentsFree(SamArguments *arguments);
 /*
   SamArgumentsRefuseUnknown - refuses options that the set-up has not read: they are misspelled, or have no effect.
+  `program`: those that PETSc reads at its end are not among them.
   Collective. Errors: SAM_ERR_USER, raised on `comm`.
 */
-PETSC_EXTERN PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm);
+PETSC_EXTERN PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program);
 
 #endif
