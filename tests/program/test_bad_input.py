@@ -430,6 +430,7 @@ def test_mistakes_in_an_options_file_are_found(petsam, folder):
         ("-lood_ty 3", "-lood_ty"),
         ("load_ty 3", "PETSC_OPTIONS: load_ty"),
         ("-python", "PETSC_OPTIONS: -python"),
+        ("-load_tx 3 \n-lood_ty 3", "-lood_ty"),
         ("-load_ty 3 -options_file python.opts", "python.opts, line 1: -python"),
     ],
 )
