@@ -138,12 +138,12 @@ class Comparison:
             color, label = tint(k, len(CYCLES)), f"{cycles:g} cycles"
             left.plot(one["frequency"], 1e9 * one["amplitude"] / one["force"], ".-", color=color, label=label)
             if cycles:
-                middle = np.argmin(np.abs(self.life.y))
-                depth = self.life.field("wear_depth1", self.life.of_cycle(cycles))[middle]
-                right.plot(1e3 * self.life.x, 1e6 * depth, color=color, label=label)
+                depth = self.life.field("wear_depth1", self.life.of_cycle(cycles))
+                column = np.argmax(depth.max(axis=0))  # of the deepest cell
+                right.plot(1e3 * self.life.y, 1e6 * depth[:, column], color=color, label=label)
         frame(left, f"amplitude over drive, {WEARING / 1e3:g} kN", "drive, Hz", "nm/N")
         left.legend()
-        frame(right, "depth removed of each face on y = 0", "x, mm", "um")
+        frame(right, "depth removed of each face, along y through the deepest cell", "y, mm", "um")
         save(figure, directory, "worn.png")
 
 

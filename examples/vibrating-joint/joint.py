@@ -35,6 +35,7 @@ DAMPING = 0.002  # of the spring: part of the critical damping of the stuck join
 HARMONICS = (1, 3)
 SAMPLES = 32
 ITERATIONS = 20
+LITTLE = 0.3  # of the residual: a step that leaves more has brought little
 
 
 class Joint:
@@ -100,8 +101,10 @@ class Joint:
 def derivative(motion, stiffness):
     """Of the forces at all instants with respect to the motion at all instants.
 
-    Between two turns the force follows from where it turned, f - f_turn = g(q - q_turn), as Masing's rule has it: its
-    derivative is the stiffness of the instant, on the motion since the turn, and that of the force at the turn.
+    After a turn of d_x the force follows from where it turned, f - f_turn = g(q - q_turn): its derivative is the
+    stiffness of the instant, on the motion since the turn, and that of the force at the turn. There f is that of a loop
+    about zero, a function of q_turn alone, whose derivative is the stiffness at the turn. Right for two turns a cycle
+    and loops about zero at constant N, which odd harmonics lead to.
     """
     count = len(motion)
     rate = np.diff(motion[:, 0], append=motion[:1, 0])  # to the next instant
@@ -109,7 +112,7 @@ def derivative(motion, stiffness):
     d = np.zeros((count, 2, count, 2))
     if not turns:
         turns = [0]
-    for turn in turns:  # forces at the turns: those of the branch that ends there, half of its way from the last turn
+    for turn in turns:
         d[turn, :, turn, :] = stiffness[turn]
     for turn, end in zip(turns, [*turns[1:], turns[0] + count]):
         for k in range(turn + 1, end if end % count in turns else end + 1):
@@ -188,25 +191,31 @@ class Balance:
         return j
 
     def solve(self, x, omega, force, rtol=1e-4, by_differences=False):
-        """Newton's method from x, with shorter steps where a whole one would lead away."""
+        """Newton's method from x, with shorter steps where a whole one would lead away.
+
+        Where the motion turns between two instants, the rule of derivative() does not know from which of them to count.
+        Steps that bring little are followed by one with a Jacobian by differences.
+        """
         r, j = self.residual(x, omega, force, not by_differences)
+        little = False
         for _ in range(ITERATIONS):
             if size(r) <= rtol * force:
                 return x
-            if by_differences:
+            if by_differences or little:
                 j = self.differences(x, r, omega, force)
             step = np.linalg.solve(j, r)
             for part in (1.0, 0.5, 0.25, 0.125):
                 new, j = self.residual(x - part * step, omega, force, not by_differences)
                 if size(new) < size(r):
                     break
+            little = size(new) > LITTLE * size(r)
             x, r = x - part * step, new
         raise RuntimeError(f"no convergence at {omega / 2.0 / np.pi:.1f} Hz, {force:g} N")
 
 
 def size(r):
     """The norm of a residual, N; moments count as forces at the height of the centre."""
-    return np.linalg.norm(r.reshape(COUNT, 2) / DRIVE)
+    return np.linalg.norm(r.reshape(COUNT, 2) / (1.0, HEIGHT))
 
 
 def amplitude(x):

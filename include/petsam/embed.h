@@ -7,8 +7,12 @@
   The six components stand in this order wherever they are in a row or a matrix, loads and their conjugates:
       0 N (N)      1 Tx (N)     2 Ty (N)     3 Mx (N m)    4 My (N m)    5 Mz (N m)
       0 d_z (m)    1 d_x (m)    2 d_y (m)    3 r_x (rad)   4 r_y (rad)   5 r_z (rad)
-  Body 1 moves, body 2 is fixed; loads act on body 1, about x = y = 0. Displacements are relative to infinity: they
-  contain the compliance of both half-spaces. All units are SI.
+  Body 1, the upper one, moves, body 2 is fixed; loads act on body 1, so that the contact's forces on it are their
+  opposites. Moments and rotations are about x = y = 0, right-handed about x, y and the normal that points up, from body
+  2 to body 1; N presses down, and d_z is the approach. With pressure p and shear q on body 2,
+      N  = sum p dA      Mx = -sum y p dA      My = sum x p dA
+      Tx = sum q_x dA    Ty =  sum q_y dA      Mz = sum (x q_y - y q_x) dA
+  Displacements are relative to infinity: they contain the compliance of both half-spaces. All units are SI.
 
   Functions return 0, or what was wrong, as the program petsam ends with:
       2   a wrong argument or option     3   a file that cannot be used
@@ -53,10 +57,10 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
 */
 int petsam_set_field(petsam_contact *c, const char *name, const double *values);
 /*
-  petsam_try - solves a step from the committed state. `time` (s) is only noted. force[i] is 1 where value[i] is a load,
-  0 where it is a displacement. `load` and `rigid` become all twelve, given or found; NaN where there is none (NULL: not
-  wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose fields and numbers can be
-  asked for; 10 cannot be committed.
+  petsam_try - solves a step from the committed state. `time` (s) is only noted. force[i] is 0 where value[i] is a
+  displacement, else it is a load. `load` and `rigid` become all twelve, given or found; NaN where there is none (NULL:
+  not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose fields and numbers can be
+  asked for; 10 cannot be committed. A step takes the new normal load first, and then the tangential ones.
 */
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6]);

@@ -110,7 +110,10 @@ def _find():
             reason = reason or str(error)
         except AttributeError:
             reason = reason or f"{name} is another library, or an older one"
-    raise Missing(f"no libpetsam: {reason}; run make or make install, or set PETSAM_LIBRARY")
+    raise Missing(
+        f"no libpetsam ({reason}): it is sought as PETSAM_LIBRARY, in build/lib, beside these scripts, and in lib "
+        "beside the bin of a petsam on the PATH"
+    )
 
 
 def _load():
@@ -129,6 +132,8 @@ def _words(options):
     for name, value in options.items():
         if isinstance(value, (bool, np.bool_)):
             value = "true" if value else "false"
+        elif np.ndim(value) > 1 and name in ("gap", "friction"):
+            raise TypeError(f"{name}: a field is given afterwards, contact.{name} = ...")
         elif isinstance(value, (list, tuple, np.ndarray)):
             value = ",".join(_number(one) for one in np.atleast_1d(value))
         elif not isinstance(value, (str, os.PathLike)):
@@ -159,7 +164,7 @@ class Contact:
     first_row, rows   this rank's rows: fields are arrays of (rows, n[0])
     """
 
-    def __init__(self, comm=None, **options):
+    def __init__(self, *, comm=None, **options):
         self._contact = ctypes.c_void_p()
         self._c = _load()
         with _lock:

@@ -38,6 +38,15 @@ class Named(dict):
         raise Error(f"{self.path}: has no {name}")
 
 
+class History(Named):
+    """Values by name of every load step, beside which there are matrices."""
+
+    def __missing__(self, name):
+        if name in self.matrices:
+            raise Error(f"{self.path}: {name} is a matrix for every step: ask for matrices[{name!r}]")
+        return super().__missing__(name)
+
+
 class Datafile:
     """What files of petsam and of petsam-stress share; open for reading, Error where it cannot be read."""
 
@@ -67,6 +76,8 @@ class Datafile:
                 raise ValueError(f"/{name} is not {least} or more numbers that increase")
         self.history, self.units = self._read_table("history")
         self.matrices = Named(self.path, {name: self._matrices(name) for name in self._names_of_matrices()})
+        self.history = History(self.path, self.history)
+        self.history.matrices = self.matrices
         self.parameters = Named(self.path, self.file.attrs)
         return axes
 

@@ -186,6 +186,17 @@ void petsam_destroy(petsam_contact **c)
   *c = NULL;
 }
 
+/* Whether a handle has led to no communicator: Open MPI returns no pointer for a number that it does not know. */
+static PetscBool IsNothing(MPI_Comm comm)
+{
+#if defined(OPEN_MPI)
+  return comm ? PETSC_FALSE : PETSC_TRUE;
+#else
+  (void)comm;
+  return PETSC_FALSE;
+#endif
+}
+
 int petsam_create(int comm, const char *options, petsam_contact **contact)
 {
   petsam_contact *c;
@@ -206,7 +217,7 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
     return PETSC_ERR_MEM;
   }
   c->comm = comm == -1 ? MPI_COMM_SELF : MPI_Comm_f2c((MPI_Fint)comm);
-  if (c->comm == MPI_COMM_NULL)
+  if (c->comm == MPI_COMM_NULL || IsNothing(c->comm))
     code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or one that this rank does not belong to");
   else
     code = SamEmbedEnter(c) ? SamEmbedLeave(c, Create(c, options)) : SAM_EMBED_USAGE;
