@@ -16,6 +16,7 @@
 #include <petsam/control.h>
 #include <petsam/problem.h>
 #include <petsam/contact.h>
+#include <petsam/edges.h>
 #include <petsam/stiffness.h>
 #include <petsam/wear.h>
 #include <petsam/life.h>

@@ -78,9 +78,11 @@ typedef struct {
   SamControl control;                  /* as given */
   PetscReal  load[SAM_COMPONENTS];     /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS];    /* m, rad: given or found */
-  PetscReal  contact_area, stick_area; /* m2 */
-  PetscReal  dissipated_energy;        /* J, frictional work of the step: slip times the mean bound of the step */
-  PetscReal  stored_energy;            /* J, elastic: half the work of the tractions on the elastic displacements */
+  PetscReal  contact_area, stick_area; /* m2: counted cells, or by the edges (SamContactSetEdges()) */
+  PetscInt   contact_cells, stick_cells;
+  PetscReal  edge_accepted;     /* share of the edges of contact and stick that are reconstructed, 0 to 1 */
+  PetscReal  dissipated_energy; /* J, frictional work of the step: slip times the mean bound of the step */
+  PetscReal  stored_energy;     /* J, elastic: half the work of the tractions on the elastic displacements */
   SamCheck   check;
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
@@ -133,9 +135,10 @@ PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /* SamContactSetOptionsPrefix - the prefix of its options and of its solvers'; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
 /*
-  SamContactSetFromOptions - reads -coupling (full or none), -coupling_rtol, -coupling_max_it, -warm_start and
-  -allow_edge_contact, which mirror the functions below; -coupling_monitor (prints the change after each pass);
-  -contact_check (prints the errors of each step); and the options of both solvers. Collective. Errors: SAM_ERR_USER.
+  SamContactSetFromOptions - reads -coupling (full or none), -coupling_rtol, -coupling_max_it, -warm_start,
+  -allow_edge_contact and -edges, which mirror the functions below; -coupling_monitor (prints the change after each
+  pass); -contact_check (prints the errors of each step); and the options of both solvers. Collective. Errors:
+  SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 /*
@@ -158,6 +161,12 @@ PETSC_EXTERN PetscErrorCode SamContactSetWarmStart(SamContact contact, PetscBool
   -allow_edge_contact. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactAllowEdge(SamContact contact, PetscBool allow);
+/*
+  SamContactSetEdges - how the areas of contact and stick are found: by counting cells, wrong by a part of a cell along
+  the edge (default), or by reconstructing the edges (edges.h). Option -edges. Not collective.
+*/
+typedef enum { SAM_CONTACT_EDGES_NONE, SAM_CONTACT_EDGES_RECONSTRUCT } SamContactEdges;
+PETSC_EXTERN PetscErrorCode SamContactSetEdges(SamContact contact, SamContactEdges edges);
 /* The objects of a contact. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetProblem(SamContact contact, SamProblem *problem);          /* borrowed */
 PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);                   /* borrowed */

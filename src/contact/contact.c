@@ -98,13 +98,22 @@ PetscErrorCode SamContactAllowEdge(SamContact c, PetscBool allow)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactSetEdges(SamContact c, SamContactEdges edges)
+{
+  PetscFunctionBegin;
+  c->edges = edges;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
-  static const char *const coupling_words[] = {"none", "full", NULL};
-  const SamOptions         from             = {c->grid->comm, c->prefix};
-  PetscInt                 coupling = c->coupling ? 1 : 0, max_it = c->coupling_max_it;
-  PetscReal                rtol = c->coupling_rtol;
-  PetscBool                warm = c->warm, edge = c->allow_edge;
+  static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
+                                                                                             NULL};
+  const SamOptions from     = {c->grid->comm, c->prefix};
+  PetscInt         coupling = c->coupling ? 1 : 0, max_it = c->coupling_max_it;
+  PetscReal        rtol  = c->coupling_rtol;
+  PetscInt         edges = (PetscInt)c->edges;
+  PetscBool        warm = c->warm, edge = c->allow_edge;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
@@ -117,10 +126,13 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(
     SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &edge, NULL));
+  PetscCall(SamOptionsEnum(&from, "edges", "areas by counted cells, or by reconstructed edges: none or reconstruct",
+                           edge_words, &edges, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamContactSetCoupling(c, coupling ? PETSC_TRUE : PETSC_FALSE, rtol, max_it));
   PetscCall(SamContactSetWarmStart(c, warm));
   PetscCall(SamContactAllowEdge(c, edge));
+  PetscCall(SamContactSetEdges(c, (SamContactEdges)edges));
   PetscCall(SamSolverSetFromOptions(c->normal));
   PetscCall(SamSolverSetFromOptions(c->tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -155,95 +167,6 @@ PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
 }
 
 /* ---- a step ---- */
-
-/* Half the work of the tractions on the displacements in a row of cells. */
-static double StoredRow(const double p[], const double u_z[], const double *const q[2], const double *const u_t[2],
-                        PetscInt n)
-{
-  double sum = 0;
-
-  for (PetscInt i = 0; i < n; i++) sum += p[i] * u_z[i] + q[0][i] * u_t[0][i] + q[1][i] * u_t[1][i];
-  return 0.5 * sum;
-}
-
-/* The elastic energy that both bodies store. */
-static PetscErrorCode ComputeStoredEnergy(SamContact c, PetscReal *energy)
-{
-  const SamSolution *s     = &c->tried.solution;
-  SamTotal           total = {0};
-  const double      *p, *q, *u_z, *u_t;
-  double             sum;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->shear, &q));
-  PetscCall(VecGetArrayRead(s->displacement_z, &u_z));
-  PetscCall(VecGetArrayRead(s->displacement_t, &u_t));
-  for (PetscInt j = 0; j < c->grid->rows; j++) {
-    const ptrdiff_t     k = (ptrdiff_t)j * c->grid->nx, l = k + c->grid->cells;
-    const double *const qs[2] = {q + k, q + l}, *const us[2] = {u_t + k, u_t + l};
-
-    SamAdd(&total, StoredRow(p + k, u_z + k, qs, us, c->grid->nx));
-  }
-  PetscCall(VecRestoreArrayRead(s->displacement_t, &u_t));
-  PetscCall(VecRestoreArrayRead(s->displacement_z, &u_z));
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscCall(SamSumTotals(c->grid->comm, 1, &total, &sum));
-  *energy = sum * c->grid->dx * c->grid->dy;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Areas of contact and of stick, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
-  while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
-  steps second order. Before the first step there is no bound; its pressure counts as there before its slip.
-*/
-static PetscErrorCode ComputeScalars(SamContact c, SamStep *step)
-{
-  const SamSolution *s     = &c->tried.solution;
-  const PetscInt     cells = c->grid->cells, nx = c->grid->nx;
-  const double       area      = c->grid->dx * c->grid->dy;
-  SamTotal           totals[3] = {{0}};
-  double             sums[3];
-  const double      *p, *b, *b_before, *q;
-  SamIncrement       increment;
-  const Vec          before = c->steps ? c->committed.solution.bound : s->bound;
-
-  PetscFunctionBegin;
-  PetscCall(SamIncrementCreate(c->problem, c->steps ? &c->committed.solution : NULL, s, &increment));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->bound, &b));
-  PetscCall(VecGetArrayRead(before, &b_before));
-  PetscCall(VecGetArrayRead(s->shear, &q));
-  for (PetscInt j = 0; j < c->grid->rows; j++) {
-    const ptrdiff_t first  = (ptrdiff_t)j * nx;
-    double          row[3] = {0, 0, 0};
-
-    SamIncrementComputeRow(&increment, j);
-    for (PetscInt i = 0; i < nx; i++) {
-      const ptrdiff_t k = first + i, l = k + cells;
-      const SamState  state = SamStateOf(p[k], q[k], q[l], b[k]);
-
-      if (state == SAM_STATE_OPEN) continue;
-      row[0] += 1;
-      row[1] += state == SAM_STATE_STICK ? 1 : 0;
-      row[2] -= (q[k] * increment.row[0][i] + q[l] * increment.row[1][i]) *
-                (state == SAM_STATE_SLIP && b[k] > 0 ? 0.5 * (b_before[k] + b[k]) / b[k] : 1);
-    }
-    SamAddAll(3, totals, row);
-  }
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(before, &b_before));
-  PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscCall(SamIncrementDestroy(&increment));
-  PetscCall(SamSumTotals(c->grid->comm, 3, totals, sums));
-  step->contact_area      = sums[0] * area;
-  step->stick_area        = sums[1] * area;
-  step->dissipated_energy = sums[2] * area;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 static PetscErrorCode Judge(SamContact c, SamStep *step)
 {
@@ -344,8 +267,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscCall(SamCheckSolution(c->problem, c->coupling, same_pressure, before, s, &step->check));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
-  PetscCall(ComputeScalars(c, step));
-  PetscCall(ComputeStoredEnergy(c, &step->stored_energy));
+  PetscCall(SamContactComputeScalars(c, step));
   PetscCall(Judge(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -357,7 +279,7 @@ static void SetUnknown(SamStep *step)
     step->load[k]  = step->control.force[k] ? step->control.value[k] : NAN;
     step->rigid[k] = step->control.force[k] ? NAN : step->control.value[k];
   }
-  step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = NAN;
+  step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = step->edge_accepted = NAN;
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 

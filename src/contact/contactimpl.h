@@ -14,11 +14,12 @@ typedef struct {
 
 struct _n_SamContact {
   /* what the user set */
-  char      prefix[SAM_PREFIX];
-  PetscBool coupling, warm, allow_edge;
-  PetscReal coupling_rtol;
-  PetscInt  coupling_max_it;
-  PetscBool coupling_monitor, print_check;
+  char            prefix[SAM_PREFIX];
+  PetscBool       coupling, warm, allow_edge;
+  SamContactEdges edges;
+  PetscReal       coupling_rtol;
+  PetscInt        coupling_max_it;
+  PetscBool       coupling_monitor, print_check;
   /* its parts */
   SamProblem          problem;
   SamElasticity       elasticity; /* of the problem; borrowed */
@@ -132,6 +133,8 @@ PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before,
 */
 PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamStepStart *start, PetscBool same_pressure,
                                                 SamStep *step);
+/* SamContactComputeScalars - the numbers of the tried step that follow from its solution (scalars.c). Collective. */
+PETSC_INTERN PetscErrorCode SamContactComputeScalars(SamContact contact, SamStep *step);
 /* SamStepFail - sets status and message unless the step has failed already: later failures follow from the first. */
 PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
 

@@ -51,8 +51,12 @@ HISTORY = dict(
     normal_residual="1",
     tangential_residual="1",
     dissipated_energy="J",
+    stored_energy="J",
+    edge_accepted="1",
 )
 COUNTS = (
+    "contact_cells",
+    "stick_cells",
     "normal_iterations",
     "tangential_iterations",
     "normal_applies",

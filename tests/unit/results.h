@@ -159,7 +159,11 @@ static inline SamStep MakeStep(int step)
                .contact_area      = 20 + step,
                .stick_area        = 30 + step,
                .status            = step == 1 ? SAM_STATUS_EDGE_CONTACT : SAM_STATUS_CONVERGED,
-               .dissipated_energy = 40 + step};
+               .dissipated_energy = 40 + step,
+               .stored_energy     = 45 + step,
+               .edge_accepted     = 47 + step,
+               .contact_cells     = 130 + step,
+               .stick_cells       = 140 + step};
 
   for (int n = 0; n < 6; n++) s.control.bulk_stress[n / 3][n % 3] = 100 * (n + 1) + step;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
@@ -374,6 +378,10 @@ static inline int HasHistory(hid_t file, int steps)
                                 {"tangential_applies", "1", 90, 1},
                                 {"tangential_preconditions", "1", 110, 1},
                                 {"coupling_iterations", "1", 120, 1},
+                                {"contact_cells", "1", 130, 1},
+                                {"stick_cells", "1", 140, 1},
+                                {"edge_accepted", "1", 47, 0},
+                                {"stored_energy", "J", 45, 0},
                                 {"dissipated_energy", "J", 40, 0}};
   const double status[STEPS] = {0, 12, 0};
   int          good          = HasLoads(file, steps);

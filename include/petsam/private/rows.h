@@ -1,0 +1,25 @@
+/* Rows of a grid that a rank wants to see besides its own. */
+#ifndef PETSAM_ROWS_H
+#define PETSAM_ROWS_H
+
+#include <petsam/grid.h>
+
+/*
+  SamRows - rows first ... first + count - 1 of a grid, which this rank wants to see, its own or others'. Create and
+  Fetch are collective. Fetch takes this rank's rows of `columns` doubles and gives the wanted ones until Restore; when
+  they are all its own it copies nothing.
+*/
+typedef struct {
+  SamGrid     grid;
+  PetscMPIInt ranks;
+  PetscInt    first, count;
+  /* rows exchanged with each rank: [0] those that it wants of this rank, [1] those that this rank wants of it */
+  PetscMPIInt *counts[2], *offsets[2];
+} SamRows;
+PETSC_EXTERN PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRows *rows);
+PETSC_EXTERN PetscErrorCode SamRowsDestroy(SamRows *rows);
+PETSC_EXTERN PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double own[],
+                                         const double **wanted);
+PETSC_EXTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted);
+
+#endif

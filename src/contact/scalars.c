@@ -1,0 +1,159 @@
+/* The numbers of a step that follow from its solution: cells and areas, energies. */
+#include "contactimpl.h"
+#include <petsam/edges.h>
+#include <math.h>
+
+/* ---- energies ---- */
+
+/* Half the work of the tractions on the displacements in a row of cells. */
+static double StoredRow(const double p[], const double u_z[], const double *const q[2], const double *const u_t[2],
+                        PetscInt n)
+{
+  double sum = 0;
+
+  for (PetscInt i = 0; i < n; i++) sum += p[i] * u_z[i] + q[0][i] * u_t[0][i] + q[1][i] * u_t[1][i];
+  return 0.5 * sum;
+}
+
+/* The elastic energy that both bodies store. */
+static PetscErrorCode ComputeStoredEnergy(SamContact c, PetscReal *energy)
+{
+  const SamSolution *s     = &c->tried.solution;
+  SamTotal           total = {0};
+  const double      *p, *q, *u_z, *u_t;
+  double             sum;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u_z));
+  PetscCall(VecGetArrayRead(s->displacement_t, &u_t));
+  for (PetscInt j = 0; j < c->grid->rows; j++) {
+    const ptrdiff_t     k = (ptrdiff_t)j * c->grid->nx, l = k + c->grid->cells;
+    const double *const qs[2] = {q + k, q + l}, *const us[2] = {u_t + k, u_t + l};
+
+    SamAdd(&total, StoredRow(p + k, u_z + k, qs, us, c->grid->nx));
+  }
+  PetscCall(VecRestoreArrayRead(s->displacement_t, &u_t));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u_z));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamSumTotals(c->grid->comm, 1, &total, &sum));
+  *energy = sum * c->grid->dx * c->grid->dy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Cells in contact and in stick, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
+  while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
+  steps second order. Before the first step there is no bound; its pressure counts as there before its slip.
+*/
+static PetscErrorCode CountCells(SamContact c, SamStep *step)
+{
+  const SamSolution *s     = &c->tried.solution;
+  const PetscInt     cells = c->grid->cells, nx = c->grid->nx;
+  const double       area      = c->grid->dx * c->grid->dy;
+  SamTotal           totals[3] = {{0}};
+  double             sums[3];
+  const double      *p, *b, *b_before, *q;
+  SamIncrement       increment;
+  const Vec          before = c->steps ? c->committed.solution.bound : s->bound;
+
+  PetscFunctionBegin;
+  PetscCall(SamIncrementCreate(c->problem, c->steps ? &c->committed.solution : NULL, s, &increment));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(before, &b_before));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  for (PetscInt j = 0; j < c->grid->rows; j++) {
+    const ptrdiff_t first  = (ptrdiff_t)j * nx;
+    double          row[3] = {0, 0, 0};
+
+    SamIncrementComputeRow(&increment, j);
+    for (PetscInt i = 0; i < nx; i++) {
+      const ptrdiff_t k = first + i, l = k + cells;
+      const SamState  state = SamStateOf(p[k], q[k], q[l], b[k]);
+
+      if (state == SAM_STATE_OPEN) continue;
+      row[0] += 1;
+      row[1] += state == SAM_STATE_STICK ? 1 : 0;
+      row[2] -= (q[k] * increment.row[0][i] + q[l] * increment.row[1][i]) *
+                (state == SAM_STATE_SLIP && b[k] > 0 ? 0.5 * (b_before[k] + b[k]) / b[k] : 1);
+    }
+    SamAddAll(3, totals, row);
+  }
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(before, &b_before));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscCall(SamSumTotals(c->grid->comm, 3, totals, sums));
+  step->contact_cells     = (PetscInt)sums[0];
+  step->stick_cells       = (PetscInt)sums[1];
+  step->contact_area      = sums[0] * area;
+  step->stick_area        = sums[1] * area;
+  step->dissipated_energy = sums[2] * area;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- areas ---- */
+
+/*
+  What vanishes at the edges like the distance, of this rank's cells: of the contact p^2, of the stick zone the square of
+  what the pressure exceeds |q|/mu by.
+*/
+static PetscErrorCode FillSquares(const SamSolution *s, PetscBool stick, Vec w)
+{
+  const double *p, *b, *q;
+  double       *square;
+  PetscInt      cells;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(w, &cells));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayWrite(w, &square));
+  for (PetscInt k = 0; k < cells; k++) {
+    const double slack = stick && b[k] > 0 ? p[k] * (1 - hypot(q[k], q[k + cells]) / b[k]) : p[k];
+
+    square[k] = 0;
+    if (p[k] > 0 && (!stick || SamStateOf(p[k], q[k], q[k + cells], b[k]) == SAM_STATE_STICK))
+      square[k] = slack * slack;
+  }
+  PetscCall(VecRestoreArrayWrite(w, &square));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The areas by the edges of contact and stick. */
+static PetscErrorCode FindEdges(SamContact c, SamStep *step)
+{
+  SamEdge edge[2];
+  Vec     w;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(c->grid, 1, &w));
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(FillSquares(&c->tried.solution, k ? PETSC_TRUE : PETSC_FALSE, w));
+    PetscCall(SamEdgeReconstruct(c->grid, w, NULL, &edge[k]));
+  }
+  PetscCall(VecDestroy(&w));
+  step->contact_area = edge[0].area;
+  step->stick_area   = edge[1].area;
+  step->edge_accepted =
+    edge[0].faces + edge[1].faces > 0 ? (edge[0].good + edge[1].good) / (edge[0].faces + edge[1].faces) : 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactComputeScalars(SamContact c, SamStep *step)
+{
+  PetscFunctionBegin;
+  PetscCall(CountCells(c, step));
+  PetscCall(ComputeStoredEnergy(c, &step->stored_energy));
+  step->edge_accepted = 0;
+  if (c->edges == SAM_CONTACT_EDGES_RECONSTRUCT) PetscCall(FindEdges(c, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

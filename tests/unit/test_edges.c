@@ -1,0 +1,288 @@
+/* Edges of contact and stick to a fraction of a cell: closed solutions, order, and what is refused. */
+#include "contacts.h"
+
+#include <petsam/edges.h>
+
+#define PLAIN NewPair(210e9, 0, 210e9, 0)
+
+/* A sphere whose centre lies beside that of the grid by parts of a cell, pressed and pushed at its centre. */
+static Case NewBeside(SamPair pair, PetscInt n, double half_width, double x, double y, double T)
+{
+  const double h     = 2 * half_width * 1e-3 / (double)n;
+  Sphere       s     = NewSphereOn(PETSC_COMM_WORLD, pair, n, half_width, 0, 0);
+  const double at[3] = {s.R, x * h, y * h};
+  SamControl   control;
+  SamStep      step;
+  Case         c;
+
+  sam_call(VecDestroy(&s.h));
+  s.h                             = NewFrom(s.grid, ParaboloidAt, at);
+  c                               = NewCaseOn(s, MU, NULL, "");
+  control                         = Loads(&c, 1, T, 0, 0);
+  control.value[SAM_COMPONENT_MX] = -at[2] * c.s.N;
+  control.value[SAM_COMPONENT_MY] = at[1] * c.s.N;
+  control.value[SAM_COMPONENT_MZ] = -at[2] * control.value[SAM_COMPONENT_TX];
+  step                            = Solve(&c, &control);
+  AssertGood(&step);
+  return c;
+}
+
+static Vec NewSquare(const Case *c, Vec field)
+{
+  Vec w = NewField(c->s.grid, 1);
+
+  sam_call(VecPointwiseMult(w, field, field));
+  return w;
+}
+
+/* The relative L2 errors against Hertz's pressure, raw and at the reconstructed points. */
+static void Errors(const Case *c, Vec point, double x, double y, double errors[2])
+{
+  const SamGrid grid    = c->s.grid;
+  double        sums[3] = {0, 0, 0};
+  const double *p, *w;
+
+  sam_call(VecGetArrayRead(SolutionOf(c)->pressure, &p));
+  sam_call(VecGetArrayRead(point, &w));
+  for (PetscInt k = 0; k < grid->cells; k++) {
+    const double r =
+      hypot(SamGridX(grid, k % grid->nx) - x * grid->dx, SamGridY(grid, grid->row_start + k / grid->nx) - y * grid->dy);
+    const double exact = Hertz(&c->s, r);
+
+    sums[0] += (p[k] - exact) * (p[k] - exact);
+    sums[1] += (sqrt(w[k]) - exact) * (sqrt(w[k]) - exact);
+    sums[2] += exact * exact;
+  }
+  sam_call(VecRestoreArrayRead(point, &w));
+  sam_call(VecRestoreArrayRead(SolutionOf(c)->pressure, &p));
+  (void)MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  for (int k = 0; k < 2; k++) errors[k] = sqrt(sums[k] / sums[2]);
+}
+
+/* ---- closed solutions ---- */
+
+static const double places[][2] = {{0, 0}, {0.3, 0.1}, {0.41, 0.73}};
+
+static void test_edge_of_hertz_is_found_to_a_fraction_of_a_cell(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    const double x = places[k][0], y = places[k][1];
+    Case         c = NewBeside(Steel(), 96, 1.5, x, y, 0);
+    Vec          w = NewSquare(&c, SolutionOf(&c)->pressure), point = NewField(c.s.grid, 1);
+    double       errors[2];
+    SamEdge      edge;
+
+    sam_call(SamEdgeReconstruct(c.s.grid, w, point, &edge));
+    Errors(&c, point, x, y, errors);
+    if (getenv("SAM_SHOW"))
+      print_message("# %g of the raw error, area %g\n", errors[1] / errors[0], edge.area / (PETSC_PI * 1e-6) - 1);
+    sam_assert(edge.faces > 0 && edge.good == edge.faces);
+    sam_assert_close(edge.area / (PETSC_PI * 1e-6), 1, 2e-4);
+    sam_assert(errors[1] < errors[0] / 6);
+    sam_call(VecDestroy(&w));
+    sam_call(VecDestroy(&point));
+    DestroyCase(&c);
+  }
+}
+
+/* Areas: counted cells are wrong by the cell, reconstructed ones by its square. */
+static void test_area_is_of_second_order(void **state)
+{
+  double errors[2] = {0, 0};
+
+  (void)state;
+  for (int fine = 0; fine < 2; fine++)
+    for (int k = 0; k < 3; k++) {
+      Case    c = NewBeside(Steel(), fine ? 160 : 40, 1.5, places[k][0], places[k][1], 0);
+      Vec     w = NewSquare(&c, SolutionOf(&c)->pressure);
+      SamEdge edge;
+
+      sam_call(SamEdgeReconstruct(c.s.grid, w, NULL, &edge));
+      errors[fine] = fmax(errors[fine], fabs(edge.area / (PETSC_PI * 1e-6) - 1));
+      sam_call(VecDestroy(&w));
+      DestroyCase(&c);
+    }
+  if (getenv("SAM_SHOW")) print_message("# %g %g\n", errors[0], errors[1]);
+  sam_assert(errors[1] < errors[0] / 8); /* four times as many cells in a direction */
+}
+
+/* Cattaneo: the slack mu p - |q| vanishes like a root at the edge of stick, whose radius is (1 - T/mu N)^(1/3). */
+static void test_edge_of_stick_is_cattaneos(void **state)
+{
+  const double exact = PETSC_PI * 1e-6 * pow(0.4, 2.0 / 3);
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    Case          c = NewBeside(PLAIN, 96, 1.5, places[k][0], places[k][1], 0.6);
+    const double *b, *q;
+    double       *slack;
+    Vec           w = NewField(c.s.grid, 1);
+    SamEdge       edge;
+
+    sam_call(VecGetArrayRead(SolutionOf(&c)->bound, &b));
+    sam_call(VecGetArrayRead(SolutionOf(&c)->shear, &q));
+    sam_call(VecGetArray(w, &slack));
+    for (PetscInt i = 0; i < c.s.grid->cells; i++) {
+      const double left = b[i] - hypot(q[i], q[i + c.s.grid->cells]);
+
+      slack[i] = left > SAM_SLIP_MARGIN * b[i] ? left * left : 0;
+    }
+    sam_call(VecRestoreArray(w, &slack));
+    sam_call(VecRestoreArrayRead(SolutionOf(&c)->shear, &q));
+    sam_call(VecRestoreArrayRead(SolutionOf(&c)->bound, &b));
+    sam_call(SamEdgeReconstruct(c.s.grid, w, NULL, &edge));
+    if (getenv("SAM_SHOW")) print_message("# stick %g accepted %g\n", edge.area / exact - 1, edge.good / edge.faces);
+    sam_assert(edge.faces > 0 && edge.good == edge.faces);
+    sam_assert_close(edge.area / exact, 1, 1e-3);
+    sam_call(VecDestroy(&w));
+    DestroyCase(&c);
+  }
+}
+
+/* The areas of a step are those of its edges where that is asked for, and cells else. */
+static void test_step_has_the_areas_of_its_edges(void **state)
+{
+  const double exact = PETSC_PI * 1e-6;
+  SamStep      steps[2];
+
+  (void)state;
+  for (int edges = 0; edges < 2; edges++) {
+    Case             c       = NewCase(PLAIN, 90, 1.5, MU, edges ? "-edges reconstruct" : "");
+    const SamControl control = Loads(&c, 1, 0.6, 0, 0);
+    const double     cell    = c.s.grid->dx * c.s.grid->dy;
+
+    steps[edges] = Try(&c, &control);
+    if (!edges) sam_assert_close(steps[0].contact_area, (double)steps[0].contact_cells * cell, 1e-12 * exact);
+    if (!edges) sam_assert_close(steps[0].stick_area, (double)steps[0].stick_cells * cell, 1e-12 * exact);
+    DestroyCase(&c);
+  }
+  sam_assert(steps[0].edge_accepted == 0 && steps[1].edge_accepted == 1);
+  sam_assert(steps[0].contact_cells == steps[1].contact_cells && steps[0].stick_cells == steps[1].stick_cells);
+  sam_assert_close(steps[1].contact_area / exact, 1, 3e-4);
+  sam_assert_close(steps[1].stick_area / exact / pow(0.4, 2.0 / 3), 1, 1e-3);
+}
+
+/* ---- given fields ---- */
+
+/* An ellipse turned on the grid: w is exact here, and so is what is behind the band. */
+static double Ellipse(double x, double y, const void *context)
+{
+  const double turn = *(const double *)context, u = cos(turn) * x + sin(turn) * y, v = cos(turn) * y - sin(turn) * x;
+  const double w = 1 - u * u - 4 * v * v;
+
+  return w > 0 ? w : 0;
+}
+
+static void test_area_of_an_ellipse_of_exact_values(void **state)
+{
+  const double turn  = 0.4;
+  SamGrid      grid  = NewGrid(61, 47, 2.3, 2.1);
+  Vec          w     = NewFrom(grid, Ellipse, &turn);
+  const double shift = 0.0105 * 2.3 / 61;
+  SamEdge      edge;
+
+  (void)state;
+  sam_call(SamEdgeReconstruct(grid, w, NULL, &edge));
+  /* the mean shift of discrete solutions is taken off here too: of the perimeter, 4.844 */
+  sam_assert_close(edge.area, PETSC_PI / 2 - 4.844 * shift, 2e-3 * PETSC_PI / 2);
+  sam_call(VecDestroy(&w));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* Random spots are no smooth edge: all is counted, less a part of a cell a face. */
+static void test_rough_zone_is_counted(void **state)
+{
+  SamGrid  grid = NewGrid(45, 38, 45, 38);
+  Vec      w = NewRandom(grid, 1, 3), point = NewField(grid, 1);
+  double  *values, *whole;
+  double   faces = 0, cells = 0;
+  PetscInt same;
+  SamEdge  edge;
+
+  (void)state;
+  sam_call(VecGetArray(w, &values));
+  for (PetscInt k = 0; k < grid->cells; k++) values[k] = values[k] > -0.4 ? values[k] + 0.5 : 0;
+  sam_call(VecRestoreArray(w, &values));
+  sam_call(SamEdgeReconstruct(grid, w, point, &edge));
+  whole = Whole(grid, 1, w);
+  for (PetscInt j = 0; j < 38; j++)
+    for (PetscInt i = 0; i < 45; i++) {
+      const PetscInt k = j * 45 + i;
+
+      cells += whole[k] > 0;
+      if (i > 0) faces += (whole[k] > 0) != (whole[k - 1] > 0);
+      if (j > 0) faces += (whole[k] > 0) != (whole[k - 45] > 0);
+    }
+  free(whole);
+  same = SameBits(w, point);
+  sam_assert(same && edge.good == 0 && edge.faces == faces && edge.cells == (PetscInt)cells);
+  sam_assert_close(edge.area, cells - 0.09 * faces, 1e-9 * cells);
+  sam_call(VecDestroy(&w));
+  sam_call(VecDestroy(&point));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* Everything, and nothing. */
+static void test_zone_without_an_edge(void **state)
+{
+  SamGrid grid = NewGrid(17, 13, 17, 13);
+  Vec     w    = NewField(grid, 1);
+  SamEdge edge;
+
+  (void)state;
+  sam_call(SamEdgeReconstruct(grid, w, NULL, &edge));
+  sam_assert(edge.area == 0 && edge.faces == 0 && edge.cells == 0);
+  sam_call(VecSet(w, 2));
+  sam_call(SamEdgeReconstruct(grid, w, NULL, &edge));
+  sam_assert(edge.area == 17 * 13 && edge.faces == 0 && edge.cells == 17 * 13);
+  sam_call(VecDestroy(&w));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* The same bits on any number of ranks, also where a rank has fewer rows than a window. */
+static void test_edge_does_not_depend_on_the_ranks(void **state)
+{
+  const double turn = 0.4;
+  SamEdge      all, alone;
+
+  (void)state;
+  for (PetscInt ny = 24; ny <= 50; ny += 13) {
+    SamGrid grid = NewGridOn(PETSC_COMM_WORLD, 61, ny, 2.3, 2.1, 0, 0),
+            own  = NewGridOn(PETSC_COMM_SELF, 61, ny, 2.3, 2.1, 0, 0);
+    Vec w = NewFrom(grid, Ellipse, &turn), v = NewFrom(own, Ellipse, &turn),
+        points[2] = {NewField(grid, 1), NewField(own, 1)};
+    double *a, *b;
+
+    sam_call(SamEdgeReconstruct(grid, w, points[0], &all));
+    sam_call(SamEdgeReconstruct(own, v, points[1], &alone));
+    sam_assert(SameNumbers(1, &all.area, &alone.area) && all.good == alone.good && all.faces == alone.faces &&
+               all.cells == alone.cells);
+    a = Whole(grid, 1, points[0]);
+    b = Whole(own, 1, points[1]);
+    sam_assert(!memcmp(a, b, sizeof(*a) * (size_t)(61 * ny)));
+    free(a);
+    free(b);
+    for (int k = 0; k < 2; k++) sam_call(VecDestroy(&points[k]));
+    sam_call(VecDestroy(&w));
+    sam_call(VecDestroy(&v));
+    sam_call(SamGridDestroy(&grid));
+    sam_call(SamGridDestroy(&own));
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_edge_of_hertz_is_found_to_a_fraction_of_a_cell),
+    cmocka_unit_test(test_area_is_of_second_order),
+    cmocka_unit_test(test_edge_of_stick_is_cattaneos),
+    cmocka_unit_test(test_step_has_the_areas_of_its_edges),
+    cmocka_unit_test(test_area_of_an_ellipse_of_exact_values),
+    cmocka_unit_test(test_rough_zone_is_counted),
+    cmocka_unit_test(test_zone_without_an_edge),
+    cmocka_unit_test(test_edge_does_not_depend_on_the_ranks),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
