@@ -35,7 +35,8 @@ PETSC_INTERN int SamEmbedStart(char message[], size_t size);
   SamEmbedEnter - begins a call: options are those of the contact, errors become messages. False, with a message: MPI or
   PETSc has been ended.
   SamEmbedLeave - ends it; returns the code of a program for an error.
-  SamEmbedRefuse - says what is wrong, and returns 2; for mistakes that need no PETSc to be found, the same on all ranks.
+  SamEmbedRefuse - says what is wrong, and returns 2; for mistakes that need no PETSc to be found, the same on all
+  ranks.
   None is collective.
 */
 PETSC_INTERN PetscBool SamEmbedEnter(petsam_contact *c);
