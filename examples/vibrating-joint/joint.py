@@ -35,7 +35,7 @@ DAMPING = 0.002  # of the spring: part of the critical damping of the stuck join
 HARMONICS = (1, 3)
 SAMPLES = 32
 ITERATIONS = 20
-LITTLE = 0.3  # of the residual: a step that leaves more has brought little
+LITTLE = 0.7  # of the residual: a step that leaves more has brought little
 
 
 class Joint:
