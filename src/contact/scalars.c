@@ -99,8 +99,8 @@ static PetscErrorCode CountCells(SamContact c, SamStep *step)
 /* ---- areas ---- */
 
 /*
-  What vanishes at the edges like the distance, of this rank's cells: of the contact p^2, of the stick zone the square of
-  what the pressure exceeds |q|/mu by.
+  What vanishes at the edges like the distance, of this rank's cells: of the contact p^2, of the stick zone the square
+  of what the pressure exceeds |q|/mu by.
 */
 static PetscErrorCode FillSquares(const SamSolution *s, PetscBool stick, Vec w)
 {
