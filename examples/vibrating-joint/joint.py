@@ -194,21 +194,21 @@ class Balance:
         """Newton's method from x, with shorter steps where a whole one would lead away.
 
         Where the motion turns between two instants, the rule of derivative() does not know from which of them to count.
-        Steps that bring little are followed by one with a Jacobian by differences.
+        Four steps that bring little are followed by one with a Jacobian by differences.
         """
         r, j = self.residual(x, omega, force, not by_differences)
-        little = False
+        stalls = 0
         for _ in range(ITERATIONS):
             if size(r) <= rtol * force:
                 return x
-            if by_differences or little:
+            if by_differences or stalls > 3:
                 j = self.differences(x, r, omega, force)
             step = np.linalg.solve(j, r)
             for part in (1.0, 0.5, 0.25, 0.125):
                 new, j = self.residual(x - part * step, omega, force, not by_differences)
                 if size(new) < size(r):
                     break
-            little = size(new) > LITTLE * size(r)
+            stalls = stalls + 1 if stalls < 4 and size(new) > LITTLE * size(r) else 0
             x, r = x - part * step, new
         raise RuntimeError(f"no convergence at {omega / 2.0 / np.pi:.1f} Hz, {force:g} N")
 

@@ -80,9 +80,10 @@ typedef struct {
   PetscReal  rigid[SAM_COMPONENTS];    /* m, rad: given or found */
   PetscReal  contact_area, stick_area; /* m2: counted cells, or by the edges (SamContactSetEdges()) */
   PetscInt   contact_cells, stick_cells;
-  PetscReal  edge_accepted;     /* share of the edges of contact and stick that are reconstructed, 0 to 1 */
-  PetscReal  dissipated_energy; /* J, frictional work of the step: slip times the mean bound of the step */
-  PetscReal  stored_energy;     /* J, elastic: half the work of the tractions on the elastic displacements */
+  PetscReal  pressure_max, shear_max; /* Pa: of the cells; the shear also at the edge of stick, where that is found */
+  PetscReal  edge_accepted;           /* share of the edges of contact and stick that are reconstructed, 0 to 1 */
+  PetscReal  dissipated_energy;       /* J, frictional work of the step: slip times the mean bound of the step */
+  PetscReal  stored_energy;           /* J, elastic: half the work of the tractions on the elastic displacements */
   SamCheck   check;
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;

@@ -15,6 +15,10 @@ typedef struct {
   PetscReal area;        /* m2: by the reconstructed edge; where that is refused, cells less a part of a cell a face */
   PetscInt  cells;       /* of the zone */
   PetscReal faces, good; /* of these cells to cells outside; those where the reconstruction is accepted */
+  /* points of the reconstructed edge, one in each of this rank's cells that it crosses */
+  PetscInt   count;
+  PetscReal *x, *y; /* m */
+  PetscInt  *cell;  /* index of the cell in this rank's part of the grid */
 } SamEdge;
 
 /*
@@ -26,5 +30,7 @@ typedef struct {
   cells fail that, and are counted.
 */
 PETSC_EXTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge);
+/* SamEdgeDestroy - frees the points. Not collective. */
+PETSC_EXTERN PetscErrorCode SamEdgeDestroy(SamEdge *edge);
 
 #endif

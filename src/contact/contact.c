@@ -280,6 +280,7 @@ static void SetUnknown(SamStep *step)
     step->rigid[k] = step->control.force[k] ? NAN : step->control.value[k];
   }
   step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = step->edge_accepted = NAN;
+  step->pressure_max = step->shear_max = NAN;
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 

@@ -1,6 +1,7 @@
 /* The numbers of a step that follow from its solution: cells and areas, energies. */
 #include "contactimpl.h"
 #include <petsam/edges.h>
+#include <petsam/private/rows.h>
 #include <math.h>
 
 /* ---- energies ---- */
@@ -54,7 +55,7 @@ static PetscErrorCode CountCells(SamContact c, SamStep *step)
   const PetscInt     cells = c->grid->cells, nx = c->grid->nx;
   const double       area      = c->grid->dx * c->grid->dy;
   SamTotal           totals[3] = {{0}};
-  double             sums[3];
+  double             sums[3], most[2] = {0, 0};
   const double      *p, *b, *b_before, *q;
   SamIncrement       increment;
   const Vec          before = c->steps ? c->committed.solution.bound : s->bound;
@@ -75,6 +76,8 @@ static PetscErrorCode CountCells(SamContact c, SamStep *step)
       const SamState  state = SamStateOf(p[k], q[k], q[l], b[k]);
 
       if (state == SAM_STATE_OPEN) continue;
+      most[0] = PetscMax(most[0], p[k]);
+      most[1] = PetscMax(most[1], hypot(q[k], q[l]));
       row[0] += 1;
       row[1] += state == SAM_STATE_STICK ? 1 : 0;
       row[2] -= (q[k] * increment.row[0][i] + q[l] * increment.row[1][i]) *
@@ -88,6 +91,9 @@ static PetscErrorCode CountCells(SamContact c, SamStep *step)
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
   PetscCall(SamIncrementDestroy(&increment));
   PetscCall(SamSumTotals(c->grid->comm, 3, totals, sums));
+  PetscCall(SamMax(c->grid->comm, 2, most));
+  step->pressure_max      = most[0];
+  step->shear_max         = most[1];
   step->contact_cells     = (PetscInt)sums[0];
   step->stick_cells       = (PetscInt)sums[1];
   step->contact_area      = sums[0] * area;
@@ -128,10 +134,47 @@ static PetscErrorCode FillSquares(const SamSolution *s, PetscBool stick, Vec w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The areas by the edges of contact and stick. */
+/*
+  The largest shear at the edge of the stick zone, where it is mu p: larger than that of any cell, which is a mean. The
+  pressure is interpolated in p^2, which is smooth up to the contact's edge, between the four cells about a point.
+*/
+static PetscErrorCode FindPeak(SamContact c, const SamEdge *stick, double *peak)
+{
+  const SamGrid  grid = c->grid;
+  const PetscInt from = PetscMax(grid->row_start - 1, 0), to = PetscMin(grid->row_start + grid->rows + 1, grid->ny);
+  const PetscInt first = grid->rows ? from : 0, count = grid->rows ? to - from : 0;
+  const double  *own, *b, *p;
+  SamRows        rows;
+
+  PetscFunctionBegin;
+  PetscCall(SamRowsCreate(grid, first, count, &rows));
+  PetscCall(VecGetArrayRead(c->tried.solution.pressure, &own));
+  PetscCall(VecGetArrayRead(c->tried.solution.bound, &b));
+  PetscCall(SamRowsFetch(&rows, grid->nx, own, &p));
+  for (PetscInt n = 0; n < stick->count; n++) {
+    const PetscInt k = stick->cell[n];
+    const double   x = (double)((stick->x[n] - SamGridX(grid, 0)) / grid->dx),
+                 y   = (double)((stick->y[n] - SamGridY(grid, first)) / grid->dy);
+    const PetscInt i = PetscMin(PetscMax((PetscInt)floor(x), 0), grid->nx - 2),
+                   j = PetscMin(PetscMax((PetscInt)floor(y), 0), count - 2);
+    const double tx = x - (double)i, ty = y - (double)j, *q = p + (ptrdiff_t)j * grid->nx + i;
+    const double w = (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
+                     ty * ((1 - tx) * q[grid->nx] * q[grid->nx] + tx * q[grid->nx + 1] * q[grid->nx + 1]);
+
+    if (own[k] > 0) *peak = PetscMax(*peak, b[k] / own[k] * sqrt(PetscMax(w, 0)));
+  }
+  PetscCall(SamRowsRestore(&rows, &p));
+  PetscCall(VecRestoreArrayRead(c->tried.solution.bound, &b));
+  PetscCall(VecRestoreArrayRead(c->tried.solution.pressure, &own));
+  PetscCall(SamRowsDestroy(&rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The areas by the edges of contact and stick, and the peak of the shear between stick and slip. */
 static PetscErrorCode FindEdges(SamContact c, SamStep *step)
 {
   SamEdge edge[2];
+  double  peak = (double)step->shear_max;
   Vec     w;
 
   PetscFunctionBegin;
@@ -141,6 +184,9 @@ static PetscErrorCode FindEdges(SamContact c, SamStep *step)
     PetscCall(SamEdgeReconstruct(c->grid, w, NULL, &edge[k]));
   }
   PetscCall(VecDestroy(&w));
+  PetscCall(FindPeak(c, &edge[1], &peak));
+  PetscCall(SamMax(c->grid->comm, 1, &peak));
+  step->shear_max    = peak;
   step->contact_area = edge[0].area;
   step->stick_area   = edge[1].area;
   step->edge_accepted =

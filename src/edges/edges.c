@@ -280,6 +280,46 @@ static void AddCell(const Field *f, PetscInt i, PetscInt j, double sums[SUMS], d
   if (point) *point = good ? PetscMax(fit[0], 0) : f->w[k];
 }
 
+/* ---- points ---- */
+
+/* The place on the edge that is nearest to the centre of a cell (in cells from it), and whether it lies in the cell. */
+static PetscBool Cross(const double fit[TERMS], double place[2])
+{
+  const double square = fit[1] * fit[1] + fit[2] * fit[2];
+
+  for (int k = 0; k < 2; k++) place[k] = -fit[0] * fit[1 + k] / square;
+  return fabs(place[0]) <= 0.5 && fabs(place[1]) <= 0.5 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static PetscErrorCode FindPoints(const Field *f, SamEdge *edge)
+{
+  const SamGrid grid = f->grid;
+  double        place[2];
+
+  PetscFunctionBegin;
+  edge->count = 0;
+  PetscCall(PetscMalloc3(f->band, &edge->x, f->band, &edge->y, f->band, &edge->cell));
+  for (PetscInt j = grid->row_start; j < grid->row_start + grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscInt k = f->slot[At(f, i, j)], n = edge->count;
+
+      if (k < 0 || !IsAccepted(f, i, j) || !Cross(f->fit + TERMS * (ptrdiff_t)k, place)) continue;
+      edge->x[n]    = SamGridX(grid, i) + place[0] * grid->dx;
+      edge->y[n]    = SamGridY(grid, j) + place[1] * grid->dy;
+      edge->cell[n] = (j - grid->row_start) * grid->nx + i;
+      edge->count++;
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEdgeDestroy(SamEdge *edge)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(edge->x, edge->y, edge->cell));
+  edge->count = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the whole ---- */
 
 static PetscErrorCode Examine(Field *f)
@@ -324,13 +364,16 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge)
     SamAddAll(SUMS, totals, row);
   }
   if (point) PetscCall(VecRestoreArray(point, &points));
+  PetscCall(FindPoints(&f, edge));
   PetscCall(PetscFree2(f.depth, f.slot));
   PetscCall(PetscFree2(f.passes, f.fit));
   PetscCall(SamRowsRestore(&rows, &f.w));
   PetscCall(VecRestoreArrayRead(w, &own));
   PetscCall(SamRowsDestroy(&rows));
   PetscCall(SamSumTotals(grid->comm, SUMS, totals, sums));
-  *edge = (SamEdge){
-    .area = sums[AREA] * grid->dx * grid->dy, .cells = (PetscInt)sums[CELLS], .faces = sums[FACES], .good = sums[GOOD]};
+  edge->area  = sums[AREA] * grid->dx * grid->dy;
+  edge->cells = (PetscInt)sums[CELLS];
+  edge->faces = sums[FACES];
+  edge->good  = sums[GOOD];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -123,6 +123,8 @@ static const SamOutputColumn history[] = {
   REAL("stick_area", "m2", "area in stick", stick_area),
   INT("contact_cells", "cells in contact", contact_cells),
   INT("stick_cells", "cells in stick", stick_cells),
+  REAL("pressure_max", "Pa", "largest pressure", pressure_max),
+  REAL("shear_max", "Pa", "largest shear", shear_max),
   REAL("edge_accepted", "1", "share of the edges of contact and stick that are reconstructed", edge_accepted),
   REAL("normal_residual", "1", "relative error of the normal problem, by the check", check.normal),
   REAL("tangential_residual", "1", "relative error of the tangential problem, by the check", check.tangential),

@@ -53,6 +53,8 @@ HISTORY = dict(
     dissipated_energy="J",
     stored_energy="J",
     edge_accepted="1",
+    pressure_max="Pa",
+    shear_max="Pa",
 )
 COUNTS = (
     "contact_cells",

@@ -162,6 +162,8 @@ static inline SamStep MakeStep(int step)
                .dissipated_energy = 40 + step,
                .stored_energy     = 45 + step,
                .edge_accepted     = 47 + step,
+               .pressure_max      = 150 + step,
+               .shear_max         = 160 + step,
                .contact_cells     = 130 + step,
                .stick_cells       = 140 + step};
 
@@ -381,6 +383,8 @@ static inline int HasHistory(hid_t file, int steps)
                                 {"contact_cells", "1", 130, 1},
                                 {"stick_cells", "1", 140, 1},
                                 {"edge_accepted", "1", 47, 0},
+                                {"pressure_max", "Pa", 150, 0},
+                                {"shear_max", "Pa", 160, 0},
                                 {"stored_energy", "J", 45, 0},
                                 {"dissipated_energy", "J", 40, 0}};
   const double status[STEPS] = {0, 12, 0};

@@ -59,6 +59,16 @@ static void Errors(const Case *c, Vec point, double x, double y, double errors[2
   for (int k = 0; k < 2; k++) errors[k] = sqrt(sums[k] / sums[2]);
 }
 
+/* The edge without its points. */
+static SamEdge Reconstruct(SamGrid grid, Vec w, Vec point)
+{
+  SamEdge edge;
+
+  sam_call(SamEdgeReconstruct(grid, w, point, &edge));
+  sam_call(SamEdgeDestroy(&edge));
+  return edge;
+}
+
 /* ---- closed solutions ---- */
 
 static const double places[][2] = {{0, 0}, {0.3, 0.1}, {0.41, 0.73}};
@@ -73,7 +83,7 @@ static void test_edge_of_hertz_is_found_to_a_fraction_of_a_cell(void **state)
     double       errors[2];
     SamEdge      edge;
 
-    sam_call(SamEdgeReconstruct(c.s.grid, w, point, &edge));
+    edge = Reconstruct(c.s.grid, w, point);
     Errors(&c, point, x, y, errors);
     if (getenv("SAM_SHOW"))
       print_message("# %g of the raw error, area %g\n", errors[1] / errors[0], edge.area / (PETSC_PI * 1e-6) - 1);
@@ -98,7 +108,7 @@ static void test_area_is_of_second_order(void **state)
       Vec     w = NewSquare(&c, SolutionOf(&c)->pressure);
       SamEdge edge;
 
-      sam_call(SamEdgeReconstruct(c.s.grid, w, NULL, &edge));
+      edge         = Reconstruct(c.s.grid, w, NULL);
       errors[fine] = fmax(errors[fine], fabs(edge.area / (PETSC_PI * 1e-6) - 1));
       sam_call(VecDestroy(&w));
       DestroyCase(&c);
@@ -131,7 +141,7 @@ static void test_edge_of_stick_is_cattaneos(void **state)
     sam_call(VecRestoreArray(w, &slack));
     sam_call(VecRestoreArrayRead(SolutionOf(&c)->shear, &q));
     sam_call(VecRestoreArrayRead(SolutionOf(&c)->bound, &b));
-    sam_call(SamEdgeReconstruct(c.s.grid, w, NULL, &edge));
+    edge = Reconstruct(c.s.grid, w, NULL);
     if (getenv("SAM_SHOW")) print_message("# stick %g accepted %g\n", edge.area / exact - 1, edge.good / edge.faces);
     sam_assert(edge.faces > 0 && edge.good == edge.faces);
     sam_assert_close(edge.area / exact, 1, 1e-3);
@@ -144,6 +154,7 @@ static void test_edge_of_stick_is_cattaneos(void **state)
 static void test_step_has_the_areas_of_its_edges(void **state)
 {
   const double exact = PETSC_PI * 1e-6;
+  double       peak  = 0;
   SamStep      steps[2];
 
   (void)state;
@@ -153,6 +164,7 @@ static void test_step_has_the_areas_of_its_edges(void **state)
     const double     cell    = c.s.grid->dx * c.s.grid->dy;
 
     steps[edges] = Try(&c, &control);
+    peak         = c.s.p0;
     if (!edges) sam_assert_close(steps[0].contact_area, (double)steps[0].contact_cells * cell, 1e-12 * exact);
     if (!edges) sam_assert_close(steps[0].stick_area, (double)steps[0].stick_cells * cell, 1e-12 * exact);
     DestroyCase(&c);
@@ -161,6 +173,38 @@ static void test_step_has_the_areas_of_its_edges(void **state)
   sam_assert(steps[0].contact_cells == steps[1].contact_cells && steps[0].stick_cells == steps[1].stick_cells);
   sam_assert_close(steps[1].contact_area / exact, 1, 3e-4);
   sam_assert_close(steps[1].stick_area / exact / pow(0.4, 2.0 / 3), 1, 1e-3);
+  /* the peak of the shear is mu p at the stick radius; a cell's mean is less */
+  peak = MU * peak * sqrt(1 - pow(0.4, 2.0 / 3));
+  sam_assert_close(steps[1].shear_max / peak, 1, 3e-4);
+  sam_assert(steps[0].shear_max < (1 - 1e-3) * peak && steps[0].pressure_max == steps[1].pressure_max);
+}
+
+/* One point in each cell that the edge crosses, on the circle, to a part of a cell; together they go round it. */
+static void test_points_lie_on_the_edge(void **state)
+{
+  Case    c       = NewBeside(Steel(), 96, 1.5, 0.3, 0.1, 0);
+  Vec     w       = NewSquare(&c, SolutionOf(&c)->pressure);
+  double  sums[4] = {0, 0, 0, 0}, most = 0;
+  SamEdge edge;
+
+  (void)state;
+  sam_call(SamEdgeReconstruct(c.s.grid, w, NULL, &edge));
+  for (PetscInt k = 0; k < edge.count; k++) {
+    const double x = edge.x[k] - 0.3 * c.s.grid->dx, y = edge.y[k] - 0.1 * c.s.grid->dy;
+
+    most = fmax(most, fabs(hypot(x, y) - c.s.a) / c.s.grid->dx);
+    sums[0] += 1;
+    sums[1] += x;
+    sums[2] += y;
+  }
+  (void)MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  (void)MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  sam_assert(most < 0.05);
+  sam_assert(sums[0] > 0.8 * 2 * PETSC_PI * 32 && sums[0] < 1.3 * 2 * PETSC_PI * 32);
+  sam_assert(hypot(sums[1], sums[2]) < 0.03 * sums[0] * c.s.a);
+  sam_call(SamEdgeDestroy(&edge));
+  sam_call(VecDestroy(&w));
+  DestroyCase(&c);
 }
 
 /* ---- given fields ---- */
@@ -183,7 +227,7 @@ static void test_area_of_an_ellipse_of_exact_values(void **state)
   SamEdge      edge;
 
   (void)state;
-  sam_call(SamEdgeReconstruct(grid, w, NULL, &edge));
+  edge = Reconstruct(grid, w, NULL);
   /* the mean shift of discrete solutions is taken off here too: of the perimeter, 4.844 */
   sam_assert_close(edge.area, PETSC_PI / 2 - 4.844 * shift, 2e-3 * PETSC_PI / 2);
   sam_call(VecDestroy(&w));
@@ -204,7 +248,7 @@ static void test_rough_zone_is_counted(void **state)
   sam_call(VecGetArray(w, &values));
   for (PetscInt k = 0; k < grid->cells; k++) values[k] = values[k] > -0.4 ? values[k] + 0.5 : 0;
   sam_call(VecRestoreArray(w, &values));
-  sam_call(SamEdgeReconstruct(grid, w, point, &edge));
+  edge  = Reconstruct(grid, w, point);
   whole = Whole(grid, 1, w);
   for (PetscInt j = 0; j < 38; j++)
     for (PetscInt i = 0; i < 45; i++) {
@@ -231,10 +275,10 @@ static void test_zone_without_an_edge(void **state)
   SamEdge edge;
 
   (void)state;
-  sam_call(SamEdgeReconstruct(grid, w, NULL, &edge));
+  edge = Reconstruct(grid, w, NULL);
   sam_assert(edge.area == 0 && edge.faces == 0 && edge.cells == 0);
   sam_call(VecSet(w, 2));
-  sam_call(SamEdgeReconstruct(grid, w, NULL, &edge));
+  edge = Reconstruct(grid, w, NULL);
   sam_assert(edge.area == 17 * 13 && edge.faces == 0 && edge.cells == 17 * 13);
   sam_call(VecDestroy(&w));
   sam_call(SamGridDestroy(&grid));
@@ -254,8 +298,8 @@ static void test_edge_does_not_depend_on_the_ranks(void **state)
         points[2] = {NewField(grid, 1), NewField(own, 1)};
     double *a, *b;
 
-    sam_call(SamEdgeReconstruct(grid, w, points[0], &all));
-    sam_call(SamEdgeReconstruct(own, v, points[1], &alone));
+    all   = Reconstruct(grid, w, points[0]);
+    alone = Reconstruct(own, v, points[1]);
     sam_assert(SameNumbers(1, &all.area, &alone.area) && all.good == alone.good && all.faces == alone.faces &&
                all.cells == alone.cells);
     a = Whole(grid, 1, points[0]);
@@ -278,6 +322,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_area_is_of_second_order),
     cmocka_unit_test(test_edge_of_stick_is_cattaneos),
     cmocka_unit_test(test_step_has_the_areas_of_its_edges),
+    cmocka_unit_test(test_points_lie_on_the_edge),
     cmocka_unit_test(test_area_of_an_ellipse_of_exact_values),
     cmocka_unit_test(test_rough_zone_is_counted),
     cmocka_unit_test(test_zone_without_an_edge),
