@@ -143,7 +143,7 @@ class Comparison:
                 right.plot(1e3 * self.life.y, 1e6 * depth[:, column], color=color, label=label)
         frame(left, f"amplitude over drive, {WEARING / 1e3:g} kN", "drive, Hz", "nm/N")
         left.legend()
-        frame(right, "depth removed of each face, along y through the deepest cell", "y, mm", "um")
+        frame(right, "depth removed of each face along y", "y, mm", "um")
         save(figure, directory, "worn.png")
 
 
