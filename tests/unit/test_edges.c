@@ -234,6 +234,42 @@ static void test_area_of_an_ellipse_of_exact_values(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+static double Disc(double x, double y, const void *context)
+{
+  (void)context;
+  return fmax(1 - x * x - y * y, 0);
+}
+
+/* What lies in the cells at the edge must be the layer of a smooth edge: neither too little nor too much of it. */
+static void test_another_layer_at_the_edge_is_refused(void **state)
+{
+  SamGrid      grid = NewGrid(60, 60, 2.6, 2.6);
+  const double part = 2 * 2.6 / 60; /* slope of a cell at the edge */
+
+  (void)state;
+  for (int k = -1; k <= 1; k++) {
+    Vec     w = NewFrom(grid, Disc, NULL);
+    double *values, *whole = Whole(grid, 1, w);
+    SamEdge edge;
+
+    sam_call(VecGetArray(w, &values));
+    for (PetscInt n = 0; n < grid->cells; n++) {
+      const PetscInt m = n + grid->row_start * 60;
+      const int      at_edge =
+        whole[m] > 0 && !(whole[m - 1] > 0 && whole[m + 1] > 0 && whole[m - 60] > 0 && whole[m + 60] > 0);
+
+      if (at_edge) values[n] += 0.3 * part * k * (k > 0 || values[n] > 0.4 * part);
+    }
+    sam_call(VecRestoreArray(w, &values));
+    free(whole);
+    edge = Reconstruct(grid, w, NULL);
+    if (getenv("SAM_SHOW")) print_message("# layer %d: %g of %g\n", k, (double)edge.good, (double)edge.faces);
+    sam_assert(k ? edge.good < 0.3 * edge.faces : edge.good == edge.faces);
+    sam_call(VecDestroy(&w));
+  }
+  sam_call(SamGridDestroy(&grid));
+}
+
 /* Random spots are no smooth edge: all is counted, less a part of a cell a face. */
 static void test_rough_zone_is_counted(void **state)
 {
@@ -324,6 +360,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_step_has_the_areas_of_its_edges),
     cmocka_unit_test(test_points_lie_on_the_edge),
     cmocka_unit_test(test_area_of_an_ellipse_of_exact_values),
+    cmocka_unit_test(test_another_layer_at_the_edge_is_refused),
     cmocka_unit_test(test_rough_zone_is_counted),
     cmocka_unit_test(test_zone_without_an_edge),
     cmocka_unit_test(test_edge_does_not_depend_on_the_ranks),
