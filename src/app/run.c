@@ -77,6 +77,7 @@ static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
 static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
 {
   SamElasticityTraits traits;
+  PetscBool           help;
 
   PetscFunctionBegin;
   PetscCall(SamSetupReadOptions(&run->setup, from));
@@ -99,7 +100,8 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
                            &run->needs.stiffness, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&run->output_settings, from));
   run->output_settings.with[SAM_OUTPUT_STIFFNESS] = run->needs.stiffness;
-  PetscCheck(!run->needs.stiffness || run->has_output, from->comm, SAM_ERR_USER,
+  PetscCall(SamPrintHelp(&help));
+  PetscCheck(!run->needs.stiffness || run->has_output || help, from->comm, SAM_ERR_USER,
              "-stiffness is given without -output, the file that it goes to");
   PetscCall(SamHistoryHas(run->history, &run->output_settings.with[SAM_OUTPUT_FRICTION_SCALE],
                           &run->output_settings.with[SAM_OUTPUT_BULK_STRESS]));

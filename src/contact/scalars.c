@@ -191,6 +191,7 @@ static PetscErrorCode FindEdges(SamContact c, SamStep *step)
   step->stick_area   = edge[1].area;
   step->edge_accepted =
     edge[0].faces + edge[1].faces > 0 ? (edge[0].good + edge[1].good) / (edge[0].faces + edge[1].faces) : 1;
+  for (PetscInt k = 0; k < 2; k++) PetscCall(SamEdgeDestroy(&edge[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

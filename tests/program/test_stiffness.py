@@ -73,5 +73,9 @@ def test_life_has_those_of_its_cycles(petsam, tmp_path):
     assert on.shape[0] % 3 == 0 and np.all(np.isfinite(on)) and not np.allclose(on[:3], on[-3:], rtol=1e-4)
 
 
+def test_help_does_not_ask_for_a_file(petsam):
+    assert "-stiffness" in petsam("-stiffness", "-help").stdout
+
+
 def test_matrices_without_a_file_are_refused(petsam):
     assert "-output" in petsam(dict(CASE, output=None, load_n=1000), check=2).stderr
