@@ -78,10 +78,10 @@ def run_units(programs, ranks):
 def run_pytest(build, names):
     python = build / "venv" / "bin" / "python"
     words = [str(python), "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", str(ROOT / "tests" / "program")]
-    if not names:
-        words += ["-n", str(min(os.cpu_count() or 1, WORKERS)), "--dist", "loadfile"]
     if names:
         words += ["-k", " or ".join(names)]
+    else:
+        words += ["-n", str(min(os.cpu_count() or 1, WORKERS)), "--dist", "loadfile"]
     done = subprocess.run(
         words,
         stdout=subprocess.PIPE,

@@ -41,6 +41,10 @@ class Named(dict):
 class History(Named):
     """Values by name of every load step, beside which there are matrices."""
 
+    def __init__(self, path, values, matrices):
+        super().__init__(path, values)
+        self.matrices = matrices
+
     def __missing__(self, name):
         if name in self.matrices:
             raise Error(f"{self.path}: {name} is a matrix for every step: ask for matrices[{name!r}]")
@@ -74,10 +78,9 @@ class Datafile:
         for name, axis in zip(names, axes):
             if axis.size < least or not np.all(np.isfinite(axis)) or not np.all(np.diff(axis) > 0.0):
                 raise ValueError(f"/{name} is not {least} or more numbers that increase")
-        self.history, self.units = self._read_table("history")
+        history, self.units = self._read_table("history")
         self.matrices = Named(self.path, {name: self._matrices(name) for name in self._names_of_matrices()})
-        self.history = History(self.path, self.history)
-        self.history.matrices = self.matrices
+        self.history = History(self.path, history, self.matrices)
         self.parameters = Named(self.path, self.file.attrs)
         return axes
 

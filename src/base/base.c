@@ -90,3 +90,14 @@ PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[])
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)n, MPI_DOUBLE, MPI_MAX, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                              PetscErrorType type, const char *message, void *context)
+{
+  (void)comm;
+  (void)line;
+  (void)function;
+  (void)file;
+  if (type == PETSC_ERROR_INITIAL && message) (void)snprintf((char *)context, SAM_MESSAGE, "%s", message);
+  return code;
+}

@@ -4,59 +4,21 @@
 #include <petsam/private/rows.h>
 #include <math.h>
 
-/* ---- energies ---- */
-
-/* Half the work of the tractions on the displacements in a row of cells. */
-static double StoredRow(const double p[], const double u_z[], const double *const q[2], const double *const u_t[2],
-                        PetscInt n)
-{
-  double sum = 0;
-
-  for (PetscInt i = 0; i < n; i++) sum += p[i] * u_z[i] + q[0][i] * u_t[0][i] + q[1][i] * u_t[1][i];
-  return 0.5 * sum;
-}
-
-/* The elastic energy that both bodies store. */
-static PetscErrorCode ComputeStoredEnergy(SamContact c, PetscReal *energy)
-{
-  const SamSolution *s     = &c->tried.solution;
-  SamTotal           total = {0};
-  const double      *p, *q, *u_z, *u_t;
-  double             sum;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->shear, &q));
-  PetscCall(VecGetArrayRead(s->displacement_z, &u_z));
-  PetscCall(VecGetArrayRead(s->displacement_t, &u_t));
-  for (PetscInt j = 0; j < c->grid->rows; j++) {
-    const ptrdiff_t     k = (ptrdiff_t)j * c->grid->nx, l = k + c->grid->cells;
-    const double *const qs[2] = {q + k, q + l}, *const us[2] = {u_t + k, u_t + l};
-
-    SamAdd(&total, StoredRow(p + k, u_z + k, qs, us, c->grid->nx));
-  }
-  PetscCall(VecRestoreArrayRead(s->displacement_t, &u_t));
-  PetscCall(VecRestoreArrayRead(s->displacement_z, &u_z));
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscCall(SamSumTotals(c->grid->comm, 1, &total, &sum));
-  *energy = sum * c->grid->dx * c->grid->dy;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
-  Cells in contact and in stick, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
-  while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
-  steps second order. Before the first step there is no bound; its pressure counts as there before its slip.
+  Cells in contact and in stick, largest tractions, the elastic energy of both bodies, half the work of the tractions on
+  the displacements, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips while its
+  pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over steps second
+  order. Before the first step there is no bound; its pressure counts as there before its slip.
 */
-static PetscErrorCode CountCells(SamContact c, SamStep *step)
+enum { CONTACT, STICK, DISSIPATED, STORED, SUMS };
+static PetscErrorCode SumCells(SamContact c, SamStep *step)
 {
   const SamSolution *s     = &c->tried.solution;
   const PetscInt     cells = c->grid->cells, nx = c->grid->nx;
-  const double       area      = c->grid->dx * c->grid->dy;
-  SamTotal           totals[3] = {{0}};
-  double             sums[3], most[2] = {0, 0};
-  const double      *p, *b, *b_before, *q;
+  const double       area         = c->grid->dx * c->grid->dy;
+  SamTotal           totals[SUMS] = {{0}};
+  double             sums[SUMS], most[2] = {0, 0};
+  const double      *p, *b, *b_before, *q, *u_z, *u_t;
   SamIncrement       increment;
   const Vec          before = c->steps ? c->committed.solution.bound : s->bound;
 
@@ -66,9 +28,11 @@ static PetscErrorCode CountCells(SamContact c, SamStep *step)
   PetscCall(VecGetArrayRead(s->bound, &b));
   PetscCall(VecGetArrayRead(before, &b_before));
   PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u_z));
+  PetscCall(VecGetArrayRead(s->displacement_t, &u_t));
   for (PetscInt j = 0; j < c->grid->rows; j++) {
-    const ptrdiff_t first  = (ptrdiff_t)j * nx;
-    double          row[3] = {0, 0, 0};
+    const ptrdiff_t first     = (ptrdiff_t)j * nx;
+    double          row[SUMS] = {0};
 
     SamIncrementComputeRow(&increment, j);
     for (PetscInt i = 0; i < nx; i++) {
@@ -77,28 +41,32 @@ static PetscErrorCode CountCells(SamContact c, SamStep *step)
 
       if (state == SAM_STATE_OPEN) continue;
       most[0] = PetscMax(most[0], p[k]);
-      most[1] = PetscMax(most[1], hypot(q[k], q[l]));
-      row[0] += 1;
-      row[1] += state == SAM_STATE_STICK ? 1 : 0;
-      row[2] -= (q[k] * increment.row[0][i] + q[l] * increment.row[1][i]) *
-                (state == SAM_STATE_SLIP && b[k] > 0 ? 0.5 * (b_before[k] + b[k]) / b[k] : 1);
+      most[1] = PetscMax(most[1], q[k] * q[k] + q[l] * q[l]);
+      row[CONTACT] += 1;
+      row[STICK] += state == SAM_STATE_STICK ? 1 : 0;
+      row[STORED] += 0.5 * (p[k] * u_z[k] + q[k] * u_t[k] + q[l] * u_t[l]);
+      row[DISSIPATED] -= (q[k] * increment.row[0][i] + q[l] * increment.row[1][i]) *
+                         (state == SAM_STATE_SLIP && b[k] > 0 ? 0.5 * (b_before[k] + b[k]) / b[k] : 1);
     }
-    SamAddAll(3, totals, row);
+    SamAddAll(SUMS, totals, row);
   }
+  PetscCall(VecRestoreArrayRead(s->displacement_t, &u_t));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u_z));
   PetscCall(VecRestoreArrayRead(s->shear, &q));
   PetscCall(VecRestoreArrayRead(before, &b_before));
   PetscCall(VecRestoreArrayRead(s->bound, &b));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
   PetscCall(SamIncrementDestroy(&increment));
-  PetscCall(SamSumTotals(c->grid->comm, 3, totals, sums));
+  PetscCall(SamSumTotals(c->grid->comm, SUMS, totals, sums));
   PetscCall(SamMax(c->grid->comm, 2, most));
   step->pressure_max      = most[0];
-  step->shear_max         = most[1];
-  step->contact_cells     = (PetscInt)sums[0];
-  step->stick_cells       = (PetscInt)sums[1];
-  step->contact_area      = sums[0] * area;
-  step->stick_area        = sums[1] * area;
-  step->dissipated_energy = sums[2] * area;
+  step->shear_max         = sqrt(most[1]);
+  step->contact_cells     = (PetscInt)sums[CONTACT];
+  step->stick_cells       = (PetscInt)sums[STICK];
+  step->contact_area      = sums[CONTACT] * area;
+  step->stick_area        = sums[STICK] * area;
+  step->dissipated_energy = sums[DISSIPATED] * area;
+  step->stored_energy     = sums[STORED] * area;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -198,8 +166,7 @@ static PetscErrorCode FindEdges(SamContact c, SamStep *step)
 PetscErrorCode SamContactComputeScalars(SamContact c, SamStep *step)
 {
   PetscFunctionBegin;
-  PetscCall(CountCells(c, step));
-  PetscCall(ComputeStoredEnergy(c, &step->stored_energy));
+  PetscCall(SumCells(c, step));
   step->edge_accepted = 0;
   if (c->edges == SAM_CONTACT_EDGES_RECONSTRUCT) PetscCall(FindEdges(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -161,7 +161,10 @@ static double Evaluate(const double fit[TERMS], double x, double y)
   return sum;
 }
 
-/* Solves the symmetric positive system A fit = b by Cholesky's method; false where it is singular. */
+/*
+  Solves the symmetric positive system A fit = b by Cholesky's method; false where it is singular. (The eigenvalues of
+  SamSolveSymmetric() would take longer than the fit.)
+*/
 static PetscBool SolveFit(double A[TERMS][TERMS], double b[TERMS])
 {
   for (int j = 0; j < TERMS; j++) {
@@ -260,8 +263,23 @@ static double PartOf(const double fit[TERMS])
 
 enum { AREA, FACES, GOOD, CELLS, SUMS };
 
-/* Adds a cell to the sums, and writes its value. */
-static void AddCell(const Field *f, PetscInt i, PetscInt j, double sums[SUMS], double *point)
+/*
+  Adds the place on the edge that is nearest to the centre of a cell of this rank, if it lies in the cell.
+*/
+static void AddPoint(SamGrid grid, const double fit[TERMS], PetscInt i, PetscInt j, SamEdge *edge)
+{
+  const double square = fit[1] * fit[1] + fit[2] * fit[2], x = -fit[0] * fit[1] / square, y = -fit[0] * fit[2] / square;
+  const PetscInt n = edge->count;
+
+  if (!(fabs(x) <= 0.5 && fabs(y) <= 0.5)) return;
+  edge->x[n]    = SamGridX(grid, i) + x * grid->dx;
+  edge->y[n]    = SamGridY(grid, j) + y * grid->dy;
+  edge->cell[n] = (j - grid->row_start) * grid->nx + i;
+  edge->count++;
+}
+
+/* Adds a cell to the sums and to the edge, and writes its value. */
+static void AddCell(const Field *f, PetscInt i, PetscInt j, double sums[SUMS], double *point, SamEdge *edge)
 {
   static const PetscInt x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
 
@@ -278,38 +296,7 @@ static void AddCell(const Field *f, PetscInt i, PetscInt j, double sums[SUMS], d
   sums[CELLS] += inside ? 1 : 0;
   sums[AREA] += good ? PartOf(fit) : inside ? 1 - FACE * (double)faces : 0;
   if (point) *point = good ? PetscMax(fit[0], 0) : f->w[k];
-}
-
-/* ---- points ---- */
-
-/* The place on the edge that is nearest to the centre of a cell (in cells from it), and whether it lies in the cell. */
-static PetscBool Cross(const double fit[TERMS], double place[2])
-{
-  const double square = fit[1] * fit[1] + fit[2] * fit[2];
-
-  for (int k = 0; k < 2; k++) place[k] = -fit[0] * fit[1 + k] / square;
-  return fabs(place[0]) <= 0.5 && fabs(place[1]) <= 0.5 ? PETSC_TRUE : PETSC_FALSE;
-}
-
-static PetscErrorCode FindPoints(const Field *f, SamEdge *edge)
-{
-  const SamGrid grid = f->grid;
-  double        place[2];
-
-  PetscFunctionBegin;
-  edge->count = 0;
-  PetscCall(PetscMalloc3(f->band, &edge->x, f->band, &edge->y, f->band, &edge->cell));
-  for (PetscInt j = grid->row_start; j < grid->row_start + grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const PetscInt k = f->slot[At(f, i, j)], n = edge->count;
-
-      if (k < 0 || !IsAccepted(f, i, j) || !Cross(f->fit + TERMS * (ptrdiff_t)k, place)) continue;
-      edge->x[n]    = SamGridX(grid, i) + place[0] * grid->dx;
-      edge->y[n]    = SamGridY(grid, j) + place[1] * grid->dy;
-      edge->cell[n] = (j - grid->row_start) * grid->nx + i;
-      edge->count++;
-    }
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (good) AddPoint(f->grid, fit, i, j, edge);
 }
 
 PetscErrorCode SamEdgeDestroy(SamEdge *edge)
@@ -355,16 +342,17 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge)
   PetscCall(VecGetArrayRead(w, &own));
   PetscCall(SamRowsFetch(&rows, grid->nx, own, &f.w));
   PetscCall(Examine(&f));
+  edge->count = 0;
+  PetscCall(PetscMalloc3(f.band, &edge->x, f.band, &edge->y, f.band, &edge->cell));
   if (point) PetscCall(VecGetArray(point, &points));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row[SUMS] = {0};
 
     for (PetscInt i = 0; i < grid->nx; i++)
-      AddCell(&f, i, grid->row_start + j, row, points ? points + (ptrdiff_t)j * grid->nx + i : NULL);
+      AddCell(&f, i, grid->row_start + j, row, points ? points + (ptrdiff_t)j * grid->nx + i : NULL, edge);
     SamAddAll(SUMS, totals, row);
   }
   if (point) PetscCall(VecRestoreArray(point, &points));
-  PetscCall(FindPoints(&f, edge));
   PetscCall(PetscFree2(f.depth, f.slot));
   PetscCall(PetscFree2(f.passes, f.fit));
   PetscCall(SamRowsRestore(&rows, &f.w));

@@ -10,24 +10,9 @@
 #include <stdarg.h>
 
 /* What petsam_create() has to say when there is no contact to say it. */
-static char created[SAM_EMBED_MESSAGE];
+static char created[SAM_MESSAGE];
 
 /* ---- entering and leaving ---- */
-
-/* Keeps the message of an error instead of printing it. */
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                                  PetscErrorType type, const char *message, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  if (type == PETSC_ERROR_INITIAL) {
-    (void)snprintf((char *)context, SAM_EMBED_MESSAGE, "%s", message ? message : "");
-    if (code == PETSC_ERR_MEM) (void)snprintf((char *)context, SAM_EMBED_MESSAGE, "not enough memory: %s", message);
-  }
-  return code;
-}
 
 /* Whether MPI and PETSc are still there. */
 static PetscBool IsAlive(void)
@@ -43,7 +28,7 @@ PetscBool SamEmbedEnter(petsam_contact *c)
   (void)snprintf(c->message, sizeof(c->message), "MPI or PETSc has been ended");
   if (!IsAlive()) return PETSC_FALSE;
   c->message[0] = '\0';
-  (void)PetscPushErrorHandler(KeepMessage, c->message);
+  (void)PetscPushErrorHandler(SamKeepMessage, c->message);
   (void)PetscOptionsPush(c->options);
   return PETSC_TRUE;
 }
@@ -69,6 +54,7 @@ int SamEmbedLeave(petsam_contact *c, PetscErrorCode code)
 {
   (void)PetscOptionsPop();
   (void)PetscPopErrorHandler();
+  if (code == PETSC_ERR_MEM) (void)snprintf(c->message, sizeof(c->message), "not enough memory");
   if (code && !c->message[0]) (void)snprintf(c->message, sizeof(c->message), "error %d of PETSc", (int)code);
   return CodeOf(code);
 }
@@ -90,8 +76,8 @@ const char *petsam_message(const petsam_contact *c)
 
 /* ---- creation ---- */
 
-/* Loads are given to petsam_try(); a name that the program knows deserves to be told so. */
-static PetscErrorCode RefuseLoads(const petsam_contact *c)
+/* Options that only the program has; their names deserve to be told so. Loads are given to petsam_try(). */
+static PetscErrorCode RefuseOthers(const petsam_contact *c)
 {
   static const char *const asks[] = {"-help", "-h", "-version"};
 
@@ -155,7 +141,7 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(InsertOptions(c, options));
-  PetscCall(RefuseLoads(c));
+  PetscCall(RefuseOthers(c));
   PetscCall(SamSetupReadOptions(&c->setup, &from));
   PetscCall(SamWearLawsSetFromOptions(&c->laws, &from));
   PetscCall(ReadBulkStress(c, &from));

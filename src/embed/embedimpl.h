@@ -3,12 +3,12 @@
 #define PETSAM_EMBEDIMPL_H
 
 #include <petsam/embed.h>
+#include <petsam/private/baseimpl.h>
 #include <petsam/checkpoint.h>
 #include <petsam/setup.h>
 #include <petsam/stiffness.h>
 
 enum { SAM_EMBED_USAGE = 2, SAM_EMBED_FILE = 3 };
-#define SAM_EMBED_MESSAGE 1024
 
 struct petsam_contact {
   MPI_Comm     comm;
@@ -23,7 +23,7 @@ struct petsam_contact {
   Vec          work;
   PetscBool    has_gap; /* a gap has been given, */
   uint64_t     gap;     /* of this checksum */
-  char         message[SAM_EMBED_MESSAGE];
+  char         message[SAM_MESSAGE];
 };
 
 /*

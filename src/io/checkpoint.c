@@ -430,7 +430,7 @@ static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *re
 
   PetscFunctionBegin;
   PetscCall(SamCheckpointNames(filename, &before, &temporary));
-  PetscCall(PetscPushErrorHandler(SamFileKeepMessage, ignored));
+  PetscCall(PetscPushErrorHandler(SamKeepMessage, ignored));
   if (!ReadFile(grid, before, rest, &c))
     (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
   PetscCall(PetscPopErrorHandler());
@@ -465,7 +465,7 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamW
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(SamContactGetGrid(contact, &grid));
-  PetscCall(PetscPushErrorHandler(SamFileKeepMessage, message));
+  PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
   ierr = ReadFile(grid, filename, &rest, &c);
   PetscCall(PetscPopErrorHandler());
   if (!ierr) PetscCall(SetStates(contact, wear, &c));

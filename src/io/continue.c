@@ -182,7 +182,7 @@ static void LookInChild(void *data)
 {
   Case *c = (Case *)data;
 
-  (void)PetscPushErrorHandler(SamFileKeepMessage, c->message);
+  (void)PetscPushErrorHandler(SamKeepMessage, c->message);
   c->sealed = SamStructureIsSealed(c->filename);
   c->code   = LookAtAll(c);
 }

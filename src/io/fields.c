@@ -164,40 +164,43 @@ static const SamOutputColumn wear[] = {
 
 /* ---- by name ---- */
 
-static PetscErrorCode CopyComponent(Vec from, PetscInt component, Vec to)
+PetscErrorCode SamOutputFindField(const SamOutputField *field, SamContact contact, SamWear worn, Vec work, Vec *holder,
+                                  PetscInt *component)
 {
-  const double *values;
-  double       *copy;
-  PetscInt      cells;
+  const SamSolution *solution;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(to, &cells));
-  PetscCall(VecGetArrayRead(from, &values));
-  PetscCall(VecGetArrayWrite(to, &copy));
-  PetscCall(PetscArraycpy(copy, values + component * cells, cells));
-  PetscCall(VecRestoreArrayWrite(to, &copy));
-  PetscCall(VecRestoreArrayRead(from, &values));
+  *holder    = work;
+  *component = 0;
+  if (field->compute) {
+    PetscCall(field->compute(contact, worn, field->component, work));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamContactGetSolution(contact, &solution));
+  *holder    = *(const Vec *)((const char *)solution + field->offset);
+  *component = field->component;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamFieldGet(SamContact contact, SamWear worn, const char name[], Vec field, PetscBool *found)
 {
-  const SamSolution *solution;
+  const double *from;
+  double       *to;
+  Vec           holder;
+  PetscInt      f = 0, component, cells;
 
   PetscFunctionBegin;
-  *found = PETSC_FALSE;
-  for (PetscInt f = 0; f < SamOutputFieldCount && !*found; f++) {
-    const SamOutputField *known = &SamOutputFields[f];
-
-    if (strcmp(known->label.name, name) || (known->option == SAM_OUTPUT_WEAR && !worn)) continue;
-    *found = PETSC_TRUE;
-    if (known->compute) {
-      PetscCall(known->compute(contact, worn, known->component, field));
-    } else {
-      PetscCall(SamContactGetSolution(contact, &solution));
-      PetscCall(CopyComponent(*(const Vec *)((const char *)solution + known->offset), known->component, field));
-    }
-  }
+  while (f < SamOutputFieldCount && strcmp(SamOutputFields[f].label.name, name)) f++;
+  *found = f < SamOutputFieldCount && (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR) ? PETSC_TRUE : PETSC_FALSE;
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOutputFindField(&SamOutputFields[f], contact, worn, field, &holder, &component));
+  if (holder == field) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetLocalSize(field, &cells));
+  PetscCall(VecGetArrayRead(holder, &from));
+  PetscCall(VecGetArrayWrite(field, &to));
+  PetscCall(PetscArraycpy(to, from + component * cells, cells));
+  PetscCall(VecRestoreArrayWrite(field, &to));
+  PetscCall(VecRestoreArrayRead(holder, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

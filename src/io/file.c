@@ -25,17 +25,6 @@ static void Unsilence(SamFile f)
   (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, f->print, f->print_data));
 }
 
-PetscErrorCode SamFileKeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                                  PetscErrorType type, const char *message, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  if (type == PETSC_ERROR_INITIAL && message) (void)snprintf((char *)context, SAM_MESSAGE, "%s", message);
-  return code;
-}
-
 PetscErrorCode SamFileBegin(SamFile f)
 {
   PetscFunctionBegin;

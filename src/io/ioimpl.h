@@ -66,11 +66,6 @@ PETSC_INTERN PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close);
 PETSC_INTERN PetscErrorCode SamFileBegin(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileEnd(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileAgree(SamFile file);
-/* SamFileKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
-#define SAM_MESSAGE 1024
-PETSC_INTERN PetscErrorCode SamFileKeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
-                                               PetscErrorCode code, PetscErrorType type, const char *message,
-                                               void *context);
 /* SamFileNameBeside - a name with an ending added; the caller frees it with PetscFree(). Not collective. */
 PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name);
 /* SamFileNote - returns `result`, that of an HDF5 call, and notes a failure with HDF5's reason. Not collective. */
@@ -207,6 +202,13 @@ typedef struct {
   PetscInt        component;
   SamOutputOption option; /* SAM_OUTPUT_OPTIONS: none, the field is always there */
 } SamOutputField;
+
+/*
+  SamOutputFindField - the vector that holds a field of a contact's solution and its wear, and the component there: one
+  of the solution's (borrowed), or `work` (one component), into which it is computed. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamOutputFindField(const SamOutputField *field, SamContact contact, SamWear wear, Vec work,
+                                               Vec *holder, PetscInt *component);
 
 /* A column of a series: a member of SamStep or SamLifeReport. A matrix has a row and a column for each component. */
 typedef enum { SAM_COLUMN_REAL, SAM_COLUMN_INT, SAM_COLUMN_STATUS, SAM_COLUMN_MATRIX } SamOutputColumnKind;

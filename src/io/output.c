@@ -403,20 +403,14 @@ static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, c
   const SamOutputField *field = &SamOutputFields[f];
   const PetscInt        cells = o->f->grid->cells;
   ContactFields        *from  = (ContactFields *)context;
-  const SamSolution    *solution;
+  PetscInt              component;
 
   PetscFunctionBegin;
   PetscCall(Release(from));
-  if (field->compute) {
-    if (!o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
-    PetscCall(field->compute(from->contact, o->set.wear, field->component, o->work));
-    from->field = o->work;
-  } else {
-    PetscCall(SamContactGetSolution(from->contact, &solution));
-    from->field = *(const Vec *)((const char *)solution + field->offset);
-  }
+  if (field->compute && !o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
+  PetscCall(SamOutputFindField(field, from->contact, o->set.wear, o->work, &from->field, &component));
   PetscCall(VecGetArrayRead(from->field, &from->array));
-  *values = field->compute ? from->array : from->array + field->component * cells;
+  *values = from->array + component * cells;
   if (field->kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)from->array[k];
   *values = o->states;

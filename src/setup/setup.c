@@ -3,10 +3,11 @@
 #include <petsam/checkpoint.h>
 #include <petsam/setup.h>
 
+/* Options of files that the gap may come from. */
+static const char *const files[] = {"-gap_file", "-gap_rough_file"};
+
 PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 {
-  static const char *const files[] = {"-gap_file", "-gap_rough_file"};
-
   PetscFunctionBegin;
   PetscCall(SamGridCreateFromOptions(from, &s->grid));
   PetscCall(SamPairSetFromOptions(&s->pair, from));
@@ -114,8 +115,6 @@ static PetscErrorCode AddFriction(const SamSetup *s, SamParameters *p)
 
 static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 {
-  static const char *const files[] = {"gap_file", "gap_rough_file"};
-
   SamGapType         type;
   PetscInt           count;
   const char *const *names;
@@ -129,9 +128,9 @@ static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
   PetscCall(SamProblemGetGap(s->problem, &separation));
   for (PetscInt k = 0; k < 2; k++)
     if (s->from_file[k])
-      PetscCall(AddField(s, p, files[k], separation));
+      PetscCall(AddField(s, p, files[k] + 1, separation));
     else
-      PetscCall(SamParametersAddText(p, files[k], PETSC_TRUE, "none"));
+      PetscCall(SamParametersAddText(p, files[k] + 1, PETSC_TRUE, "none"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -38,6 +38,18 @@ def launcher():
     return launcher_words()
 
 
+def make_install(*words):
+    """make install of what is being tested, with these variables."""
+    done = subprocess.run(
+        ["make", f"B={PROGRAM.parents[1]}", "install", *words],
+        cwd=support.ROOT,
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+
+
 def processes(run, ranks):
     """Process numbers of the ranks of a run that was started by the launcher, or alone."""
     if ranks == 1:

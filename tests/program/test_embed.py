@@ -1,6 +1,5 @@
 """Contacts in programs in C, Fortran and Python, built against the installed files: the bits of the program petsam."""
 
-import os
 import shutil
 import struct
 import subprocess
@@ -10,7 +9,7 @@ import h5py
 import numpy as np
 import pytest
 
-from conftest import PROGRAM, environment
+from conftest import PROGRAM, environment, make_install
 from support import ROOT, words
 
 HERE = ROOT / "tests" / "program"
@@ -38,9 +37,7 @@ RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 def prefix(tmp_path_factory):
     """make install."""
     folder = tmp_path_factory.mktemp("prefix")
-    build = os.path.relpath(PROGRAM.parents[1], ROOT)
-    words = ["make", "-s", "install", "B=" + build, f"prefix={folder}"]
-    subprocess.run(words, cwd=ROOT, check=True, capture_output=True, timeout=600)
+    make_install(f"prefix={folder}")
     return folder
 
 

@@ -7,18 +7,11 @@ import sys
 
 import pytest
 
-from conftest import PROGRAM, environment
+from conftest import PROGRAM, environment, make_install
 from support import ROOT, Results, closed
 
 BUILD = PROGRAM.parents[1]
 CONTACT = dict(radius=0.1, e_star=210e9 / (2 * (1 - 0.3**2)), load=1000.0)  # examples/library/contact.c
-
-
-def make_install(*words):
-    done = subprocess.run(
-        ["make", f"B={BUILD}", "install", *words], cwd=ROOT, capture_output=True, text=True, timeout=600
-    )
-    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
 
 
 @pytest.fixture(scope="module")

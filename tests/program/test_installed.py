@@ -9,7 +9,7 @@ import types
 
 import pytest
 
-from conftest import PROGRAM, environment
+from conftest import PROGRAM, environment, make_install
 from support import ROOT, ball, words
 
 VERSION = re.search(r'PETSAM_VERSION "(.*)"', (ROOT / "include/petsam/base.h").read_text()).group(1)
@@ -47,14 +47,7 @@ def tree(tmp_path):
 def prefix(tmp_path_factory):
     """make install."""
     folder = tmp_path_factory.mktemp("stage")
-    build = os.path.relpath(PROGRAM.parents[1], ROOT)
-    subprocess.run(
-        ["make", "-s", "install", "B=" + build, "prefix=/opt/p", "DESTDIR=" + str(folder)],
-        cwd=ROOT,
-        check=True,
-        capture_output=True,
-        timeout=600,
-    )
+    make_install("prefix=/opt/p", f"DESTDIR={folder}")
     return folder / "opt" / "p"
 
 

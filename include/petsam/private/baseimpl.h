@@ -54,6 +54,13 @@ typedef enum {
 PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 PETSC_EXTERN PetscClassId  SAM_CLASSID;
 
+/* ---- errors ---- */
+/* SamKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
+#define SAM_MESSAGE 1024
+PETSC_EXTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
+                                           PetscErrorCode code, PetscErrorType type, const char *message,
+                                           void *context);
+
 /* ---- start ---- */
 /*
   SamPrepareMPI - to be called before MPI_Init(). Returns whether an MPI launcher has started the process. Without one
