@@ -6,6 +6,7 @@
 #define PETSAM_CONTACT_H
 
 #include <petsam/control.h>
+#include <petsam/edges.h>
 #include <petsam/normal.h>
 #include <petsam/problem.h>
 #include <petsam/tangential.h>
@@ -36,6 +37,9 @@ typedef struct {
   Vec        shear;                 /* Pa, two components: acts on body 2 */
   Vec        displacement_z;        /* m: relative elastic displacement u_z */
   Vec        displacement_t;        /* m, two components: relative elastic displacement u_t */
+  PetscInt   passes;                /* of the correction for the contact's edge; 0: none, and the next two are unused */
+  Vec        correction;            /* m: part of u_z by what the pressure does within cells */
+  Vec        rim;                   /* Pa: pressure of cells that the edge cuts and whose centre is not in contact */
 } SamSolution;
 
 /*
@@ -43,7 +47,7 @@ typedef struct {
   recomputes the elastic displacements, and trusts no solver. All errors are relative, and zero for the exact
   solution of the discrete problem.
     normal       error of p >= 0, g >= 0, p g = 0: the largest of |g| where p > 0, of -g where p = 0, and of -p u/p_max,
-                 over the largest displacement u
+                 over the largest displacement u. Of cells on the rim only -g counts
     tangential   error of the law of friction: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the
                  2-norm. D projects each cell's shear onto its disc |q| <= mu p, ds is the slip of the step, c the
                  self-influence of a cell. One number for stick, direction of slip, and the limit mu p
@@ -85,6 +89,7 @@ typedef struct {
   PetscReal  dissipated_energy;       /* J, frictional work of the step: slip times the mean bound of the step */
   PetscReal  stored_energy;           /* J, elastic: half the work of the tractions on the elastic displacements */
   SamCheck   check;
+  PetscInt   edge_passes; /* of the correction for the contact's edge; 0: none */
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
   PetscInt   coupling_iterations;
@@ -163,11 +168,14 @@ PETSC_EXTERN PetscErrorCode SamContactSetWarmStart(SamContact contact, PetscBool
 */
 PETSC_EXTERN PetscErrorCode SamContactAllowEdge(SamContact contact, PetscBool allow);
 /*
-  SamContactSetEdges - how the areas of contact and stick are found: by counting cells, wrong by a part of a cell along
-  the edge (default), or by reconstructing the edges (edges.h). Option -edges. Not collective.
+  SamContactSetEdges - what is done for the edges of contact and stick: nothing, areas being counted cells, wrong by a
+  part of a cell along the edge; they are reconstructed, which gives areas and point values (edges.h; default); or the
+  pressure is solved again, `passes` times, for the displacement by what it does within the cells along the edge of
+  contact (deferred correction, src/contact/deferred.c). Options -edges and -edges_passes. Not collective.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for less than one pass.
 */
-typedef enum { SAM_CONTACT_EDGES_NONE, SAM_CONTACT_EDGES_RECONSTRUCT } SamContactEdges;
-PETSC_EXTERN PetscErrorCode SamContactSetEdges(SamContact contact, SamContactEdges edges);
+typedef enum { SAM_CONTACT_EDGES_NONE, SAM_CONTACT_EDGES_RECONSTRUCT, SAM_CONTACT_EDGES_DEFERRED } SamContactEdges;
+PETSC_EXTERN PetscErrorCode SamContactSetEdges(SamContact contact, SamContactEdges edges, PetscInt passes);
 /* The objects of a contact. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetProblem(SamContact contact, SamProblem *problem);          /* borrowed */
 PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);                   /* borrowed */
@@ -202,6 +210,18 @@ PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamS
 PETSC_EXTERN PetscErrorCode SamContactComputeGap(SamContact contact, Vec gap);
 PETSC_EXTERN PetscErrorCode SamContactComputeSlip(SamContact contact, PetscInt component, Vec slip);
 PETSC_EXTERN PetscErrorCode SamContactComputeState(SamContact contact, Vec state);
+
+/*
+  SamContactFindEdge - an edge of that solution (edges.h), with its points: by the reconstruction, or the correction
+  where there is one. `point` (NULL: not wanted), of one component: the square of what vanishes at the edge (Pa2), at
+  the cells' centres: of the pressure, or, for the stick zone, of what it exceeds |q|/mu by. Collective.
+  SamContactComputePressureCenter, SamContactComputeShearCenter - the tractions (Pa) at the cells' centres, by these
+  edges, whose means over cells the solution has. Where an edge is not smooth the means stay. Collective.
+*/
+typedef enum { SAM_CONTACT_EDGE_CONTACT, SAM_CONTACT_EDGE_STICK } SamContactEdge;
+PETSC_EXTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamContactEdge which, Vec point, SamEdge *edge);
+PETSC_EXTERN PetscErrorCode SamContactComputePressureCenter(SamContact contact, Vec pressure);
+PETSC_EXTERN PetscErrorCode SamContactComputeShearCenter(SamContact contact, PetscInt component, Vec shear);
 
 /*
   SamContactComputeFriction - what friction does in the tried step; each field of one component, NULL for one that is

@@ -29,6 +29,7 @@ typedef struct {
   PetscBool edge;      /* the grid ends at its border: contact there is cut off */
   PetscBool mean;      /* a uniform traction displaces the surface; else displacements count from the mean surface */
   PetscBool parts;     /* where only a part of the grid has traction, an operator on that part will do */
+  PetscBool within;    /* tractions may vary within cells */
 } SamElasticityTraits;
 
 /*
@@ -101,6 +102,18 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity e
                                                                  Vec u_t); /* u_t from p */
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q,
                                                                  Vec u_z); /* u_z from q */
+/*
+  Tractions that vary within cells, where the traits know them:
+  SamElasticityApplyNormalSlopes - u_z from a pressure that is linear in each cell, and zero in the mean. `slopes` (two
+  components): by how much it grows from one side of the cell to the other, along x and along y (Pa).
+  SamElasticityGetNear - u_z per unit pressure (m/Pa) on the sub * sub sub-cells of a cell at the centres of the cells
+  about it, up to `reach` cells away in both directions: table[(j * (2 reach + 1) + i) * sub * sub + l * sub + k], for
+  the cell i - reach to the right and j - reach above, and the sub-cell k from the left, l from below. `sub`: odd.
+  Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalSlopes(SamElasticity elasticity, Vec slopes, Vec u_z);
+PETSC_EXTERN PetscErrorCode SamElasticityGetNear(SamElasticity elasticity, PetscInt reach, PetscInt sub,
+                                                 double table[]);
 /*
   The same in single precision: arrays of this rank's cells, two components one after the other; `factor` times the
   product. For directions and corrections, whose product is small against what it is added to. Scale so that input and

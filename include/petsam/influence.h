@@ -2,7 +2,7 @@
 #ifndef PETSAM_INFLUENCE_H
 #define PETSAM_INFLUENCE_H
 
-#include <stddef.h>
+#include <petsam/base.h>
 
 /*
   SamIntegral - a kernel. The cell measures dx by dy and its centre is at (i dx, j dy); x and y are measured from the
@@ -53,5 +53,20 @@ double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrd
   accuracy, signs and zeros are the same.
 */
 void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
+
+/*
+  SamSlopeRow - the integrals of 1/r over consecutive cells of a row whose tractions are linear and zero in the mean:
+  each grows by 1 from one side of the cell to the other, along x (axis 0) or y (axis 1). The point lies (i dx, j dy)
+  from the centre of cell i, i = 0 ... n - 1; the value at lag (0, 0) is 0. Relative errors are below 1e-8. Not
+  collective; units and sides as for SamIntegralRow().
+  SamSlopeRulesCreate - Gauss' points and weights for it. Not collective.
+*/
+enum { SAM_SLOPE_RULES = 4, SAM_SLOPE_POINTS = 16 };
+typedef struct {
+  PetscReal x[SAM_SLOPE_RULES][SAM_SLOPE_POINTS], w[SAM_SLOPE_RULES][SAM_SLOPE_POINTS]; /* on (-1/2, 1/2) */
+} SamSlopeRules;
+PETSC_EXTERN PetscErrorCode SamSlopeRulesCreate(SamSlopeRules *rules);
+PETSC_EXTERN void SamSlopeRow(const SamSlopeRules *rules, int axis, double dx, double dy, ptrdiff_t j, ptrdiff_t n,
+                              double values[]);
 
 #endif

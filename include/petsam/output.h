@@ -49,17 +49,26 @@ typedef enum {
 } SamOutputOption;
 
 /* How a results file is written. */
+#define SAM_OUTPUT_MOST 64 /* most fields, and most columns */
 typedef struct {
-  PetscInt  compress; /* deflate level of the fields, 0 (none) to 9 */
-  PetscInt  chunk[2]; /* most cells of an HDF5 chunk in x, y */
-  PetscBool xdmf;     /* write an XDMF file beside the results */
+  PetscBool fields[SAM_OUTPUT_MOST]; /* which ones of the table of fields; SamOutputSettingsSetFields() */
+  PetscInt  compress;                /* deflate level of the fields, 0 (none) to 9 */
+  PetscInt  chunk[2];                /* most cells of an HDF5 chunk in x, y */
+  PetscBool xdmf;                    /* write an XDMF file beside the results */
   PetscBool with[SAM_OUTPUT_OPTIONS];
   SamWear   wear; /* whose depths are written; borrowed; NULL without wear */
 } SamOutputSettings;
 /*
-  SamOutputSettingsSetFromOptions - sets the defaults (no compression, chunks of 1024 x 256 cells, with XDMF file, no
-  optional columns), then reads -output_compress, -output_chunk and -output_xdmf. Collective. Errors: SAM_ERR_USER.
+  SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state and depths of wear, no compression,
+  chunks of 1024 x 256 cells, with XDMF file, no optional columns), then reads -output_fields, -output_compress,
+  -output_chunk and -output_xdmf. Collective. Errors: SAM_ERR_USER.
+  SamOutputSettingsSetFields - chooses `count` fields by their names in the results; "all" stands for all of them, a
+  single "none" for none; count < 0: the default. `unknown`: a name that there is not, or NULL. Not collective.
+  SamOutputGetFieldNames - the names that there are, as a sentence has them. Not collective.
 */
+PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *settings, PetscInt count,
+                                                       const char *const names[], const char **unknown);
+PETSC_EXTERN PetscErrorCode SamOutputGetFieldNames(char names[], size_t size);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 
 /*

@@ -38,7 +38,10 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
+  if (!u_z_known) {
+    PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
+    if (s->passes) PetscCall(VecAXPY(s->displacement_z, 1, s->correction));
+  }
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (shear != 0)
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
@@ -51,15 +54,18 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
 
 enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
 
-/* Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. */
-SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict g,
-                                     const double *restrict u, double max[COUNT])
+/*
+  Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. Cells on the rim bear
+  pressure but need not touch at their centres.
+*/
+SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict rim,
+                                     const double *restrict g, const double *restrict u, double max[COUNT])
 {
   double gap = 0, tension = 0, displacement = 0, pressure = 0, opening = 0, nan = 0;
 
 #pragma omp simd reduction(max : gap, tension, displacement, pressure, opening) reduction(+ : nan)
   for (PetscInt i = 0; i < n; i++) {
-    const double size = fabs(u[i]), wrong = p[i] > 0 ? fabs(g[i]) : -g[i];
+    const double size = fabs(u[i]), wrong = p[i] > rim[i] ? fabs(g[i]) : -g[i];
 
     gap          = wrong > gap ? wrong : gap;
     opening      = g[i] > opening ? g[i] : opening;
@@ -88,8 +94,8 @@ static double EdgeOfRow(SamGrid grid, PetscInt j, const double p[])
 
 static PetscErrorCode CheckNormal(SamProblem problem, const SamSolution *s, SamCheck *check)
 {
-  double        max[COUNT] = {0}, *gap;
-  const double *p, *u, *h;
+  double        max[COUNT] = {0}, *gap, *zeros;
+  const double *p, *u, *h, *rim = NULL;
   SamMotion     motion;
   SamGrid       grid;
   Vec           separation;
@@ -99,19 +105,23 @@ static PetscErrorCode CheckNormal(SamProblem problem, const SamSolution *s, SamC
   PetscCall(SamProblemGetGap(problem, &separation));
   PetscCall(SamMotionSet(&motion, problem, s));
   PetscCall(PetscMalloc1(grid->nx, &gap));
+  PetscCall(PetscCalloc1(grid->nx, &zeros));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
+  if (s->passes) PetscCall(VecGetArrayRead(s->rim, &rim));
   PetscCall(VecGetArrayRead(separation, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
     SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
-    NormalRow(grid->nx, p + k, gap, u + k, max);
+    NormalRow(grid->nx, p + k, rim ? rim + k : zeros, gap, u + k, max);
     max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, j, p + k));
   }
   PetscCall(VecRestoreArrayRead(separation, &h));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  if (rim) PetscCall(VecRestoreArrayRead(s->rim, &rim));
+  PetscCall(PetscFree(zeros));
   PetscCall(PetscFree(gap));
   PetscCall(SamMax(grid->comm, COUNT, max));
   check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;

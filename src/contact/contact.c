@@ -24,6 +24,8 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   c->warm            = PETSC_TRUE;
   c->coupling_rtol   = 1e-6;
   c->coupling_max_it = 100;
+  c->edges           = SAM_CONTACT_EDGES_RECONSTRUCT;
+  c->edge_passes     = 2;
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
@@ -45,6 +47,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   if (!c) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolverDestroy(&c->normal));
   PetscCall(SamSolverDestroy(&c->tangential));
+  PetscCall(SamProfileDestroy(&c->profile));
   PetscCall(SamSolutionDestroy(&c->committed.solution));
   PetscCall(SamSolutionDestroy(&c->tried.solution));
   PetscCall(SamSolutionDestroy(&c->before));
@@ -98,21 +101,24 @@ PetscErrorCode SamContactAllowEdge(SamContact c, PetscBool allow)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactSetEdges(SamContact c, SamContactEdges edges)
+PetscErrorCode SamContactSetEdges(SamContact c, SamContactEdges edges, PetscInt passes)
 {
   PetscFunctionBegin;
+  PetscCheck(passes == PETSC_DEFAULT || passes > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "passes for the edge = %" PetscInt_FMT ": expected at least 1", passes);
   c->edges = edges;
+  if (passes != PETSC_DEFAULT) c->edge_passes = passes;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
-                                                                                             NULL};
+                                                                                             "deferred", NULL};
   const SamOptions from     = {c->grid->comm, c->prefix};
   PetscInt         coupling = c->coupling ? 1 : 0, max_it = c->coupling_max_it;
   PetscReal        rtol  = c->coupling_rtol;
-  PetscInt         edges = (PetscInt)c->edges;
+  PetscInt         edges = (PetscInt)c->edges, passes = c->edge_passes;
   PetscBool        warm = c->warm, edge = c->allow_edge;
 
   PetscFunctionBegin;
@@ -126,13 +132,17 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(
     SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &edge, NULL));
-  PetscCall(SamOptionsEnum(&from, "edges", "areas by counted cells, or by reconstructed edges: none or reconstruct",
-                           edge_words, &edges, NULL));
+  PetscCall(
+    SamOptionsEnum(&from, "edges",
+                   "areas by reconstructed edges (reconstruct) or counted cells (none), or the solution corrected "
+                   "for its edge too (deferred)",
+                   edge_words, &edges, NULL));
+  PetscCall(SamOptionsInt(&from, "edges_passes", "solutions again with -edges deferred", 1, &passes, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamContactSetCoupling(c, coupling ? PETSC_TRUE : PETSC_FALSE, rtol, max_it));
   PetscCall(SamContactSetWarmStart(c, warm));
   PetscCall(SamContactAllowEdge(c, edge));
-  PetscCall(SamContactSetEdges(c, (SamContactEdges)edges));
+  PetscCall(SamContactSetEdges(c, (SamContactEdges)edges, passes));
   PetscCall(SamSolverSetFromOptions(c->normal));
   PetscCall(SamSolverSetFromOptions(c->tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -322,9 +332,13 @@ PetscErrorCode SamContactCommit(SamContact c)
   c->before.displacement_z = c->before.displacement_t = NULL;
   recycled.displacement_z                             = c->committed.solution.displacement_z;
   recycled.displacement_t                             = c->committed.solution.displacement_t;
-  c->committed                                        = c->tried;
-  c->tried.solution                                   = recycled;
-  c->has_tried                                        = PETSC_FALSE;
+  c->before.correction = c->before.rim = NULL;
+  c->before.passes                     = 0;
+  recycled.correction                  = c->committed.solution.correction;
+  recycled.rim                         = c->committed.solution.rim;
+  c->committed                         = c->tried;
+  c->tried.solution                    = recycled;
+  c->has_tried                         = PETSC_FALSE;
   c->steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -17,6 +17,7 @@ struct _n_SamContact {
   char            prefix[SAM_PREFIX];
   PetscBool       coupling, warm, allow_edge;
   SamContactEdges edges;
+  PetscInt        edge_passes;
   PetscReal       coupling_rtol;
   PetscInt        coupling_max_it;
   PetscBool       coupling_monitor, print_check;
@@ -27,6 +28,7 @@ struct _n_SamContact {
   SamElasticityTraits traits;
   SamNormal           normal;
   SamTangential       tangential;
+  SamProfile          profile; /* of the pressure along its edge; NULL until needed */
   /* its states */
   PetscInt       steps;     /* number of committed steps */
   SamContactMark committed; /* after the last of them */
@@ -44,6 +46,10 @@ PETSC_INTERN PetscErrorCode SamSolutionCreate(SamGrid grid, SamSolution *solutio
   possible: in the first step they then use the memory that the solvers have freed. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionCreateDisplacements(SamGrid grid, SamSolution *solution);
+/* SamSolutionCreateCorrection - adds the fields of the correction for the edge, unless it has them. Collective. */
+PETSC_INTERN PetscErrorCode SamSolutionCreateCorrection(SamGrid grid, SamSolution *solution);
+/* SamSolutionCopyCorrection - copies the fields of a correction, where there is one, and the number of passes. */
+PETSC_INTERN PetscErrorCode SamSolutionCopyCorrection(SamGrid grid, const SamSolution *from, SamSolution *to);
 PETSC_INTERN PetscErrorCode SamSolutionDestroy(SamSolution *solution);
 /* SamContactIsGapCurrent - whether the committed pressure was solved with the problem's gap of now. Collective. */
 PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
@@ -103,6 +109,9 @@ PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolu
                                                SamIncrement *increment);
 PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
 PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
+
+/* SamContactGetProfile - the profile of the pressure, made at the first call; borrowed. Collective. */
+PETSC_INTERN PetscErrorCode SamContactGetProfile(SamContact contact, SamProfile *profile);
 
 /* ---- a step ---- */
 

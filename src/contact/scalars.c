@@ -1,6 +1,5 @@
 /* The numbers of a step that follow from its solution: cells and areas, energies. */
 #include "contactimpl.h"
-#include <petsam/edges.h>
 #include <petsam/private/rows.h>
 #include <math.h>
 
@@ -70,37 +69,7 @@ static PetscErrorCode SumCells(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- areas ---- */
-
-/*
-  What vanishes at the edges like the distance, of this rank's cells: of the contact p^2, of the stick zone the square
-  of what the pressure exceeds |q|/mu by.
-*/
-static PetscErrorCode FillSquares(const SamSolution *s, PetscBool stick, Vec w)
-{
-  const double *p, *b, *q;
-  double       *square;
-  PetscInt      cells;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(w, &cells));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->bound, &b));
-  PetscCall(VecGetArrayRead(s->shear, &q));
-  PetscCall(VecGetArrayWrite(w, &square));
-  for (PetscInt k = 0; k < cells; k++) {
-    const double slack = stick && b[k] > 0 ? p[k] * (1 - hypot(q[k], q[k + cells]) / b[k]) : p[k];
-
-    square[k] = 0;
-    if (p[k] > 0 && (!stick || SamStateOf(p[k], q[k], q[k + cells], b[k]) == SAM_STATE_STICK))
-      square[k] = slack * slack;
-  }
-  PetscCall(VecRestoreArrayWrite(w, &square));
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+/* ---- edges ---- */
 
 /*
   The largest shear at the edge of the stick zone, where it is mu p: larger than that of any cell, which is a mean. The
@@ -143,15 +112,10 @@ static PetscErrorCode FindEdges(SamContact c, SamStep *step)
 {
   SamEdge edge[2];
   double  peak = (double)step->shear_max;
-  Vec     w;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(c->grid, 1, &w));
-  for (PetscInt k = 0; k < 2; k++) {
-    PetscCall(FillSquares(&c->tried.solution, k ? PETSC_TRUE : PETSC_FALSE, w));
-    PetscCall(SamEdgeReconstruct(c->grid, w, NULL, &edge[k]));
-  }
-  PetscCall(VecDestroy(&w));
+  PetscCall(SamContactFindEdge(c, SAM_CONTACT_EDGE_CONTACT, NULL, &edge[0]));
+  PetscCall(SamContactFindEdge(c, SAM_CONTACT_EDGE_STICK, NULL, &edge[1]));
   PetscCall(FindPeak(c, &edge[1], &peak));
   PetscCall(SamMax(c->grid->comm, 1, &peak));
   step->shear_max    = peak;
@@ -168,6 +132,6 @@ PetscErrorCode SamContactComputeScalars(SamContact c, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SumCells(c, step));
   step->edge_accepted = 0;
-  if (c->edges == SAM_CONTACT_EDGES_RECONSTRUCT) PetscCall(FindEdges(c, step));
+  if (c->edges != SAM_CONTACT_EDGES_NONE) PetscCall(FindEdges(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

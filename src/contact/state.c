@@ -43,9 +43,30 @@ PetscErrorCode SamSolutionCreateDisplacements(SamGrid grid, SamSolution *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamSolutionCreateCorrection(SamGrid grid, SamSolution *s)
+{
+  PetscFunctionBegin;
+  if (!s->correction) PetscCall(SamGridCreateVec(grid, 1, &s->correction));
+  if (!s->rim) PetscCall(SamGridCreateVec(grid, 1, &s->rim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionCopyCorrection(SamGrid grid, const SamSolution *from, SamSolution *to)
+{
+  PetscFunctionBegin;
+  to->passes = from->passes;
+  if (!from->passes) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSolutionCreateCorrection(grid, to));
+  PetscCall(VecCopy(from->correction, to->correction));
+  PetscCall(VecCopy(from->rim, to->rim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolutionDestroy(SamSolution *s)
 {
   PetscFunctionBegin;
+  PetscCall(VecDestroy(&s->correction));
+  PetscCall(VecDestroy(&s->rim));
   PetscCall(VecDestroy(&s->pressure));
   PetscCall(VecDestroy(&s->bound));
   PetscCall(VecDestroy(&s->shear));
@@ -119,7 +140,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
 }
 
 /* Copies a solution into one that keeps its own vectors; displacements only where `to` has them. */
-static PetscErrorCode CopySolution(const SamSolution *from, SamSolution *to)
+static PetscErrorCode CopySolution(SamGrid grid, const SamSolution *from, SamSolution *to)
 {
   SamSolution own = *to;
 
@@ -130,6 +151,9 @@ static PetscErrorCode CopySolution(const SamSolution *from, SamSolution *to)
   to->shear          = own.shear;
   to->displacement_z = own.displacement_z;
   to->displacement_t = own.displacement_t;
+  to->correction     = own.correction;
+  to->rim            = own.rim;
+  PetscCall(SamSolutionCopyCorrection(grid, from, to));
   PetscCall(SamVecCopyNonzero(from->pressure, to->pressure));
   PetscCall(SamVecCopyNonzero(from->bound, to->bound));
   PetscCall(SamVecCopyNonzero(from->shear, to->shear));
@@ -162,8 +186,8 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
   PetscCall(SamGridCheckVec(c->grid, 2, s->now.displacement_t, "The state's tangential displacement"));
   PetscCall(SamContactReject(c));
   PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
-  PetscCall(CopySolution(&s->now, &c->committed.solution));
-  if (s->steps > 1) PetscCall(CopySolution(&s->before, &c->before));
+  PetscCall(CopySolution(c->grid, &s->now, &c->committed.solution));
+  if (s->steps > 1) PetscCall(CopySolution(c->grid, &s->before, &c->before));
   c->steps = s->steps;
   PetscCall(PetscArraycpy(c->committed.window_first, s->window_first, 2));
   PetscCall(PetscArraycpy(c->committed.window_n, s->window_n, 2));

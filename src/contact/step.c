@@ -11,6 +11,7 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
 {
   PetscFunctionBegin;
   *w            = (SamSolve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
+  w->s->passes  = 0;
   w->coupled    = SamContactIsCoupled(c);
   w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
@@ -47,6 +48,13 @@ static PetscErrorCode Count(SamSolver solver, PetscInt *iterations, PetscInt *ap
   *iterations += its;
   *applies += products;
   *preconditions += others;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveCountNormal(SamSolve *w)
+{
+  PetscFunctionBegin;
+  PetscCall(Count(w->c->normal, &w->step->normal_iterations, &w->step->normal_applies, &w->step->normal_preconditions));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,6 +110,8 @@ static PetscErrorCode TakePressure(SamSolve *w)
 
   PetscFunctionBegin;
   PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
+  PetscCall(SamSolutionCopyCorrection(w->c->grid, from, w->s));
+  w->step->edge_passes = from->passes;
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_NORMAL][k];
 
@@ -144,7 +154,7 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
   if (has_shear) PetscCall(SamFollowPressure(w->c->grid, predicted, w->s->pressure, w->s->shear));
   PetscCall(VecDestroy(&predicted));
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(Count(w->c->normal, &w->step->normal_iterations, &w->step->normal_applies, &w->step->normal_preconditions));
+  PetscCall(SamSolveCountNormal(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -290,6 +300,8 @@ static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
   if (w->coupled) PetscCall(VecSet(w->h, 0));
   PetscCall(SamSolveNormal(w, start->pressure, start->shear));
   if (!w->same_pressure) PetscCall(SamSolveJudgeNormal(w));
+  if (!w->same_pressure && w->step->status == SAM_STATUS_CONVERGED && w->c->edges == SAM_CONTACT_EDGES_DEFERRED)
+    PetscCall(SamSolveDeferred(w));
   PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
   w->step->coupling_iterations = 1;
   if (w->step->status != SAM_STATUS_CONVERGED) {

@@ -26,6 +26,10 @@ typedef struct {
   shear too, which then follows the pressure. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
+/* SamSolveCountNormal - adds the counts of the normal solver's last solve to those of the step. Not collective. */
+PETSC_INTERN PetscErrorCode SamSolveCountNormal(SamSolve *solve);
+/* SamSolveDeferred - corrects the solution of the normal problem for the edge of contact (deferred.c). Collective. */
+PETSC_INTERN PetscErrorCode SamSolveDeferred(SamSolve *solve);
 /* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 /* SamSolveJudge... - puts down in the step whether that failed. Collective. */

@@ -98,6 +98,21 @@ PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity e, Vec q, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamElasticityApplyNormalSlopes(SamElasticity e, Vec slopes, Vec u_z)
+{
+  PetscFunctionBegin;
+  PetscCall(Apply(e, e->ops.applynormalslopes, SAM_EVENT_APPLY_NORMAL, slopes, u_z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityGetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
+{
+  PetscFunctionBegin;
+  PetscCheck(e->ops.getnear, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no sub-cells", e->type);
+  PetscCall(e->ops.getnear(e, reach, sub, table));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticityApplyNormalSingle(SamElasticity e, double factor, const float p[], float u_z[])
 {
   PetscFunctionBegin;

@@ -11,26 +11,36 @@
 
 #define OPTION "checkpoint"
 
-#define NUMBERS 32 /* numbers of a solution: control, loads, rigid displacements */
+#define NUMBERS 33 /* numbers of a solution: control, loads, rigid displacements, passes of the correction */
 
-/* The fields and their names in the file. Those one step back are missing before the second step. */
+/* The fields and their names in the file, and which states have them. */
+typedef enum { ALWAYS, CORRECTED, SECOND } Condition; /* SECOND: from the second step on */
 static const struct {
   const char *name;
   PetscInt    components;
   size_t      offset; /* of the Vec in SamContactState */
-} kept[] = {{"pressure", 1, offsetof(SamContactState, now.pressure)},
-            {"bound", 1, offsetof(SamContactState, now.bound)},
-            {"shear", 2, offsetof(SamContactState, now.shear)},
-            {"displacement_z", 1, offsetof(SamContactState, now.displacement_z)},
-            {"displacement_t", 2, offsetof(SamContactState, now.displacement_t)},
-            {"before_pressure", 1, offsetof(SamContactState, before.pressure)},
-            {"before_bound", 1, offsetof(SamContactState, before.bound)},
-            {"before_shear", 2, offsetof(SamContactState, before.shear)}};
+  Condition   when;
+} kept[] = {{"pressure", 1, offsetof(SamContactState, now.pressure), ALWAYS},
+            {"bound", 1, offsetof(SamContactState, now.bound), ALWAYS},
+            {"shear", 2, offsetof(SamContactState, now.shear), ALWAYS},
+            {"displacement_z", 1, offsetof(SamContactState, now.displacement_z), ALWAYS},
+            {"displacement_t", 2, offsetof(SamContactState, now.displacement_t), ALWAYS},
+            {"correction", 1, offsetof(SamContactState, now.correction), CORRECTED},
+            {"rim", 1, offsetof(SamContactState, now.rim), CORRECTED},
+            {"before_pressure", 1, offsetof(SamContactState, before.pressure), SECOND},
+            {"before_bound", 1, offsetof(SamContactState, before.bound), SECOND},
+            {"before_shear", 2, offsetof(SamContactState, before.shear), SECOND}};
 enum { KEPT = sizeof(kept) / sizeof(kept[0]) };
 
 static Vec *FieldOf(SamContactState *state, PetscInt k)
 {
   return (Vec *)((char *)state + kept[k].offset);
+}
+
+static PetscBool IsKept(const SamContactState *state, PetscInt k)
+{
+  if (kept[k].when == CORRECTED) return state->now.passes > 0 ? PETSC_TRUE : PETSC_FALSE;
+  return kept[k].when == ALWAYS || state->steps > 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 struct _n_SamCheckpoint {
@@ -77,6 +87,7 @@ static void PackSolution(const SamSolution *s, double numbers[NUMBERS])
   *n++ = s->control.friction_scale;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) *n++ = s->control.bulk_stress[body][k];
+  *n++ = (double)s->passes;
 }
 
 static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
@@ -93,6 +104,7 @@ static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
   s->control.friction_scale = *n++;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) s->control.bulk_stress[body][k] = *n++;
+  s->passes = (PetscInt)*n++;
 }
 
 static void WriteNumbers(SamFile f, const SamContactState *s)
@@ -218,7 +230,8 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, 
   off_t bytes = 0;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < KEPT; k++) bytes += (off_t)sizeof(double) * kept[k].components * f->grid->nx * f->grid->ny;
+  for (PetscInt k = 0; k < KEPT; k++)
+    if (IsKept(state, k)) bytes += (off_t)sizeof(double) * kept[k].components * f->grid->nx * f->grid->ny;
   if (rest->wear) bytes += (off_t)sizeof(double) * f->grid->nx * f->grid->ny;
   PetscCall(SamFileReserve(f, bytes));
   PetscCall(SamFileBegin(f));
@@ -230,7 +243,7 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, 
                           rest->notes[k].values);
   WriteNumbers(f, state);
   for (PetscInt k = 0; k < KEPT; k++)
-    if (*FieldOf(state, k)) PetscCall(WriteField(f, kept[k].name, kept[k].components, *FieldOf(state, k)));
+    if (IsKept(state, k)) PetscCall(WriteField(f, kept[k].name, kept[k].components, *FieldOf(state, k)));
   if (rest->wear) PetscCall(WriteWear(f, rest->wear));
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(f));
@@ -360,11 +373,8 @@ static PetscErrorCode IsUsable(SamFile f, const SamParameters *parameters, char 
 static PetscErrorCode ReadFields(SamFile f, SamContactState *state)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < KEPT; k++) {
-    const PetscBool needed = strncmp(kept[k].name, "before", 6) || state->steps > 1 ? PETSC_TRUE : PETSC_FALSE;
-
-    if (needed) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
-  }
+  for (PetscInt k = 0; k < KEPT; k++)
+    if (IsKept(state, k)) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -147,11 +147,13 @@ static PetscErrorCode Open(SamGrid grid, const char filename[], SamFileMode mode
 /* Whether all chunks of the steps that are kept lie within the file. */
 static void CheckChunks(SamOutput o, hsize_t keep)
 {
-  const hsize_t extent[] = {keep, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
+  for (PetscInt f = 0; f < SamOutputFieldCount && !o->f->failed; f++) {
+    hsize_t extent[] = {keep, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
 
-  for (PetscInt f = 0; f < SamOutputFieldCount && !o->f->failed; f++)
+    if (o->fields[f] >= 0 && SamOutputFields[f].kind == SAM_FIELD_POINTS) SamOutputGetPointsExtent(o, f, &extent[1]);
     if (o->fields[f] >= 0 && !SamChunksAreWhole(o->f->id, o->fields[f], 3, extent, PETSC_TRUE))
       (void)SamFileNote(o->f, -1);
+  }
 }
 
 typedef struct {
@@ -266,7 +268,11 @@ static PetscErrorCode GetFileValues(SamOutput to, PetscInt f, void *context, con
   const hid_t       type = SamOutputFields[f].kind == SAM_FIELD_STATE ? H5T_NATIVE_SCHAR : H5T_NATIVE_DOUBLE;
 
   PetscFunctionBegin;
-  (void)to;
+  if (SamOutputFields[f].kind == SAM_FIELD_POINTS) {
+    PetscCall(SamOutputReadPoints(from->output, from->output->fields[f], from->index, &to->points));
+    *values = &to->points;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   SamFileReadLayer(from->output->f, from->output->fields[f], type, from->index, from->cells);
   *values = from->cells;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -360,6 +366,7 @@ static PetscErrorCode WriteCopy(SamOutput from, const SamOutputSettings *set, co
 
   PetscFunctionBegin;
   plain.xdmf = PETSC_FALSE;
+  PetscCall(PetscArraycpy(plain.fields, from->set.fields, SAM_OUTPUT_MOST));
   for (PetscInt k = 0; k < SAM_OUTPUT_OPTIONS; k++) plain.with[k] = set->with[k] || Has(from, k);
   PetscCall(SamOutputCreateAs(from->f->grid, temporary, SAM_FILE_TEMPORARY, &plain, &to));
   ierr = CopyAll(from, wanted, keep, to);

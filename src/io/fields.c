@@ -35,6 +35,23 @@ static PetscErrorCode ComputeState(SamContact contact, SamWear wear, PetscInt co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ComputePressureCenter(SamContact contact, SamWear wear, PetscInt component, Vec field)
+{
+  PetscFunctionBegin;
+  (void)wear;
+  (void)component;
+  PetscCall(SamContactComputePressureCenter(contact, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ComputeShearCenter(SamContact contact, SamWear wear, PetscInt component, Vec field)
+{
+  PetscFunctionBegin;
+  (void)wear;
+  PetscCall(SamContactComputeShearCenter(contact, component, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ComputeDepth(SamContact contact, SamWear wear, PetscInt body, Vec field)
 {
   PetscFunctionBegin;
@@ -43,30 +60,46 @@ static PetscErrorCode ComputeDepth(SamContact contact, SamWear wear, PetscInt bo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define STORED(name, units, text, member, component) \
+#define STORED(name, units, text, usual, member, component) \
   { \
-    {name, units, text}, SAM_FIELD_REAL, NULL, offsetof(SamSolution, member), component, SAM_OUTPUT_OPTIONS \
+    {name, units, text}, SAM_FIELD_REAL, NULL, offsetof(SamSolution, member), component, SAM_OUTPUT_OPTIONS, usual \
   }
-#define COMPUTED(name, units, text, kind, function, component) \
+#define COMPUTED(name, units, text, usual, kind, function, component) \
   { \
-    {name, units, text}, kind, function, 0, component, SAM_OUTPUT_OPTIONS \
+    {name, units, text}, kind, function, 0, component, SAM_OUTPUT_OPTIONS, usual \
   }
 #define DEPTH(name, text, body) \
   { \
-    {name, "m", text}, SAM_FIELD_REAL, ComputeDepth, 0, body, SAM_OUTPUT_WEAR \
+    {name, "m", text}, SAM_FIELD_REAL, ComputeDepth, 0, body, SAM_OUTPUT_WEAR, PETSC_TRUE \
   }
+#define POINTS(name, text, edge) \
+  { \
+    {name, "m", text}, SAM_FIELD_POINTS, NULL, 0, edge, SAM_OUTPUT_OPTIONS, NO \
+  }
+#define YES PETSC_TRUE
+#define NO  PETSC_FALSE
 
 const SamOutputField SamOutputFields[] = {
-  STORED("pressure", "Pa", "contact pressure", pressure, 0),
-  STORED("shear_x", "Pa", "shear traction along x", shear, 0),
-  STORED("shear_y", "Pa", "shear traction along y", shear, 1),
-  COMPUTED("slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL, ComputeSlip, 0),
-  COMPUTED("slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL, ComputeSlip, 1),
-  COMPUTED("gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, ComputeGap, 0),
-  STORED("displacement_x", "m", "relative elastic displacement along x", displacement_t, 0),
-  STORED("displacement_y", "m", "relative elastic displacement along y", displacement_t, 1),
-  STORED("displacement_z", "m", "relative elastic displacement along z", displacement_z, 0),
-  COMPUTED("state", "1", "state of the cell", SAM_FIELD_STATE, ComputeState, 0),
+  STORED("pressure", "Pa", "contact pressure, mean over the cell", YES, pressure, 0),
+  STORED("shear_x", "Pa", "shear traction along x, mean over the cell", YES, shear, 0),
+  STORED("shear_y", "Pa", "shear traction along y, mean over the cell", YES, shear, 1),
+  COMPUTED("slip_x", "m", "relative tangential displacement along x since the start", YES, SAM_FIELD_REAL, ComputeSlip,
+           0),
+  COMPUTED("slip_y", "m", "relative tangential displacement along y since the start", YES, SAM_FIELD_REAL, ComputeSlip,
+           1),
+  COMPUTED("gap", "m", "gap between the deformed surfaces", NO, SAM_FIELD_REAL, ComputeGap, 0),
+  STORED("displacement_x", "m", "relative elastic displacement along x", NO, displacement_t, 0),
+  STORED("displacement_y", "m", "relative elastic displacement along y", NO, displacement_t, 1),
+  STORED("displacement_z", "m", "relative elastic displacement along z", NO, displacement_z, 0),
+  COMPUTED("state", "1", "state of the cell", YES, SAM_FIELD_STATE, ComputeState, 0),
+  COMPUTED("pressure_center", "Pa", "contact pressure at the centre of the cell", NO, SAM_FIELD_REAL,
+           ComputePressureCenter, 0),
+  COMPUTED("shear_center_x", "Pa", "shear traction along x at the centre of the cell", NO, SAM_FIELD_REAL,
+           ComputeShearCenter, 0),
+  COMPUTED("shear_center_y", "Pa", "shear traction along y at the centre of the cell", NO, SAM_FIELD_REAL,
+           ComputeShearCenter, 1),
+  POINTS("contact_edge", "points of the edge of contact, x and y", SAM_CONTACT_EDGE_CONTACT),
+  POINTS("stick_edge", "points of the edge of the stick zone, x and y", SAM_CONTACT_EDGE_STICK),
   DEPTH("wear_depth1", "depth removed of body 1", 0),
   DEPTH("wear_depth2", "depth removed of body 2", 1)};
 const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputFields[0]);
@@ -129,6 +162,7 @@ static const SamOutputColumn history[] = {
   REAL("normal_residual", "1", "relative error of the normal problem, by the check", check.normal),
   REAL("tangential_residual", "1", "relative error of the tangential problem, by the check", check.tangential),
   REAL("equilibrium_residual", "1", "relative error of the loads, by the check", check.equilibrium),
+  INT("edge_passes", "solutions again for the edge of contact, 0 for none", edge_passes),
   INT("normal_iterations", "iterations of the normal solver", normal_iterations),
   INT("tangential_iterations", "iterations of the tangential solver", tangential_iterations),
   INT("normal_applies", "applications of the normal influence operator", normal_applies),
@@ -164,6 +198,45 @@ static const SamOutputColumn wear[] = {
 
 /* ---- by name ---- */
 
+static PetscInt Find(const char name[])
+{
+  PetscInt f = 0;
+
+  while (f < SamOutputFieldCount && strcmp(SamOutputFields[f].label.name, name)) f++;
+  return f;
+}
+
+PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *set, PetscInt count, const char *const names[],
+                                          const char **unknown)
+{
+  PetscFunctionBegin;
+  *unknown = NULL;
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
+    set->fields[f] = count < 0 ? SamOutputFields[f].usual : PETSC_FALSE;
+  for (PetscInt k = 0; k < count; k++) {
+    const PetscInt  f   = Find(names[k]);
+    const PetscBool all = strcmp(names[k], "all") ? PETSC_FALSE : PETSC_TRUE;
+
+    for (PetscInt g = 0; g < SamOutputFieldCount && all; g++) set->fields[g] = PETSC_TRUE;
+    if (f < SamOutputFieldCount)
+      set->fields[f] = PETSC_TRUE;
+    else if (!all && !(strcmp(names[k], "none") == 0 && count == 1))
+      *unknown = names[k];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputGetFieldNames(char names[], size_t size)
+{
+  PetscFunctionBegin;
+  names[0] = '\0';
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    if (f) PetscCall(PetscStrlcat(names, f + 1 < SamOutputFieldCount ? ", " : " or ", size));
+    PetscCall(PetscStrlcat(names, SamOutputFields[f].label.name, size));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputFindField(const SamOutputField *field, SamContact contact, SamWear worn, Vec work, Vec *holder,
                                   PetscInt *component)
 {
@@ -187,11 +260,13 @@ PetscErrorCode SamFieldGet(SamContact contact, SamWear worn, const char name[], 
   const double *from;
   double       *to;
   Vec           holder;
-  PetscInt      f = 0, component, cells;
+  PetscInt      f = Find(name), component, cells;
 
   PetscFunctionBegin;
-  while (f < SamOutputFieldCount && strcmp(SamOutputFields[f].label.name, name)) f++;
-  *found = f < SamOutputFieldCount && (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR) ? PETSC_TRUE : PETSC_FALSE;
+  *found = f < SamOutputFieldCount && SamOutputFields[f].kind != SAM_FIELD_POINTS &&
+               (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR)
+             ? PETSC_TRUE
+             : PETSC_FALSE;
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputFindField(&SamOutputFields[f], contact, worn, field, &holder, &component));
   if (holder == field) PetscFunctionReturn(PETSC_SUCCESS);

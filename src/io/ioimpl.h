@@ -191,16 +191,18 @@ PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *pa
 
 /*
   A field of the results: a component of a vector of the solution, or what `compute` writes into a vector of one
-  component. The values are real numbers, or SamStates, stored as bytes.
+  component. The values are real numbers, or SamStates, stored as bytes; or an edge's points, of which `component` is the
+  SamContactEdge.
 */
-typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE } SamOutputFieldKind;
+typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE, SAM_FIELD_POINTS } SamOutputFieldKind;
 typedef struct {
   SamOutputLabel     label;
   SamOutputFieldKind kind;
   PetscErrorCode (*compute)(SamContact contact, SamWear wear, PetscInt component, Vec field); /* NULL: stored */
   size_t          offset; /* of the Vec in SamSolution */
   PetscInt        component;
-  SamOutputOption option; /* SAM_OUTPUT_OPTIONS: none, the field is always there */
+  SamOutputOption option; /* without which there is no such field; SAM_OUTPUT_OPTIONS: none */
+  PetscBool       usual;  /* saved unless other fields are asked for */
 } SamOutputField;
 
 /*
@@ -227,7 +229,6 @@ typedef struct {
 } SamOutputSeries;
 typedef enum { SAM_SERIES_HISTORY, SAM_SERIES_WEAR, SAM_SERIES } SamOutputSeriesKind;
 
-#define SAM_OUTPUT_MOST 64 /* most lines of each table */
 PETSC_INTERN const SamOutputField  SamOutputFields[];
 PETSC_INTERN const PetscInt        SamOutputFieldCount;
 PETSC_INTERN const SamOutputSeries SamOutputAllSeries[SAM_SERIES];
@@ -237,6 +238,30 @@ static inline PetscBool SamOutputWants(const SamOutputSettings *set, SamOutputOp
   return option == SAM_OUTPUT_OPTIONS || set->with[option] ? PETSC_TRUE : PETSC_FALSE;
 }
 
+/* SamOutputWantsField - whether a file has field f of the table. Not collective. */
+static inline PetscBool SamOutputWantsField(const SamOutputSettings *set, PetscInt f)
+{
+  return set->fields[f] ? SamOutputWants(set, SamOutputFields[f].option) : PETSC_FALSE;
+}
+
+/*
+  The points of an edge: x and y (m) one after the other, on rank 0; the count on all ranks (points.c). The functions
+  note their failures. Collective.
+  SamOutputCreatePoints - creates a dataset for them, without a step; to be closed with H5Dclose().
+  SamOutputGatherPoints - takes those of all ranks into the output, in the order of their rows.
+  SamOutputAppendPoints, SamOutputReadPoints - write those of a step, which is the next one; read them.
+*/
+typedef struct {
+  hsize_t count;
+  double *xy;
+} SamOutputPoints;
+PETSC_INTERN hid_t          SamOutputCreatePoints(SamOutput output, const SamOutputLabel *label);
+PETSC_INTERN PetscErrorCode SamOutputGatherPoints(SamOutput output, const SamEdge *edge);
+PETSC_INTERN void SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t step, const SamOutputPoints *points);
+/* SamOutputGetPointsExtent - the number of points that field f has room for, and of their coordinates. */
+PETSC_INTERN void           SamOutputGetPointsExtent(SamOutput output, PetscInt f, hsize_t extent[2]);
+PETSC_INTERN PetscErrorCode SamOutputReadPoints(SamOutput output, hid_t dataset, hsize_t step, SamOutputPoints *points);
+
 /* The XDMF file beside the results. */
 typedef struct _n_SamXdmf *SamXdmf;
 
@@ -244,14 +269,15 @@ struct _n_SamOutput {
   SamFile           f;
   SamOutputSettings set;
   /* what it owns; identifiers are negative where nothing is open */
-  hid_t        vtk_steps; /* attribute: number of steps that VTK sees */
-  hid_t        closed;    /* attribute: whether the file was closed properly */
-  SamHold      hold;      /* of a file that is written */
-  PetscBool    replaced;  /* there were older results */
-  SamXdmf      xdmf;      /* NULL: none */
-  hid_t        time, fields[SAM_OUTPUT_MOST], columns[SAM_SERIES][SAM_OUTPUT_MOST];
-  signed char *states; /* of this rank's cells */
-  Vec          work;   /* for fields that are computed; NULL until the first one */
+  hid_t           vtk_steps; /* attribute: number of steps that VTK sees */
+  hid_t           closed;    /* attribute: whether the file was closed properly */
+  SamHold         hold;      /* of a file that is written */
+  PetscBool       replaced;  /* there were older results */
+  SamXdmf         xdmf;      /* NULL: none */
+  hid_t           time, fields[SAM_OUTPUT_MOST], columns[SAM_SERIES][SAM_OUTPUT_MOST];
+  signed char    *states; /* of this rank's cells */
+  Vec             work;   /* for fields that are computed; NULL until the first one */
+  SamOutputPoints points; /* of the edge that is being written */
   /* status */
   hsize_t   rows[SAM_SERIES]; /* load steps in the history, computed cycles */
   hsize_t   saved;            /* steps with fields */

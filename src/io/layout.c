@@ -17,6 +17,7 @@ static const char           state_words[]  = "open stick slip"; /* SamState */
 static const char           status_words[] = "converged not_converged no_equilibrium edge_contact";
 
 #define CHUNK_MATRICES 16 /* of a series of matrices */
+#define EDGE           4  /* cells that an edge is expected to cross, over those along x and y */
 
 static const SamShape series   = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
 static const SamShape matrices = {3,
@@ -83,12 +84,17 @@ static hid_t StoredType(const SamOutputField *field)
 off_t SamOutputFieldBytes(SamOutput o)
 {
   const SamShape shape = FieldShape(o);
-  hsize_t        cells = 1, bytes = 0; /* cells in whole chunks; bytes of all fields in a cell */
+  hsize_t        cells = 1, bytes = 0, points = 0; /* cells in whole chunks; bytes of all fields in a cell; of edges */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    if (SamOutputWants(&o->set, SamOutputFields[f].option)) bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
-  return (off_t)(cells * bytes);
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    if (!SamOutputWantsField(&o->set, f)) continue;
+    if (SamOutputFields[f].kind == SAM_FIELD_POINTS)
+      points += EDGE * (shape.size[1] + shape.size[2]) * 2 * sizeof(double);
+    else
+      bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
+  }
+  return (off_t)(cells * bytes + points);
 }
 
 static void WriteFlags(SamOutput o, hid_t dataset)
@@ -111,7 +117,12 @@ static PetscErrorCode CreateFields(SamOutput o)
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
     const SamOutputField *field = &SamOutputFields[f];
 
-    if (!SamOutputWants(&o->set, field->option)) continue;
+    if (!SamOutputWantsField(&o->set, f)) continue;
+    if (field->kind == SAM_FIELD_POINTS) {
+      o->fields[f] = SamOutputCreatePoints(o, &field->label);
+      (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[0], 0));
+      continue;
+    }
     o->fields[f] = SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field), &shape, o->set.compress);
     if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
     for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
@@ -236,12 +247,19 @@ static void OpenSeries(SamOutput o, SamOutputSeriesKind kind)
   if (group >= 0) (void)SamFileNote(o->f, H5Gclose(group));
 }
 
-/* Takes over the chunk sizes that the file has. */
-static void ReadChunks(SamOutput o)
+/* Takes over the fields, and the chunk sizes, that the file has. */
+static void ReadFields(SamOutput o)
 {
-  const hid_t creation = SamFileNote(o->f, H5Dget_create_plist(o->fields[0]));
-  hsize_t     chunk[3] = {1, 1, 1};
+  PetscInt some = -1;
+  hid_t    creation;
+  hsize_t  chunk[3] = {1, 1, 1};
 
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    o->set.fields[f] = o->fields[f] >= 0 ? PETSC_TRUE : PETSC_FALSE;
+    if (o->set.fields[f] && SamOutputFields[f].kind != SAM_FIELD_POINTS) some = f;
+  }
+  if (some < 0) return;
+  creation = SamFileNote(o->f, H5Dget_create_plist(o->fields[some]));
   (void)SamFileNote(o->f, H5Pget_chunk(creation, 3, chunk));
   o->set.chunk[0] = (PetscInt)chunk[2];
   o->set.chunk[1] = (PetscInt)chunk[1];
@@ -252,10 +270,9 @@ void SamOutputOpenLayout(SamOutput o)
 {
   OpenDataset(o, o->f->id, "time", PETSC_FALSE, &o->time);
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    OpenDataset(o, o->f->id, SamOutputFields[f].label.name,
-                SamOutputFields[f].option < SAM_OUTPUT_OPTIONS ? PETSC_TRUE : PETSC_FALSE, &o->fields[f]);
+    OpenDataset(o, o->f->id, SamOutputFields[f].label.name, PETSC_TRUE, &o->fields[f]);
   for (PetscInt k = 0; k < SAM_SERIES; k++) OpenSeries(o, (SamOutputSeriesKind)k);
-  ReadChunks(o);
+  ReadFields(o);
   SamOutputOpenVTK(o);
   o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
 }

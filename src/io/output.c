@@ -13,12 +13,36 @@
 
 /* ---- options ---- */
 
+/* -output_fields: names between commas. */
+static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
+{
+  char        text[512] = "", names[512], **list;
+  const char *unknown;
+  PetscBool   given;
+  int         count;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsString(from, "output_fields",
+                             "fields to be saved (pressure, shear_x, shear_y, slip_x, slip_y, state); all or none",
+                             text, sizeof(text), &given));
+  PetscCall(PetscStrToArray(text, ',', &count, &list));
+  PetscCall(SamOutputSettingsSetFields(set, given ? count : -1, (const char *const *)list, &unknown));
+  (void)snprintf(text, sizeof(text), "%s", unknown ? unknown : "");
+  PetscCall(PetscStrToArrayDestroy(count, list));
+  PetscCall(SamOutputGetFieldNames(names, sizeof(names)));
+  PetscCheck(!text[0], from->comm, SAM_ERR_USER,
+             "-%soutput_fields: there is no field %s: expected all, none, or some of %s, with commas between them",
+             SamOptionsPrefix(from), text, names);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const SamOptions *from)
 {
   const char *prefix = SamOptionsPrefix(from);
 
   PetscFunctionBegin;
   *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
+  PetscCall(ReadFieldNames(set, from));
   PetscCall(SamOptionsInt(from, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
                           &set->compress, NULL));
   PetscCheck(set->compress <= 9, from->comm, SAM_ERR_USER,
@@ -173,6 +197,7 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   PetscCall(SamXdmfDestroy(&o->xdmf));
   PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
   PetscCall(VecDestroy(&o->work));
+  PetscCall(PetscFree(o->points.xy));
   PetscCall(PetscFree(o->states));
   PetscCall(PetscFree(o));
   PetscCall(changed);
@@ -304,6 +329,10 @@ static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *co
 
     if (o->fields[f] < 0) continue;
     PetscCall(values(o, f, context, &cells));
+    if (SamOutputFields[f].kind == SAM_FIELD_POINTS) {
+      SamOutputAppendPoints(o, o->fields[f], o->saved, (const SamOutputPoints *)cells);
+      continue;
+    }
     AppendField(o, o->fields[f], SamOutputFields[f].kind == SAM_FIELD_STATE ? H5T_NATIVE_SCHAR : H5T_NATIVE_DOUBLE,
                 cells);
   }
@@ -404,9 +433,17 @@ static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, c
   const PetscInt        cells = o->f->grid->cells;
   ContactFields        *from  = (ContactFields *)context;
   PetscInt              component;
+  SamEdge               edge;
 
   PetscFunctionBegin;
   PetscCall(Release(from));
+  if (field->kind == SAM_FIELD_POINTS) {
+    PetscCall(SamContactFindEdge(from->contact, (SamContactEdge)field->component, NULL, &edge));
+    PetscCall(SamOutputGatherPoints(o, &edge));
+    PetscCall(SamEdgeDestroy(&edge));
+    *values = &o->points;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (field->compute && !o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
   PetscCall(SamOutputFindField(field, from->contact, o->set.wear, o->work, &from->field, &component));
   PetscCall(VecGetArrayRead(from->field, &from->array));

@@ -57,7 +57,7 @@ static PetscBool FindChunks(const char filename[], Extents *e)
     const SamOutputField *field = &SamOutputFields[f];
     hid_t                 dataset;
 
-    if (field->option < SAM_OUTPUT_OPTIONS && H5Lexists(file, field->label.name, H5P_DEFAULT) == 0) continue;
+    if (H5Lexists(file, field->label.name, H5P_DEFAULT) == 0) continue;
     dataset = H5Dopen2(file, field->label.name, H5P_DEFAULT);
     good    = dataset >= 0 ? SamChunksVisit(dataset, 3, NULL, AddChunk, e) : PETSC_FALSE;
     if (dataset >= 0) (void)H5Dclose(dataset);

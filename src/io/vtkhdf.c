@@ -58,7 +58,8 @@ void SamOutputCreateVTK(SamOutput o)
 
   WriteGeometry(o, group);
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    if (o->fields[f] >= 0) Link(o, cells, SamOutputFields[f].label.name, SamOutputFields[f].label.name);
+    if (o->fields[f] >= 0 && SamOutputFields[f].kind != SAM_FIELD_POINTS)
+      Link(o, cells, SamOutputFields[f].label.name, SamOutputFields[f].label.name);
   Link(o, steps, "Values", "time");
   SamFileWriteAttribute(o->f, steps, "NSteps", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &none);
   o->vtk_steps = SamFileNote(o->f, H5Aopen(steps, "NSteps", H5P_DEFAULT));

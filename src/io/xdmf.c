@@ -121,7 +121,7 @@ static char *StepText(SamXdmf x, long step, double time, size_t *length)
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
     const PetscBool state = SamOutputFields[f].kind == SAM_FIELD_STATE ? PETSC_TRUE : PETSC_FALSE;
 
-    if (!SamOutputWants(&x->set, SamOutputFields[f].option)) continue;
+    if (!SamOutputWantsField(&x->set, f) || SamOutputFields[f].kind == SAM_FIELD_POINTS) continue;
     PrintField(x, &text, length, SamOutputFields[f].label.name, state ? "Char" : "Float", state ? 1 : 8, step);
   }
   Print(&text, length, "      </Grid>\n%s", tail);

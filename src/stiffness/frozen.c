@@ -38,6 +38,25 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Takes the pressure off cells on the rim of a corrected edge, whose centres are not in contact. */
+static PetscErrorCode LeaveRim(SamWindow window, SamGrid grid, Vec whole, Vec pressure)
+{
+  Vec           rim = whole;
+  const double *r;
+  double       *p;
+
+  PetscFunctionBegin;
+  PetscCall(TakeField(window, grid, 1, &rim));
+  PetscCall(VecGetArrayRead(rim, &r));
+  PetscCall(VecGetArray(pressure, &p));
+  for (PetscInt k = 0; k < grid->cells; k++)
+    if (p[k] <= r[k]) p[k] = 0;
+  PetscCall(VecRestoreArray(pressure, &p));
+  PetscCall(VecRestoreArrayRead(rim, &r));
+  PetscCall(VecDestroy(&rim));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode CreateFields(SamContact contact, SamWindow window, SamGrid grid, Fields *f)
 {
   const SamSolution *s;
@@ -53,6 +72,7 @@ static PetscErrorCode CreateFields(SamContact contact, SamWindow window, SamGrid
   PetscCall(TakeField(window, grid, 1, &f->pressure));
   PetscCall(TakeField(window, grid, 1, &f->bound));
   PetscCall(TakeField(window, grid, 2, &f->shear));
+  if (s->passes) PetscCall(LeaveRim(window, grid, s->rim, f->pressure));
   PetscCall(TakeField(window, grid, 1, &f->path));
   PetscCall(VecDestroy(&path));
   PetscFunctionReturn(PETSC_SUCCESS);

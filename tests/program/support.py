@@ -74,6 +74,7 @@ SPHERE = dict(
     load_n=1000.0,
     grid_n=64,
     grid_size=2.5987173e-3,
+    output_fields="all",
 )
 
 # A steel punch with a rounded edge; half width 1.75 times its flat radius.
@@ -88,6 +89,7 @@ PUNCH = dict(
     gap_edge_radius=0.05,
     load_n=4000.0,
     grid_size=7e-3,
+    output_fields="all",
 )
 
 
@@ -113,6 +115,7 @@ def ball(n=64, half_width=1.5, young=72e9, poisson=0.34, **more):
         gap_radius2=float("inf"),
         load_n=180.0,
         grid_n=n,
+        output_fields="all",
     )
     case["grid_size"] = 2 * half_width * hertz(case).radius
     return dict(case, **more)

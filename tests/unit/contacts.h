@@ -231,4 +231,51 @@ static inline PetscInt CellAt(SamGrid grid, PetscInt i, PetscInt j)
   return j >= grid->row_start && j < grid->row_start + grid->rows ? (j - grid->row_start) * grid->nx + i : -1;
 }
 
+/* A sphere whose centre lies beside that of the grid by parts of a cell, pressed and pushed there: solved. */
+static inline Case NewBeside(SamPair pair, PetscInt n, double half_width, double x, double y, double T,
+                             const char *options)
+{
+  const double h     = 2 * half_width * 1e-3 / (double)n;
+  Sphere       s     = NewSphereOn(PETSC_COMM_WORLD, pair, n, half_width, 0, 0);
+  const double at[3] = {s.R, x * h, y * h};
+  SamControl   control;
+  SamStep      step;
+  Case         c;
+
+  sam_call(VecDestroy(&s.h));
+  s.h                             = NewFrom(s.grid, ParaboloidAt, at);
+  c                               = NewCaseOn(s, MU, NULL, options);
+  control                         = Loads(&c, 1, T, 0, 0);
+  control.value[SAM_COMPONENT_MX] = -at[2] * c.s.N;
+  control.value[SAM_COMPONENT_MY] = at[1] * c.s.N;
+  control.value[SAM_COMPONENT_MZ] = -at[2] * control.value[SAM_COMPONENT_TX];
+  step                            = Solve(&c, &control);
+  AssertGood(&step);
+  return c;
+}
+
+/* The relative L2 errors against Hertz's pressure, raw and at the reconstructed points. */
+static inline void HertzErrors(const Case *c, Vec point, double x, double y, double errors[2])
+{
+  const SamGrid grid    = c->s.grid;
+  double        sums[3] = {0, 0, 0};
+  const double *p, *w;
+
+  sam_call(VecGetArrayRead(SolutionOf(c)->pressure, &p));
+  sam_call(VecGetArrayRead(point, &w));
+  for (PetscInt k = 0; k < grid->cells; k++) {
+    const double r =
+      hypot(SamGridX(grid, k % grid->nx) - x * grid->dx, SamGridY(grid, grid->row_start + k / grid->nx) - y * grid->dy);
+    const double exact = Hertz(&c->s, r);
+
+    sums[0] += (p[k] - exact) * (p[k] - exact);
+    sums[1] += (sqrt(fmax(w[k], 0)) - exact) * (sqrt(fmax(w[k], 0)) - exact);
+    sums[2] += exact * exact;
+  }
+  sam_call(VecRestoreArrayRead(point, &w));
+  sam_call(VecRestoreArrayRead(SolutionOf(c)->pressure, &p));
+  (void)MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  for (int k = 0; k < 2; k++) errors[k] = sqrt(sums[k] / sums[2]);
+}
+
 #endif

@@ -185,12 +185,15 @@ static inline SamStep MakeStep(int step)
   return s;
 }
 
-/* The settings of the options, without a file for ParaView beside it. */
+/* The settings of the options, with the fields that the solution has, without a file for ParaView beside it. */
 static inline SamOutputSettings SettingsOf(const char *options)
 {
   SamOutputSettings set;
 
-  SetOptions(options);
+  SetOptions("-output_fields "
+             "pressure,shear_x,shear_y,slip_x,slip_y,gap,displacement_x,displacement_y,displacement_z,state,"
+             "wear_depth1,wear_depth2");
+  sam_call(PetscOptionsInsertString(NULL, options));
   sam_call(SamOutputSettingsSetFromOptions(&set, &(SamOptions){PETSC_COMM_WORLD, NULL}));
   SetOptions("");
   set.xdmf = PETSC_FALSE;

@@ -5,58 +5,12 @@
 
 #define PLAIN NewPair(210e9, 0, 210e9, 0)
 
-/* A sphere whose centre lies beside that of the grid by parts of a cell, pressed and pushed at its centre. */
-static Case NewBeside(SamPair pair, PetscInt n, double half_width, double x, double y, double T)
-{
-  const double h     = 2 * half_width * 1e-3 / (double)n;
-  Sphere       s     = NewSphereOn(PETSC_COMM_WORLD, pair, n, half_width, 0, 0);
-  const double at[3] = {s.R, x * h, y * h};
-  SamControl   control;
-  SamStep      step;
-  Case         c;
-
-  sam_call(VecDestroy(&s.h));
-  s.h                             = NewFrom(s.grid, ParaboloidAt, at);
-  c                               = NewCaseOn(s, MU, NULL, "");
-  control                         = Loads(&c, 1, T, 0, 0);
-  control.value[SAM_COMPONENT_MX] = -at[2] * c.s.N;
-  control.value[SAM_COMPONENT_MY] = at[1] * c.s.N;
-  control.value[SAM_COMPONENT_MZ] = -at[2] * control.value[SAM_COMPONENT_TX];
-  step                            = Solve(&c, &control);
-  AssertGood(&step);
-  return c;
-}
-
 static Vec NewSquare(const Case *c, Vec field)
 {
   Vec w = NewField(c->s.grid, 1);
 
   sam_call(VecPointwiseMult(w, field, field));
   return w;
-}
-
-/* The relative L2 errors against Hertz's pressure, raw and at the reconstructed points. */
-static void Errors(const Case *c, Vec point, double x, double y, double errors[2])
-{
-  const SamGrid grid    = c->s.grid;
-  double        sums[3] = {0, 0, 0};
-  const double *p, *w;
-
-  sam_call(VecGetArrayRead(SolutionOf(c)->pressure, &p));
-  sam_call(VecGetArrayRead(point, &w));
-  for (PetscInt k = 0; k < grid->cells; k++) {
-    const double r =
-      hypot(SamGridX(grid, k % grid->nx) - x * grid->dx, SamGridY(grid, grid->row_start + k / grid->nx) - y * grid->dy);
-    const double exact = Hertz(&c->s, r);
-
-    sums[0] += (p[k] - exact) * (p[k] - exact);
-    sums[1] += (sqrt(w[k]) - exact) * (sqrt(w[k]) - exact);
-    sums[2] += exact * exact;
-  }
-  sam_call(VecRestoreArrayRead(point, &w));
-  sam_call(VecRestoreArrayRead(SolutionOf(c)->pressure, &p));
-  (void)MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  for (int k = 0; k < 2; k++) errors[k] = sqrt(sums[k] / sums[2]);
 }
 
 /* The edge without its points. */
@@ -78,13 +32,13 @@ static void test_edge_of_hertz_is_found_to_a_fraction_of_a_cell(void **state)
   (void)state;
   for (int k = 0; k < 3; k++) {
     const double x = places[k][0], y = places[k][1];
-    Case         c = NewBeside(Steel(), 96, 1.5, x, y, 0);
+    Case         c = NewBeside(Steel(), 96, 1.5, x, y, 0, "");
     Vec          w = NewSquare(&c, SolutionOf(&c)->pressure), point = NewField(c.s.grid, 1);
     double       errors[2];
     SamEdge      edge;
 
     edge = Reconstruct(c.s.grid, w, point);
-    Errors(&c, point, x, y, errors);
+    HertzErrors(&c, point, x, y, errors);
     if (getenv("SAM_SHOW"))
       print_message("# %g of the raw error, area %g\n", errors[1] / errors[0], edge.area / (PETSC_PI * 1e-6) - 1);
     sam_assert(edge.faces > 0 && edge.good == edge.faces);
@@ -104,7 +58,7 @@ static void test_area_is_of_second_order(void **state)
   (void)state;
   for (int fine = 0; fine < 2; fine++)
     for (int k = 0; k < 3; k++) {
-      Case    c = NewBeside(Steel(), fine ? 160 : 40, 1.5, places[k][0], places[k][1], 0);
+      Case    c = NewBeside(Steel(), fine ? 160 : 40, 1.5, places[k][0], places[k][1], 0, "");
       Vec     w = NewSquare(&c, SolutionOf(&c)->pressure);
       SamEdge edge;
 
@@ -124,7 +78,7 @@ static void test_edge_of_stick_is_cattaneos(void **state)
 
   (void)state;
   for (int k = 0; k < 2; k++) {
-    Case          c = NewBeside(PLAIN, 96, 1.5, places[k][0], places[k][1], 0.6);
+    Case          c = NewBeside(PLAIN, 96, 1.5, places[k][0], places[k][1], 0.6, "");
     const double *b, *q;
     double       *slack;
     Vec           w = NewField(c.s.grid, 1);
@@ -159,7 +113,7 @@ static void test_step_has_the_areas_of_its_edges(void **state)
 
   (void)state;
   for (int edges = 0; edges < 2; edges++) {
-    Case             c       = NewCase(PLAIN, 90, 1.5, MU, edges ? "-edges reconstruct" : "");
+    Case             c       = NewCase(PLAIN, 90, 1.5, MU, edges ? "" : "-edges none");
     const SamControl control = Loads(&c, 1, 0.6, 0, 0);
     const double     cell    = c.s.grid->dx * c.s.grid->dy;
 
@@ -182,7 +136,7 @@ static void test_step_has_the_areas_of_its_edges(void **state)
 /* One point in each cell that the edge crosses, on the circle, to a part of a cell; together they go round it. */
 static void test_points_lie_on_the_edge(void **state)
 {
-  Case    c       = NewBeside(Steel(), 96, 1.5, 0.3, 0.1, 0);
+  Case    c       = NewBeside(Steel(), 96, 1.5, 0.3, 0.1, 0, "");
   Vec     w       = NewSquare(&c, SolutionOf(&c)->pressure);
   double  sums[4] = {0, 0, 0, 0}, most = 0;
   SamEdge edge;

@@ -10,6 +10,7 @@ typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
 
 typedef struct {
   SamKernel kernel[KERNELS]; /* NULL until needed */
+  SamKernel slope[2];        /* normal, of pressures linear in x and in y; likewise */
 } HalfSpace;
 
 /* A kernel is a sum of at most two integrals over the cell. */
@@ -181,6 +182,66 @@ static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- within cells ---- */
+
+typedef struct {
+  const SamSlopeRules *rules;
+  int                  axis;
+  double               dx, dy, factor;
+} SlopeCoefficients;
+
+static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
+{
+  const SlopeCoefficients *c = (const SlopeCoefficients *)context;
+
+  SamSlopeRow(c->rules, c->axis, c->dx, c->dy, j, n, values[0]);
+  for (PetscInt i = 0; i < n; i++) values[0][i] *= c->factor;
+}
+
+static PetscErrorCode GetSlopeKernels(SamElasticity e, SamKernelMatrix *matrix)
+{
+  HalfSpace    *data = (HalfSpace *)e->data;
+  SamSlopeRules rules;
+
+  PetscFunctionBegin;
+  if (!data->slope[0]) PetscCall(SamSlopeRulesCreate(&rules));
+  *matrix = (SamKernelMatrix){.n_in = 2, .n_out = 1, .scale = {{1, 1}}};
+  for (int axis = 0; axis < 2; axis++) {
+    const SlopeCoefficients c        = {&rules, axis, e->grid->dx, e->grid->dy, e->pair.normal};
+    const PetscBool         odd[][2] = {{axis ? PETSC_FALSE : PETSC_TRUE, axis ? PETSC_TRUE : PETSC_FALSE}};
+
+    if (!data->slope[axis]) PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, &data->slope[axis]));
+    matrix->kernel[0][axis] = data->slope[axis];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormalSlopes(SamElasticity e, const double *const slopes[], double *const u_z[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(GetSlopeKernels(e, &matrix));
+  PetscCall(SamConvolve(e->fourier, &matrix, slopes, u_z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
+{
+  const double   dx = e->grid->dx / (double)sub, dy = e->grid->dy / (double)sub;
+  const PetscInt lags = 2 * reach + 1, cells = sub * sub;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < lags; j++)
+    for (PetscInt l = 0; l < sub; l++)
+      for (PetscInt i = 0; i < lags; i++)
+        for (PetscInt k = 0; k < sub; k++)
+          table[(j * lags + i) * cells + l * sub + k] =
+            e->pair.normal *
+            SamIntegralCell(SAM_INTEGRAL_R, dx, dy, (i - reach) * sub + sub / 2 - k, (j - reach) * sub + sub / 2 - l);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the type ---- */
 
 static PetscErrorCode SetUp(SamElasticity e)
@@ -196,6 +257,7 @@ static PetscErrorCode Destroy(SamElasticity e)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
+  for (PetscInt k = 0; k < 2; k++) PetscCall(SamKernelDestroy(&data->slope[k]));
   PetscCall(PetscFree(e->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -211,7 +273,8 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                     .rotations = PETSC_TRUE,
                                     .edge      = PETSC_TRUE,
                                     .mean      = PETSC_TRUE,
-                                    .parts     = PETSC_TRUE};
+                                    .parts     = PETSC_TRUE,
+                                    .within    = PETSC_TRUE};
   e->ops    = (SamElasticityOps){.setup                   = SetUp,
                                  .destroy                 = Destroy,
                                  .applynormal             = ApplyNormal,
@@ -222,6 +285,8 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .preconditiontangential  = SamHalfSpacePreconditionTangential,
                                  .getselfinfluence        = GetSelfInfluence,
                                  .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal};
+                                 .applytangentialtonormal = ApplyTangentialToNormal,
+                                 .applynormalslopes       = ApplyNormalSlopes,
+                                 .getnear                 = GetNear};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

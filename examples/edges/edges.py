@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Errors of pressure, area and approach on grids of several sizes: a sphere, an ellipsoid turned on the grid and a
+rounded punch, each beside the grid's centre by parts of a cell, with -edges none, reconstruct and deferred. Used by
+run.sh.
+
+    python3 examples/edges/edges.py PETSAM FOLDER [CELLS...]
+"""
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import h5py
+import matplotlib
+import numpy as np
+from scipy.special import ellipe, ellipk
+
+from petsam.closed.punch import Punch, punch_approach, punch_load, punch_pressure
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+CELLS = (32, 64, 128, 256)
+PLACES = ((0.13, 0.27), (0.41, 0.07), (0.33, 0.49), (0.02, 0.31))  # of the body's centre, cells from the grid's
+WAYS = ("none", "reconstruct", "deferred")
+LABELS = {"none": "plain", "reconstruct": "reconstructed", "deferred": "deferred"}
+MATERIAL = "-body1_young 2 -body1_poisson 0 -body2_young 2 -body2_poisson 0 -normal_rtol 1e-10".split()  # E* = 1
+
+
+class Shape(NamedTuple):
+    """A body whose contact is known: its gap, pressure (functions of x, y), approach, area, load, and the grid."""
+
+    gap: object
+    pressure: object
+    approach: float
+    area: float
+    load: float
+    width: float
+
+
+def sphere():
+    """Hertz, contact radius 1: width 3."""
+    return Shape(
+        lambda x, y: (x**2 + y**2) / 2,
+        lambda x, y: 2 / np.pi * np.sqrt(np.clip(1 - x**2 - y**2, 0, None)),
+        1.0,
+        np.pi,
+        4 / 3,
+        3.0,
+    )
+
+
+def ellipsoid(ratio=1 / 3, turn=0.4):
+    """Hertz, half axes 1 and `ratio`, turned by `turn`: Johnson, Contact Mechanics, section 4.2."""
+    m = 1 - ratio**2
+    k, e = ellipk(m), ellipe(m)
+    load = 1.0
+    scale = 3 * load / (2 * np.pi * m)
+    curvature = scale * (k - e), scale * (e / ratio**2 - k)  # gap: these times x^2, y^2 along the axes
+    c, s = np.cos(turn), np.sin(turn)
+
+    def axes(x, y):
+        return c * x + s * y, c * y - s * x
+
+    def gap(x, y):
+        u, v = axes(x, y)
+        return curvature[0] * u**2 + curvature[1] * v**2
+
+    def pressure(x, y):
+        u, v = axes(x, y)
+        return 3 * load / (2 * np.pi * ratio) * np.sqrt(np.clip(1 - u**2 - (v / ratio) ** 2, 0, None))
+
+    return Shape(gap, pressure, 3 * load * k / (2 * np.pi), np.pi * ratio, load, 2.6)
+
+
+def punch(flat=0.7):
+    """A flat base of radius `flat` with a parabolic edge, contact radius 1."""
+    body = Punch(flat, 1.0, 1.0)
+
+    def pressure(x, y):
+        r = np.hypot(x, y)
+        return np.where(r < 1, punch_pressure(np.minimum(r, 1 - 1e-15), body, 1.0), 0.0)
+
+    return Shape(
+        lambda x, y: body.gap(np.hypot(x, y)),
+        pressure,
+        float(punch_approach(body, 1.0)),
+        np.pi,
+        float(punch_load(body, 1.0)),
+        2.6,
+    )
+
+
+SHAPES = {"sphere": sphere, "ellipsoid": ellipsoid, "punch": punch}
+
+
+def measure(petsam, folder, shape, n, place, way):
+    """Relative errors of the pressure at the cells' centres (2-norm), area and approach; the wall time, s."""
+    h = shape.width / n
+    axis = (np.arange(n) + 0.5 - n / 2) * h
+    x, y = np.meshgrid(axis - place[0] * h, axis - place[1] * h)
+    with h5py.File(folder / "gap.h5", "w") as file:
+        file["height"] = shape.gap(x, y)
+    # the load acts at the body's centre: y p = -M_x, x p = M_y
+    moments = -place[1] * h * shape.load, place[0] * h * shape.load
+    field = "pressure" if way == "none" else "pressure_center"
+    words = (
+        f"-gap_type file -gap_file {folder}/gap.h5 -grid_n {n} -grid_size {shape.width} -load_n {shape.load!r} "
+        f"-load_mx {moments[0]!r} -load_my {moments[1]!r} -edges {way} -output {folder}/edges.h5 "
+        f"-output_fields {field} -output_xdmf false"
+    )
+    start = time.perf_counter()
+    done = subprocess.run([petsam, *MATERIAL, *words.split()], capture_output=True, text=True)
+    seconds = time.perf_counter() - start
+    if done.returncode:
+        sys.exit(done.stdout + done.stderr)
+    with h5py.File(folder / "edges.h5") as file:
+        exact = shape.pressure(x, y)
+        error = np.linalg.norm(file[field][-1] - exact) / np.linalg.norm(exact)
+        history = file["history"]
+        return np.array(
+            [error, history["contact_area"][-1] / shape.area - 1, history["disp_z"][-1] / shape.approach - 1, seconds]
+        )
+
+
+def table(petsam, folder, cells=CELLS, places=PLACES):
+    """Root mean squares over the places, by shape, way and cells."""
+    errors = {}
+    for name, make in SHAPES.items():
+        shape = make()
+        for n in cells:
+            for way in WAYS:
+                each = [measure(petsam, folder, shape, n, place, way) for place in places]
+                errors[name, way, n] = np.sqrt(np.mean(np.square(each), axis=0))
+                print(f"{name:9} {n:4} {LABELS[way]:13}", *(f"{e:8.1e}" for e in errors[name, way, n][:3]), flush=True)
+    return errors
+
+
+def draw(errors, cells, filename):
+    figure, rows = plt.subplots(2, 3, figsize=(10, 6), sharex=True, constrained_layout=True)
+    for column, name in enumerate(SHAPES):
+        for row, (label, index) in enumerate((("pressure at the centres", 0), ("area of contact", 1))):
+            ax = rows[row][column]
+            for way, marker in zip(WAYS, "osD"):
+                ax.loglog(cells, [errors[name, way, n][index] for n in cells], f"{marker}-", label=LABELS[way])
+            ax.grid(alpha=0.3)
+            if row == 0:
+                ax.set_title(name)
+            if column == 0:
+                ax.set_ylabel(f"relative error, {label}")
+            ax.set_xticks(cells, [str(n) for n in cells])
+            ax.minorticks_off()
+        rows[1][column].set_xlabel("cells in each direction")
+    rows[0][0].legend()
+    figure.savefig(filename, dpi=110)
+
+
+def main():
+    petsam, folder = sys.argv[1], Path(sys.argv[2])
+    cells = tuple(int(word) for word in sys.argv[3:]) or CELLS
+    print("shape     cells                pressure  area     approach")
+    errors = table(petsam, folder, cells)
+    draw(errors, cells, folder / "edges.png")
+    finest = cells[-1]
+    for name in SHAPES:
+        gain = errors[name, "none", finest] / errors[name, "deferred", finest]
+        if not gain[0] > 5:
+            sys.exit(f"{name}: the correction gains only {gain[0]:.1f} in the pressure on {finest} cells")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,20 @@
+#!/bin/sh
+# Measure what the reconstruction of edges and the correction for them gain on a sphere, an ellipsoid turned on the grid
+# and a rounded punch, against closed solutions, and draw it.
+#
+#   examples/edges/run.sh [CELLS...]     cells in each direction (32 64 128 256)
+#
+# Works from any directory. Environment:
+#   PETSAM   the program              (build/bin/petsam of the repository)
+#   OUT      results and figure, relative to the repository's root  (build/edges)
+#   PYTHON   a Python with scripts/requirements.txt  (build/venv/bin/python of the repository)
+#   MPIRUN   the MPI launcher, not used here         (mpirun)
+set -eu
+
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+example=edges
+default_n=128
+# shellcheck source=examples/common.sh
+. "$here/../common.sh"
+
+"$python" "$here/edges.py" "$petsam" "$out" "$@"

@@ -1,0 +1,132 @@
+/* The edges of contact and stick of a solution, and tractions at the centres of cells. */
+#include "contactimpl.h"
+#include <math.h>
+
+/*
+  What vanishes at the edges like the distance, of this rank's cells: of the contact p^2, of the stick zone the square
+  of what the pressure exceeds |q|/mu by.
+*/
+static PetscErrorCode FillSquares(const SamSolution *s, SamContactEdge which, Vec w)
+{
+  const PetscBool stick = which == SAM_CONTACT_EDGE_STICK ? PETSC_TRUE : PETSC_FALSE;
+  const double   *p, *b, *q;
+  double         *square;
+  PetscInt        cells;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(w, &cells));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayWrite(w, &square));
+  for (PetscInt k = 0; k < cells; k++) {
+    const double slack = stick && b[k] > 0 ? p[k] * (1 - hypot(q[k], q[k + cells]) / b[k]) : p[k];
+
+    square[k] = 0;
+    if (p[k] > 0 && (!stick || SamStateOf(p[k], q[k], q[k + cells], b[k]) == SAM_STATE_STICK))
+      square[k] = slack * slack;
+  }
+  PetscCall(VecRestoreArrayWrite(w, &square));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetProfile(SamContact c, SamProfile *profile)
+{
+  PetscFunctionBegin;
+  if (!c->profile) PetscCall(SamProfileCreate(c->elasticity, &c->profile));
+  *profile = c->profile;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The edge of contact of a solution that has been corrected for it. */
+static PetscErrorCode FindCorrected(SamContact c, const SamSolution *s, Vec point, SamEdge *edge)
+{
+  SamProfile profile = NULL;
+  PetscBool  found;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetProfile(c, &profile));
+  PetscCall(SamProfileMatch(profile, s->pressure, s->rim, &found));
+  PetscCall(SamProfileGetEdge(profile, point, edge));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactFindEdge(SamContact c, SamContactEdge which, Vec point, SamEdge *edge)
+{
+  const SamSolution *s;
+  PetscReal          shear;
+  Vec                w;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
+  /* without shear the pressure exceeds |q|/mu by itself */
+  if (s->passes && (which == SAM_CONTACT_EDGE_CONTACT || shear == 0)) {
+    PetscCall(FindCorrected(c, s, point, edge));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamGridCreateVec(c->grid, 1, &w));
+  PetscCall(FillSquares(s, which, w));
+  PetscCall(SamEdgeReconstruct(c->grid, w, point, edge));
+  PetscCall(VecDestroy(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- at the centres of cells ---- */
+
+/* The root of what vanishes at an edge, at the cells' centres. */
+static PetscErrorCode ComputeRoots(SamContact c, SamContactEdge which, Vec root)
+{
+  SamEdge edge;
+  double *value;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactFindEdge(c, which, root, &edge));
+  PetscCall(SamEdgeDestroy(&edge));
+  PetscCall(VecGetArray(root, &value));
+  for (PetscInt k = 0; k < c->grid->cells; k++) value[k] = value[k] > 0 ? sqrt(value[k]) : 0;
+  PetscCall(VecRestoreArray(root, &value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactComputePressureCenter(SamContact c, Vec pressure)
+{
+  PetscFunctionBegin;
+  PetscCall(ComputeRoots(c, SAM_CONTACT_EDGE_CONTACT, pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The shear keeps its direction; its size is mu times what the pressure exceeds the slack by, both at the centre. */
+PetscErrorCode SamContactComputeShearCenter(SamContact c, PetscInt component, Vec shear)
+{
+  const SamSolution *s;
+  const double      *p, *b, *q, *at;
+  double            *value;
+  Vec                pressure;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(VecDuplicate(shear, &pressure));
+  PetscCall(ComputeRoots(c, SAM_CONTACT_EDGE_CONTACT, pressure));
+  PetscCall(ComputeRoots(c, SAM_CONTACT_EDGE_STICK, shear));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(pressure, &at));
+  PetscCall(VecGetArray(shear, &value));
+  for (PetscInt k = 0; k < c->grid->cells; k++) {
+    const double size = hypot(q[k], q[k + c->grid->cells]);
+
+    value[k] = size > 0 ? PetscMax(at[k] - value[k], 0) * b[k] / p[k] * q[k + component * c->grid->cells] / size : 0;
+  }
+  PetscCall(VecRestoreArray(shear, &value));
+  PetscCall(VecRestoreArrayRead(pressure, &at));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(VecDestroy(&pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

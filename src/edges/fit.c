@@ -1,0 +1,135 @@
+/* Quadratic functions through a field's values: weighted least squares in a window about a cell. */
+#include "edgesimpl.h"
+#include <math.h>
+
+#define TERMS    SAM_FIT_TERMS
+#define PRODUCTS SAM_FIT_PRODUCTS
+#define SUB      16 /* sub-cells in each direction */
+
+void SamFitWindowInitialize(PetscInt half, int least, double bell, SamFitWindow *window)
+{
+  PetscInt cell = 0;
+
+  *window = (SamFitWindow){.half = half, .least = least};
+  for (PetscInt b = -half; b <= half; b++)
+    for (PetscInt a = -half; a <= half; a++, cell++) {
+      const double x = (double)a / (double)half, y = (double)b / (double)half;
+      const double terms[TERMS] = {1, x, y, x * x, x * y, y * y};
+      const double weight       = bell > 0 ? exp(-(double)(a * a + b * b) / (2 * bell * bell)) : 1;
+
+      for (int k = 0, n = 0; k < TERMS; k++) {
+        window->terms[cell][k] = weight * terms[k];
+        for (int l = 0; l <= k; l++) window->products[cell][n++] = weight * terms[k] * terms[l];
+      }
+    }
+}
+
+/* The part of a window that is seen. */
+typedef struct {
+  PetscInt left, right, low, high;
+} Range;
+
+static Range RangeOf(const SamZone *z, PetscInt half, PetscInt i, PetscInt j)
+{
+  return (Range){PetscMax(i - half, 0), PetscMin(i + half, z->grid->nx - 1), PetscMax(j - half, z->first),
+                 PetscMin(j + half, z->first + z->count - 1)};
+}
+
+/*
+  Cholesky's factor of a symmetric positive matrix, both given by the rows of their lower triangles; false where it is
+  singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.)
+*/
+static PetscBool Factor(double A[PRODUCTS])
+{
+  double *row[TERMS];
+
+  for (int j = 0, n = 0; j < TERMS; n += ++j) row[j] = A + n;
+  for (int j = 0; j < TERMS; j++) {
+    const double whole = row[j][j];
+
+    for (int k = 0; k < j; k++) row[j][j] -= row[j][k] * row[j][k];
+    if (!(row[j][j] > 1e-10 * whole)) return PETSC_FALSE;
+    row[j][j] = sqrt(row[j][j]);
+    for (int i = j + 1; i < TERMS; i++) {
+      for (int k = 0; k < j; k++) row[i][j] -= row[i][k] * row[j][k];
+      row[i][j] /= row[j][j];
+    }
+  }
+  return PETSC_TRUE;
+}
+
+static void Solve(const double L[PRODUCTS], double b[TERMS])
+{
+  const double *row[TERMS];
+
+  for (int j = 0, n = 0; j < TERMS; n += ++j) row[j] = L + n;
+  for (int i = 0; i < TERMS; i++) {
+    for (int k = 0; k < i; k++) b[i] -= row[i][k] * b[k];
+    b[i] /= row[i][i];
+  }
+  for (int i = TERMS - 1; i >= 0; i--) {
+    for (int k = i + 1; k < TERMS; k++) b[i] -= row[k][i] * b[k];
+    b[i] /= row[i][i];
+  }
+}
+
+PetscBool SamFitFactor(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double factor[PRODUCTS])
+{
+  const PetscInt half  = window->half;
+  const Range    range = RangeOf(z, half, i, j);
+  PetscInt       count = 0;
+
+  for (int n = 0; n < PRODUCTS; n++) factor[n] = 0;
+  for (PetscInt b = range.low; b <= range.high; b++)
+    for (PetscInt a = range.left; a <= range.right; a++) {
+      const double *products = window->products[(b - j + half) * (2 * half + 1) + a - i + half];
+
+      if (z->distance[SamZoneAt(z, a, b)] < window->least) continue;
+      count++;
+      for (int n = 0; n < PRODUCTS; n++) factor[n] += products[n];
+    }
+  return count >= SAM_FIT_LEAST ? Factor(factor) : PETSC_FALSE;
+}
+
+void SamFit(const SamZone *z, const SamFitWindow *window, const double factor[PRODUCTS], const double values[],
+            PetscInt i, PetscInt j, double fit[TERMS], double *bent)
+{
+  const PetscInt half         = window->half;
+  const double   scale        = (double)half;
+  const Range    range        = RangeOf(z, half, i, j);
+  double         right[TERMS] = {0}, squares = 0, weights = 0;
+
+  for (PetscInt b = range.low; b <= range.high; b++)
+    for (PetscInt a = range.left; a <= range.right; a++) {
+      const ptrdiff_t k     = SamZoneAt(z, a, b);
+      const double   *terms = window->terms[(b - j + half) * (2 * half + 1) + a - i + half];
+
+      if (z->distance[k] < window->least) continue;
+      weights += terms[0];
+      squares += terms[0] * values[k] * values[k];
+      for (int n = 0; n < TERMS; n++) right[n] += terms[n] * values[k];
+    }
+  for (int k = 0; k < TERMS; k++) fit[k] = right[k];
+  Solve(factor, fit);
+  /* of the deviations: the function is their nearest one */
+  for (int k = 0; k < TERMS; k++) squares -= fit[k] * right[k];
+  for (int k = 1; k < TERMS; k++) fit[k] /= k < 3 ? scale : scale * scale;
+  if (bent) *bent = sqrt(PetscMax(squares, 0) / weights);
+}
+
+double SamFitPart(const double fit[TERMS])
+{
+  const double slope = hypot(fit[1], fit[2]) / SUB;
+  const double reach =
+    0.5 * (fabs(fit[1]) + fabs(fit[2])) + 0.25 * (fabs(fit[3]) + fabs(fit[4]) + fabs(fit[5])) + slope;
+  double sum = 0;
+
+  if (fabs(fit[0]) > reach) return fit[0] > 0 ? 1 : 0;
+  for (int b = 0; b < SUB; b++)
+    for (int a = 0; a < SUB; a++) {
+      const double part = 0.5 + 0.75 * SamFitAt(fit, (a + 0.5) / SUB - 0.5, (b + 0.5) / SUB - 0.5) / slope;
+
+      sum += part < 0 ? 0 : part > 1 ? 1 : part;
+    }
+  return sum / (SUB * SUB);
+}

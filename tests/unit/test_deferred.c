@@ -1,0 +1,304 @@
+/* The correction for the edge of contact: closed solutions, what it is made of, and what is refused. */
+#include "contacts.h"
+
+#include <petsam/influence.h>
+#include <string.h>
+
+#define DEFERRED "-edges deferred"
+
+static const double places[][2] = {{0.13, 0.27}, {0.41, 0.07}, {0.02, 0.31}};
+
+/* ---- slopes and sub-cells ---- */
+
+/* The displacement by a pressure that is linear in one cell, by its sub-cells. */
+static double BySubCells(const Sphere *s, int axis, PetscInt i, PetscInt j)
+{
+  enum { SUB = 61 };
+  const double h[2] = {s->grid->dx / SUB, s->grid->dy / SUB};
+  double       sum  = 0;
+
+  for (int b = 0; b < SUB; b++)
+    for (int a = 0; a < SUB; a++) {
+      const double at = ((axis ? b : a) + 0.5) / SUB - 0.5;
+
+      sum += at * SamIntegralCell(SAM_INTEGRAL_R, h[0], h[1], i * SUB + SUB / 2 - a, j * SUB + SUB / 2 - b);
+    }
+  return s->pair.normal * sum;
+}
+
+/* A pressure that is linear in one cell, on cells that are not square, near and far, on both sides and in itself. */
+static void test_linear_pressure_displaces_as_its_sub_cells(void **state)
+{
+  const double size[] = {2e-3, 9e-3};
+  Sphere       s      = {.pair = Steel()};
+
+  (void)state;
+  for (int k = 0; k < 2; k++)
+    for (int axis = 0; axis < 2; axis++) {
+      Vec           slopes, u;
+      const double *whole;
+
+      s.grid = NewGridOn(PETSC_COMM_WORLD, 37, 31, size[k], 2e-3, 0, 0);
+      sam_call(SamElasticityCreate(s.grid, &s.pair, &s.elasticity));
+      slopes = NewField(s.grid, 2);
+      u      = NewField(s.grid, 1);
+      AddAt(s.grid, axis, 12, 11, 1e6, slopes);
+      sam_call(SamElasticityApplyNormalSlopes(s.elasticity, slopes, u));
+      whole = Whole(s.grid, 1, u);
+      for (PetscInt j = 0; j < 31; j += 2)
+        for (PetscInt i = 0; i < 37; i += 3) {
+          const double exact = 1e6 * BySubCells(&s, axis, i - 12, j - 11);
+
+          sam_assert_close(whole[j * 37 + i], exact, 1e-3 * fabs(exact) + 1e-9 * 1e6 * s.pair.normal * s.grid->dx);
+        }
+      free((void *)whole);
+      sam_call(VecDestroy(&u));
+      sam_call(VecDestroy(&slopes));
+      sam_call(SamElasticityDestroy(&s.elasticity));
+      sam_call(SamGridDestroy(&s.grid));
+    }
+}
+
+/* Uniform pressure on all sub-cells is that of the cell. */
+static void test_sub_cells_add_up_to_the_cell(void **state)
+{
+  enum { REACH = 2, LAGS = 2 * REACH + 1, SUB = 5 };
+  Sphere s = NewSphereOf(Steel(), 20, 1.5);
+  double table[LAGS * LAGS * SUB * SUB];
+
+  (void)state;
+  sam_call(SamElasticityGetNear(s.elasticity, REACH, SUB, table));
+  for (int k = 0; k < LAGS * LAGS; k++) {
+    double sum = 0;
+
+    for (int n = 0; n < SUB * SUB; n++) sum += table[k * SUB * SUB + n];
+    sam_assert_close(
+      sum, s.pair.normal * SamIntegralCell(SAM_INTEGRAL_R, s.grid->dx, s.grid->dy, k % LAGS - REACH, k / LAGS - REACH),
+      1e-12 * sum);
+  }
+  DestroySphere(&s);
+}
+
+/* ---- closed solutions ---- */
+
+typedef struct {
+  double errors[2]; /* of the pressure: means, and at the centres */
+  double area, approach;
+} Hertzian;
+
+static Hertzian Measure(const Case *c, const SamStep *step, double x, double y)
+{
+  Vec      point = NewField(c->s.grid, 1);
+  SamEdge  edge;
+  Hertzian h;
+
+  sam_call(SamContactFindEdge(c->contact, SAM_CONTACT_EDGE_CONTACT, point, &edge));
+  sam_call(SamEdgeDestroy(&edge));
+  HertzErrors(c, point, x, y, h.errors);
+  h.area     = fabs((double)step->contact_area / (PETSC_PI * c->s.a * c->s.a) - 1);
+  h.approach = fabs((double)step->rigid[SAM_COMPONENT_N] / (c->s.a * c->s.a / c->s.R) - 1);
+  if (getenv("SAM_SHOW"))
+    print_message("# %d cells: p %g, area %g, approach %g\n", (int)c->s.grid->nx, h.errors[1], h.area, h.approach);
+  sam_call(VecDestroy(&point));
+  return h;
+}
+
+/* The pressure of a sphere pressed off the grid's centre; the plain one's errors are 7e-3, 1e-2 and 9e-5 (method-edges). */
+static void test_correction_makes_hertz_exact(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    Case     c = NewBeside(Steel(), 64, 1.5, places[k][0], places[k][1], 0, DEFERRED);
+    SamStep  step;
+    Hertzian h;
+
+    sam_call(SamContactTry(c.contact, &SolutionOf(&c)->control, &step));
+    AssertGood(&step);
+    sam_assert(step.edge_passes == 2 && step.edge_accepted == 1);
+    h = Measure(&c, &step, places[k][0], places[k][1]);
+    sam_assert(h.errors[1] < 4e-4);
+    sam_assert(h.area < 5e-5);
+    sam_assert(h.approach < 5e-6);
+    DestroyCase(&c);
+  }
+}
+
+/* Approach and area are of second order, with a constant that is a fraction of the plain one's. */
+static void test_correction_gains_on_all_grids(void **state)
+{
+  (void)state;
+  for (PetscInt n = 32; n <= 96; n += 32) {
+    Hertzian h[2];
+
+    for (int deferred = 0; deferred < 2; deferred++) {
+      Case    c = NewBeside(Steel(), n, 1.5, 0.33, 0.49, 0, deferred ? DEFERRED : "-edges none");
+      SamStep step;
+
+      sam_call(SamContactTry(c.contact, &SolutionOf(&c)->control, &step));
+      h[deferred] = Measure(&c, &step, 0.33, 0.49);
+      DestroyCase(&c);
+    }
+    sam_assert(h[1].errors[1] < h[0].errors[0] / 10);
+    sam_assert(h[1].area < h[0].area / 20);
+    sam_assert(h[1].approach < h[0].approach / 10);
+  }
+}
+
+/* ---- control ---- */
+
+/*
+  The displacements that a force and moments lead to lead back to them, all prescribed or some: up to what the passes,
+  which start from another plain solution, leave of the error.
+*/
+static void test_correction_under_forces_and_displacements_is_the_same(void **state)
+{
+  Case       c[2];
+  SamControl control;
+  SamStep    step[2];
+
+  (void)state;
+  for (int k = 0; k < 2; k++) c[k] = NewCase(Steel(), 63, 1.6, MU, DEFERRED " -normal_rtol 1e-10");
+  control                         = Loads(&c[0], 1, 0, 0, 0);
+  control.value[SAM_COMPONENT_MY] = 0.1 * c[0].s.N * c[0].s.a;
+  step[0]                         = Try(&c[0], &control);
+  for (int mixed = 0; mixed < 2; mixed++) {
+    Displace(&control, SAM_COMPONENT_N, (double)step[0].rigid[SAM_COMPONENT_N]);
+    if (!mixed) Displace(&control, SAM_COMPONENT_MY, (double)step[0].rigid[SAM_COMPONENT_MY]);
+    if (mixed) {
+      control.force[SAM_COMPONENT_MY] = PETSC_TRUE;
+      control.value[SAM_COMPONENT_MY] = 0.1 * c[0].s.N * c[0].s.a;
+    }
+    step[1] = Try(&c[1], &control);
+    sam_assert(step[0].edge_passes == 2 && step[1].edge_passes == 2);
+    sam_assert_close(step[1].load[SAM_COMPONENT_N], c[0].s.N, 1e-5 * c[0].s.N);
+    sam_assert_close(step[1].load[SAM_COMPONENT_MY], 0.1 * c[0].s.N * c[0].s.a, 1e-5 * c[0].s.N * c[0].s.a);
+    sam_assert(Difference(SolutionOf(&c[0])->pressure, SolutionOf(&c[1])->pressure, NORM_2) < 2e-4);
+  }
+  for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
+}
+
+/* ---- histories ---- */
+
+static Vec PressureOf(const Case *c)
+{
+  return Copy(SolutionOf(c)->pressure);
+}
+
+/*
+  A step at the same normal load keeps pressure and correction; a state goes on in another contact, and a rejected try
+  leaves no trace, all to the last bit.
+*/
+static void test_correction_belongs_to_the_state(void **state)
+{
+  Case            c = NewCase(Steel(), 45, 1.5, MU, DEFERRED), other = NewCase(Steel(), 45, 1.5, MU, DEFERRED);
+  SamControl      control = Loads(&c, 1, 0.2, 0, 0), next = Loads(&c, 1, 0.5, 0.1, 0), more = Loads(&c, 1.4, 0, 0, 0);
+  SamStep         step[3];
+  SamContactState now;
+
+  (void)state;
+  step[0] = Solve(&c, &control);
+  AssertGood(&step[0]);
+  sam_call(SamContactGetState(c.contact, &now));
+  sam_call(SamContactSetState(other.contact, &now));
+  (void)Try(&other, &more);
+  sam_call(SamContactReject(other.contact));
+  step[1] = Solve(&c, &next);
+  step[2] = Solve(&other, &next);
+  AssertGood(&step[1]);
+  sam_assert(step[1].normal_iterations == 0 && step[1].edge_passes == 2);
+  sam_assert(step[1].contact_area == step[0].contact_area && step[1].check.normal == step[2].check.normal);
+  sam_assert(SameBitsOf(&c, &other, PressureOf) && SameBitsOf(&c, &other, NewSlip) && SameBitsOf(&c, &other, NewGap));
+  DestroyCase(&c);
+  DestroyCase(&other);
+}
+
+static void test_correction_does_not_depend_on_the_ranks(void **state)
+{
+  Case    c[2];
+  double *whole[2];
+  SamStep step[2];
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    c[k] = NewCaseOn(NewSphereOn(k ? PETSC_COMM_SELF : PETSC_COMM_WORLD, Steel(), 47, 1.5, 0, 0), MU, NULL, DEFERRED);
+    SamControl control = Loads(&c[k], 1, 0.3, 0, 0);
+
+    control.value[SAM_COMPONENT_MX] = 0.07 * c[k].s.N * c[k].s.a;
+    step[k]                         = Try(&c[k], &control);
+    whole[k]                        = Whole(c[k].s.grid, 1, SolutionOf(&c[k])->pressure);
+  }
+  sam_assert(step[0].edge_passes == 2 && SameNumbers(1, &step[0].contact_area, &step[1].contact_area));
+  sam_assert(SameNumbers(SAM_COMPONENTS, step[0].rigid, step[1].rigid));
+  sam_assert(!memcmp(whole[0], whole[1], sizeof(double) * 47 * 47));
+  for (int k = 0; k < 2; k++) {
+    free(whole[k]);
+    DestroyCase(&c[k]);
+  }
+}
+
+/* ---- what is refused, and what the check sees ---- */
+
+/* Spots of a few cells: the plain solution stays, to the last bit, and the step says so. */
+static void test_edges_that_are_not_smooth_are_left(void **state)
+{
+  Case c[2];
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    SamStep step;
+    Vec     h, rough;
+
+    c[k]  = NewCase(Steel(), 40, 1.5, MU, k ? DEFERRED : "");
+    rough = NewRandom(c[k].s.grid, 1, 3);
+    sam_call(SamProblemGetGap(c[k].problem, &h));
+    sam_call(VecAXPY(h, 0.1 * c[k].s.a * c[k].s.a / c[k].s.R, rough));
+    sam_call(VecDestroy(&rough));
+    step = Try(&c[k], &(SamControl[]){Loads(&c[k], 0.2, 0, 0, 0)}[0]);
+    sam_assert(step.status == SAM_STATUS_CONVERGED && step.edge_passes == 0);
+    sam_assert(!k || (strstr(step.message, "not corrected") && !strcmp(step.setting, "edges")));
+  }
+  sam_assert(SameBitsOf(&c[0], &c[1], PressureOf));
+  for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
+}
+
+/* The check of a corrected solution is as strict as that of a plain one. */
+static void test_check_sees_what_is_wrong_with_a_correction(void **state)
+{
+  Case               c       = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
+  const SamControl   control = Loads(&c, 1, 0, 0, 0);
+  const SamStep      step    = Try(&c, &control);
+  const SamSolution *s       = SolutionOf(&c);
+  SamSolution        wrong   = *s;
+  SamCheck           check;
+
+  (void)state;
+  AssertGood(&step);
+  sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &wrong, &check));
+  sam_assert(SameNumbers(1, &check.normal, &step.check.normal));
+  wrong.passes = 0; /* the correction forgotten */
+  sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &wrong, &check));
+  sam_assert(check.normal > 1e-5);
+  wrong.passes = 1;
+  sam_call(VecDuplicate(s->rim, &wrong.rim)); /* the rim forgotten: its cells do not touch */
+  sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &wrong, &check));
+  sam_assert(check.normal > 1e-5);
+  sam_call(VecDestroy(&wrong.rim));
+  DestroyCase(&c);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_linear_pressure_displaces_as_its_sub_cells),
+    cmocka_unit_test(test_sub_cells_add_up_to_the_cell),
+    cmocka_unit_test(test_correction_makes_hertz_exact),
+    cmocka_unit_test(test_correction_gains_on_all_grids),
+    cmocka_unit_test(test_correction_under_forces_and_displacements_is_the_same),
+    cmocka_unit_test(test_correction_belongs_to_the_state),
+    cmocka_unit_test(test_correction_does_not_depend_on_the_ranks),
+    cmocka_unit_test(test_edges_that_are_not_smooth_are_left),
+    cmocka_unit_test(test_check_sees_what_is_wrong_with_a_correction),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
