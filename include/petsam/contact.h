@@ -176,6 +176,8 @@ PETSC_EXTERN PetscErrorCode SamContactAllowEdge(SamContact contact, PetscBool al
 */
 typedef enum { SAM_CONTACT_EDGES_NONE, SAM_CONTACT_EDGES_RECONSTRUCT, SAM_CONTACT_EDGES_DEFERRED } SamContactEdges;
 PETSC_EXTERN PetscErrorCode SamContactSetEdges(SamContact contact, SamContactEdges edges, PetscInt passes);
+/* SamContactGetEdges - what is done for the edges. Not collective. */
+PETSC_EXTERN PetscErrorCode SamContactGetEdges(SamContact contact, SamContactEdges *edges);
 /* The objects of a contact. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetProblem(SamContact contact, SamProblem *problem);          /* borrowed */
 PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);                   /* borrowed */

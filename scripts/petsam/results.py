@@ -12,6 +12,7 @@ from .isolation import reading
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
 DEPTHS = ("wear_depth1", "wear_depth2")  # removed of body 1 and 2
+EDGES = ("contact_edge", "stick_edge")
 NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
 BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
 WHOLE = 1 << 27  # values of what is read whole at most; a damaged file may claim any number
@@ -300,6 +301,26 @@ class Results(Datafile):
         except DAMAGED as error:
             raise self._error(error) from error
         return np.concatenate(parts)
+
+    def edge(self, name, index=-1):
+        """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
+        try:
+            with reading(self.path):
+                if name not in self.file:
+                    raise Error(f"{self.path}: has no {name}")
+                data = _own(self.file, name)
+                if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (self.times.size, 2):
+                    raise ValueError(f"/{name} is no edge: its shape is {data.shape}")
+                points = data[index]
+        except DAMAGED as error:
+            raise self._error(error) from error
+        return points[np.isfinite(points).all(axis=1)]
+
+    @cached_property
+    def edges(self):
+        """Which of contact_edge and stick_edge the file has."""
+        with reading(self.path):
+            return [name for name in EDGES if name in self.file]
 
     def contact_window(self, index, margin=0.15):
         """Rows and columns (slices) of the smallest rectangle about the contact, and a margin; all without contact."""

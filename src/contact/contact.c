@@ -111,6 +111,13 @@ PetscErrorCode SamContactSetEdges(SamContact c, SamContactEdges edges, PetscInt 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactGetEdges(SamContact c, SamContactEdges *edges)
+{
+  PetscFunctionBegin;
+  *edges = c->edges;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
@@ -132,11 +139,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(
     SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &edge, NULL));
-  PetscCall(
-    SamOptionsEnum(&from, "edges",
-                   "areas by reconstructed edges (reconstruct) or counted cells (none), or the solution corrected "
-                   "for its edge too (deferred)",
-                   edge_words, &edges, NULL));
+  PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, none: count cells, deferred: correct the pressure", edge_words,
+                           &edges, NULL));
   PetscCall(SamOptionsInt(&from, "edges_passes", "solutions again with -edges deferred", 1, &passes, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamContactSetCoupling(c, coupling ? PETSC_TRUE : PETSC_FALSE, rtol, max_it));

@@ -91,10 +91,11 @@ static PetscErrorCode FindPeak(SamContact c, const SamEdge *stick, double *peak)
   for (PetscInt n = 0; n < stick->count; n++) {
     const PetscInt k = stick->cell[n];
     const double   x = (double)((stick->x[n] - SamGridX(grid, 0)) / grid->dx),
-                 y   = (double)((stick->y[n] - SamGridY(grid, first)) / grid->dy);
+                 y   = (double)((stick->y[n] - SamGridY(grid, 0)) / grid->dy);
+    /* counted from the grid's first row and not from the rank's, whose sums would round otherwise */
     const PetscInt i = PetscMin(PetscMax((PetscInt)floor(x), 0), grid->nx - 2),
-                   j = PetscMin(PetscMax((PetscInt)floor(y), 0), count - 2);
-    const double tx = x - (double)i, ty = y - (double)j, *q = p + (ptrdiff_t)j * grid->nx + i;
+                   j = PetscMin(PetscMax((PetscInt)floor(y), first), first + count - 2);
+    const double tx = x - (double)i, ty = y - (double)j, *q = p + (ptrdiff_t)(j - first) * grid->nx + i;
     const double w = (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
                      ty * ((1 - tx) * q[grid->nx] * q[grid->nx] + tx * q[grid->nx + 1] * q[grid->nx + 1]);
 

@@ -248,6 +248,7 @@ static inline PetscBool SamOutputWantsField(const SamOutputSettings *set, PetscI
   The points of an edge: x and y (m) one after the other, on rank 0; the count on all ranks (points.c). The functions
   note their failures. Collective.
   SamOutputCreatePoints - creates a dataset for them, without a step; to be closed with H5Dclose().
+  SamOutputCreatePointScales - creates the scales of all such datasets, which are there already, and attaches them.
   SamOutputGatherPoints - takes those of all ranks into the output, in the order of their rows.
   SamOutputAppendPoints, SamOutputReadPoints - write those of a step, which is the next one; read them.
 */
@@ -256,6 +257,7 @@ typedef struct {
   double *xy;
 } SamOutputPoints;
 PETSC_INTERN hid_t          SamOutputCreatePoints(SamOutput output, const SamOutputLabel *label);
+PETSC_INTERN void           SamOutputCreatePointScales(SamOutput output);
 PETSC_INTERN PetscErrorCode SamOutputGatherPoints(SamOutput output, const SamEdge *edge);
 PETSC_INTERN void SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t step, const SamOutputPoints *points);
 /* SamOutputGetPointsExtent - the number of points that field f has room for, and of their coordinates. */
@@ -274,7 +276,7 @@ struct _n_SamOutput {
   SamHold         hold;      /* of a file that is written */
   PetscBool       replaced;  /* there were older results */
   SamXdmf         xdmf;      /* NULL: none */
-  hid_t           time, fields[SAM_OUTPUT_MOST], columns[SAM_SERIES][SAM_OUTPUT_MOST];
+  hid_t           time, point, fields[SAM_OUTPUT_MOST], columns[SAM_SERIES][SAM_OUTPUT_MOST];
   signed char    *states; /* of this rank's cells */
   Vec             work;   /* for fields that are computed; NULL until the first one */
   SamOutputPoints points; /* of the edge that is being written */

@@ -109,6 +109,7 @@ static PetscErrorCode CreateFields(SamOutput o)
 {
   const SamShape shape = FieldShape(o);
   hid_t          scales[3]; /* of [time, y, x] */
+  PetscBool      points = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
@@ -120,13 +121,14 @@ static PetscErrorCode CreateFields(SamOutput o)
     if (!SamOutputWantsField(&o->set, f)) continue;
     if (field->kind == SAM_FIELD_POINTS) {
       o->fields[f] = SamOutputCreatePoints(o, &field->label);
-      (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[0], 0));
+      points       = PETSC_TRUE;
       continue;
     }
     o->fields[f] = SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field), &shape, o->set.compress);
     if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
     for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
   }
+  if (points) SamOutputCreatePointScales(o);
   (void)SamFileNote(o->f, H5Dclose(scales[1]));
   (void)SamFileNote(o->f, H5Dclose(scales[2]));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -269,6 +271,7 @@ static void ReadFields(SamOutput o)
 void SamOutputOpenLayout(SamOutput o)
 {
   OpenDataset(o, o->f->id, "time", PETSC_FALSE, &o->time);
+  OpenDataset(o, o->f->id, "point", PETSC_TRUE, &o->point);
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
     OpenDataset(o, o->f->id, SamOutputFields[f].label.name, PETSC_TRUE, &o->fields[f]);
   for (PetscInt k = 0; k < SAM_SERIES; k++) OpenSeries(o, (SamOutputSeriesKind)k);
@@ -300,6 +303,7 @@ void SamOutputCloseLayout(SamOutput o)
   if (o->closed >= 0) (void)SamFileNote(o->f, H5Aclose(o->closed));
   o->vtk_steps = o->closed = -1;
   Close(o, &o->time);
+  Close(o, &o->point);
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) Close(o, &o->fields[f]);
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     for (PetscInt c = 0; c < SamOutputAllSeries[k].count; c++) Close(o, &o->columns[k][c]);

@@ -22,9 +22,8 @@ static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *f
   int         count;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "output_fields",
-                             "fields to be saved (pressure, shear_x, shear_y, slip_x, slip_y, state); all or none",
-                             text, sizeof(text), &given));
+  PetscCall(SamOptionsString(from, "output_fields", "fields to be saved by their names, all, or none", text,
+                             sizeof(text), &given));
   PetscCall(PetscStrToArray(text, ',', &count, &list));
   PetscCall(SamOutputSettingsSetFields(set, given ? count : -1, (const char *const *)list, &unknown));
   (void)snprintf(text, sizeof(text), "%s", unknown ? unknown : "");
@@ -95,9 +94,9 @@ PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, Sam
   PetscCall(PetscNew(&o));
   o->f    = file;
   o->set  = *set;
-  o->time = o->vtk_steps = o->closed = -1;
-  o->hold.file                       = -1;
-  o->saved_time                      = PETSC_NINFINITY;
+  o->time = o->point = o->vtk_steps = o->closed = -1;
+  o->hold.file                                  = -1;
+  o->saved_time                                 = PETSC_NINFINITY;
   for (PetscInt f = 0; f < SAM_OUTPUT_MOST; f++) o->fields[f] = -1;
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     for (PetscInt c = 0; c < SAM_OUTPUT_MOST; c++) o->columns[k][c] = -1;

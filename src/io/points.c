@@ -1,11 +1,41 @@
 /*
   Edges as points in a results file: datasets (time, point, 2) of x and y, whose rows end in NaN where a step has fewer
-  points than another one. Rank 0 writes and reads them.
+  points than another one. Rank 0 writes and reads them. netCDF's readers want a scale for each dimension; those of
+  points and coordinates have no values, as the attribute says by which netCDF knows such scales.
 */
 #include "ioimpl.h"
+#include <hdf5_hl.h>
 #include <math.h>
 
 #define CHUNK 256 /* points */
+
+static const SamOutputLabel point_label      = {"point", "1", "point of an edge"},
+                            coordinate_label = {"coordinate", "1", "x and y of a point"};
+
+/* A scale without values. */
+static hid_t CreateScale(SamOutput o, const SamOutputLabel *label, const SamShape *shape)
+{
+  const hid_t scale = SamFileCreateDataset(o->f, o->f->id, label, H5T_STD_I8LE, shape, 0);
+
+  (void)SamFileNote(o->f, H5DSset_scale(scale, "This is a netCDF dimension but not a netCDF variable.         0"));
+  return scale;
+}
+
+void SamOutputCreatePointScales(SamOutput o)
+{
+  const SamShape point = {1, {0}, {H5S_UNLIMITED}, {CHUNK}}, coordinate = {1, {2}, {2}, {0}};
+  hid_t          scale;
+
+  o->point = CreateScale(o, &point_label, &point);
+  scale    = CreateScale(o, &coordinate_label, &coordinate);
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    if (o->fields[f] < 0 || SamOutputFields[f].kind != SAM_FIELD_POINTS) continue;
+    (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], o->time, 0));
+    (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], o->point, 1));
+    (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scale, 2));
+  }
+  (void)SamFileNote(o->f, H5Dclose(scale));
+}
 
 hid_t SamOutputCreatePoints(SamOutput o, const SamOutputLabel *label)
 {
@@ -88,6 +118,17 @@ static void Select(SamOutput o, hid_t dataset, hsize_t step, hsize_t count, hid_
   }
 }
 
+/* Makes the scale of points as long as the longest edge. */
+static void ExtendScale(SamOutput o, hsize_t points)
+{
+  const hid_t space   = SamFileNote(o->f, H5Dget_space(o->point));
+  hsize_t     size[1] = {0};
+
+  (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
+  (void)SamFileNote(o->f, H5Sclose(space));
+  if (size[0] < points) (void)SamFileNote(o->f, H5Dset_extent(o->point, &points));
+}
+
 void SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t step, const SamOutputPoints *points)
 {
   hsize_t size[3];
@@ -98,6 +139,7 @@ void SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t step, const SamOu
   size[0] = step + 1;
   size[1] = PetscMax(size[1], points->count);
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
+  ExtendScale(o, size[1]);
   Select(o, dataset, step, points->count, &space, &memory);
   (void)SamFileNote(o->f, H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, o->f->transfer,
                                    points->count ? points->xy : &nothing));

@@ -70,7 +70,16 @@ def write(folder, header, values):
 
 @pytest.mark.parametrize("ranks", [1, 2, 3])
 @pytest.mark.parametrize(
-    "case", [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING], ids=["similar", "dissimilar", "constant", "rolling"]
+    "case",
+    [
+        (CASE,),
+        (DISSIMILAR,),
+        CONSTANT,
+        ROLLING,
+        (dict(CASE, edges="deferred"),),
+        (dict(CONSTANT[0], edges="deferred"), *CONSTANT[1:]),
+    ],
+    ids=["similar", "dissimilar", "constant", "rolling", "deferred", "deferred constant"],
 )
 def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
     """To the last bit, which asks for all of the state: what is lost of it shows at the solvers' tolerance."""

@@ -62,6 +62,7 @@ def test_fields_do_not_depend_on_how_rows_become_columns(solve, case):
 @pytest.mark.parametrize("n", [(2, 2), (3, 2), (2, 7), (5, 1000), (1000, 3)])
 def test_tiny_and_thin_grids_on_three_ranks(solve, n):
     case = dict(STRIP, grid_n=n, grid_size=(1e-4 * n[0], 1e-4 * n[1]), load_tx=3.0, load_ty=1.0, load_mz=0.0)
+    case["output_fields"] = "all"
     assert_same(solve(case, ranks=3), solve(case), 0)
 
 

@@ -61,6 +61,7 @@ def _map_data(results, index, whole):
         "pressure": read("pressure"),
         "shear": np.hypot(read("shear_x"), read("shear_y")),
         **{name: read(name) for name in results.depths},
+        "edges": [results.edge(name, index) for name in results.edges],
     }
 
 
@@ -99,6 +100,8 @@ def maps(snapshots, whole=False):
                 ylabel=label("$y$", unit) if column == 0 else "",
                 title=text if row == 0 else "",
             )
+            for points in one["edges"]:
+                panel.plot(*(length * points.T), ".", color="white" if base else "black", markersize=1.0)
             bar = figure.colorbar(image, ax=panel, aspect=25, label=label(text.split()[-1], prefixed) if base else "")
             if name == "state":
                 bar.set_ticks(sorted(STATES), labels=[STATES[k][0] for k in sorted(STATES)])

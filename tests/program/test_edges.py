@@ -1,0 +1,144 @@
+"""Edges of contact and stick: areas, points and values at the centres, which fields are saved, and the correction."""
+
+import h5py
+import numpy as np
+import pytest
+
+import petsam as package
+from support import PUNCH, SPHERE, closed, hertz, slide_limit
+
+USUAL = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state"}
+SCALES = {"x", "y", "time", "point", "coordinate"}
+NAMES = "pressure,pressure_center,shear_center_x,contact_edge,stick_edge"
+SLIP = dict(SPHERE, body1_poisson=0.0, body2_poisson=0.0, grid_n=90, output_fields=NAMES)
+
+
+def cattaneo(share, **more):
+    """A partial-slip case with closed solution, T_x = share mu N, and the stick radius in contact radii."""
+    case = dict(SLIP, **more)
+    case["load_tx"] = share * slide_limit(case)[0]
+    return case, (1 - share) ** (1 / 3)
+
+
+# ---------------------------------------------------------------- fields
+
+
+def fields(path):
+    with h5py.File(path, "r") as file:
+        return {name for name in file if isinstance(file[name], h5py.Dataset)} - SCALES
+
+
+def test_usual_fields_are_saved_unless_others_are_asked_for(petsam, tmp_path):
+    case = dict(SPHERE, grid_n=24, output_fields=None, output="out.h5")
+    petsam(case)
+    assert fields(tmp_path / "out.h5") == USUAL
+    petsam(dict(case, output_fields="gap,state,shear_center_y"))
+    assert fields(tmp_path / "out.h5") == {"gap", "state", "shear_center_y"}
+    petsam(dict(case, output_fields="none"))
+    assert fields(tmp_path / "out.h5") == set()
+    petsam(dict(case, output_fields="all"))
+    assert fields(tmp_path / "out.h5") > USUAL | {"displacement_z", "pressure_center", "stick_edge"}
+    with h5py.File(tmp_path / "out.h5", "r") as file:
+        assert all("units" in file[name].attrs for name in fields(tmp_path / "out.h5"))
+
+
+def test_unknown_field_is_refused_with_the_names_there_are(petsam, tmp_path):
+    said = petsam(dict(SPHERE, output="out.h5", output_fields="pressure,sheer_x"), check=2).stderr
+    assert "-output_fields" in said and "sheer_x" in said and "shear_center_y" in said
+    assert not (tmp_path / "out.h5").exists()
+
+
+def test_run_goes_on_with_the_fields_of_its_file(petsam, tmp_path):
+    (tmp_path / "h.csv").write_text("time, load_n\n1, 900\n2, 1000\n3, 1100\n4, 1200\n")
+    case = dict(SPHERE, load_n=None, grid_n=24, history="h.csv", output="out.h5", output_fields="gap,contact_edge")
+    petsam(case, dict(checkpoint="state.h5", checkpoint_every=2))
+    with h5py.File(tmp_path / "out.h5", "r") as file:
+        before = {name: file[name][:] for name in ("gap", "contact_edge")}
+    petsam(dict(case, output_fields=None, restart="state.h5.1"))
+    with h5py.File(tmp_path / "out.h5", "r") as file:
+        assert fields(tmp_path / "out.h5") == {"gap", "contact_edge"}
+        assert all(np.array_equal(file[name][:], before[name], equal_nan=True) for name in before)
+
+
+# ---------------------------------------------------------------- edges
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_points_lie_on_the_circles(solve, ranks):
+    case, c = cattaneo(0.6)
+    r = solve(case, ranks=ranks)
+    a = hertz(case).radius
+    with package.open(r.path) as results:
+        for name, radius in (("contact_edge", a), ("stick_edge", c * a)):
+            points = results.edge(name)
+            assert points.shape[0] > 60
+            assert np.abs(np.hypot(*points.T) / radius - 1).max() < 3e-3
+        alone = package.open(solve(case).path)
+        assert np.array_equal(results.file["stick_edge"][:], alone.file["stick_edge"][:], equal_nan=True)
+        alone.close()
+
+
+def test_areas_and_peak_are_cattaneos(solve):
+    case, c = cattaneo(0.6)
+    r, h = solve(case), hertz(case)
+    assert r["contact_area"] == pytest.approx(np.pi * h.radius**2, rel=3e-4)
+    assert r["stick_area"] == pytest.approx(np.pi * (c * h.radius) ** 2, rel=1e-3)
+    assert r["shear_max"] == pytest.approx(case["friction"] * h.pressure * np.sqrt(1 - c**2), rel=6e-4)
+    assert r["edge_accepted"] == 1
+
+
+def test_values_at_the_centres_are_nearer_to_the_exact_ones_than_the_means(solve):
+    case, c = cattaneo(0.6)
+    r, h = solve(case), hertz(case)
+    with h5py.File(r.path, "r") as file:
+        radius = np.hypot(file["x"][:][None, :], file["y"][:][:, None])
+        p = closed.hertz_pressure(radius, h.radius, h.pressure)
+        q = case["friction"] * (p - closed.hertz_pressure(radius, c * h.radius, c * h.pressure))
+        error = {
+            name: np.linalg.norm(file[name][-1] - exact) / np.linalg.norm(exact)
+            for name, exact in (("pressure", p), ("pressure_center", p), ("shear_center_x", q))
+        }
+    assert error["pressure_center"] < error["pressure"] / 5
+    assert error["shear_center_x"] < 2e-3
+
+
+def test_counted_areas_are_whole_cells(solve):
+    case, _ = cattaneo(0.6, edges="none")
+    r = solve(case)
+    cell = (case["grid_size"] / case["grid_n"]) ** 2
+    for name in ("contact", "stick"):
+        assert r[f"{name}_area"] == pytest.approx(r[f"{name}_cells"] * cell, rel=1e-12)
+
+
+# ---------------------------------------------------------------- the correction
+
+
+def test_corrected_contact_is_hertz(solve):
+    case = dict(SLIP, edges="deferred", grid_n=64)
+    r, h = solve(case), hertz(case)
+    assert r["edge_passes"] == 2
+    assert r["contact_area"] == pytest.approx(np.pi * h.radius**2, rel=5e-5)
+    assert r["disp_z"] == pytest.approx(h.radius**2 / closed.effective_radius(0.2, 0.2), rel=4e-6)
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_correction_is_the_same_on_any_number_of_ranks(solve, ranks):
+    case, _ = cattaneo(0.5, edges="deferred", grid_n=61, output_fields="all")
+    one, more = solve(case), solve(case, ranks=ranks)
+    with h5py.File(one.path, "r") as a, h5py.File(more.path, "r") as b:
+        for name in fields(one.path):
+            assert np.array_equal(a[name][:], b[name][:], equal_nan=True), name
+
+
+def test_edge_that_is_not_smooth_is_left_and_said(petsam, solve):
+    case = dict(PUNCH, grid_n=48)
+    said = petsam(dict(case, edges="deferred")).stderr
+    assert "not corrected" in said and "-edges" in said
+    plain, left = solve(case), solve(dict(case, edges="deferred"))
+    assert left["edge_passes"] == 0 and np.array_equal(plain.pressure, left.pressure)
+
+
+def test_lives_are_not_corrected(petsam, tmp_path):
+    (tmp_path / "h.csv").write_text("time, load_tx\n0, 0\n1, 50\n2, -50\n3, 0\n")
+    case = dict(SPHERE, history="h.csv", edges="deferred", wear_coefficient1=1e-14, wear_cycles=100)
+    assert "-edges deferred" in petsam(case, check=2).stderr
