@@ -35,9 +35,10 @@ PETSC_EXTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, S
 PETSC_EXTERN PetscErrorCode SamEdgeDestroy(SamEdge *edge);
 
 /*
-  SamProfile - what a traction does within the cells of its zone, when it vanishes at the zone's edge like the root of the
-  distance: in a band along the edge it is sqrt(max(w, 0)) with a quadratic function w in each cell, elsewhere linear in
-  each cell. A cell belongs to the zone if its centre does; cells outside that the edge cuts, the rim, bear traction too.
+  SamProfile - what a traction does within the cells of its zone, when it vanishes at the zone's edge like the root of
+  the distance: in a band along the edge it is sqrt(max(w, 0)) with a quadratic function w in each cell, elsewhere linear
+  in each cell. A cell belongs to the zone if its centre does; cells outside that the edge cuts, the rim, bear traction
+  too.
 */
 typedef struct _n_SamProfile *SamProfile;
 /* SamProfileCreate - references the elasticity. SamProfileDestroy - sets the handle to NULL. Collective. */
@@ -59,8 +60,8 @@ PETSC_EXTERN PetscErrorCode SamProfileMove(SamProfile profile, PetscBool *found)
   SamProfileGetZone - 1 in cells of the zone, else 0; and the means of the rim's cells (Pa), else 0. Borrowed.
   SamProfileComputeDisplacement - the normal displacement (m) by what a pressure of this profile does within the cells:
   what the influence of the cells' means lacks. For an elasticity whose traits say `within`.
-  SamProfileGetEdge - the edge, with its points; its share is 1. `point` (NULL: not wanted): the traction's square at the
-  cells' centres (Pa2).
+  SamProfileGetEdge - the edge, with its points; its share is 1. `point` (NULL: not wanted): the traction's square at
+  the cells' centres (Pa2).
 */
 PETSC_EXTERN PetscErrorCode SamProfileGetZone(SamProfile profile, Vec *zone, Vec *rim);
 PETSC_EXTERN PetscErrorCode SamProfileComputeDisplacement(SamProfile profile, Vec u_z);

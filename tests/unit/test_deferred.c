@@ -103,7 +103,7 @@ static Hertzian Measure(const Case *c, const SamStep *step, double x, double y)
   return h;
 }
 
-/* The pressure of a sphere pressed off the grid's centre; the plain one's errors are 7e-3, 1e-2 and 9e-5 (method-edges). */
+/* A sphere pressed off the grid's centre; the plain errors of p, area and approach are 7e-3, 1e-2 and 9e-5. */
 static void test_correction_makes_hertz_exact(void **state)
 {
   (void)state;
