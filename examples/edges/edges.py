@@ -8,7 +8,6 @@ run.sh.
 
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import NamedTuple
 
@@ -96,45 +95,46 @@ def punch(flat=0.7):
 SHAPES = {"sphere": sphere, "ellipsoid": ellipsoid, "punch": punch}
 
 
-def measure(petsam, folder, shape, n, place, way):
-    """Relative errors of the pressure at the cells' centres (2-norm), area and approach; the wall time, s."""
+def places(shape, n, place):
+    """x and y of the cells' centres from the body's centre, (n, n)."""
     h = shape.width / n
     axis = (np.arange(n) + 0.5 - n / 2) * h
-    x, y = np.meshgrid(axis - place[0] * h, axis - place[1] * h)
+    return np.meshgrid(axis - place[0] * h, axis - place[1] * h)
+
+
+def measure(petsam, folder, shape, n, place, way):
+    """Relative errors of the pressure at the cells' centres (2-norm), area and approach; and what petsam printed."""
+    x, y = places(shape, n, place)
     with h5py.File(folder / "gap.h5", "w") as file:
         file["height"] = shape.gap(x, y)
     # the load acts at the body's centre: y p = -M_x, x p = M_y
-    moments = -place[1] * h * shape.load, place[0] * h * shape.load
+    my, mx = (sign * part * shape.width / n * shape.load for sign, part in zip((1, -1), place))
     field = "pressure" if way == "none" else "pressure_center"
     words = (
         f"-gap_type file -gap_file {folder}/gap.h5 -grid_n {n} -grid_size {shape.width} -load_n {shape.load!r} "
-        f"-load_mx {moments[0]!r} -load_my {moments[1]!r} -edges {way} -output {folder}/edges.h5 "
+        f"-load_mx {mx!r} -load_my {my!r} -edges {way} -output {folder}/edges.h5 "
         f"-output_fields {field} -output_xdmf false"
     )
-    start = time.perf_counter()
     done = subprocess.run([petsam, *MATERIAL, *words.split()], capture_output=True, text=True)
-    seconds = time.perf_counter() - start
     if done.returncode:
         sys.exit(done.stdout + done.stderr)
     with h5py.File(folder / "edges.h5") as file:
         exact = shape.pressure(x, y)
         error = np.linalg.norm(file[field][-1] - exact) / np.linalg.norm(exact)
-        history = file["history"]
-        return np.array(
-            [error, history["contact_area"][-1] / shape.area - 1, history["disp_z"][-1] / shape.approach - 1, seconds]
-        )
+        area, approach = (file["history"][name][-1] for name in ("contact_area", "disp_z"))
+    return np.array([error, area / shape.area - 1, approach / shape.approach - 1]), done.stdout
 
 
-def table(petsam, folder, cells=CELLS, places=PLACES):
+def table(petsam, folder, cells=CELLS, offsets=PLACES):
     """Root mean squares over the places, by shape, way and cells."""
     errors = {}
     for name, make in SHAPES.items():
         shape = make()
         for n in cells:
             for way in WAYS:
-                each = [measure(petsam, folder, shape, n, place, way) for place in places]
+                each = [measure(petsam, folder, shape, n, place, way)[0] for place in offsets]
                 errors[name, way, n] = np.sqrt(np.mean(np.square(each), axis=0))
-                print(f"{name:9} {n:4} {LABELS[way]:13}", *(f"{e:8.1e}" for e in errors[name, way, n][:3]), flush=True)
+                print(f"{name:9} {n:4} {LABELS[way]:13}", *(f"{e:8.1e}" for e in errors[name, way, n]), flush=True)
     return errors
 
 
@@ -153,7 +153,7 @@ def draw(errors, cells, filename):
             ax.set_xticks(cells, [str(n) for n in cells])
             ax.minorticks_off()
         rows[1][column].set_xlabel("cells in each direction")
-    rows[0][0].legend()
+    figure.legend(*rows[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     figure.savefig(filename, dpi=110)
 
 

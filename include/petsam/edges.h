@@ -36,9 +36,8 @@ PETSC_EXTERN PetscErrorCode SamEdgeDestroy(SamEdge *edge);
 
 /*
   SamProfile - what a traction does within the cells of its zone, when it vanishes at the zone's edge like the root of
-  the distance: in a band along the edge it is sqrt(max(w, 0)) with a quadratic function w in each cell, elsewhere linear
-  in each cell. A cell belongs to the zone if its centre does; cells outside that the edge cuts, the rim, bear traction
-  too.
+  the distance: in a band along the edge it is sqrt(max(w, 0)) with a quadratic function w in each cell, elsewhere it is
+  linear. A cell belongs to the zone if its centre does; cells outside that the edge cuts, the rim, bear traction too.
 */
 typedef struct _n_SamProfile *SamProfile;
 /* SamProfileCreate - references the elasticity. SamProfileDestroy - sets the handle to NULL. Collective. */

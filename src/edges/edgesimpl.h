@@ -44,7 +44,8 @@ static inline double SamFitAt(const double fit[SAM_FIT_TERMS], double x, double 
 
 /*
   SamFitWindow - which cells a fit goes by, and their weights: those within `half` cells in both directions, at most
-  SAM_FIT_HALF, whose squared distance is at least `least`. `bell`: the weights' standard deviation, cells; 0: all are 1.
+  SAM_FIT_HALF, whose squared distance is at least `least`. `bell`: standard deviation of the weights, cells; 0: all
+  are 1.
 */
 enum { SAM_FIT_HALF = 5, SAM_FIT_CELLS = (2 * SAM_FIT_HALF + 1) * (2 * SAM_FIT_HALF + 1), SAM_FIT_PRODUCTS = 21 };
 typedef struct {

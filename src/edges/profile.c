@@ -448,7 +448,7 @@ PetscErrorCode SamProfileComputeDisplacement(SamProfile s, Vec u_z)
 
 /* ---- the edge ---- */
 
-/* The square of the traction at the centre of a cell without a function: of the mean, less what curvature adds to it. */
+/* The square of the traction at the centre of a cell without a function: of the mean without what curvature adds. */
 static double MiddleSquare(const SamZone *z, const double mean[], PetscInt i, PetscInt j)
 {
   const ptrdiff_t k     = SamZoneAt(z, i, j);

@@ -19,8 +19,9 @@ void SamRootsInitialize(int sub, SamRoots *r)
 }
 
 /*
-  The means of sqrt(max(w, 0)) over a cell's sub-cells, and their derivatives by w. In a sub-cell w is spread evenly over
-  a width about its middle, so that the mean is (up^3 - down^3)/(3/2 width), up and down being the roots at the ends.
+  The means of sqrt(max(w, 0)) over a cell's sub-cells, and their derivatives by w. In a sub-cell w is spread evenly
+  over a width about its middle, so that the mean is (up^3 - down^3)/(3/2 width), up and down being the roots at the
+  ends.
 */
 SAM_VECTORIZED static void Means(const SamRoots *restrict r, const double *restrict fit, double *restrict means,
                                  double *restrict slopes)

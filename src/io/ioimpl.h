@@ -191,8 +191,8 @@ PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *pa
 
 /*
   A field of the results: a component of a vector of the solution, or what `compute` writes into a vector of one
-  component. The values are real numbers, or SamStates, stored as bytes; or an edge's points, of which `component` is the
-  SamContactEdge.
+  component. The values are real numbers, or SamStates, stored as bytes; or an edge's points, of which `component` is
+  the SamContactEdge.
 */
 typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE, SAM_FIELD_POINTS } SamOutputFieldKind;
 typedef struct {
