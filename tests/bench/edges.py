@@ -70,7 +70,11 @@ def table(args, python):
                     if None in each:
                         continue
                     row = dict(
-                        shape=name, cells=n, program=way, error=each[0][0], seconds=statistics.median(e[1] for e in each)
+                        shape=name,
+                        cells=n,
+                        program=way,
+                        error=each[0][0],
+                        seconds=statistics.median(e[1] for e in each),
                     )
                     rows.append(row)
                     print("{shape:9} {cells:5} {program:12} {error:.1e} {seconds:8.3f} s".format(**row), flush=True)
@@ -110,7 +114,9 @@ def draw(rows, filename):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, default=ROOT / "build")
-    parser.add_argument("--cells", type=lambda text: [int(word) for word in text.split(",")], default=[64, 128, 256, 512])
+    parser.add_argument(
+        "--cells", type=lambda text: [int(word) for word in text.split(",")], default=[64, 128, 256, 512]
+    )
     parser.add_argument("--repeats", type=int, default=3)
     args = parser.parse_args()
     out = args.build / "bench" / "edges"
