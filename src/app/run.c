@@ -78,11 +78,14 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
 {
   SamElasticityTraits traits;
   PetscBool           help;
+  char                edges[16] = "";
 
   PetscFunctionBegin;
   PetscCall(SamSetupReadOptions(&run->setup, from));
   PetscCall(SamElasticityGetTraits(run->setup.elasticity, &traits));
   run->needs.coupled = traits.coupled;
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-edges", edges, sizeof(edges), NULL)); /* the contact's, later */
+  run->needs.deferred = strcmp(edges, "deferred") ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(SamHistoryCreateFromOptions(from, &run->history));
   PetscCall(SamHistoryGetCount(run->history, &run->needs.steps));
   run->point.history = run->history;

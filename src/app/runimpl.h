@@ -11,7 +11,7 @@
 
 /* What the memory of a run depends on besides the grid. */
 typedef struct {
-  PetscBool friction, coupled, wear, life, stiffness;
+  PetscBool friction, coupled, deferred, wear, life, stiffness;
   PetscInt  steps;
 } SamRunNeeds;
 

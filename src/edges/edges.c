@@ -9,7 +9,7 @@
     2. The tail of the layer makes the core's edge lie too far out, by SHIFT of a cell in the mean.
     3. Guard: the difference to w must be that of the layer, whose shape is the same for all smooth edges.
     4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where it is refused, a
-       cell counts less FACE for each of its faces to a cell outside.
+       cell counts less FACE for each of its faces to a cell outside, unless w is BLUNT there.
   Distances are in cells.
 */
 #include "edgesimpl.h"
@@ -22,6 +22,7 @@
 #define BENT   0.005  /* largest deviation of the core from the function, rms over the slope of a cell */
 #define BOWED  0.02   /* the same for an edge that is good enough to be corrected */
 #define FACE   0.09   /* part of a cell a face */
+#define BLUNT  0.6    /* w of a cell at the edge over that of the cell behind it, where w does not vanish at the edge */
 #define NEXT   (-2)   /* a cell outside with this distance's square or nearer is beside the zone */
 #define HALO   (WINDOW + 5)
 
@@ -107,6 +108,26 @@ void SamEdgeAddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, 
   edge->count++;
 }
 
+/*
+  Whether w does not vanish at the edge of a cell, to judge by its neighbour farthest from the cells outside, which must
+  not lie at the edge itself. Worn surfaces end like that, and as many cells too many as too few are counted there.
+*/
+static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
+{
+  signed char farthest = 2;
+  double      behind   = 0;
+
+  for (PetscInt b = j - 1; b <= j + 1; b++)
+    for (PetscInt a = i - 1; a <= i + 1; a++) {
+      const ptrdiff_t k = SamZoneHas(z, a, b) ? SamZoneAt(z, a, b) : -1;
+
+      if (k < 0 || z->distance[k] < farthest || (z->distance[k] == farthest && !(z->w[k] > behind))) continue;
+      farthest = z->distance[k];
+      behind   = z->w[k];
+    }
+  return farthest > 2 && z->w[SamZoneAt(z, i, j)] > BLUNT * behind ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Adds a cell to the sums and to the edge, and writes its value. */
 static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS], double *point, SamEdge *edge)
 {
@@ -127,7 +148,7 @@ static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS],
   sums[GOOD] += good ? (double)faces : 0;
   sums[SMOOTH] += about >= CORRECT ? (double)faces : 0;
   sums[CELLS] += inside ? 1 : 0;
-  sums[AREA] += good ? SamFitPart(fit) : inside ? 1 - FACE * (double)faces : 0;
+  sums[AREA] += good ? SamFitPart(fit) : inside ? 1 - (faces && !IsBlunt(z, i, j) ? FACE * (double)faces : 0) : 0;
   if (point) *point = good ? fit[0] : z->w[k];
   if (good) SamEdgeAddPoint(z->grid, fit, i, j, edge);
 }
