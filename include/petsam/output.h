@@ -52,6 +52,7 @@ typedef enum {
 #define SAM_OUTPUT_MOST 64 /* most fields, and most columns */
 typedef struct {
   PetscBool fields[SAM_OUTPUT_MOST]; /* which ones of the table of fields; SamOutputSettingsSetFields() */
+  PetscBool named;                   /* each of them by its name */
   PetscInt  compress;                /* deflate level of the fields, 0 (none) to 9 */
   PetscInt  chunk[2];                /* most cells of an HDF5 chunk in x, y */
   PetscBool xdmf;                    /* write an XDMF file beside the results */
@@ -64,10 +65,13 @@ typedef struct {
   -output_chunk and -output_xdmf. Collective. Errors: SAM_ERR_USER.
   SamOutputSettingsSetFields - chooses `count` fields by their names in the results; "all" stands for all of them, a
   single "none" for none; count < 0: the default. `unknown`: a name that there is not, or NULL. Not collective.
+  SamOutputSettingsCheck - refuses fields that are named and that these results do not have. Collective. Errors:
+  SAM_ERR_USER.
   SamOutputGetFieldNames - the names that there are, as a sentence has them. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *settings, PetscInt count,
                                                        const char *const names[], const char **unknown);
+PETSC_EXTERN PetscErrorCode SamOutputSettingsCheck(const SamOutputSettings *settings, const SamOptions *from);
 PETSC_EXTERN PetscErrorCode SamOutputGetFieldNames(char names[], size_t size);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 

@@ -280,11 +280,13 @@ class Results(Datafile):
 
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
         """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell."""
+        if name in EDGES:
+            raise Error(f"{self.path}: {name} is no field: ask for edge({name!r})")
         low, high, _ = rows.indices(self.y.size)
         try:
             with reading(self.path):
                 if name not in self.file:
-                    raise Error(f"{self.path}: has no {name}")
+                    raise Error(f"{self.path}: has no {name} (petsam -output_fields)")
                 data = _own(self.file, name)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
@@ -304,10 +306,12 @@ class Results(Datafile):
 
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
+        if not -self.times.size <= index < self.times.size:
+            raise IndexError(f"saved step {index} of {self.times.size}")
         try:
             with reading(self.path):
                 if name not in self.file:
-                    raise Error(f"{self.path}: has no {name}")
+                    raise Error(f"{self.path}: has no {name} (petsam -output_fields)")
                 data = _own(self.file, name)
                 if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (self.times.size, 2):
                     raise ValueError(f"/{name} is no edge: its shape is {data.shape}")

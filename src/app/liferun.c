@@ -189,9 +189,8 @@ PetscErrorCode SamRunLive(SamRun *run)
 
 PetscErrorCode SamRunCreateWear(SamRun *run)
 {
-  SamLifeCycle    cycle = {.control = Control, .solved = WriteStep, .context = run};
-  SamContactEdges edges;
-  PetscInt        start;
+  SamLifeCycle cycle = {.control = Control, .solved = WriteStep, .context = run};
+  PetscInt     start;
 
   PetscFunctionBegin;
   if (!run->wearing.laws.on) PetscFunctionReturn(PETSC_SUCCESS);
@@ -200,10 +199,6 @@ PetscErrorCode SamRunCreateWear(SamRun *run)
   run->output_settings.with[SAM_OUTPUT_WEAR] = PETSC_TRUE;
   run->point.wear                            = run->wear;
   if (run->wearing.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetEdges(run->setup.contact, &edges));
-  PetscCheck(edges != SAM_CONTACT_EDGES_DEFERRED, PETSC_COMM_WORLD, SAM_ERR_USER,
-             "-edges deferred with -wear_cycles: jumps over cycles are not corrected for the edge, so cycles and jumps "
-             "would not fit: expected reconstruct or none");
   run->output_settings.with[SAM_OUTPUT_LIFE] = PETSC_TRUE;
   if (run->wearing.points) run->output_settings.with[SAM_OUTPUT_FRICTION_SCALE] = PETSC_TRUE;
   PetscCall(SamHistoryGetIncrements(run->history, &start));

@@ -123,6 +123,7 @@ PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments)
   PetscCall(SamRunRefuseTooLarge(run->setup.grid, &run->needs, &from));
   PetscCall(SamSetupCreateContact(&run->setup, &from));
   if (!help) PetscCall(SamRunCreateWear(run));
+  if (!help) PetscCall(SamOutputSettingsCheck(&run->output_settings, &from));
   if (!help) PetscCall(SamRunCollectParameters(run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -253,7 +253,10 @@ static PetscErrorCode RestoreWindow(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the next step has the committed pressure: same normal control, same gap, and no shear that acts on it. */
+/*
+  Whether the next step has the committed pressure: same normal control, same gap, corrected for the edge in the same
+  way, and no shear that acts on it.
+*/
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
   PetscBool current;
@@ -261,6 +264,7 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
   PetscFunctionBegin;
   PetscCall(SamContactIsGapCurrent(c, &current));
   *same = (!SamContactIsCoupled(c) && c->steps && current &&
+           c->committed.solution.passes == (c->edges == SAM_CONTACT_EDGES_DEFERRED ? c->edge_passes : 0) &&
            SamControlIsSame(&c->committed.solution.control, control, SAM_BALANCE_NORMAL))
             ? PETSC_TRUE
             : PETSC_FALSE;
@@ -302,11 +306,14 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
 {
   SamControl   given = *control;
   SamStepStart start;
-  PetscBool    same_pressure = PETSC_FALSE;
+  PetscBool    same_pressure = PETSC_FALSE, friction;
 
   PetscFunctionBegin;
   PetscCall(SamContactReject(c));
   PetscCall(CheckControl(c, &given));
+  PetscCall(SamProblemHasFriction(c->problem, &friction));
+  PetscCheck(!friction || c->edges != SAM_CONTACT_EDGES_DEFERRED, c->grid->comm, PETSC_ERR_SUP,
+             "The pressure is corrected for its edge without friction only: the shear is not corrected with it");
   PetscCall(PetscMemzero(step, sizeof(*step)));
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS * SAM_COMPONENTS; k++) (&step->stiffness[0][0][0])[k] = NAN;
   step->control             = given;

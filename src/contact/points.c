@@ -57,14 +57,11 @@ static PetscErrorCode FindCorrected(SamContact c, const SamSolution *s, Vec poin
 PetscErrorCode SamContactFindEdge(SamContact c, SamContactEdge which, Vec point, SamEdge *edge)
 {
   const SamSolution *s;
-  PetscReal          shear;
   Vec                w;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
-  /* without shear the pressure exceeds |q|/mu by itself */
-  if (s->passes && (which == SAM_CONTACT_EDGE_CONTACT || shear == 0)) {
+  if (which == SAM_CONTACT_EDGE_CONTACT && s->passes) {
     PetscCall(FindCorrected(c, s, point, edge));
     PetscFunctionReturn(PETSC_SUCCESS);
   }

@@ -71,37 +71,65 @@ static PetscErrorCode SumCells(SamContact c, SamStep *step)
 
 /* ---- edges ---- */
 
+#define BEHIND 2 /* cells about a point of the stick edge that must be in contact */
+
+/* The rows that are seen, p being the pressure there. */
+typedef struct {
+  SamGrid       grid;
+  PetscInt      first, count;
+  const double *p;
+} Seen;
+
+/* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
+static PetscBool IsInside(const Seen *s, PetscInt i, PetscInt j)
+{
+  for (PetscInt b = j - BEHIND; b <= j + BEHIND; b++)
+    for (PetscInt a = i - BEHIND; a <= i + BEHIND; a++)
+      if (a < 0 || a >= s->grid->nx || b < s->first || b >= s->first + s->count ||
+          !(s->p[(ptrdiff_t)(b - s->first) * s->grid->nx + a] > 0))
+        return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
+static double SquareAt(const Seen *s, double x, double y)
+{
+  const PetscInt nx = s->grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
+  const double   tx = x - (double)i, ty = y - (double)j, *q = s->p + (ptrdiff_t)(j - s->first) * nx + i;
+
+  return (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
+         ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
+}
+
 /*
   The largest shear at the edge of the stick zone, where it is mu p: larger than that of any cell, which is a mean. The
-  pressure is interpolated in p^2, which is smooth up to the contact's edge, between the four cells about a point.
+  pressure is interpolated in p^2, which is smooth up to the contact's edge. Where that edge is near, cells count only:
+  what slips there is not resolved.
 */
 static PetscErrorCode FindPeak(SamContact c, const SamEdge *stick, double *peak)
 {
   const SamGrid  grid = c->grid;
-  const PetscInt from = PetscMax(grid->row_start - 1, 0), to = PetscMin(grid->row_start + grid->rows + 1, grid->ny);
-  const PetscInt first = grid->rows ? from : 0, count = grid->rows ? to - from : 0;
-  const double  *own, *b, *p;
-  SamRows        rows;
+  const PetscInt from = PetscMax(grid->row_start - BEHIND - 1, 0),
+                 to   = PetscMin(grid->row_start + grid->rows + BEHIND + 1, grid->ny);
+  Seen          s     = {grid, grid->rows ? from : 0, grid->rows ? to - from : 0, NULL};
+  const double *own, *b;
+  SamRows       rows;
 
   PetscFunctionBegin;
-  PetscCall(SamRowsCreate(grid, first, count, &rows));
+  PetscCall(SamRowsCreate(grid, s.first, s.count, &rows));
   PetscCall(VecGetArrayRead(c->tried.solution.pressure, &own));
   PetscCall(VecGetArrayRead(c->tried.solution.bound, &b));
-  PetscCall(SamRowsFetch(&rows, grid->nx, own, &p));
+  PetscCall(SamRowsFetch(&rows, grid->nx, own, &s.p));
   for (PetscInt n = 0; n < stick->count; n++) {
     const PetscInt k = stick->cell[n];
-    const double   x = (double)((stick->x[n] - SamGridX(grid, 0)) / grid->dx),
-                 y   = (double)((stick->y[n] - SamGridY(grid, 0)) / grid->dy);
     /* counted from the grid's first row and not from the rank's, whose sums would round otherwise */
-    const PetscInt i = PetscMin(PetscMax((PetscInt)floor(x), 0), grid->nx - 2),
-                   j = PetscMin(PetscMax((PetscInt)floor(y), first), first + count - 2);
-    const double tx = x - (double)i, ty = y - (double)j, *q = p + (ptrdiff_t)(j - first) * grid->nx + i;
-    const double w = (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
-                     ty * ((1 - tx) * q[grid->nx] * q[grid->nx] + tx * q[grid->nx + 1] * q[grid->nx + 1]);
+    const double x = (double)((stick->x[n] - SamGridX(grid, 0)) / grid->dx),
+                 y = (double)((stick->y[n] - SamGridY(grid, 0)) / grid->dy);
 
-    if (own[k] > 0) *peak = PetscMax(*peak, b[k] / own[k] * sqrt(PetscMax(w, 0)));
+    if (IsInside(&s, k % grid->nx, grid->row_start + k / grid->nx))
+      *peak = PetscMax(*peak, b[k] / own[k] * sqrt(SquareAt(&s, x, y)));
   }
-  PetscCall(SamRowsRestore(&rows, &p));
+  PetscCall(SamRowsRestore(&rows, &s.p));
   PetscCall(VecRestoreArrayRead(c->tried.solution.bound, &b));
   PetscCall(VecRestoreArrayRead(c->tried.solution.pressure, &own));
   PetscCall(SamRowsDestroy(&rows));

@@ -210,19 +210,31 @@ PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *set, PetscInt count
                                           const char **unknown)
 {
   PetscFunctionBegin;
-  *unknown = NULL;
+  *unknown   = NULL;
+  set->named = count > 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
     set->fields[f] = count < 0 ? SamOutputFields[f].usual : PETSC_FALSE;
   for (PetscInt k = 0; k < count; k++) {
     const PetscInt  f   = Find(names[k]);
     const PetscBool all = strcmp(names[k], "all") ? PETSC_FALSE : PETSC_TRUE;
 
+    if (all) set->named = PETSC_FALSE;
     for (PetscInt g = 0; g < SamOutputFieldCount && all; g++) set->fields[g] = PETSC_TRUE;
     if (f < SamOutputFieldCount)
       set->fields[f] = PETSC_TRUE;
     else if (!all && !(strcmp(names[k], "none") == 0 && count == 1))
       *unknown = names[k];
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputSettingsCheck(const SamOutputSettings *set, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < SamOutputFieldCount && set->named; f++)
+    PetscCheck(!set->fields[f] || SamOutputWants(set, SamOutputFields[f].option), from->comm, SAM_ERR_USER,
+               "-%soutput_fields: there is no %s, as nothing wears", SamOptionsPrefix(from),
+               SamOutputFields[f].label.name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -13,7 +13,7 @@
 
 /* ---- options ---- */
 
-/* -output_fields: names between commas. */
+/* -output_fields: names between commas, and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
 {
   char        text[512] = "", names[512], **list;
@@ -24,14 +24,15 @@ static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *f
   PetscFunctionBegin;
   PetscCall(SamOptionsString(from, "output_fields", "fields to be saved by their names, all, or none", text,
                              sizeof(text), &given));
+  for (char *c = text; *c; c++) *c = *c == ' ' ? ',' : *c;
   PetscCall(PetscStrToArray(text, ',', &count, &list));
   PetscCall(SamOutputSettingsSetFields(set, given ? count : -1, (const char *const *)list, &unknown));
   (void)snprintf(text, sizeof(text), "%s", unknown ? unknown : "");
   PetscCall(PetscStrToArrayDestroy(count, list));
   PetscCall(SamOutputGetFieldNames(names, sizeof(names)));
   PetscCheck(!text[0], from->comm, SAM_ERR_USER,
-             "-%soutput_fields: there is no field %s: expected all, none, or some of %s, with commas between them",
-             SamOptionsPrefix(from), text, names);
+             "-%soutput_fields: %s is no field%s: expected all, none, or some of %s, with commas between them",
+             SamOptionsPrefix(from), text, strcmp(text, "none") ? "" : ", and excludes them", names);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

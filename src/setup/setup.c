@@ -25,8 +25,9 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 
 PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
 {
-  PetscBool help;
-  Vec       gap;
+  SamContactEdges edges;
+  PetscBool       help, friction;
+  Vec             gap;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
@@ -35,6 +36,12 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   PetscCall(SamContactCreate(s->problem, &s->contact));
   PetscCall(SamContactSetOptionsPrefix(s->contact, from->prefix));
   PetscCall(SamContactSetFromOptions(s->contact));
+  PetscCall(SamContactGetEdges(s->contact, &edges));
+  PetscCall(SamProblemHasFriction(s->problem, &friction));
+  PetscCheck(
+    !friction || edges != SAM_CONTACT_EDGES_DEFERRED || help, from->comm, SAM_ERR_USER,
+    "-edges deferred with friction: the shear would not be corrected with the pressure, and be less exact than "
+    "without: expected reconstruct or none, or -friction 0");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

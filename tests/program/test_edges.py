@@ -46,6 +46,11 @@ def test_unknown_field_is_refused_with_the_names_there_are(petsam, tmp_path):
     said = petsam(dict(SPHERE, output="out.h5", output_fields="pressure,sheer_x"), check=2).stderr
     assert "-output_fields" in said and "sheer_x" in said and "shear_center_y" in said
     assert not (tmp_path / "out.h5").exists()
+    for names in ("none,pressure", "all,none"):
+        assert "none" in petsam(dict(SPHERE, output_fields=names), check=2).stderr
+    assert "wear_depth2" in petsam(dict(SPHERE, output_fields="pressure,wear_depth2"), check=2).stderr
+    petsam(dict(SPHERE, grid_n=24, output="out.h5", output_fields="pressure, gap"))
+    assert fields(tmp_path / "out.h5") == {"pressure", "gap"}
 
 
 def test_run_goes_on_with_the_fields_of_its_file(petsam, tmp_path):
@@ -125,7 +130,7 @@ def test_counted_areas_are_whole_cells(solve):
 
 
 def test_corrected_contact_is_hertz(solve):
-    case = dict(SLIP, edges="deferred", grid_n=64)
+    case = dict(SLIP, friction=0.0, edges="deferred", grid_n=64)
     r, h = solve(case), hertz(case)
     assert r["edge_passes"] == 2
     assert r["contact_area"] == pytest.approx(np.pi * h.radius**2, rel=5e-5)
@@ -134,7 +139,7 @@ def test_corrected_contact_is_hertz(solve):
 
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_correction_is_the_same_on_any_number_of_ranks(solve, ranks):
-    case, _ = cattaneo(0.5, edges="deferred", grid_n=61, output_fields="all")
+    case = dict(SLIP, friction=0.0, edges="deferred", grid_n=61, load_mx=0.02, output_fields="all")
     one, more = solve(case), solve(case, ranks=ranks)
     with h5py.File(one.path, "r") as a, h5py.File(more.path, "r") as b:
         for name in fields(one.path):
@@ -142,14 +147,19 @@ def test_correction_is_the_same_on_any_number_of_ranks(solve, ranks):
 
 
 def test_edge_that_is_not_smooth_is_left_and_said(petsam, solve):
-    case = dict(PUNCH, grid_n=48)
+    case = dict(PUNCH, friction=0.0, grid_n=48)
     said = petsam(dict(case, edges="deferred")).stderr
     assert "not corrected" in said and "-edges" in said
     plain, left = solve(case), solve(dict(case, edges="deferred"))
     assert left["edge_passes"] == 0 and np.array_equal(plain.pressure, left.pressure)
 
 
-def test_lives_are_not_corrected(petsam, tmp_path):
-    (tmp_path / "h.csv").write_text("time, load_tx\n0, 0\n1, 50\n2, -50\n3, 0\n")
-    case = dict(SPHERE, history="h.csv", edges="deferred", wear_coefficient1=1e-14, wear_cycles=100)
-    assert "-edges deferred" in petsam(case, check=2).stderr
+def test_friction_is_refused_with_its_reason(petsam, tmp_path):
+    said = petsam(dict(SPHERE, edges="deferred", output="out.h5"), check=2).stderr
+    assert "-edges deferred" in said and "-friction 0" in said
+    assert not (tmp_path / "out.h5").exists()
+
+
+def test_shear_of_pressing_alone_is_none(solve):
+    r = solve(dict(SPHERE, grid_n=48))
+    assert r["shear_max"] <= 1e-9 * hertz(SPHERE).pressure

@@ -244,7 +244,7 @@ static inline Case NewBeside(SamPair pair, PetscInt n, double half_width, double
 
   sam_call(VecDestroy(&s.h));
   s.h                             = NewFrom(s.grid, ParaboloidAt, at);
-  c                               = NewCaseOn(s, MU, NULL, options);
+  c                               = NewCaseOn(s, T > 0 ? MU : 0, NULL, options);
   control                         = Loads(&c, 1, T, 0, 0);
   control.value[SAM_COMPONENT_MX] = -at[2] * c.s.N;
   control.value[SAM_COMPONENT_MY] = at[1] * c.s.N;

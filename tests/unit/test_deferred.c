@@ -157,7 +157,7 @@ static void test_correction_under_forces_and_displacements_is_the_same(void **st
   SamStep    step[2];
 
   (void)state;
-  for (int k = 0; k < 2; k++) c[k] = NewCase(Steel(), 63, 1.6, MU, DEFERRED " -normal_rtol 1e-10");
+  for (int k = 0; k < 2; k++) c[k] = NewCase(Steel(), 63, 1.6, 0, DEFERRED " -normal_rtol 1e-10");
   control                         = Loads(&c[0], 1, 0, 0, 0);
   control.value[SAM_COMPONENT_MY] = 0.1 * c[0].s.N * c[0].s.a;
   step[0]                         = Try(&c[0], &control);
@@ -190,8 +190,8 @@ static Vec PressureOf(const Case *c)
 */
 static void test_correction_belongs_to_the_state(void **state)
 {
-  Case            c = NewCase(Steel(), 45, 1.5, MU, DEFERRED), other = NewCase(Steel(), 45, 1.5, MU, DEFERRED);
-  SamControl      control = Loads(&c, 1, 0.2, 0, 0), next = Loads(&c, 1, 0.5, 0.1, 0), more = Loads(&c, 1.4, 0, 0, 0);
+  Case            c = NewCase(Steel(), 45, 1.5, 0, DEFERRED), other = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
+  SamControl      control = Loads(&c, 1, 0, 0, 0), next = Loads(&c, 1, 0, 0, 0), more = Loads(&c, 1.4, 0, 0, 0);
   SamStep         step[3];
   SamContactState now;
 
@@ -220,8 +220,8 @@ static void test_correction_does_not_depend_on_the_ranks(void **state)
 
   (void)state;
   for (int k = 0; k < 2; k++) {
-    c[k] = NewCaseOn(NewSphereOn(k ? PETSC_COMM_SELF : PETSC_COMM_WORLD, Steel(), 47, 1.5, 0, 0), MU, NULL, DEFERRED);
-    SamControl control = Loads(&c[k], 1, 0.3, 0, 0);
+    c[k] = NewCaseOn(NewSphereOn(k ? PETSC_COMM_SELF : PETSC_COMM_WORLD, Steel(), 47, 1.5, 0, 0), 0, NULL, DEFERRED);
+    SamControl control = Loads(&c[k], 1, 0, 0, 0);
 
     control.value[SAM_COMPONENT_MX] = 0.07 * c[k].s.N * c[k].s.a;
     step[k]                         = Try(&c[k], &control);
@@ -248,7 +248,7 @@ static void test_edges_that_are_not_smooth_are_left(void **state)
     SamStep step;
     Vec     h, rough;
 
-    c[k]  = NewCase(Steel(), 40, 1.5, MU, k ? DEFERRED : "");
+    c[k]  = NewCase(Steel(), 40, 1.5, 0, k ? DEFERRED : "");
     rough = NewRandom(c[k].s.grid, 1, 3);
     sam_call(SamProblemGetGap(c[k].problem, &h));
     sam_call(VecAXPY(h, 0.1 * c[k].s.a * c[k].s.a / c[k].s.R, rough));
@@ -259,6 +259,54 @@ static void test_edges_that_are_not_smooth_are_left(void **state)
   }
   sam_assert(SameBitsOf(&c[0], &c[1], PressureOf));
   for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
+}
+
+static void test_contact_with_friction_is_not_corrected(void **state)
+{
+  Case             c       = NewCase(Steel(), 24, 1.5, MU, DEFERRED);
+  const SamControl control = Loads(&c, 1, 0.1, 0, 0);
+  SamStep          step;
+  PetscErrorCode   ierr;
+
+  (void)state;
+  BeginCatching();
+  ierr = SamContactTry(c.contact, &control, &step);
+  EndCatching();
+  sam_assert(ierr == PETSC_ERR_SUP && strstr(CaughtMessage(), "without friction"));
+  DestroyCase(&c);
+}
+
+/* Without contact, and where the contact ends at the grid's border only, there is no edge to correct for. */
+static void test_contact_without_an_edge_is_left(void **state)
+{
+  Case       c       = NewCase(Steel(), 24, 0.5, 0, DEFERRED " -allow_edge_contact");
+  SamControl control = Loads(&c, 1, 0, 0, 0);
+  SamStep    step    = Try(&c, &control);
+
+  (void)state;
+  sam_assert(step.contact_cells == 24 * 24 && step.edge_passes == 0);
+  Displace(&control, SAM_COMPONENT_N, -1e-6);
+  step = Try(&c, &control);
+  sam_assert(step.contact_cells == 0 && step.edge_passes == 0 && step.status == SAM_STATUS_CONVERGED);
+  DestroyCase(&c);
+}
+
+/* A state that was solved in another way is not taken over, although nothing that is prescribed has changed. */
+static void test_pressure_is_that_of_the_way_that_is_asked_for(void **state)
+{
+  Case             c       = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  SamStep          step[3];
+
+  (void)state;
+  step[0] = Solve(&c, &control);
+  sam_call(SamContactSetEdges(c.contact, SAM_CONTACT_EDGES_RECONSTRUCT, PETSC_DEFAULT));
+  step[1] = Solve(&c, &control);
+  sam_call(SamContactSetEdges(c.contact, SAM_CONTACT_EDGES_DEFERRED, 1));
+  step[2] = Solve(&c, &control);
+  sam_assert(step[0].edge_passes == 2 && step[1].edge_passes == 0 && step[2].edge_passes == 1);
+  sam_assert(step[1].contact_cells < step[0].contact_cells); /* no rim */
+  DestroyCase(&c);
 }
 
 /* The check of a corrected solution is as strict as that of a plain one. */
@@ -297,6 +345,9 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_correction_belongs_to_the_state),
     cmocka_unit_test(test_correction_does_not_depend_on_the_ranks),
     cmocka_unit_test(test_edges_that_are_not_smooth_are_left),
+    cmocka_unit_test(test_contact_with_friction_is_not_corrected),
+    cmocka_unit_test(test_contact_without_an_edge_is_left),
+    cmocka_unit_test(test_pressure_is_that_of_the_way_that_is_asked_for),
     cmocka_unit_test(test_check_sees_what_is_wrong_with_a_correction),
   };
 

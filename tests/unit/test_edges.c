@@ -133,6 +133,22 @@ static void test_step_has_the_areas_of_its_edges(void **state)
   sam_assert(steps[0].shear_max < (1 - 1e-3) * peak && steps[0].pressure_max == steps[1].pressure_max);
 }
 
+/* Without shear, and where the slip is thinner than the cells, the largest shear is that of the cells. */
+static void test_peak_is_not_sought_where_slip_is_not_resolved(void **state)
+{
+  (void)state;
+  for (int pushed = 0; pushed < 2; pushed++) {
+    Case             c       = NewCase(PLAIN, 60, 1.5, MU, "");
+    const SamControl control = Loads(&c, 1, pushed ? 1e-3 : 0, 0, 0);
+    const SamStep    step    = Try(&c, &control);
+    /* in full stick, q = T/(2 pi a sqrt(a^2 - r^2)), cut off by mu p: less than mu p a tenth of a cell from the edge */
+    const double most = pushed ? MU * c.s.p0 * 0.1 : 0;
+
+    sam_assert((double)step.shear_max <= most);
+    DestroyCase(&c);
+  }
+}
+
 /* One point in each cell that the edge crosses, on the circle, to a part of a cell; together they go round it. */
 static void test_points_lie_on_the_edge(void **state)
 {
@@ -349,6 +365,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_area_is_of_second_order),
     cmocka_unit_test(test_edge_of_stick_is_cattaneos),
     cmocka_unit_test(test_step_has_the_areas_of_its_edges),
+    cmocka_unit_test(test_peak_is_not_sought_where_slip_is_not_resolved),
     cmocka_unit_test(test_points_lie_on_the_edge),
     cmocka_unit_test(test_area_of_an_ellipse_of_exact_values),
     cmocka_unit_test(test_another_layer_at_the_edge_is_refused),
