@@ -320,6 +320,11 @@ class Results(Datafile):
             raise self._error(error) from error
         return points[np.isfinite(points).all(axis=1)]
 
+    def has(self, names):
+        """Whether the file has all datasets of these names."""
+        with reading(self.path):
+            return all(name in self.file for name in names)
+
     @cached_property
     def edges(self):
         """Which of contact_edge and stick_edge the file has."""

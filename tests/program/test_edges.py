@@ -65,6 +65,16 @@ def test_run_goes_on_with_the_fields_of_its_file(petsam, tmp_path):
         assert all(np.array_equal(file[name][:], before[name], equal_nan=True) for name in before)
 
 
+def test_file_without_fields_is_drawn_as_far_as_it_goes(petsam, draw, tmp_path):
+    (tmp_path / "h.csv").write_text("time, load_tx\n1, 50\n2, -50\n3, 20\n")
+    case = dict(SPHERE, grid_n=24, history="h.csv", output="out.h5", output_fields="pressure,contact_edge")
+    petsam(case)
+    assert draw("out.h5") == (0, [])
+    assert {path.name for path in tmp_path.glob("*.png")} == {"out_loop.png", "out_history.png"}
+    code, said = draw("--maps", "out.h5")
+    assert code != 0 and "-output_fields" in said[0]
+
+
 # ---------------------------------------------------------------- edges
 
 

@@ -146,12 +146,13 @@ def chosen(options, results):
 
 
 def result_kinds(results):
-    """What results of petsam are good for."""
+    """What results of petsam are good for; of one that lacks fields, a picture whose message says so."""
+    fields = ["maps", "profiles"] if all(one.has(pictures.FIELDS) for one in results) else []
     if all(one.has_life for one in results):
         scars = any(wear.worn(one, one.of_last()) for one in results)
-        return ["maps", "profiles", "fretting-log", *(["scar"] if scars else []), "life"]
+        return [*fields, "fretting-log", *(["scar"] if scars else []), "life"]
     several = any(one.solved.size > 1 for one in results)
-    return ["maps", "profiles", *(["loop", "history"] if several else [])]
+    return [*fields, *(["loop", "history"] if several else [])] or ["maps"]
 
 
 def stress_kinds(files):

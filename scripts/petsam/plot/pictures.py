@@ -12,6 +12,7 @@ from ..results import DEPTHS, OPEN, SLIP, STICK
 from .style import colors, extent, field, plt
 from .units import label, largest, plain, scale
 
+FIELDS = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state")  # of maps and profiles
 VOLUMES = ("wear_volume1", "wear_volume2")
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
