@@ -115,7 +115,7 @@ def _scar_rows(steps, at):
     for one in dict.fromkeys(one for one, _ in steps):
         if not one.depths:
             raise Error(
-                f"{one.path}: has no removed depth (petsam -wear_coefficient1, -wear_energy1, or of body 2; -output_fields)"
+                f"{one.path}: has no removed depth (petsam -wear_coefficient1 or -wear_energy1; -output_fields)"
             )
         indices = [index for other, index in steps if other is one]
         rows += [(one, indices, name, at or point) for name, point in worn(one, max(indices)).items()]
