@@ -73,6 +73,20 @@ static void Solve(const double L[PRODUCTS], double b[TERMS])
   }
 }
 
+/* Adds the products of those of n cells of a row that the fit goes by; returns their number. */
+SAM_VECTORIZED static PetscInt AddProducts(PetscInt n, const signed char *distance, int least,
+                                           const double (*restrict products)[PRODUCTS], double *restrict sums)
+{
+  PetscInt count = 0;
+
+  for (PetscInt a = 0; a < n; a++) {
+    if (distance[a] < least) continue;
+    count++;
+    for (int k = 0; k < PRODUCTS; k++) sums[k] += products[a][k];
+  }
+  return count;
+}
+
 PetscBool SamFitFactor(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double factor[PRODUCTS])
 {
   const PetscInt half  = window->half;
@@ -81,40 +95,66 @@ PetscBool SamFitFactor(const SamZone *z, const SamFitWindow *window, PetscInt i,
 
   for (int n = 0; n < PRODUCTS; n++) factor[n] = 0;
   for (PetscInt b = range.low; b <= range.high; b++)
-    for (PetscInt a = range.left; a <= range.right; a++) {
-      const double *products = window->products[(b - j + half) * (2 * half + 1) + a - i + half];
-
-      if (z->distance[SamZoneAt(z, a, b)] < window->least) continue;
-      count++;
-      for (int n = 0; n < PRODUCTS; n++) factor[n] += products[n];
-    }
+    count += AddProducts(range.right - range.left + 1, z->distance + SamZoneAt(z, range.left, b), window->least,
+                         window->products + (b - j + half) * (2 * half + 1) + range.left - i + half, factor);
   return count >= SAM_FIT_LEAST ? Factor(factor) : PETSC_FALSE;
+}
+
+/* What the values of cells add to a fit: to the terms, the sum of their squares, and the weights. */
+typedef struct {
+  double right[TERMS], squares, weights;
+} Values;
+
+SAM_VECTORIZED static void AddValues(PetscInt n, const signed char *distance, int least,
+                                     const double (*restrict terms)[TERMS], const double *restrict values,
+                                     Values *restrict sums)
+{
+  for (PetscInt a = 0; a < n; a++) {
+    if (distance[a] < least) continue;
+    sums->weights += terms[a][0];
+    sums->squares += terms[a][0] * values[a] * values[a];
+    for (int k = 0; k < TERMS; k++) sums->right[k] += terms[a][k] * values[a];
+  }
 }
 
 void SamFit(const SamZone *z, const SamFitWindow *window, const double factor[PRODUCTS], const double values[],
             PetscInt i, PetscInt j, double fit[TERMS], double *bent)
 {
-  const PetscInt half         = window->half;
-  const double   scale        = (double)half;
-  const Range    range        = RangeOf(z, half, i, j);
-  double         right[TERMS] = {0}, squares = 0, weights = 0;
+  const PetscInt half  = window->half;
+  const double   scale = (double)half;
+  const Range    range = RangeOf(z, half, i, j);
+  Values         sums  = {.squares = 0};
 
-  for (PetscInt b = range.low; b <= range.high; b++)
-    for (PetscInt a = range.left; a <= range.right; a++) {
-      const ptrdiff_t k     = SamZoneAt(z, a, b);
-      const double   *terms = window->terms[(b - j + half) * (2 * half + 1) + a - i + half];
+  for (PetscInt b = range.low; b <= range.high; b++) {
+    const ptrdiff_t k = SamZoneAt(z, range.left, b);
 
-      if (z->distance[k] < window->least) continue;
-      weights += terms[0];
-      squares += terms[0] * values[k] * values[k];
-      for (int n = 0; n < TERMS; n++) right[n] += terms[n] * values[k];
-    }
-  for (int k = 0; k < TERMS; k++) fit[k] = right[k];
+    AddValues(range.right - range.left + 1, z->distance + k, window->least,
+              window->terms + (b - j + half) * (2 * half + 1) + range.left - i + half, values + k, &sums);
+  }
+  for (int k = 0; k < TERMS; k++) fit[k] = sums.right[k];
   Solve(factor, fit);
   /* of the deviations: the function is their nearest one */
-  for (int k = 0; k < TERMS; k++) squares -= fit[k] * right[k];
+  for (int k = 0; k < TERMS; k++) sums.squares -= fit[k] * sums.right[k];
   for (int k = 1; k < TERMS; k++) fit[k] /= k < 3 ? scale : scale * scale;
-  if (bent) *bent = sqrt(PetscMax(squares, 0) / weights);
+  if (bent) *bent = sqrt(PetscMax(sums.squares, 0) / sums.weights);
+}
+
+/* The sum over sub-cells of their parts where the function, over the slope of a sub-cell, is positive. */
+SAM_VECTORIZED static double SumParts(const double *restrict fit, double slope)
+{
+  double sum = 0;
+
+  for (int b = 0; b < SUB; b++) {
+    const double y = (b + 0.5) / SUB - 0.5;
+
+#pragma omp simd reduction(+ : sum)
+    for (int a = 0; a < SUB; a++) {
+      const double part = 0.5 + 0.75 * SamFitAt(fit, (a + 0.5) / SUB - 0.5, y) / slope, some = part > 0 ? part : 0;
+
+      sum += some < 1 ? some : 1;
+    }
+  }
+  return sum;
 }
 
 double SamFitPart(const double fit[TERMS])
@@ -122,14 +162,7 @@ double SamFitPart(const double fit[TERMS])
   const double slope = hypot(fit[1], fit[2]) / SUB;
   const double reach =
     0.5 * (fabs(fit[1]) + fabs(fit[2])) + 0.25 * (fabs(fit[3]) + fabs(fit[4]) + fabs(fit[5])) + slope;
-  double sum = 0;
 
   if (fabs(fit[0]) > reach) return fit[0] > 0 ? 1 : 0;
-  for (int b = 0; b < SUB; b++)
-    for (int a = 0; a < SUB; a++) {
-      const double part = 0.5 + 0.75 * SamFitAt(fit, (a + 0.5) / SUB - 0.5, (b + 0.5) / SUB - 0.5) / slope;
-
-      sum += part < 0 ? 0 : part > 1 ? 1 : part;
-    }
-  return sum / (SUB * SUB);
+  return SumParts(fit, slope) / (SUB * SUB);
 }
