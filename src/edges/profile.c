@@ -87,6 +87,7 @@ static PetscErrorCode ForgetZone(SamProfile s)
   PetscCall(PetscFree2(s->fit, s->factor));
   PetscCall(PetscFree(s->slot));
   PetscCall(SamZoneDestroy(&s->zone));
+  s->zone.grid = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -151,7 +152,6 @@ static PetscErrorCode FindBand(SamProfile s)
   double         missing = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForgetZone(s));
   PetscCall(SamZoneCreate(grid, s->in, HALO, BAND, &s->zone));
   s->begin = PetscMax(grid->row_start - NEAR, z->first);
   s->end   = PetscMin(grid->row_start + grid->rows + NEAR, z->first + z->count);
