@@ -8,7 +8,7 @@
     2. The displacement c by that, beyond that of the means, is added to the gap. Cells that it cuts and whose centre
        lies outside, the rim, bear the given means r; their gaps are open, or they bear more.
     3. S (p + r) + h + c = d is solved again for p, from the last one, under the loads less those of r.
-  Two passes leave a fiftieth of the error. The rest comes from the size of the sub-cells.
+  Two passes leave a twentieth to a fiftieth of the error. The rest comes from the size of the sub-cells.
 
   It is a correction for edges that are smooth and resolved. Others are known by the layer that they lack, and the plain
   solution stays. It is one of the pressure: a shear that is solved with the plain operator and bounded by the corrected
@@ -141,7 +141,7 @@ static PetscErrorCode Pass(Deferred *d, PetscInt pass, char why[], size_t size)
 PetscErrorCode SamSolveDeferred(SamSolve *s)
 {
   const SamContact c       = s->c;
-  char             why[80] = "";
+  char             why[96] = "";
   PetscBool        found;
   SamEdge          edge;
   Deferred         d;
@@ -150,9 +150,10 @@ PetscErrorCode SamSolveDeferred(SamSolve *s)
   PetscCall(Create(s, &d));
   PetscCall(SamProfileStart(d.profile, s->s->pressure, &edge, &found));
   if (!c->traits.within)
-    PetscCall(PetscStrncpy(why, "these bodies have no displacements by what happens within cells", sizeof(why)));
+    PetscCall(PetscStrncpy(why, "that is known for -elasticity halfspace only", sizeof(why)));
   else if (edge.smooth < SMOOTH * edge.faces)
-    PetscCall(PetscSNPrintf(why, sizeof(why), "%.3g %% of it is smooth and resolved, %.0f %% would be needed",
+    PetscCall(PetscSNPrintf(why, sizeof(why),
+                            "%.3g %% of it is smooth and resolved, %.0f %% would be needed; a finer grid helps",
                             100 * (double)(edge.smooth / edge.faces), 100 * SMOOTH));
   for (PetscInt pass = 1; pass <= c->edge_passes && !why[0] && edge.faces > 0; pass++) {
     PetscCall(Pass(&d, pass, why, sizeof(why)));

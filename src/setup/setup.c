@@ -40,8 +40,8 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   PetscCall(SamProblemHasFriction(s->problem, &friction));
   PetscCheck(
     !friction || edges != SAM_CONTACT_EDGES_DEFERRED || help, from->comm, SAM_ERR_USER,
-    "-edges deferred with friction: the shear would not be corrected with the pressure, and be less exact than "
-    "without: expected reconstruct or none, or -friction 0");
+    "-edges deferred with friction: the shear is not corrected with the pressure, and would be less exact than without "
+    "any correction: expected reconstruct or none, or -friction 0");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
