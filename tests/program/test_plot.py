@@ -213,7 +213,7 @@ def test_results_of_another_form_are_named(draw, strokes, tmp_path, name, values
         lambda file: file["history/load_tx"].attrs.__setitem__("units", 5),
         lambda file: file.attrs.__setitem__("friction", "much"),
         lambda file: file.attrs.__delitem__("friction"),
-        lambda file: file.__delitem__("pressure"),
+        lambda file: file.__delitem__("time"),
         lambda file: file.__delitem__("history"),
         lambda file: file["history"].__setitem__("loop", file["history"]),
         lambda file: (file.__delitem__("x"), file.__setitem__("x", h5py.ExternalLink("pipe", "/x"))),
