@@ -278,6 +278,12 @@ class Results(Datafile):
 
     # ------------------------------------------------------------ fields
 
+    def _saved(self, name):
+        """The dataset of a field, or of an edge."""
+        if name not in self.file:
+            raise Error(f"{self.path}: has no {name} (petsam -output_fields)")
+        return _own(self.file, name)
+
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
         """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell."""
         if name in EDGES:
@@ -285,9 +291,7 @@ class Results(Datafile):
         low, high, _ = rows.indices(self.y.size)
         try:
             with reading(self.path):
-                if name not in self.file:
-                    raise Error(f"{self.path}: has no {name} (petsam -output_fields)")
-                data = _own(self.file, name)
+                data = self._saved(name)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
             if data.shape != (self.times.size, self.y.size, self.x.size):
@@ -310,9 +314,7 @@ class Results(Datafile):
             raise IndexError(f"saved step {index} of {self.times.size}")
         try:
             with reading(self.path):
-                if name not in self.file:
-                    raise Error(f"{self.path}: has no {name} (petsam -output_fields)")
-                data = _own(self.file, name)
+                data = self._saved(name)
                 if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (self.times.size, 2):
                     raise ValueError(f"/{name} is no edge: its shape is {data.shape}")
                 points = data[index]

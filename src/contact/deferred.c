@@ -143,15 +143,16 @@ PetscErrorCode SamSolveDeferred(SamSolve *s)
   const SamContact c       = s->c;
   char             why[96] = "";
   PetscBool        found;
-  SamEdge          edge;
+  SamEdge          edge = {.faces = 0};
   Deferred         d;
 
   PetscFunctionBegin;
   PetscCall(Create(s, &d));
-  PetscCall(SamProfileStart(d.profile, s->s->pressure, &edge, &found));
   if (!c->traits.within)
     PetscCall(PetscStrncpy(why, "that is known for -elasticity halfspace only", sizeof(why)));
-  else if (edge.smooth < SMOOTH * edge.faces)
+  else
+    PetscCall(SamProfileStart(d.profile, s->s->pressure, &edge, &found));
+  if (edge.smooth < SMOOTH * edge.faces)
     PetscCall(PetscSNPrintf(why, sizeof(why),
                             "%.3g %% of it is smooth and resolved, %.0f %% would be needed; a finer grid helps",
                             100 * (double)(edge.smooth / edge.faces), 100 * SMOOTH));
