@@ -23,23 +23,37 @@ static inline SamState SamStateOf(PetscReal p, PetscReal qx, PetscReal qy, Petsc
 }
 
 /*
+  SamShearCorrection - what the shear does within cells (edges.h), where that is corrected for.
+*/
+typedef struct {
+  PetscBool      has;          /* false: it is not, and the rest is unused */
+  PetscInt       passes;       /* for the stick zone's edge; 0: it has none */
+  Vec            displacement; /* m, two components: part of u_t by it */
+  Vec            rim; /* Pa: slack mu p - |q| of cells that the stick zone's edge cuts and whose centre slips */
+  SamShearWithin within;
+  Vec            plain_reference; /* Pa, two components: the plain shear when the load last turned back */
+  SamSlack       slack;           /* that the stick zone's edge was found by in this step; none: it is not corrected */
+} SamShearCorrection;
+
+/*
   SamSolution - the solution of a load step: tractions, rigid displacements and relative elastic displacements u.
   A field has one component, or two: on each rank all of x, then all of y. With the separation h of the undeformed
   bodies, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid; SamContactComputeGap() and
   SamContactComputeSlip() compute them.
 */
 typedef struct {
-  SamControl control;               /* what was prescribed */
-  PetscReal  load[SAM_COMPONENTS];  /* N, N m: given or found */
-  PetscReal  rigid[SAM_COMPONENTS]; /* m, rad: given or found */
-  Vec        pressure;              /* Pa */
-  Vec        bound;                 /* Pa: mu p, the largest shear */
-  Vec        shear;                 /* Pa, two components: acts on body 2 */
-  Vec        displacement_z;        /* m: relative elastic displacement u_z */
-  Vec        displacement_t;        /* m, two components: relative elastic displacement u_t */
-  PetscInt   passes;                /* of the correction for the contact's edge; 0: none, and the next two are unused */
-  Vec        correction;            /* m: part of u_z by what the pressure does within cells */
-  Vec        rim;                   /* Pa: pressure of cells that the edge cuts and whose centre is not in contact */
+  SamControl         control;               /* what was prescribed */
+  PetscReal          load[SAM_COMPONENTS];  /* N, N m: given or found */
+  PetscReal          rigid[SAM_COMPONENTS]; /* m, rad: given or found */
+  Vec                pressure;              /* Pa */
+  Vec                bound;                 /* Pa: mu p, the largest shear */
+  Vec                shear;                 /* Pa, two components: acts on body 2 */
+  Vec                displacement_z;        /* m: relative elastic displacement u_z */
+  Vec                displacement_t;        /* m, two components: relative elastic displacement u_t */
+  PetscInt           passes;     /* of the correction for the contact's edge; 0: none, and the next two are unused */
+  Vec                correction; /* m: part of u_z by what the pressure does within cells */
+  Vec                rim;        /* Pa: pressure of cells that the edge cuts and whose centre is not in contact */
+  SamShearCorrection sheared;    /* of the shear */
 } SamSolution;
 
 /*
@@ -89,7 +103,7 @@ typedef struct {
   PetscReal  dissipated_energy;       /* J, frictional work of the step: slip times the mean bound of the step */
   PetscReal  stored_energy;           /* J, elastic: half the work of the tractions on the elastic displacements */
   SamCheck   check;
-  PetscInt   edge_passes; /* of the correction for the contact's edge; 0: none */
+  PetscInt   edge_passes, stick_passes; /* of the corrections for the edges of contact and stick; 0: none */
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
   PetscInt   coupling_iterations;
@@ -244,6 +258,7 @@ PETSC_EXTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec pa
 typedef struct {
   PetscInt    steps;                        /* number of committed steps */
   SamSolution now;                          /* of the last committed step */
+  SamSolution plain;                        /* of that step, where its shear is corrected: the plain solution */
   SamSolution before;                       /* one step back, tractions only; vectors NULL before the second step */
   PetscInt    window_first[2], window_n[2]; /* part of the grid that the solvers worked on: cells; n = 0: all of it */
   PetscBool   gap_is_current;               /* `now` was solved with the gap that the problem has now */

@@ -106,14 +106,19 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity e
   Tractions that vary within cells, where the traits know them:
   SamElasticityApplyNormalSlopes - u_z from a pressure that is linear in each cell, and zero in the mean. `slopes` (two
   components): by how much it grows from one side of the cell to the other, along x and along y (Pa).
-  SamElasticityGetNear - u_z per unit pressure (m/Pa) on the sub * sub sub-cells of a cell at the centres of the cells
-  about it, up to `reach` cells away in both directions: table[(j * (2 reach + 1) + i) * sub * sub + l * sub + k], for
-  the cell i - reach to the right and j - reach above, and the sub-cell k from the left, l from below. `sub`: odd.
+  SamElasticityApplyTangentialSlopes - u_t from a shear like that. `slopes` (two components): by how much q_x and q_y
+  grow along x (axis 0) or along y (axis 1).
+  SamElasticityGetNear - one component of u per unit of one traction (m/Pa) on the sub * sub sub-cells of a cell at the
+  centres of the cells about it, up to `reach` cells away in both directions:
+  table[(j * (2 reach + 1) + i) * sub * sub + l * sub + k], for the cell i - reach to the right and j - reach above, and
+  the sub-cell k from the left, l from below. `sub`: odd.
   Collective.
 */
+typedef enum { SAM_ELASTICITY_ZZ, SAM_ELASTICITY_XX, SAM_ELASTICITY_YY, SAM_ELASTICITY_XY } SamElasticityKernel;
 PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalSlopes(SamElasticity elasticity, Vec slopes, Vec u_z);
-PETSC_EXTERN PetscErrorCode SamElasticityGetNear(SamElasticity elasticity, PetscInt reach, PetscInt sub,
-                                                 double table[]);
+PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialSlopes(SamElasticity elasticity, int axis, Vec slopes, Vec u_t);
+PETSC_EXTERN PetscErrorCode SamElasticityGetNear(SamElasticity elasticity, SamElasticityKernel kernel, PetscInt reach,
+                                                 PetscInt sub, double table[]);
 /*
   The same in single precision: arrays of this rank's cells, two components one after the other; `factor` times the
   product. For directions and corrections, whose product is small against what it is added to. Scale so that input and

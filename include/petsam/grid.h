@@ -52,6 +52,8 @@ PETSC_EXTERN PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, V
 PETSC_EXTERN PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is);
 /* SamVecZero - sets a field to zero without writing to what is. Collective. */
 PETSC_EXTERN PetscErrorCode SamVecZero(Vec field);
+/* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */
+PETSC_EXTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
 /*
   SamGridNorm - NORM_1 or NORM_2 of a field of one or two components, as VecNorm() has it, but to the last bit the same
   on any number of ranks. Collective.

@@ -55,9 +55,10 @@ double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrd
 void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
 
 /*
-  SamSlopeRow - the integrals of 1/r over consecutive cells of a row whose tractions are linear and zero in the mean:
-  each grows by 1 from one side of the cell to the other, along x (axis 0) or y (axis 1). The point lies (i dx, j dy)
-  from the centre of cell i, i = 0 ... n - 1; the value at lag (0, 0) is 0. Relative errors are below 1e-8. Not
+  SamSlopeRow - the integrals of a kernel over consecutive cells of a row whose tractions are linear and zero in the
+  mean: each grows by 1 from one side of the cell to the other, along x (axis 0) or y (axis 1). The kernel is
+  r/|r| + (xx x^2 + yy y^2 + xy x y)/|r|^3 with the coefficients given. The point lies (i dx, j dy) from the centre of
+  cell i, i = 0 ... n - 1; the value at lag (0, 0) is 0. Relative errors are below 1e-8 of the integral of 1/r. Not
   collective; units and sides as for SamIntegralRow().
   SamSlopeRulesCreate - Gauss' points and weights for it. Not collective.
 */
@@ -65,8 +66,13 @@ enum { SAM_SLOPE_RULES = 4, SAM_SLOPE_POINTS = 16 };
 typedef struct {
   PetscReal x[SAM_SLOPE_RULES][SAM_SLOPE_POINTS], w[SAM_SLOPE_RULES][SAM_SLOPE_POINTS]; /* on (-1/2, 1/2) */
 } SamSlopeRules;
+typedef struct {
+  const SamSlopeRules *rules;
+  int                  axis;
+  double               dx, dy;        /* sides of the cells, m */
+  double               r, xx, yy, xy; /* coefficients, any unit */
+} SamSlopeKernel;
 PETSC_EXTERN PetscErrorCode SamSlopeRulesCreate(SamSlopeRules *rules);
-PETSC_EXTERN void SamSlopeRow(const SamSlopeRules *rules, int axis, double dx, double dy, ptrdiff_t j, ptrdiff_t n,
-                              double values[]);
+PETSC_EXTERN void           SamSlopeRow(const SamSlopeKernel *kernel, ptrdiff_t j, ptrdiff_t n, double values[]);
 
 #endif

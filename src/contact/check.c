@@ -47,6 +47,7 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
   else
     PetscCall(SamVecZero(s->displacement_t));
+  if (s->sheared.has) PetscCall(VecAXPY(s->displacement_t, 1, s->sheared.displacement));
   if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
   PetscCall(SamElasticityTrim(elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -166,7 +167,10 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
   return (TangentialSums){{residual, shear, projected, least}, over, most};
 }
 
-/* The bound of the shear, recomputed from the pressure; where that is negative the bound is 0. */
+/*
+  The bound of the shear, recomputed from the pressure; where that is negative the bound is 0. Cells that the stick
+  zone's edge cuts have a given slack.
+*/
 static PetscErrorCode CreateBound(SamProblem problem, const SamSolution *s, Vec *bound)
 {
   SamGrid grid;
@@ -181,6 +185,7 @@ static PetscErrorCode CreateBound(SamProblem problem, const SamSolution *s, Vec 
     if (b[k] < 0) b[k] = 0;
   PetscCall(VecRestoreArray(*bound, &b));
   PetscCall(SamProblemComputeBound(problem, s->control.friction_scale, *bound, *bound));
+  if (s->sheared.has) PetscCall(VecAXPY(*bound, -1, s->sheared.rim));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

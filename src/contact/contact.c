@@ -48,7 +48,10 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(SamSolverDestroy(&c->normal));
   PetscCall(SamSolverDestroy(&c->tangential));
   PetscCall(SamProfileDestroy(&c->profile));
+  PetscCall(SamShearProfileDestroy(&c->shear_profile));
   PetscCall(SamSolutionDestroy(&c->committed.solution));
+  PetscCall(SamSolutionDestroy(&c->committed.plain));
+  PetscCall(SamSolutionDestroy(&c->tried.plain));
   PetscCall(SamSolutionDestroy(&c->tried.solution));
   PetscCall(SamSolutionDestroy(&c->before));
   PetscCall(SamProblemDestroy(&c->problem));
@@ -275,14 +278,15 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
 static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *step)
 {
   SamSolution       *s      = &c->tried.solution;
-  const SamSolution *before = c->steps ? &c->committed.solution : NULL;
+  const SamSolution *before = SamContactBefore(c);
+  const PetscBool    known  = same_pressure && s->passes == c->committed.solution.passes ? PETSC_TRUE : PETSC_FALSE;
 
   PetscFunctionBegin;
   /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */
   if (!c->steps) SamReturnMemory();
   PetscCall(SamSolutionCreateDisplacements(c->grid, s));
-  if (same_pressure) PetscCall(SamVecCopyNonzero(before->displacement_z, s->displacement_z));
-  PetscCall(SamCheckSolution(c->problem, c->coupling, same_pressure, before, s, &step->check));
+  if (known) PetscCall(SamVecCopyNonzero(c->committed.solution.displacement_z, s->displacement_z));
+  PetscCall(SamCheckSolution(c->problem, c->coupling, known, before, s, &step->check));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
   PetscCall(SamContactComputeScalars(c, step));
@@ -312,8 +316,8 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactReject(c));
   PetscCall(CheckControl(c, &given));
   PetscCall(SamProblemHasFriction(c->problem, &friction));
-  PetscCheck(!friction || c->edges != SAM_CONTACT_EDGES_DEFERRED, c->grid->comm, PETSC_ERR_SUP,
-             "The pressure is corrected for its edge without friction only: the shear is not corrected with it");
+  PetscCheck(!friction || !SamContactIsCoupled(c) || c->edges != SAM_CONTACT_EDGES_DEFERRED, c->grid->comm,
+             PETSC_ERR_SUP, "Pressure and shear that act on each other are not corrected for their edges");
   PetscCall(PetscMemzero(step, sizeof(*step)));
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS * SAM_COMPONENTS; k++) (&step->stiffness[0][0][0])[k] = NAN;
   step->control             = given;
@@ -335,7 +339,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
 
 PetscErrorCode SamContactCommit(SamContact c)
 {
-  SamSolution recycled = c->before;
+  SamSolution recycled = c->before, plain;
 
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
@@ -347,8 +351,12 @@ PetscErrorCode SamContactCommit(SamContact c)
   c->before.passes                     = 0;
   recycled.correction                  = c->committed.solution.correction;
   recycled.rim                         = c->committed.solution.rim;
+  recycled.sheared                     = c->committed.solution.sheared;
+  plain                                = c->committed.plain;
+  c->before.sheared                    = (SamShearCorrection){.has = PETSC_FALSE};
   c->committed                         = c->tried;
   c->tried.solution                    = recycled;
+  c->tried.plain                       = plain;
   c->has_tried                         = PETSC_FALSE;
   c->steps++;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -8,6 +8,7 @@
 /* A solution, and what else later steps depend on. */
 typedef struct {
   SamSolution      solution;
+  SamSolution      plain;                        /* where its shear is corrected: that of the plain problem */
   PetscObjectState gap_revision;                 /* of the gap that the pressure was solved with; -1: another gap */
   PetscInt         window_first[2], window_n[2]; /* part of the grid that the solvers worked on: cells; n = 0: all */
 } SamContactMark;
@@ -28,7 +29,8 @@ struct _n_SamContact {
   SamElasticityTraits traits;
   SamNormal           normal;
   SamTangential       tangential;
-  SamProfile          profile; /* of the pressure along its edge; NULL until needed */
+  SamProfile          profile;       /* of the pressure along its edge; NULL until needed */
+  SamShearProfile     shear_profile; /* likewise */
   /* its states */
   PetscInt       steps;     /* number of committed steps */
   SamContactMark committed; /* after the last of them */
@@ -50,11 +52,19 @@ PETSC_INTERN PetscErrorCode SamSolutionCreateDisplacements(SamGrid grid, SamSolu
 PETSC_INTERN PetscErrorCode SamSolutionCreateCorrection(SamGrid grid, SamSolution *solution);
 /* SamSolutionCopyCorrection - copies the fields of a correction, where there is one, and the number of passes. */
 PETSC_INTERN PetscErrorCode SamSolutionCopyCorrection(SamGrid grid, const SamSolution *from, SamSolution *to);
+/*
+  SamShearCorrectionCreate - the fields of a correction of the shear, all zero; it says that there is none. Copy - copies
+  what there is. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamShearCorrectionCreate(SamGrid grid, SamShearCorrection *correction);
+PETSC_INTERN PetscErrorCode SamShearCorrectionDestroy(SamShearCorrection *correction);
+PETSC_INTERN PetscErrorCode SamShearCorrectionCopy(SamGrid grid, const SamShearCorrection *from,
+                                                   SamShearCorrection *to);
+/* SamSolutionFindSlips - 1 in cells that slip, else 0 (one component). Not collective. */
+PETSC_INTERN PetscErrorCode SamSolutionFindSlips(const SamSolution *solution, Vec slips);
 PETSC_INTERN PetscErrorCode SamSolutionDestroy(SamSolution *solution);
 /* SamContactIsGapCurrent - whether the committed pressure was solved with the problem's gap of now. Collective. */
 PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
-/* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */
-PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
 
 /* Copies a balance's loads and rigid displacements into arrays of all six components. */
 PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
@@ -112,6 +122,15 @@ PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment
 
 /* SamContactGetProfile - the profile of the pressure, made at the first call; borrowed. Collective. */
 PETSC_INTERN PetscErrorCode SamContactGetProfile(SamContact contact, SamProfile *profile);
+/* SamContactGetShearProfile - likewise of the shear. Collective. */
+PETSC_INTERN PetscErrorCode SamContactGetShearProfile(SamContact contact, SamShearProfile *profile);
+/*
+  The committed step's solution that the tried one goes on from, NULL before the first one. Not collective.
+  SamContactPlainBefore - the plain solution, from which another plain one goes on.
+  SamContactBefore - that which the tried solution, as it is, has gone on from.
+*/
+PETSC_INTERN const SamSolution *SamContactPlainBefore(SamContact contact);
+PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
 
 /* ---- a step ---- */
 
@@ -144,6 +163,8 @@ PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamSte
                                                 SamStep *step);
 /* SamContactComputeScalars - the numbers of the tried step that follow from its solution (scalars.c). Collective. */
 PETSC_INTERN PetscErrorCode SamContactComputeScalars(SamContact contact, SamStep *step);
+/* SamContactAddEnergyWithin - adds to a corrected step's elastic energy what cells vary within (within.c). Collective. */
+PETSC_INTERN PetscErrorCode SamContactAddEnergyWithin(SamContact contact, SamStep *step);
 /* SamStepFail - sets status and message unless the step has failed already: later failures follow from the first. */
 PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
 

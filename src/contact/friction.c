@@ -4,7 +4,7 @@
 
 /* What of a step is needed, and where it goes; NULL: not wanted. */
 typedef struct {
-  const double *p, *p_before, *b, *b_before, *q;
+  const double *p, *p_before, *b, *b_before, *q, *slips;
   double       *path, *pressed, *work;
 } Fields;
 
@@ -14,7 +14,7 @@ static void FrictionRow(const Fields *f, ptrdiff_t first, PetscInt nx, PetscInt 
   for (PetscInt i = 0; i < nx; i++) {
     const ptrdiff_t k = first + i, l = k + cells;
     const double    length = hypot(sx[i], sy[i]);
-    const PetscBool slips = SamStateOf(f->p[k], f->q[k], f->q[l], f->b[k]) == SAM_STATE_SLIP ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool slips  = f->slips[k] > 0 ? PETSC_TRUE : PETSC_FALSE;
 
     if (f->path) f->path[k] = length;
     if (f->pressed) f->pressed[k] = slips ? 0.5 * (f->p_before[k] + f->p[k]) * length : 0;
@@ -41,13 +41,17 @@ static PetscErrorCode RestoreOptional(Vec field, double **values)
 
 PetscErrorCode SamContactComputeFriction(SamContact c, Vec path, Vec pressed, Vec work)
 {
-  const SamSolution *s = &c->tried.solution, *before = c->steps ? &c->committed.solution : s;
+  const SamSolution *s = &c->tried.solution, *last = SamContactBefore(c), *before = last ? last : s;
   SamIncrement       increment;
   Fields             f;
+  Vec                slips;
 
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step");
-  PetscCall(SamIncrementCreate(c->problem, c->steps ? before : NULL, s, &increment));
+  PetscCall(SamIncrementCreate(c->problem, last, s, &increment));
+  PetscCall(SamGridCreateVec(c->grid, 1, &slips));
+  PetscCall(SamSolutionFindSlips(s, slips));
+  PetscCall(VecGetArrayRead(slips, &f.slips));
   PetscCall(VecGetArrayRead(s->pressure, &f.p));
   PetscCall(VecGetArrayRead(before->pressure, &f.p_before));
   PetscCall(VecGetArrayRead(s->bound, &f.b));
@@ -68,6 +72,8 @@ PetscErrorCode SamContactComputeFriction(SamContact c, Vec path, Vec pressed, Ve
   PetscCall(VecRestoreArrayRead(s->bound, &f.b));
   PetscCall(VecRestoreArrayRead(before->pressure, &f.p_before));
   PetscCall(VecRestoreArrayRead(s->pressure, &f.p));
+  PetscCall(VecRestoreArrayRead(slips, &f.slips));
+  PetscCall(VecDestroy(&slips));
   PetscCall(SamIncrementDestroy(&increment));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -213,3 +213,26 @@ PetscErrorCode SamContactComputeState(SamContact c, Vec state)
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamSolutionFindSlips(const SamSolution *s, Vec slips)
+{
+  const double *p, *b, *q, *rim = NULL;
+  double       *value;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(slips, &n));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayWrite(slips, &value));
+  if (s->sheared.has) PetscCall(VecGetArrayRead(s->sheared.rim, &rim));
+  for (PetscInt k = 0; k < n; k++)
+    value[k] = SamStateOf(p[k], q[k], q[k + n], b[k] - (rim ? rim[k] : 0)) == SAM_STATE_SLIP ? 1 : 0;
+  if (rim) PetscCall(VecRestoreArrayRead(s->sheared.rim, &rim));
+  PetscCall(VecRestoreArrayWrite(slips, &value));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -41,6 +41,14 @@ PetscErrorCode SamContactGetProfile(SamContact c, SamProfile *profile)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactGetShearProfile(SamContact c, SamShearProfile *profile)
+{
+  PetscFunctionBegin;
+  if (!c->shear_profile) PetscCall(SamShearProfileCreate(c->elasticity, &c->shear_profile));
+  *profile = c->shear_profile;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The edge of contact of a solution that has been corrected for it. */
 static PetscErrorCode FindCorrected(SamContact c, const SamSolution *s, Vec point, SamEdge *edge)
 {
@@ -54,6 +62,58 @@ static PetscErrorCode FindCorrected(SamContact c, const SamSolution *s, Vec poin
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The square of a slack (Pa2) becomes that of the slack over mu. */
+static PetscErrorCode DivideByFriction(const SamSolution *s, Vec square)
+{
+  const double *p, *b;
+  double       *value;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(square, &n));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArray(square, &value));
+  for (PetscInt k = 0; k < n; k++) value[k] *= b[k] > 0 ? p[k] * p[k] / (b[k] * b[k]) : 0;
+  PetscCall(VecRestoreArray(square, &value));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sets the profiles of a solution whose shear is corrected; that of the slack if the stick zone has an edge. */
+static PetscErrorCode SetShear(SamContact c, const SamSolution *s, Vec slips, SamShearProfile *shear, SamProfile *slack)
+{
+  const SamShearFields fields = {s->pressure, s->bound, s->shear, slips, s->sheared.rim};
+  PetscBool            found;
+  Vec                  mean;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionFindSlips(s, slips));
+  PetscCall(SamContactGetShearProfile(c, shear));
+  PetscCall(SamShearProfileSet(*shear, &fields));
+  if (s->sheared.slack == SAM_SLACK_NONE) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamShearProfileFindSlack(*shear, s->sheared.slack, s->sheared.within.reference, &mean, slack));
+  PetscCall(SamProfileMatch(*slack, mean, s->sheared.rim, &found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The edge of stick of a solution that has been corrected for it. */
+static PetscErrorCode FindCorrectedStick(SamContact c, const SamSolution *s, Vec point, SamEdge *edge)
+{
+  SamShearProfile shear;
+  SamProfile      slack = NULL;
+  Vec             slips;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(c->grid, 1, &slips));
+  PetscCall(SetShear(c, s, slips, &shear, &slack));
+  PetscCall(SamProfileGetEdge(slack, point, edge));
+  if (point) PetscCall(DivideByFriction(s, point));
+  PetscCall(VecDestroy(&slips));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactFindEdge(SamContact c, SamContactEdge which, Vec point, SamEdge *edge)
 {
   const SamSolution *s;
@@ -63,6 +123,10 @@ PetscErrorCode SamContactFindEdge(SamContact c, SamContactEdge which, Vec point,
   PetscCall(SamContactGetSolution(c, &s));
   if (which == SAM_CONTACT_EDGE_CONTACT && s->passes) {
     PetscCall(FindCorrected(c, s, point, edge));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (which == SAM_CONTACT_EDGE_STICK && s->sheared.has && s->sheared.passes) {
+    PetscCall(FindCorrectedStick(c, s, point, edge));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamGridCreateVec(c->grid, 1, &w));
@@ -96,6 +160,30 @@ PetscErrorCode SamContactComputePressureCenter(SamContact c, Vec pressure)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of a solution whose shear is corrected: what that does within cells is found anew, from the last shear. */
+static PetscErrorCode ComputeCorrectedShear(SamContact c, const SamSolution *s, PetscInt component, Vec value)
+{
+  const SamShearBefore before   = {s->shear, &s->sheared.within, PETSC_FALSE};
+  SamShearCorrection   now      = {.has = PETSC_FALSE};
+  SamProfile           pressure = NULL, slack = NULL;
+  SamShearProfile      shear = NULL;
+  PetscBool            found;
+  Vec                  slips;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(c->grid, 1, &slips));
+  PetscCall(SetShear(c, s, slips, &shear, &slack));
+  PetscCall(SamContactGetProfile(c, &pressure));
+  PetscCall(SamProfileMatch(pressure, s->pressure, s->rim, &found));
+  PetscCall(SamShearCorrectionCreate(c->grid, &now));
+  PetscCall(SamVecCopyNonzero(s->sheared.within.reference, now.within.reference));
+  PetscCall(SamShearProfileFind(shear, pressure, s->sheared.slack, &before, &now.within));
+  PetscCall(SamShearComputeCenter(c->grid, &now.within, s->shear, component, value));
+  PetscCall(SamShearCorrectionDestroy(&now));
+  PetscCall(VecDestroy(&slips));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The shear keeps its direction; its size is mu times what the pressure exceeds the slack by, both at the centre. */
 PetscErrorCode SamContactComputeShearCenter(SamContact c, PetscInt component, Vec shear)
 {
@@ -106,6 +194,10 @@ PetscErrorCode SamContactComputeShearCenter(SamContact c, PetscInt component, Ve
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
+  if (s->sheared.has) {
+    PetscCall(ComputeCorrectedShear(c, s, component, shear));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(VecDuplicate(shear, &pressure));
   PetscCall(ComputeRoots(c, SAM_CONTACT_EDGE_CONTACT, pressure));
   PetscCall(ComputeRoots(c, SAM_CONTACT_EDGE_STICK, shear));

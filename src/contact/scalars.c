@@ -10,19 +10,18 @@
   order. Before the first step there is no bound; its pressure counts as there before its slip.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, SUMS };
-static PetscErrorCode SumCells(SamContact c, SamStep *step)
+static PetscErrorCode SumCells(SamContact c, const SamSolution *s, const SamSolution *last, SamStep *step)
 {
-  const SamSolution *s     = &c->tried.solution;
-  const PetscInt     cells = c->grid->cells, nx = c->grid->nx;
-  const double       area         = c->grid->dx * c->grid->dy;
-  SamTotal           totals[SUMS] = {{0}};
-  double             sums[SUMS], most[2] = {0, 0};
-  const double      *p, *b, *b_before, *q, *u_z, *u_t;
-  SamIncrement       increment;
-  const Vec          before = c->steps ? c->committed.solution.bound : s->bound;
+  const PetscInt cells = c->grid->cells, nx = c->grid->nx;
+  const double   area         = c->grid->dx * c->grid->dy;
+  SamTotal       totals[SUMS] = {{0}};
+  double         sums[SUMS], most[2] = {0, 0};
+  const double  *p, *b, *b_before, *q, *u_z, *u_t;
+  SamIncrement   increment;
+  const Vec      before = last ? last->bound : s->bound;
 
   PetscFunctionBegin;
-  PetscCall(SamIncrementCreate(c->problem, c->steps ? &c->committed.solution : NULL, s, &increment));
+  PetscCall(SamIncrementCreate(c->problem, last, s, &increment));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
   PetscCall(VecGetArrayRead(before, &b_before));
@@ -156,10 +155,30 @@ static PetscErrorCode FindEdges(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The energies of a step whose shear is corrected: of its plain solution (deferredshear.c). */
+static PetscErrorCode SumPlainEnergies(SamContact c, SamStep *step)
+{
+  SamSolution *plain = &c->tried.plain;
+  SamStep      sums;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionCreateDisplacements(c->grid, plain));
+  PetscCall(SamElasticityApplyNormal(c->elasticity, plain->pressure, plain->displacement_z));
+  PetscCall(SamElasticityApplyTangential(c->elasticity, plain->shear, plain->displacement_t));
+  PetscCall(SumCells(c, plain, SamContactPlainBefore(c), &sums));
+  step->dissipated_energy = sums.dissipated_energy;
+  step->stored_energy     = sums.stored_energy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactComputeScalars(SamContact c, SamStep *step)
 {
   PetscFunctionBegin;
-  PetscCall(SumCells(c, step));
+  PetscCall(SumCells(c, &c->tried.solution, SamContactBefore(c), step));
+  if (c->tried.solution.sheared.has)
+    PetscCall(SumPlainEnergies(c, step));
+  else if (c->tried.solution.passes)
+    PetscCall(SamContactAddEnergyWithin(c, step));
   step->edge_accepted = 0;
   if (c->edges != SAM_CONTACT_EDGES_NONE) PetscCall(FindEdges(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,6 +1,5 @@
 /* Solutions and states: their fields, and getting and setting the committed state. */
 #include "contactimpl.h"
-#include <string.h>
 
 /* ---- components ---- */
 
@@ -62,9 +61,66 @@ PetscErrorCode SamSolutionCopyCorrection(SamGrid grid, const SamSolution *from, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamShearCorrectionCreate(SamGrid grid, SamShearCorrection *c)
+{
+  PetscFunctionBegin;
+  if (!c->displacement) {
+    PetscCall(SamGridCreateVec(grid, 2, &c->displacement));
+    PetscCall(SamGridCreateVec(grid, 1, &c->rim));
+    PetscCall(SamGridCreateVec(grid, SAM_SHEAR_SLOPES, &c->within.slopes));
+    PetscCall(SamGridCreateVec(grid, SAM_SHEAR_TERMS, &c->within.terms));
+    PetscCall(SamGridCreateVec(grid, SAM_SHEAR_REFERENCE, &c->within.reference));
+    PetscCall(SamGridCreateVec(grid, 2, &c->plain_reference));
+  } else {
+    PetscCall(SamVecZero(c->displacement));
+    PetscCall(SamVecZero(c->rim));
+    PetscCall(SamVecZero(c->within.slopes));
+    PetscCall(SamVecZero(c->within.terms));
+    PetscCall(SamVecZero(c->within.reference));
+    PetscCall(SamVecZero(c->plain_reference));
+  }
+  c->has           = PETSC_FALSE;
+  c->passes        = 0;
+  c->slack         = SAM_SLACK_NONE;
+  c->within.refers = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamShearCorrectionCopy(SamGrid grid, const SamShearCorrection *from, SamShearCorrection *to)
+{
+  PetscFunctionBegin;
+  to->has = to->within.refers = PETSC_FALSE;
+  if (!from->has && !from->within.refers) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamShearCorrectionCreate(grid, to));
+  to->has = from->has;
+  PetscCall(SamVecCopyNonzero(from->displacement, to->displacement));
+  PetscCall(SamVecCopyNonzero(from->rim, to->rim));
+  PetscCall(SamVecCopyNonzero(from->within.slopes, to->within.slopes));
+  PetscCall(SamVecCopyNonzero(from->within.terms, to->within.terms));
+  PetscCall(SamVecCopyNonzero(from->within.reference, to->within.reference));
+  PetscCall(SamVecCopyNonzero(from->plain_reference, to->plain_reference));
+  to->within.refers = from->within.refers;
+  to->slack         = from->slack;
+  to->passes        = from->passes;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamShearCorrectionDestroy(SamShearCorrection *c)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&c->displacement));
+  PetscCall(VecDestroy(&c->rim));
+  PetscCall(VecDestroy(&c->within.slopes));
+  PetscCall(VecDestroy(&c->within.terms));
+  PetscCall(VecDestroy(&c->within.reference));
+  PetscCall(VecDestroy(&c->plain_reference));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolutionDestroy(SamSolution *s)
 {
   PetscFunctionBegin;
+  PetscCall(SamShearCorrectionDestroy(&s->sheared));
   PetscCall(VecDestroy(&s->correction));
   PetscCall(VecDestroy(&s->rim));
   PetscCall(VecDestroy(&s->pressure));
@@ -72,31 +128,6 @@ PetscErrorCode SamSolutionDestroy(SamSolution *s)
   PetscCall(VecDestroy(&s->shear));
   PetscCall(VecDestroy(&s->displacement_z));
   PetscCall(VecDestroy(&s->displacement_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamVecCopyNonzero(Vec from, Vec to)
-{
-  enum { CHUNK = 512 };
-  static const double zeros[CHUNK] = {0};
-  const double       *x;
-  double             *y;
-  PetscInt            n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(from, &n));
-  PetscCall(VecGetArrayRead(from, &x));
-  PetscCall(VecGetArray(to, &y));
-  for (PetscInt k = 0; k < n; k += CHUNK) {
-    const PetscInt count = PetscMin(CHUNK, n - k);
-
-    if (memcmp(x + k, zeros, sizeof(*x) * (size_t)count))
-      PetscCall(PetscArraycpy(y + k, x + k, count));
-    else
-      SamZero(count, y + k);
-  }
-  PetscCall(VecRestoreArray(to, &y));
-  PetscCall(VecRestoreArrayRead(from, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -132,6 +163,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
   s->steps = c->steps;
   s->now   = c->committed.solution;
+  s->plain = c->committed.plain;
   if (c->steps > 1) s->before = c->before;
   PetscCall(PetscArraycpy(s->window_first, c->committed.window_first, 2));
   PetscCall(PetscArraycpy(s->window_n, c->committed.window_n, 2));
@@ -153,11 +185,14 @@ static PetscErrorCode CopySolution(SamGrid grid, const SamSolution *from, SamSol
   to->displacement_t = own.displacement_t;
   to->correction     = own.correction;
   to->rim            = own.rim;
+  to->sheared        = own.sheared;
   PetscCall(SamSolutionCopyCorrection(grid, from, to));
+  PetscCall(SamShearCorrectionCopy(grid, &from->sheared, &to->sheared));
   PetscCall(SamVecCopyNonzero(from->pressure, to->pressure));
   PetscCall(SamVecCopyNonzero(from->bound, to->bound));
   PetscCall(SamVecCopyNonzero(from->shear, to->shear));
-  if (to->displacement_z) PetscCall(SamVecCopyNonzero(from->displacement_z, to->displacement_z));
+  if (to->displacement_z && from->displacement_z)
+    PetscCall(SamVecCopyNonzero(from->displacement_z, to->displacement_z));
   if (to->displacement_t) PetscCall(SamVecCopyNonzero(from->displacement_t, to->displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -182,11 +217,17 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
              "The state is incomplete: it lacks tractions, displacements, or the tractions one step back");
   PetscCall(CheckTractions(c->grid, &s->now));
   if (s->steps > 1) PetscCall(CheckTractions(c->grid, &s->before));
+  if (s->now.sheared.has) PetscCall(CheckTractions(c->grid, &s->plain));
   PetscCall(SamGridCheckVec(c->grid, 1, s->now.displacement_z, "The state's normal displacement"));
   PetscCall(SamGridCheckVec(c->grid, 2, s->now.displacement_t, "The state's tangential displacement"));
   PetscCall(SamContactReject(c));
   PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
   PetscCall(CopySolution(c->grid, &s->now, &c->committed.solution));
+  if (s->now.sheared.has) {
+    if (!c->committed.plain.pressure) PetscCall(SamSolutionCreate(c->grid, &c->committed.plain));
+    PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.plain));
+    PetscCall(CopySolution(c->grid, &s->plain, &c->committed.plain));
+  }
   if (s->steps > 1) PetscCall(CopySolution(c->grid, &s->before, &c->before));
   c->steps = s->steps;
   PetscCall(PetscArraycpy(c->committed.window_first, s->window_first, 2));

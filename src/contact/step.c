@@ -10,11 +10,13 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
                             SamSolve *w)
 {
   PetscFunctionBegin;
-  *w            = (SamSolve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
-  w->s->passes  = 0;
-  w->coupled    = SamContactIsCoupled(c);
-  w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
-  w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  *w                = (SamSolve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
+  w->s->passes      = 0;
+  w->coupled        = SamContactIsCoupled(c);
+  w->before         = c->steps ? &c->committed.solution : NULL;
+  w->s->sheared.has = PETSC_FALSE;
+  w->normal         = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  w->tangential     = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
   if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 1, &w->lift));
@@ -103,6 +105,16 @@ PetscErrorCode SamSolveJudgeNormal(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamSolveStoreNormal(SamSolve *w, const SamSolution *from)
+{
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt n = SamComponentsOf[SAM_BALANCE_NORMAL][k];
+
+    w->s->load[n]  = from->load[n];
+    w->s->rigid[n] = from->rigid[n];
+  }
+}
+
 /* Copies the pressure of the committed state, where nothing that it depends on has changed. */
 static PetscErrorCode TakePressure(SamSolve *w)
 {
@@ -112,12 +124,7 @@ static PetscErrorCode TakePressure(SamSolve *w)
   PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
   PetscCall(SamSolutionCopyCorrection(w->c->grid, from, w->s));
   w->step->edge_passes = from->passes;
-  for (PetscInt k = 0; k < 3; k++) {
-    const PetscInt n = SamComponentsOf[SAM_BALANCE_NORMAL][k];
-
-    w->s->load[n]  = from->load[n];
-    w->s->rigid[n] = from->rigid[n];
-  }
+  SamSolveStoreNormal(w, from);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -241,12 +248,12 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
   PetscCall(SamElasticityGetPair(c->elasticity, &pair));
   e         = SamStretchOf(pair, &w->s->control);
   stretched = (e.xx != 0 || e.yy != 0 || e.xy != 0) ? PETSC_TRUE : PETSC_FALSE;
-  if (!w->coupled && !c->steps && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!w->coupled && !w->before && !stretched && !w->s->sheared.has) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 2, offset));
-  if (c->steps) {
+  if (w->before) {
     PetscCall(VecGetArray(*offset, &slip));
     for (PetscInt k = 0; k < 2; k++)
-      PetscCall(SamSolutionComputeSlip(c->problem, &c->committed.solution, k, slip + k * c->grid->cells));
+      PetscCall(SamSolutionComputeSlip(c->problem, w->before, k, slip + k * c->grid->cells));
     PetscCall(VecRestoreArray(*offset, &slip));
     PetscCall(VecScale(*offset, -1));
   }
@@ -257,20 +264,26 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
     PetscCall(VecDestroy(&more));
   }
   if (stretched) PetscCall(AddStretch(c->grid, &e, *offset));
+  if (w->s->sheared.has) PetscCall(VecAXPY(*offset, 1, w->s->sheared.displacement));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
 {
   SamBalance balance = w->tangential;
-  Vec        offset;
+  Vec        offset, bound = w->s->bound;
 
   PetscFunctionBegin;
   PetscCall(CreateOffset(w, &offset));
+  if (w->s->sheared.has) {
+    PetscCall(VecDuplicate(w->s->bound, &bound));
+    PetscCall(VecWAXPY(bound, -1, w->s->sheared.rim, w->s->bound));
+  }
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
-  PetscCall(SamTangentialSolveKeeping(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
+  PetscCall(SamTangentialSolveKeeping(w->c->tangential, bound, offset, &balance, has_shear, w->s->shear,
                                       w->coupled ? &w->shear_product : NULL));
+  if (bound != w->s->bound) PetscCall(VecDestroy(&bound));
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
@@ -294,6 +307,20 @@ PetscErrorCode SamSolveSkipTangential(SamSolve *w)
 
 /* ---- both ---- */
 
+PetscErrorCode SamSolveShearOnce(SamSolve *w, PetscBool has_shear)
+{
+  PetscFunctionBegin;
+  PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
+  w->step->coupling_iterations = 1;
+  if (w->step->status != SAM_STATUS_CONVERGED) {
+    PetscCall(SamSolveSkipTangential(w));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamSolveTangential(w, has_shear));
+  PetscCall(SamSolveJudgeTangential(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
 {
   PetscFunctionBegin;
@@ -302,14 +329,7 @@ static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
   if (!w->same_pressure) PetscCall(SamSolveJudgeNormal(w));
   if (!w->same_pressure && w->step->status == SAM_STATUS_CONVERGED && w->c->edges == SAM_CONTACT_EDGES_DEFERRED)
     PetscCall(SamSolveDeferred(w));
-  PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
-  w->step->coupling_iterations = 1;
-  if (w->step->status != SAM_STATUS_CONVERGED) {
-    PetscCall(SamSolveSkipTangential(w));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamSolveTangential(w, start->shear));
-  PetscCall(SamSolveJudgeTangential(w));
+  PetscCall(SamSolveShearOnce(w, start->shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -323,6 +343,8 @@ PetscErrorCode SamContactSolveStep(SamContact c, const SamStepStart *start, Pets
   PetscCall(SamProblemHasFriction(c->problem, &friction));
   if (w.coupled && friction)
     PetscCall(SamSolveCoupled(&w, start));
+  else if (friction && c->edges == SAM_CONTACT_EDGES_DEFERRED)
+    PetscCall(SamSolveCorrected(&w, start));
   else
     PetscCall(SolveOnce(&w, start));
   PetscCall(End(&w));

@@ -8,12 +8,13 @@
 
 /* A step under way. */
 typedef struct {
-  SamContact   c;
-  SamSolution *s; /* the tried solution */
-  SamStep     *step;
-  PetscBool    coupled, same_pressure;
-  SamBalance   normal, tangential; /* as prescribed */
-  double       rigid[3];           /* guess of the tangential rigid displacements */
+  SamContact         c;
+  SamSolution       *s;      /* the tried solution */
+  const SamSolution *before; /* whose slip it goes on from; NULL in the first step */
+  SamStep           *step;
+  PetscBool          coupled, same_pressure;
+  SamBalance         normal, tangential; /* as prescribed */
+  double             rigid[3];           /* guess of the tangential rigid displacements */
   /* coupled only */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
   Vec        h;                                 /* separation plus lift */
@@ -30,6 +31,15 @@ PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressu
 PETSC_INTERN PetscErrorCode SamSolveCountNormal(SamSolve *solve);
 /* SamSolveDeferred - corrects the solution of the normal problem for the edge of contact (deferred.c). Collective. */
 PETSC_INTERN PetscErrorCode SamSolveDeferred(SamSolve *solve);
+/*
+  SamSolveCorrected - both problems of similar bodies with friction, corrected for their edges (deferredshear.c).
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolveCorrected(SamSolve *solve, const SamStepStart *start);
+/* SamSolveStoreNormal - copies the loads and displacements of the normal problem of a solution. Not collective. */
+PETSC_INTERN void SamSolveStoreNormal(SamSolve *solve, const SamSolution *from);
+/* SamSolveShearOnce - the bound, and the tangential problem with it, unless the normal one has failed. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveShearOnce(SamSolve *solve, PetscBool has_shear);
 /* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 /* SamSolveJudge... - puts down in the step whether that failed. Collective. */

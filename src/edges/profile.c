@@ -24,35 +24,29 @@
   problem takes three times as many iterations over cells of nearly no pressure.
 */
 #define LEAST 1e-3
-#define NEAR  3 /* cells in each direction for which sub-cells count */
-#define HALO  (NEAR + 6)
+#define HALO  (SAM_NEAR + 6)
 
 /*
-  Sub-cells in each direction: of a cell that the edge may cut, and of one whose squared distance from the cells outside
-  is UNCUT or more, where the root is smooth.
+  The edge may cut a cell, which has fine sub-cells then, unless its squared distance from the cells outside is this or
+  more.
 */
-#define FINE   SAM_ROOTS_SUB
-#define COARSE 5
-#define UNCUT  4
-
-enum { LAGS = 2 * NEAR + 1 };
+#define UNCUT 4
 
 struct _n_SamProfile {
   SamElasticity elasticity;
-  SamGrid       grid;            /* of it; borrowed */
-  Vec           in;              /* 1 in cells of the zone, else 0 */
-  Vec           rim;             /* means of the cells outside that the edge cuts */
-  Vec           w;               /* at the cells' centres */
-  Vec           mean;            /* over the cells; borrowed */
-  SamRoots      roots[2];        /* fine and coarse */
+  SamGrid       grid; /* of it; borrowed */
+  Vec           in;   /* 1 in cells of the zone, else 0 */
+  Vec           rim;  /* means of the cells outside that the edge cuts */
+  Vec           w;    /* at the cells' centres */
+  Vec           mean; /* over the cells; borrowed */
+  SamNear       near;
   SamFitWindow  window[2], core; /* of a cell in the zone, and outside; behind the layer that an edge makes wrong */
-  /* the functions of the band's cells, of this rank's rows and NEAR more on both sides */
+  /* the functions of the band's cells, of this rank's rows and SAM_NEAR more on both sides */
   SamZone   zone; /* by `in`; its grid is NULL before the first one */
   PetscInt  begin, end;
   PetscInt *slot, band;
   double   *fit, *factor;
-  PetscBool found;    /* all of this rank's cells have one */
-  double   *table[2]; /* influence of fine and coarse sub-cells on the cells about; NULL until needed */
+  PetscBool found; /* all of this rank's cells have one */
 };
 
 /* ---- the object ---- */
@@ -74,8 +68,7 @@ PetscErrorCode SamProfileCreate(SamElasticity elasticity, SamProfile *profile)
   SamFitWindowInitialize(3, 1, BELL, &s->window[0]);
   SamFitWindowInitialize(4, 1, BELL, &s->window[1]);
   SamFitWindowInitialize(SAM_EDGE_WINDOW, SAM_EDGE_LAST + 1, 0, &s->core);
-  SamRootsInitialize(FINE, &s->roots[0]);
-  SamRootsInitialize(COARSE, &s->roots[1]);
+  SamNearInitialize(elasticity, &s->near);
   *profile = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -101,7 +94,7 @@ PetscErrorCode SamProfileDestroy(SamProfile *profile)
   PetscCall(VecDestroy(&s->in));
   PetscCall(VecDestroy(&s->rim));
   PetscCall(VecDestroy(&s->w));
-  for (int k = 0; k < 2; k++) PetscCall(PetscFree(s->table[k]));
+  PetscCall(SamNearDestroy(&s->near));
   PetscCall(SamElasticityDestroy(&s->elasticity));
   PetscCall(PetscFree(*profile));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -113,6 +106,21 @@ PetscErrorCode SamProfileDestroy(SamProfile *profile)
 static double *FunctionOf(SamProfile s, ptrdiff_t k)
 {
   return s->slot[k] < 0 ? NULL : s->fit + SAM_FIT_TERMS * (ptrdiff_t)s->slot[k];
+}
+
+const double *SamProfileFunction(SamProfile s, PetscInt i, PetscInt j)
+{
+  return s->zone.grid && SamZoneHas(&s->zone, i, j) ? FunctionOf(s, SamZoneAt(&s->zone, i, j)) : NULL;
+}
+
+/* The sub-cells of a cell of the band. */
+static SamNearSub SubOf(SamProfile s, ptrdiff_t k)
+{
+  return s->zone.distance[k] >= UNCUT ? SAM_NEAR_COARSE : SAM_NEAR_FINE;
+}
+static const SamRoots *RootsOf(SamProfile s, ptrdiff_t k)
+{
+  return &s->near.roots[SubOf(s, k)];
 }
 
 /* The window of a cell of the band. */
@@ -153,8 +161,8 @@ static PetscErrorCode FindBand(SamProfile s)
 
   PetscFunctionBegin;
   PetscCall(SamZoneCreate(grid, s->in, HALO, BAND, &s->zone));
-  s->begin = PetscMax(grid->row_start - NEAR, z->first);
-  s->end   = PetscMin(grid->row_start + grid->rows + NEAR, z->first + z->count);
+  s->begin = PetscMax(grid->row_start - SAM_NEAR, z->first);
+  s->end   = PetscMin(grid->row_start + grid->rows + SAM_NEAR, z->first + z->count);
   s->band  = 0;
   PetscCall(PetscMalloc1((ptrdiff_t)z->count * grid->nx, &s->slot));
   for (PetscInt j = z->first; j < z->first + z->count; j++)
@@ -269,7 +277,7 @@ static PetscErrorCode Sweep(SamProfile s)
     double *fit = FunctionOf(s, first + k);
 
     if (!fit) continue;
-    if (s->zone.distance[first + k] > 0) SamRootsMatch(&s->roots[s->zone.distance[first + k] >= UNCUT], mean[k], fit);
+    if (s->zone.distance[first + k] > 0) SamRootsMatch(RootsOf(s, first + k), mean[k], fit);
     w[k] = fit[0];
   }
   PetscCall(VecRestoreArray(s->w, &w));
@@ -326,7 +334,7 @@ static PetscErrorCode FindRim(SamProfile s)
   PetscCall(VecGetArray(s->rim, &rim));
   for (PetscInt k = 0; k < s->grid->cells; k++) {
     const double *fit  = s->zone.distance[first + k] < 0 ? FunctionOf(s, first + k) : NULL;
-    double        mean = fit ? SamRootsMean(&s->roots[0], fit, means, NULL) : 0;
+    double        mean = fit ? SamRootsMean(&s->near.roots[SAM_NEAR_FINE], fit, means, NULL) : 0;
 
     if (fit && mean < LEAST * sqrt(hypot(fit[1], fit[2]))) mean = 0;
     rim[k] = rim[k] > 0 && mean > 0 ? 0.5 * (mean + rim[k]) : mean;
@@ -355,29 +363,6 @@ PetscErrorCode SamProfileGetZone(SamProfile s, Vec *in, Vec *rim)
 
 /* ---- displacement ---- */
 
-/* The sum of the displacements of a cell's centre by the sub-cells of another one. */
-SAM_VECTORIZED static double Product(int n, const double *restrict influence, const double *restrict part)
-{
-  double sum = 0;
-
-#pragma omp simd reduction(+ : sum)
-  for (int k = 0; k < n; k++) sum += influence[k] * part[k];
-  return sum;
-}
-
-/* What a cell's sub-cells add to the displacement of the cells about it. */
-static void AddNear(SamGrid grid, const double table[], const double part[], int cells, PetscInt i, PetscInt j,
-                    double u[])
-{
-  for (PetscInt b = -NEAR; b <= NEAR; b++)
-    for (PetscInt a = -NEAR; a <= NEAR; a++) {
-      const PetscInt row = j + b - grid->row_start;
-
-      if (row >= 0 && row < grid->rows && i + a >= 0 && i + a < grid->nx)
-        u[row * grid->nx + i + a] += Product(cells, table + ((b + NEAR) * LAGS + a + NEAR) * cells, part);
-    }
-}
-
 /* The slope of the means across a cell in the middle of the zone. */
 static void MiddleSlopes(const SamZone *z, const double mean[], PetscInt i, PetscInt j, double slopes[2])
 {
@@ -388,61 +373,62 @@ static void MiddleSlopes(const SamZone *z, const double mean[], PetscInt i, Pets
     SamZoneHas(z, i, j - 1) && SamZoneHas(z, i, j + 1) ? 0.5 * (mean[k + z->grid->nx] - mean[k - z->grid->nx]) : 0;
 }
 
-/* The slopes of this rank's cells, and the near part of the displacement of them. */
-static void AddCells(SamProfile s, const double mean[], double slope[], double u[])
+/* The slopes of the means and roots of this rank's cells. */
+PetscErrorCode SamProfileComputeSlopes(SamProfile s, Vec slopes)
 {
-  const SamZone *z    = &s->zone;
   const SamGrid  grid = s->grid;
+  const SamZone *z    = &s->zone;
+  const double  *own, *mean;
+  double        *slope, part[SAM_ROOTS_CELLS];
 
-  for (PetscInt j = s->begin; j < s->end; j++)
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const ptrdiff_t k   = SamZoneAt(z, i, j);
-      const double   *fit = FunctionOf(s, k);
-      const PetscBool own = j >= grid->row_start && j < grid->row_start + grid->rows ? PETSC_TRUE : PETSC_FALSE;
-      const PetscInt  at  = (j - grid->row_start) * grid->nx + i;
-      double          part[SAM_ROOTS_CELLS], slopes[2] = {0, 0};
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(s->mean, &own));
+  PetscCall(SamRowsFetch(&s->zone.rows, grid->nx, own, &mean));
+  PetscCall(VecGetArrayWrite(slopes, &slope));
+  for (PetscInt n = 0; n < grid->cells; n++) {
+    const PetscInt  i = n % grid->nx, j = grid->row_start + n / grid->nx;
+    const ptrdiff_t k       = SamZoneAt(z, i, j);
+    const double   *fit     = FunctionOf(s, k);
+    double          both[2] = {0, 0};
 
-      if (fit) {
-        const int       kind  = z->distance[k] >= UNCUT;
-        const SamRoots *roots = &s->roots[kind];
-        const double    whole = SamRootsMean(roots, fit, part, NULL);
+    if (fit)
+      SamRootsTakeLinearPart(RootsOf(s, k), SamRootsMean(RootsOf(s, k), fit, part, NULL), part, both);
+    else if (z->distance[k] > 0)
+      MiddleSlopes(z, mean, i, j, both);
+    for (PetscInt c = 0; c < 2; c++) slope[n + c * grid->cells] = both[c];
+  }
+  PetscCall(VecRestoreArrayWrite(slopes, &slope));
+  PetscCall(SamRowsRestore(&s->zone.rows, &mean));
+  PetscCall(VecRestoreArrayRead(s->mean, &own));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-        if (whole <= 0) continue;
-        SamRootsTakeLinearPart(roots, whole, part, slopes);
-        AddNear(grid, s->table[kind], part, roots->cells, i, j, u);
-      } else if (own && z->distance[k] > 0) {
-        MiddleSlopes(z, mean, i, j, slopes);
-      }
-      for (PetscInt c = 0; c < 2 && own; c++) slope[at + c * grid->cells] = slopes[c];
-    }
+/* What a cell's sub-cells displace beyond the linear part. */
+static void AddCell(SamProfile s, PetscInt i, PetscInt j, ptrdiff_t k, void *u)
+{
+  const SamRoots *roots = RootsOf(s, k);
+  double          part[SAM_ROOTS_CELLS], slopes[2];
+  const double    whole = SamRootsMean(roots, FunctionOf(s, k), part, NULL);
+
+  if (whole <= 0) return;
+  SamRootsTakeLinearPart(roots, whole, part, slopes);
+  SamNearAdd(&s->near, SubOf(s, k), SAM_ELASTICITY_ZZ, s->grid, &(SamNearPart){i, j, part}, (double *)u);
 }
 
 PetscErrorCode SamProfileComputeDisplacement(SamProfile s, Vec u_z)
 {
-  const double *own, *mean;
-  double       *slope, *u;
-  Vec           slopes, near;
+  double *u;
+  Vec     slopes;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(s->grid, 2, &slopes));
-  PetscCall(SamGridCreateVec(s->grid, 1, &near));
-  for (int k = 0; k < 2 && !s->table[k]; k++) {
-    PetscCall(PetscMalloc1(LAGS * LAGS * s->roots[k].cells, &s->table[k]));
-    PetscCall(SamElasticityGetNear(s->elasticity, NEAR, s->roots[k].sub, s->table[k]));
-  }
-  PetscCall(VecGetArrayRead(s->mean, &own));
-  PetscCall(SamRowsFetch(&s->zone.rows, s->grid->nx, own, &mean));
-  PetscCall(VecGetArray(slopes, &slope));
-  PetscCall(VecGetArray(near, &u));
-  AddCells(s, mean, slope, u);
-  PetscCall(VecRestoreArray(near, &u));
-  PetscCall(VecRestoreArray(slopes, &slope));
-  PetscCall(SamRowsRestore(&s->zone.rows, &mean));
-  PetscCall(VecRestoreArrayRead(s->mean, &own));
+  PetscCall(SamProfileComputeSlopes(s, slopes));
   PetscCall(SamElasticityApplyNormalSlopes(s->elasticity, slopes, u_z));
-  PetscCall(VecAXPY(u_z, 1, near));
-  PetscCall(VecDestroy(&near));
   PetscCall(VecDestroy(&slopes));
+  PetscCall(SamNearSetUp(&s->near, SAM_ELASTICITY_ZZ));
+  PetscCall(VecGetArray(u_z, &u));
+  PetscCall(VisitBand(s, AddCell, u));
+  PetscCall(VecRestoreArray(u_z, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -105,11 +105,28 @@ PetscErrorCode SamElasticityApplyNormalSlopes(SamElasticity e, Vec slopes, Vec u
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityGetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
+PetscErrorCode SamElasticityApplyTangentialSlopes(SamElasticity e, int axis, Vec slopes, Vec u_t)
+{
+  Arrays a;
+
+  PetscFunctionBegin;
+  PetscCheck(e->ops.applytangentialslopes, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no such product",
+             e->type);
+  PetscCall(SamElasticitySetUp(e));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
+  PetscCall(GetArrays(e, slopes, u_t, &a));
+  PetscCall(e->ops.applytangentialslopes(e, axis, a.in, a.out));
+  PetscCall(RestoreArrays(slopes, u_t, &a));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityGetNear(SamElasticity e, SamElasticityKernel kernel, PetscInt reach, PetscInt sub,
+                                    double table[])
 {
   PetscFunctionBegin;
   PetscCheck(e->ops.getnear, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no sub-cells", e->type);
-  PetscCall(e->ops.getnear(e, reach, sub, table));
+  PetscCall(e->ops.getnear(e, kernel, reach, sub, table));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,6 +1,7 @@
 /* The grid and its slab distribution. */
 #include "gridimpl.h"
 #include <math.h>
+#include <string.h>
 
 /*
   What no grid can be made of: a message, empty when all is well. The names stand for the arguments of SamGridCreate(),
@@ -189,6 +190,31 @@ PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is)
   bad = isnan(sum) ? 1 : 0;
   PetscCall(SamMax(grid->comm, 1, &bad));
   *is = bad == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamVecCopyNonzero(Vec from, Vec to)
+{
+  enum { CHUNK = 512 };
+  static const double zeros[CHUNK] = {0};
+  const double       *x;
+  double             *y;
+  PetscInt            n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(from, &n));
+  PetscCall(VecGetArrayRead(from, &x));
+  PetscCall(VecGetArray(to, &y));
+  for (PetscInt k = 0; k < n; k += CHUNK) {
+    const PetscInt count = PetscMin(CHUNK, n - k);
+
+    if (memcmp(x + k, zeros, sizeof(*x) * (size_t)count))
+      PetscCall(PetscArraycpy(y + k, x + k, count));
+    else
+      SamZero(count, y + k);
+  }
+  PetscCall(VecRestoreArray(to, &y));
+  PetscCall(VecRestoreArrayRead(from, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

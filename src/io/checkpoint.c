@@ -11,10 +11,10 @@
 
 #define OPTION "checkpoint"
 
-#define NUMBERS 33 /* numbers of a solution: control, loads, rigid displacements, passes of the correction */
+#define NUMBERS 37 /* numbers of a solution: control, loads, rigid displacements, passes of the corrections */
 
 /* The fields and their names in the file, and which states have them. */
-typedef enum { ALWAYS, CORRECTED, SECOND } Condition; /* SECOND: from the second step on */
+typedef enum { ALWAYS, CORRECTED, SHEARED, PLAIN, SECOND } Condition; /* SECOND: from the second step on */
 static const struct {
   const char *name;
   PetscInt    components;
@@ -27,6 +27,17 @@ static const struct {
             {"displacement_t", 2, offsetof(SamContactState, now.displacement_t), ALWAYS},
             {"correction", 1, offsetof(SamContactState, now.correction), CORRECTED},
             {"rim", 1, offsetof(SamContactState, now.rim), CORRECTED},
+            {"sheared_displacement", 2, offsetof(SamContactState, now.sheared.displacement), SHEARED},
+            {"sheared_rim", 1, offsetof(SamContactState, now.sheared.rim), SHEARED},
+            {"sheared_slopes", SAM_SHEAR_SLOPES, offsetof(SamContactState, now.sheared.within.slopes), SHEARED},
+            {"sheared_terms", SAM_SHEAR_TERMS, offsetof(SamContactState, now.sheared.within.terms), SHEARED},
+            {"sheared_reference", SAM_SHEAR_REFERENCE, offsetof(SamContactState, now.sheared.within.reference),
+             SHEARED},
+            {"plain_reference", 2, offsetof(SamContactState, now.sheared.plain_reference), SHEARED},
+            {"plain_pressure", 1, offsetof(SamContactState, plain.pressure), PLAIN},
+            {"plain_bound", 1, offsetof(SamContactState, plain.bound), PLAIN},
+            {"plain_shear", 2, offsetof(SamContactState, plain.shear), PLAIN},
+            {"plain_displacement_t", 2, offsetof(SamContactState, plain.displacement_t), PLAIN},
             {"before_pressure", 1, offsetof(SamContactState, before.pressure), SECOND},
             {"before_bound", 1, offsetof(SamContactState, before.bound), SECOND},
             {"before_shear", 2, offsetof(SamContactState, before.shear), SECOND}};
@@ -40,6 +51,9 @@ static Vec *FieldOf(SamContactState *state, PetscInt k)
 static PetscBool IsKept(const SamContactState *state, PetscInt k)
 {
   if (kept[k].when == CORRECTED) return state->now.passes > 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (kept[k].when == PLAIN) return state->now.sheared.has;
+  if (kept[k].when == SHEARED)
+    return state->now.sheared.has || state->now.sheared.within.refers ? PETSC_TRUE : PETSC_FALSE;
   return kept[k].when == ALWAYS || state->steps > 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
@@ -88,6 +102,10 @@ static void PackSolution(const SamSolution *s, double numbers[NUMBERS])
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) *n++ = s->control.bulk_stress[body][k];
   *n++ = (double)s->passes;
+  *n++ = (double)s->sheared.passes;
+  *n++ = s->sheared.has ? 1 : 0;
+  *n++ = s->sheared.within.refers ? 1 : 0;
+  *n++ = (double)s->sheared.slack;
 }
 
 static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
@@ -104,7 +122,11 @@ static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
   s->control.friction_scale = *n++;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) s->control.bulk_stress[body][k] = *n++;
-  s->passes = (PetscInt)*n++;
+  s->passes                = (PetscInt)*n++;
+  s->sheared.passes        = (PetscInt)*n++;
+  s->sheared.has           = *n++ != 0 ? PETSC_TRUE : PETSC_FALSE;
+  s->sheared.within.refers = *n++ != 0 ? PETSC_TRUE : PETSC_FALSE;
+  s->sheared.slack         = (SamSlack)*n++;
 }
 
 static void WriteNumbers(SamFile f, const SamContactState *s)
@@ -118,6 +140,8 @@ static void WriteNumbers(SamFile f, const SamContactState *s)
   SamFileWriteAttribute(f, f->id, "contact_gap_is_current", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &current);
   PackSolution(&s->now, numbers);
   SamFileWriteAttribute(f, f->id, "contact_now", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, NUMBERS, numbers);
+  PackSolution(&s->plain, numbers);
+  SamFileWriteAttribute(f, f->id, "contact_plain", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, NUMBERS, numbers);
   PackSolution(&s->before, numbers);
   SamFileWriteAttribute(f, f->id, "contact_before", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, NUMBERS, numbers);
 }
@@ -133,6 +157,8 @@ static void ReadNumbers(SamFile f, SamContactState *s)
   SamFileReadAttribute(f, f->id, "contact_gap_is_current", H5T_NATIVE_INT8, 1, &current);
   SamFileReadAttribute(f, f->id, "contact_now", H5T_NATIVE_DOUBLE, NUMBERS, numbers);
   UnpackSolution(numbers, &s->now);
+  SamFileReadAttribute(f, f->id, "contact_plain", H5T_NATIVE_DOUBLE, NUMBERS, numbers);
+  UnpackSolution(numbers, &s->plain);
   SamFileReadAttribute(f, f->id, "contact_before", H5T_NATIVE_DOUBLE, NUMBERS, numbers);
   UnpackSolution(numbers, &s->before);
   s->steps          = (PetscInt)steps;

@@ -163,6 +163,7 @@ static const SamOutputColumn history[] = {
   REAL("tangential_residual", "1", "relative error of the tangential problem, by the check", check.tangential),
   REAL("equilibrium_residual", "1", "relative error of the loads, by the check", check.equilibrium),
   INT("edge_passes", "solutions again for the edge of contact, 0 for none", edge_passes),
+  INT("stick_passes", "solutions again for the edge of stick, 0 for none", stick_passes),
   INT("normal_iterations", "iterations of the normal solver", normal_iterations),
   INT("tangential_iterations", "iterations of the tangential solver", tangential_iterations),
   INT("normal_applies", "applications of the normal influence operator", normal_applies),

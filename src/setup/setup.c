@@ -25,8 +25,9 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 
 PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
 {
-  SamContactEdges edges;
-  PetscBool       help, friction;
+  SamElasticityTraits traits;
+  SamContactEdges     edges;
+  PetscBool           help, friction, coupling;
   Vec             gap;
 
   PetscFunctionBegin;
@@ -38,10 +39,12 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   PetscCall(SamContactSetFromOptions(s->contact));
   PetscCall(SamContactGetEdges(s->contact, &edges));
   PetscCall(SamProblemHasFriction(s->problem, &friction));
-  PetscCheck(
-    !friction || edges != SAM_CONTACT_EDGES_DEFERRED || help, from->comm, SAM_ERR_USER,
-    "-edges deferred with friction: the shear is not corrected with the pressure, and would be less exact than without "
-    "any correction: expected reconstruct or none, or -friction 0");
+  PetscCall(SamElasticityGetTraits(s->elasticity, &traits));
+  PetscCall(SamContactGetCoupling(s->contact, &coupling));
+  PetscCheck(!friction || !traits.coupled || !coupling || edges != SAM_CONTACT_EDGES_DEFERRED || help, from->comm,
+             SAM_ERR_USER,
+             "-edges deferred with friction and dissimilar bodies, whose pressure and shear act on each other: expected "
+             "reconstruct or none, or -friction 0, or -coupling none");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

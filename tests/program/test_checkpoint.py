@@ -56,6 +56,7 @@ def is_closed(path):
 DISSIMILAR = dict(CASE, grid_size=6e-3, body2_young=9e9, body2_poisson=0.4, friction=0.3)
 CONSTANT = dict(CASE, load_n=1000.0), "time, load_tx", lambda k: (60 * np.sin(k / 5),)
 CORRECTED = dict(CASE, friction=0, edges="deferred"), "time, load_n", lambda k: (1000 + 20 * np.sin(k / 7),)
+TURNING = dict(CASE, grid_n=48, load_n=1000.0, edges="deferred"), "time, load_tx", lambda k: (70 * np.sin(k / 2),)
 HELD = dict(CORRECTED[0], load_n=1000.0), "time, disp_x", lambda k: (1e-8 * k,)
 ROLLING = (
     dict(CASE, grid_n=64, grid_size=4e-3, load_n=300.0),
@@ -73,8 +74,8 @@ def write(folder, header, values):
 @pytest.mark.parametrize("ranks", [1, 2, 3])
 @pytest.mark.parametrize(
     "case",
-    [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING, CORRECTED, HELD],
-    ids=["similar", "dissimilar", "constant", "rolling", "corrected", "corrected and held"],
+    [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING, CORRECTED, HELD, TURNING],
+    ids=["similar", "dissimilar", "constant", "rolling", "corrected", "corrected and held", "corrected and turning"],
 )
 def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
     """To the last bit, which asks for all of the state: what is lost of it shows at the solvers' tolerance."""

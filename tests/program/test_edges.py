@@ -164,10 +164,25 @@ def test_edge_that_is_not_smooth_is_left_and_said(petsam, solve):
     assert left["edge_passes"] == 0 and np.array_equal(plain.pressure, left.pressure)
 
 
-def test_friction_is_refused_with_its_reason(petsam, tmp_path):
-    said = petsam(dict(SPHERE, edges="deferred", output="out.h5"), check=2).stderr
+def test_bodies_whose_tractions_act_on_each_other_are_refused_with_the_reason(petsam, tmp_path):
+    case = dict(SPHERE, body2_young=70e9, edges="deferred", output="out.h5")
+    said = petsam(case, check=2).stderr
     assert "-edges deferred" in said and "-friction 0" in said
     assert not (tmp_path / "out.h5").exists()
+    petsam(dict(case, coupling="none"))
+
+
+def test_corrected_shear_is_cattaneos(solve):
+    case, c = cattaneo(0.6, edges="deferred")
+    r, h = solve(case), hertz(case)
+    assert r["edge_passes"] == 2 and r["stick_passes"] == 2
+    assert r["stick_area"] == pytest.approx(np.pi * (c * h.radius) ** 2, rel=1e-4)
+    assert r["shear_max"] == pytest.approx(case["friction"] * h.pressure * np.sqrt(1 - c**2), rel=6e-4)
+    with h5py.File(r.path, "r") as file:
+        radius = np.hypot(file["x"][:][None, :], file["y"][:][:, None])
+        q = closed.hertz_pressure(radius, h.radius, h.pressure)
+        q -= closed.hertz_pressure(radius, c * h.radius, c * h.pressure)
+        assert np.linalg.norm(file["shear_center_x"][-1] / case["friction"] - q) < 1e-3 * np.linalg.norm(q)
 
 
 def test_shear_of_pressing_alone_is_none(solve):

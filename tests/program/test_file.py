@@ -339,6 +339,7 @@ def test_log_view_goes_to_xml(petsam, tmp_path):
         ({}, 0),
         (dict(stiffness=True), 0),
         (dict(edges="deferred", friction=0.0, load_tx=0.0), 0),
+        (dict(edges="deferred"), 0),
         (dict(body2_young=9e9, load_n=20.0, load_my=0.0, load_tx=2.0), 0),
         (dict(ball(40), normal_type="polonskykeer", tangential_type="gradient", load_my=None, grid_center=None), 0),
         (dict(load_tx=900.0), 11),

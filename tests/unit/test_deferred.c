@@ -67,7 +67,7 @@ static void test_sub_cells_add_up_to_the_cell(void **state)
   double table[LAGS * LAGS * SUB * SUB];
 
   (void)state;
-  sam_call(SamElasticityGetNear(s.elasticity, REACH, SUB, table));
+  sam_call(SamElasticityGetNear(s.elasticity, SAM_ELASTICITY_ZZ, REACH, SUB, table));
   for (int k = 0; k < LAGS * LAGS; k++) {
     double sum = 0;
 
@@ -261,21 +261,6 @@ static void test_edges_that_are_not_smooth_are_left(void **state)
   for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
 }
 
-static void test_contact_with_friction_is_not_corrected(void **state)
-{
-  Case             c       = NewCase(Steel(), 24, 1.5, MU, DEFERRED);
-  const SamControl control = Loads(&c, 1, 0.1, 0, 0);
-  SamStep          step;
-  PetscErrorCode   ierr;
-
-  (void)state;
-  BeginCatching();
-  ierr = SamContactTry(c.contact, &control, &step);
-  EndCatching();
-  sam_assert(ierr == PETSC_ERR_SUP && strstr(CaughtMessage(), "without friction"));
-  DestroyCase(&c);
-}
-
 /* Without contact, and where the contact ends at the grid's border only, there is no edge to correct for. */
 static void test_contact_without_an_edge_is_left(void **state)
 {
@@ -345,7 +330,6 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_correction_belongs_to_the_state),
     cmocka_unit_test(test_correction_does_not_depend_on_the_ranks),
     cmocka_unit_test(test_edges_that_are_not_smooth_are_left),
-    cmocka_unit_test(test_contact_with_friction_is_not_corrected),
     cmocka_unit_test(test_contact_without_an_edge_is_left),
     cmocka_unit_test(test_pressure_is_that_of_the_way_that_is_asked_for),
     cmocka_unit_test(test_check_sees_what_is_wrong_with_a_correction),

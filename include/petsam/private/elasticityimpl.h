@@ -29,7 +29,8 @@ typedef struct {
   PetscErrorCode (*applytangentialtonormal)(SamElasticity, const double *const q[], double *const u_z[]);
   /* required if the traits say within */
   PetscErrorCode (*applynormalslopes)(SamElasticity, const double *const slopes[], double *const u_z[]);
-  PetscErrorCode (*getnear)(SamElasticity, PetscInt reach, PetscInt sub, double table[]);
+  PetscErrorCode (*applytangentialslopes)(SamElasticity, int axis, const double *const slopes[], double *const u_t[]);
+  PetscErrorCode (*getnear)(SamElasticity, SamElasticityKernel, PetscInt reach, PetscInt sub, double table[]);
 } SamElasticityOps;
 
 /* Where only some cells have traction: those cells as a grid of their own, and the operator on it. */

@@ -9,8 +9,8 @@
 typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
 
 typedef struct {
-  SamKernel kernel[KERNELS]; /* NULL until needed */
-  SamKernel slope[2];        /* normal, of pressures linear in x and in y; likewise */
+  SamKernel kernel[KERNELS];  /* NULL until needed */
+  SamKernel slope[XY + 1][2]; /* of tractions linear in x and in y; likewise */
 } HalfSpace;
 
 /* A kernel is a sum of at most two integrals over the cell. */
@@ -184,61 +184,77 @@ static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *con
 
 /* ---- within cells ---- */
 
-typedef struct {
-  const SamSlopeRules *rules;
-  int                  axis;
-  double               dx, dy, factor;
-} SlopeCoefficients;
-
 static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
 {
-  const SlopeCoefficients *c = (const SlopeCoefficients *)context;
-
-  SamSlopeRow(c->rules, c->axis, c->dx, c->dy, j, n, values[0]);
-  for (PetscInt i = 0; i < n; i++) values[0][i] *= c->factor;
+  SamSlopeRow((const SamSlopeKernel *)context, j, n, values[0]);
 }
 
-static PetscErrorCode GetSlopeKernels(SamElasticity e, SamKernelMatrix *matrix)
+/* The kernel of that kind for tractions that are linear along an axis. */
+static PetscErrorCode GetSlopeKernel(SamElasticity e, Kind kind, int axis, SamKernel *kernel)
 {
-  HalfSpace    *data = (HalfSpace *)e->data;
-  SamSlopeRules rules;
+  HalfSpace *data = (HalfSpace *)e->data;
 
   PetscFunctionBegin;
-  if (!data->slope[0]) PetscCall(SamSlopeRulesCreate(&rules));
-  *matrix = (SamKernelMatrix){.n_in = 2, .n_out = 1, .scale = {{1, 1}}};
-  for (int axis = 0; axis < 2; axis++) {
-    const SlopeCoefficients c        = {&rules, axis, e->grid->dx, e->grid->dy, e->pair.normal};
-    const PetscBool         odd[][2] = {{axis ? PETSC_FALSE : PETSC_TRUE, axis ? PETSC_TRUE : PETSC_FALSE}};
+  if (!data->slope[kind][axis]) {
+    const SamPair  *pair     = &e->pair;
+    const PetscBool odd[][2] = {
+      {(kind == XY) != (axis == 0) ? PETSC_TRUE : PETSC_FALSE, (kind == XY) != (axis == 1) ? PETSC_TRUE : PETSC_FALSE}};
+    SamSlopeRules  rules;
+    SamSlopeKernel c = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy};
 
-    if (!data->slope[axis]) PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, &data->slope[axis]));
-    matrix->kernel[0][axis] = data->slope[axis];
+    PetscCall(SamSlopeRulesCreate(&rules));
+    c.r  = kind == ZZ ? pair->normal : kind == XY ? 0 : pair->shear;
+    c.xx = kind == XX ? pair->shear_xx : 0;
+    c.yy = kind == YY ? pair->shear_xx : 0;
+    c.xy = kind == XY ? pair->shear_xx : 0;
+    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, &data->slope[kind][axis]));
   }
+  *kernel = data->slope[kind][axis];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ApplyNormalSlopes(SamElasticity e, const double *const slopes[], double *const u_z[])
 {
-  SamKernelMatrix matrix;
+  SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{1, 1}}};
 
   PetscFunctionBegin;
-  PetscCall(GetSlopeKernels(e, &matrix));
+  for (int axis = 0; axis < 2; axis++) PetscCall(GetSlopeKernel(e, ZZ, axis, &matrix.kernel[0][axis]));
   PetscCall(SamConvolve(e->fourier, &matrix, slopes, u_z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
+static PetscErrorCode ApplyTangentialSlopes(SamElasticity e, int axis, const double *const slopes[],
+                                            double *const u_t[])
 {
-  const double   dx = e->grid->dx / (double)sub, dy = e->grid->dy / (double)sub;
-  const PetscInt lags = 2 * reach + 1, cells = sub * sub;
+  SamKernelMatrix matrix = {.n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}};
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < lags; j++)
-    for (PetscInt l = 0; l < sub; l++)
-      for (PetscInt i = 0; i < lags; i++)
-        for (PetscInt k = 0; k < sub; k++)
-          table[(j * lags + i) * cells + l * sub + k] =
-            e->pair.normal *
-            SamIntegralCell(SAM_INTEGRAL_R, dx, dy, (i - reach) * sub + sub / 2 - k, (j - reach) * sub + sub / 2 - l);
+  PetscCall(GetSlopeKernel(e, XX, axis, &matrix.kernel[0][0]));
+  PetscCall(GetSlopeKernel(e, XY, axis, &matrix.kernel[0][1]));
+  PetscCall(GetSlopeKernel(e, YY, axis, &matrix.kernel[1][1]));
+  matrix.kernel[1][0] = matrix.kernel[0][1];
+  PetscCall(SamConvolve(e->fourier, &matrix, slopes, u_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetNear(SamElasticity e, SamElasticityKernel kernel, PetscInt reach, PetscInt sub, double table[])
+{
+  static const Kind kinds[] = {
+    [SAM_ELASTICITY_ZZ] = ZZ, [SAM_ELASTICITY_XX] = XX, [SAM_ELASTICITY_YY] = YY, [SAM_ELASTICITY_XY] = XY};
+
+  const Coefficients c  = GetCoefficients(e, kinds[kernel]);
+  const double       dx = c.dx / (double)sub, dy = c.dy / (double)sub;
+  const PetscInt     lags = 2 * reach + 1, cells = sub * sub;
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < lags * lags * cells; n++) {
+    const PetscInt lag = n / cells, cell = n % cells;
+    const PetscInt i = (lag % lags - reach) * sub + sub / 2 - cell % sub,
+                   j = (lag / lags - reach) * sub + sub / 2 - cell / sub;
+
+    table[n] = c.factor[0] * SamIntegralCell(c.integral[0], dx, dy, i, j);
+    if (c.factor[1] != 0) table[n] += c.factor[1] * SamIntegralCell(c.integral[1], dx, dy, i, j);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -257,7 +273,8 @@ static PetscErrorCode Destroy(SamElasticity e)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
-  for (PetscInt k = 0; k < 2; k++) PetscCall(SamKernelDestroy(&data->slope[k]));
+  for (PetscInt k = 0; k <= XY; k++)
+    for (PetscInt axis = 0; axis < 2; axis++) PetscCall(SamKernelDestroy(&data->slope[k][axis]));
   PetscCall(PetscFree(e->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -287,6 +304,7 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .applynormaltotangential = ApplyNormalToTangential,
                                  .applytangentialtonormal = ApplyTangentialToNormal,
                                  .applynormalslopes       = ApplyNormalSlopes,
+                                 .applytangentialslopes   = ApplyTangentialSlopes,
                                  .getnear                 = GetNear};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

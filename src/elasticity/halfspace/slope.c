@@ -1,5 +1,5 @@
 /*
-  Integrals of 1/r over a cell whose traction is linear, and zero in the mean.
+  Integrals of kernels of degree -1 in r over a cell whose traction is linear, and zero in the mean.
 
   Method: Gauss' quadrature over parts of the cell that are nearly square, and no longer than a fifth of the distance
   where that is more. If the nearest singularity lies t half sides from a part, n points in each direction are wrong by
@@ -33,22 +33,28 @@ static int RuleFor(double distance, double side)
   return t >= 60 ? 0 : t >= 9 ? 1 : t >= 3 ? 2 : 3;
 }
 
-/* values[i] += weight over the distance of a place that lies (x + i dx, y) from the point. */
-SAM_VECTORIZED static void AddPlace(double weight, double x, double dx, double y, PetscInt n, double *restrict values)
+/* values[i] += weight times the kernel at a point that lies (x + i dx, y) from a place. */
+SAM_VECTORIZED static void AddPlace(const SamSlopeKernel *restrict kernel, double weight, double x, double y,
+                                    PetscInt n, double *restrict values)
 {
+  const double r = weight * kernel->r, xx = weight * kernel->xx, yy = weight * kernel->yy, xy = weight * kernel->xy;
+  const double dx = kernel->dx;
+
 #pragma omp simd
   for (PetscInt i = 0; i < n; i++) {
-    const double at = x + (double)i * dx;
+    const double at = x + (double)i * dx, square = 1 / (at * at + y * y);
 
-    values[i] += weight / sqrt(at * at + y * y);
+    values[i] += sqrt(square) * (r + square * (xx * at * at + (yy * y + xy * at) * y));
   }
 }
 
 /* Adds the integrals over n cells of a row from (x, y) on, by parts and the rule k. */
-static void AddCells(const SamSlopeRules *rules, int k, int axis, const double cell[2], const int parts[2], double x,
-                     double y, PetscInt n, double values[])
+static void AddCells(const SamSlopeKernel *kernel, int k, const int parts[2], double x, double y, PetscInt n,
+                     double values[])
 {
-  const double side[2] = {cell[0] / parts[0], cell[1] / parts[1]};
+  const SamSlopeRules *rules   = kernel->rules;
+  const int            axis    = kernel->axis;
+  const double         cell[2] = {kernel->dx, kernel->dy}, side[2] = {cell[0] / parts[0], cell[1] / parts[1]};
 
   for (int part = 0; part < parts[0] * parts[1]; part++)
     for (int b = 0; b < 2 << k; b++)
@@ -56,14 +62,14 @@ static void AddCells(const SamSlopeRules *rules, int k, int axis, const double c
         const double at[2] = {(part % parts[0] + 0.5 + rules->x[k][a]) * side[0] - 0.5 * cell[0],
                               (part / parts[0] + 0.5 + rules->x[k][b]) * side[1] - 0.5 * cell[1]};
 
-        AddPlace(side[0] * side[1] * rules->w[k][a] * rules->w[k][b] * at[axis] / cell[axis], x - at[0], cell[0],
+        AddPlace(kernel, side[0] * side[1] * rules->w[k][a] * rules->w[k][b] * at[axis] / cell[axis], x - at[0],
                  y - at[1], n, values);
       }
 }
 
-void SamSlopeRow(const SamSlopeRules *rules, int axis, double dx, double dy, ptrdiff_t j, ptrdiff_t n, double values[])
+void SamSlopeRow(const SamSlopeKernel *kernel, ptrdiff_t j, ptrdiff_t n, double values[])
 {
-  const double cell[2] = {dx, dy}, y = (double)j * dy;
+  const double dx = kernel->dx, dy = kernel->dy, y = (double)j * dy;
 
   for (ptrdiff_t i = 0; i < n; i += BLOCK) {
     const ptrdiff_t first = i == 0 && j == 0 ? 1 : i, end = PetscMin(i + BLOCK, n);
@@ -74,6 +80,6 @@ void SamSlopeRow(const SamSlopeRules *rules, int axis, double dx, double dy, ptr
                                        PetscMax(dx / parts[0], dy / parts[1]));
 
     for (ptrdiff_t k = i; k < end; k++) values[k] = 0;
-    AddCells(rules, rule, axis, cell, parts, (double)first * dx, y, (PetscInt)(end - first), values + first);
+    AddCells(kernel, rule, parts, (double)first * dx, y, (PetscInt)(end - first), values + first);
   }
 }
