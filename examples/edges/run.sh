@@ -1,8 +1,8 @@
 #!/bin/sh
-# Measure what the reconstruction of edges and the correction for them gain on a sphere, an ellipsoid turned on the grid
-# and a rounded punch, against closed solutions, and draw it.
+# Measure what the reconstruction of edges and the correction for them gain, against closed solutions: on a sphere, an
+# ellipsoid turned on the grid and a rounded punch, which it draws; then on spheres that slip to and fro.
 #
-#   examples/edges/run.sh [CELLS...]     cells in each direction (32 64 128 256)
+#   examples/edges/run.sh [CELLS...]     cells in each direction (32 64 128 256; to and fro 64 128 256)
 #
 # Works from any directory. Environment:
 #   PETSAM   the program              (build/bin/petsam of the repository)
@@ -18,3 +18,4 @@ default_n=128
 . "$here/../common.sh"
 
 "$python" "$here/edges.py" "$petsam" "$out" "$@"
+"$python" "$here/slip.py" "$petsam" "$out" "$@"

@@ -183,9 +183,10 @@ PETSC_EXTERN PetscErrorCode SamContactSetWarmStart(SamContact contact, PetscBool
 PETSC_EXTERN PetscErrorCode SamContactAllowEdge(SamContact contact, PetscBool allow);
 /*
   SamContactSetEdges - what is done for the edges of contact and stick: nothing, areas being counted cells, wrong by a
-  part of a cell along the edge; they are reconstructed, which gives areas and point values (edges.h; default); or the
-  pressure is solved again, `passes` times, for the displacement by what it does within the cells along the edge of
-  contact (deferred correction, src/contact/deferred.c). Options -edges and -edges_passes. Not collective.
+  part of a cell along the edge; they are reconstructed, which gives areas and point values (edges.h; default); or
+  pressure and shear are solved again, `passes` times each, for the displacement by what they do within the cells along
+  the edges (deferred correction, src/contact/deferred.c and deferredshear.c). Options -edges and -edges_passes. Not
+  collective.
   Errors: PETSC_ERR_ARG_OUTOFRANGE for less than one pass.
 */
 typedef enum { SAM_CONTACT_EDGES_NONE, SAM_CONTACT_EDGES_RECONSTRUCT, SAM_CONTACT_EDGES_DEFERRED } SamContactEdges;

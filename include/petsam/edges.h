@@ -59,8 +59,8 @@ PETSC_EXTERN PetscErrorCode SamProfileMove(SamProfile profile, PetscBool *found)
   SamProfileGetZone - 1 in cells of the zone, else 0; and the means of the rim's cells (Pa), else 0. Borrowed.
   SamProfileComputeDisplacement - the normal displacement (m) by what a pressure of this profile does within the cells:
   what the influence of the cells' means lacks. For an elasticity whose traits say `within`.
-  SamProfileComputeSlopes - by how much the pressure grows from one side of a cell to the other, along x and along y (two
-  components, Pa).
+  SamProfileComputeSlopes - by how much the pressure grows from one side of a cell to the other, along x and along y
+  (two components, Pa).
   SamProfileGetEdge - the edge, with its points; its share is 1. `point` (NULL: not wanted): the traction's square at
   the cells' centres (Pa2).
 */
@@ -70,19 +70,19 @@ PETSC_EXTERN PetscErrorCode SamProfileComputeSlopes(SamProfile profile, Vec slop
 PETSC_EXTERN PetscErrorCode SamProfileGetEdge(SamProfile profile, Vec point, SamEdge *edge);
 
 /*
-  SamShearProfile - what a shear q does within cells, and the displacement by that. Where a surface slips, q = mu p e, so
-  that it varies as the pressure does; where it sticks, near the edge of the stick zone, q = (mu p - t) e with a slack t
-  that vanishes there like the root of the distance, and has a SamProfile of its own. After a reversal of the load the
-  edges of former stick zones are still in q; then t is the slack of what has come since, against 2 mu p, the
-  change of the shear where it slips back. Elsewhere in the stick zone what the shear does within a cell stays as it was,
-  but for the linear part of what has come since.
+  SamShearProfile - what a shear q does within cells, and the displacement by that. Where a surface slips, q = mu p e,
+  so that it varies as the pressure does; where it sticks, near the edge of the stick zone, q = (mu p - t) e with a
+  slack t that vanishes there like the root of the distance, and has a SamProfile of its own. After a reversal of the
+  load the edges of former stick zones are still in q; then t is the slack of what has come since, against 2 mu p, the
+  change of the shear where it slips back. Elsewhere in the stick zone what the shear does within a cell stays as it
+  was, but for the linear part of what has come since.
 
   SamShearFields - the shear that is looked at, and its limit: fields of pressure (one component), mu p (one component)
   and shear (two), Pa; slips: positive in cells that slip (one component); rim: the given mean slacks of cells outside
   the stick zone that its edge cuts, else 0 (one component).
-  SamShearWithin - what is known of the cells, to be kept from step to step: the slopes of q_x and q_y along x, then along
-  y (Pa over a cell; SAM_SHEAR_SLOPES components), the terms of the cells near edges (SAM_SHEAR_TERMS), and, if `refers`,
-  the shear when the load last turned back, and its slopes (SAM_SHEAR_REFERENCE).
+  SamShearWithin - what is known of the cells, to be kept from step to step: the slopes of q_x and q_y along x, then
+  along y (Pa over a cell; SAM_SHEAR_SLOPES components), the terms of the cells near edges (SAM_SHEAR_TERMS), and, if
+  `refers`, the shear when the load last turned back, and its slopes (SAM_SHEAR_REFERENCE).
   SamShearBefore - the step before: its shear, and what that did within cells.
 */
 typedef struct _n_SamShearProfile *SamShearProfile;
@@ -99,7 +99,9 @@ typedef struct {
   const SamShearWithin *within;
   PetscBool             turned; /* the load has turned back since */
 } SamShearBefore;
-/* What the slack is measured from: it has no profile; the limit of the shear; that of its change since the reference. */
+/*
+  What the slack is measured from: it has no profile; the limit of the shear; that of its change since the reference.
+*/
 typedef enum { SAM_SLACK_NONE, SAM_SLACK_OF_LIMIT, SAM_SLACK_OF_CHANGE } SamSlack;
 /* SamShearProfileCreate - references the elasticity. SamShearProfileDestroy - sets the handle to NULL. Collective. */
 PETSC_EXTERN PetscErrorCode SamShearProfileCreate(SamElasticity elasticity, SamShearProfile *profile);
@@ -110,8 +112,8 @@ PETSC_EXTERN PetscErrorCode SamShearProfileDestroy(SamShearProfile *profile);
   SamShearProfileFindSlack - the slack (one component, Pa, >= 0), and the profile for it; borrowed. `reference`: for the
   slack of the change, whose first two components are used. Not collective.
   SamShearProfileGetProfile - that profile. Not collective.
-  SamShearProfileFind - what the shear does within cells: by the profile of the pressure (NULL: it has none), that of the
-  slack if it has one, and the step before (NULL: none so far); `within` has its reference already. Collective.
+  SamShearProfileFind - what the shear does within cells: by the profile of the pressure (NULL: it has none), that of
+  the slack if it has one, and the step before (NULL: none so far); `within` has its reference already. Collective.
   SamShearProfileComputeDisplacement - the tangential displacement (m) by that: what the influence of the cells' means
   lacks. For an elasticity whose traits say `within`. Collective.
   SamShearComputeCenter - a component of the shear at the cells' centres by that (one component, Pa). Collective.

@@ -12,15 +12,19 @@
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
 
-/* Of the correction for the edge, wear, a life and the tangent stiffness, bytes per cell; first and last measured. */
-#define DEFERRED_BYTES  135
+/*
+  Of the correction for edges, [several steps][friction], of wear, a life and the tangent stiffness, bytes per cell; all
+  but wear and life measured.
+*/
+static const double deferred_bytes[2][2] = {{135, 480}, {135, 950}};
 #define WEAR_BYTES      (6 * 8)
 #define LIFE_BYTES      (15 * 8)
 #define STIFFNESS_BYTES 215
 
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
-  const double more = (needs->deferred ? DEFERRED_BYTES : 0) + (needs->wear ? WEAR_BYTES : 0) +
+  const double more = (needs->deferred ? deferred_bytes[needs->steps > 1][needs->friction] : 0) + (needs->wear ?
+  WEAR_BYTES : 0) +
                       (needs->life ? LIFE_BYTES : 0) + (needs->stiffness ? STIFFNESS_BYTES : 0);
 
   return SAM_MEMORY_PROGRAM +

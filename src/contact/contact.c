@@ -142,7 +142,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(
     SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &edge, NULL));
-  PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, none: count cells, deferred: correct the pressure", edge_words,
+  PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, none: count cells, deferred: solve again for them", edge_words,
                            &edges, NULL));
   PetscCall(SamOptionsInt(&from, "edges_passes", "solutions again with -edges deferred", 1, &passes, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));

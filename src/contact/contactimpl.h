@@ -53,8 +53,8 @@ PETSC_INTERN PetscErrorCode SamSolutionCreateCorrection(SamGrid grid, SamSolutio
 /* SamSolutionCopyCorrection - copies the fields of a correction, where there is one, and the number of passes. */
 PETSC_INTERN PetscErrorCode SamSolutionCopyCorrection(SamGrid grid, const SamSolution *from, SamSolution *to);
 /*
-  SamShearCorrectionCreate - the fields of a correction of the shear, all zero; it says that there is none. Copy - copies
-  what there is. Collective.
+  SamShearCorrectionCreate - the fields of a correction of the shear, all zero; it says that there is none. Copy -
+  copies what there is. Collective.
 */
 PETSC_INTERN PetscErrorCode SamShearCorrectionCreate(SamGrid grid, SamShearCorrection *correction);
 PETSC_INTERN PetscErrorCode SamShearCorrectionDestroy(SamShearCorrection *correction);
@@ -163,7 +163,9 @@ PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamSte
                                                 SamStep *step);
 /* SamContactComputeScalars - the numbers of the tried step that follow from its solution (scalars.c). Collective. */
 PETSC_INTERN PetscErrorCode SamContactComputeScalars(SamContact contact, SamStep *step);
-/* SamContactAddEnergyWithin - adds to a corrected step's elastic energy what cells vary within (within.c). Collective. */
+/*
+  SamContactAddEnergyWithin - adds to a corrected step's elastic energy what cells vary within (within.c). Collective.
+*/
 PETSC_INTERN PetscErrorCode SamContactAddEnergyWithin(SamContact contact, SamStep *step);
 /* SamStepFail - sets status and message unless the step has failed already: later failures follow from the first. */
 PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);

@@ -4,17 +4,17 @@
   Algorithm of a step with friction:
     1. The plain normal and tangential problems, from the plain solution of the step before.
     2. The pressure is corrected (deferred.c), and the tangential problem solved again with it.
-    3. As often again as that of the pressure: from p and q follows what the shear does within cells (edges/shear.c), and
-       the slack mu p - |q| of cells that the stick zone's edge cuts and whose centre slips, the rim. The displacement by
-       it, beyond that of the means, is added to the tangential displacement; the bound of cells on the rim is less by
-       their slack; the tangential problem is solved again, from the last shear.
-  What the shear does within cells has a history, as the shear has, and is kept from step to step. Where the edge of stick
-  is not smooth or not resolved, as in a slip zone of a cell or two, it is left as it is in that step.
+    3. As often again as that of the pressure: from p and q follows what the shear does within cells (edges/shear.c),
+       and the slack mu p - |q| of cells that the stick zone's edge cuts and whose centre slips, the rim. The
+       displacement by it, beyond that of the means, is added to the tangential displacement; the bound of cells on the
+       rim is less by their slack; the tangential problem is solved again, from the last shear.
+  What the shear does within cells has a history, as the shear has, and is kept from step to step. Where the edge of
+  stick is not smooth or not resolved, as in a slip zone of a cell or two, it is left as it is in that step.
 
-  The plain solution goes along because the errors of p and q, of the same operator, cancel in it: its energies are right
-  to the second order of the cell however thin the slip zone is, where the work of a corrected shear on the slip at the
-  centres of cells is not. So they are those of the step. And it stays, p and q, where the pressure is not corrected: to
-  correct only one of them would be worse than none.
+  The plain solution goes along because the errors of p and q, of the same operator, cancel in it: its energies are
+  right to the second order of the cell however thin the slip zone is, where the work of a corrected shear on the slip
+  at the centres of cells is not. So they are those of the step. And it stays, p and q, where the pressure is not
+  corrected: to correct only one of them would be worse than none.
 */
 #include "stepimpl.h"
 
@@ -198,8 +198,8 @@ static PetscErrorCode Start(Deferred *d, SamSlack kind, PetscReal *share, PetscB
 }
 
 /*
-  Which slack the stick zone's edge is found by: the one by which it is smooth. `share`: of the edge that is, 1 without an
-  edge.
+  Which slack the stick zone's edge is found by: the one by which it is smooth. `share`: of the edge that is, 1 without
+  an edge.
 */
 static PetscErrorCode ChooseSlack(Deferred *d, PetscReal *share)
 {

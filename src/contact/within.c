@@ -1,8 +1,8 @@
 /*
   What the variation of the pressure within cells adds to the elastic energy of a corrected solution.
 
-  The energy is a sum over cells of half the mean pressure times the displacement at the centre. The integral over a cell
-  of p u, p having the mean p0 and the slopes m, u the gradient g and second differences d over a cell, is
+  The energy is a sum over cells of half the mean pressure times the displacement at the centre. The integral over a
+  cell of p u, p having the mean p0 and the slopes m, u the gradient g and second differences d over a cell, is
     p0 u + (m_x g_x + m_y g_y)/12 + p0 (d_xx + d_yy)/24
   but for the fourth order of the cell. In the plain solution the error of the pressure makes up for these terms, of a
   corrected one they are what is missing.

@@ -1,10 +1,10 @@
 /*
   What a shear does within cells along the edges of contact and stick.
 
-  Where a surface slips the shear is mu p e, e being against the slip. Near the edge of the stick zone e is continued from
-  where it slips: t = mu p - q.e, the slack, vanishes at that edge like the root of the distance (Cattaneo 1938, Mindlin
-  1949: for similar bodies without Poisson's effect t is the pressure of a contact of the size of the stick zone). So two
-  profiles, of p and of t, say what q does within a cell:
+  Where a surface slips the shear is mu p e, e being against the slip. Near the edge of the stick zone e is continued
+  from where it slips: t = mu p - q.e, the slack, vanishes at that edge like the root of the distance (Cattaneo 1938,
+  Mindlin 1949: for similar bodies without Poisson's effect t is the pressure of a contact of the size of the stick
+  zone). So two profiles, of p and of t, say what q does within a cell:
     q = e (mu p - t), e linear, and what is perpendicular to e linear.
   Elsewhere in the stick zone the shear has a history: edges that a reversal of the load left behind. What it does there
   changes smoothly only, so the former stays and the slopes of the difference are added.
@@ -17,7 +17,9 @@
 #include "shearimpl.h"
 #include <math.h>
 
-/* Cells into the stick zone that the direction of slip is continued to: the window of a reconstruction, and its band. */
+/*
+  Cells into the stick zone that the direction of slip is continued to: the window of a reconstruction, and its band.
+*/
 #define LAYERS 12
 
 PetscErrorCode SamShearProfileCreate(SamElasticity elasticity, SamShearProfile *profile)
@@ -257,6 +259,12 @@ static void SetTerms(const Search *w, const double *fit[2], ptrdiff_t k, PetscIn
   }
 }
 
+/* Does not write what is there already, so that untouched pages take no memory: 200 of 500 bytes a cell of the grid. */
+static void Put(double *to, double value)
+{
+  if (*to != value) *to = value;
+}
+
 /* Others keep theirs. When the load turns back, the edge of stick is left behind. */
 static void KeepTerms(const Search *w, PetscBool only_left, PetscInt at)
 {
@@ -265,12 +273,13 @@ static void KeepTerms(const Search *w, PetscBool only_left, PetscInt at)
   const PetscBool moves = w->turned && (slack[0] != 0 || slack[n] != 0) ? PETSC_TRUE : PETSC_FALSE;
 
   for (int c = 0; c < SAM_TERM; c++) {
-    w->terms[at + (SAM_TERM_LEFT * SAM_TERM + c) * n] =
-      w->terms0[at + ((moves ? SAM_TERM_SLACK : SAM_TERM_LEFT) * SAM_TERM + c) * n];
+    const PetscInt pressure = at + (SAM_TERM_PRESSURE * SAM_TERM + c) * n,
+                   left = at + (SAM_TERM_LEFT * SAM_TERM + c) * n, of_slack = at + (SAM_TERM_SLACK * SAM_TERM + c) * n;
+
+    Put(w->terms + left, w->terms0[moves ? of_slack : left]);
     if (only_left) continue;
-    w->terms[at + (SAM_TERM_PRESSURE * SAM_TERM + c) * n] = w->terms0[at + (SAM_TERM_PRESSURE * SAM_TERM + c) * n];
-    w->terms[at + (SAM_TERM_SLACK * SAM_TERM + c) * n] =
-      moves ? 0 : w->terms0[at + (SAM_TERM_SLACK * SAM_TERM + c) * n];
+    Put(w->terms + pressure, w->terms0[pressure]);
+    Put(w->terms + of_slack, moves ? 0 : w->terms0[of_slack]);
   }
 }
 
@@ -284,8 +293,8 @@ static void FindInCell(const Search *w, PetscInt i, PetscInt row)
   const PetscBool known = w->e.at[0][k] != 0 || w->e.at[1][k] != 0 ? PETSC_TRUE : PETSC_FALSE;
   double          slopes[SAM_SHEAR_SLOPES];
 
-  for (int c = 0; c < SAM_SHEAR_TERMS; c++) w->terms[at + c * n] = 0;
-  for (int c = 0; c < SAM_SHEAR_SLOPES; c++) w->slopes[at + c * n] = 0;
+  for (int c = 0; c < SAM_SHEAR_TERMS; c++) Put(w->terms + at + c * n, 0);
+  for (int c = 0; c < SAM_SHEAR_SLOPES; c++) Put(w->slopes + at + c * n, 0);
   if (!(w->p.at[0][k] > 0) || (!known && w->q.at[0][k] == 0 && w->q.at[1][k] == 0)) return;
   for (int c = 0; c < SAM_SHEAR_SLOPES; c++) slopes[c] = SlopeAt(&w->q, c % 2, c / 2, i, j);
   if (known && (fit[1] || w->slips[at] > 0)) {
@@ -318,12 +327,12 @@ PetscErrorCode SamShearProfileFind(SamShearProfile s, SamProfile pressure, SamSl
     PetscCall(VecGetArrayRead(before->within->terms, &w.terms0));
   }
   PetscCall(VecGetArray(within->reference, &w.reference));
-  PetscCall(VecGetArrayWrite(within->slopes, &w.slopes));
-  PetscCall(VecGetArrayWrite(within->terms, &w.terms));
+  PetscCall(VecGetArray(within->slopes, &w.slopes));
+  PetscCall(VecGetArray(within->terms, &w.terms));
   for (PetscInt row = 0; row < s->grid->rows; row++)
     for (PetscInt i = 0; i < s->grid->nx; i++) FindInCell(&w, i, row);
-  PetscCall(VecRestoreArrayWrite(within->terms, &w.terms));
-  PetscCall(VecRestoreArrayWrite(within->slopes, &w.slopes));
+  PetscCall(VecRestoreArray(within->terms, &w.terms));
+  PetscCall(VecRestoreArray(within->slopes, &w.slopes));
   PetscCall(VecRestoreArray(within->reference, &w.reference));
   if (before) {
     PetscCall(VecRestoreArrayRead(before->within->terms, &w.terms0));

@@ -6,8 +6,8 @@
 #include <math.h>
 
 /*
-  Terms of a cell: the vector that a root is multiplied by, and its quadratic function; of the pressure, of the slack, and
-  of a slack that an edge left behind.
+  Terms of a cell: the vector that a root is multiplied by, and its quadratic function; of the pressure, of the slack,
+  and of a slack that an edge left behind.
 */
 enum { SAM_TERM_VECTOR = 0, SAM_TERM_FUNCTION = 2, SAM_TERM = SAM_TERM_FUNCTION + SAM_FIT_TERMS };
 enum { SAM_TERM_PRESSURE, SAM_TERM_SLACK, SAM_TERM_LEFT, SAM_TERM_KINDS };
@@ -23,8 +23,8 @@ struct _n_SamShearProfile {
 };
 
 /*
-  SamSeen - a field in this rank's rows and `halo` more before and after them. SamSee - fetches it; `components`: at most
-  SAM_SHEAR_TERMS. SamForget - gives it back. Collective.
+  SamSeen - a field in this rank's rows and `halo` more before and after them. SamSee - fetches it; `components`: at
+  most SAM_SHEAR_TERMS. SamForget - gives it back. Collective.
 */
 typedef struct {
   Vec           field;

@@ -28,7 +28,7 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   SamElasticityTraits traits;
   SamContactEdges     edges;
   PetscBool           help, friction, coupling;
-  Vec             gap;
+  Vec                 gap;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
@@ -43,8 +43,8 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   PetscCall(SamContactGetCoupling(s->contact, &coupling));
   PetscCheck(!friction || !traits.coupled || !coupling || edges != SAM_CONTACT_EDGES_DEFERRED || help, from->comm,
              SAM_ERR_USER,
-             "-edges deferred with friction and dissimilar bodies, whose pressure and shear act on each other: expected "
-             "reconstruct or none, or -friction 0, or -coupling none");
+             "-edges deferred with friction and dissimilar bodies, whose pressure and shear act on each other: "
+             "expected reconstruct or none, or -friction 0, or -coupling none");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
