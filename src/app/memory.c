@@ -23,9 +23,9 @@ static const double deferred_bytes[2][2] = {{135, 480}, {135, 950}};
 
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
-  const double more = (needs->deferred ? deferred_bytes[needs->steps > 1][needs->friction] : 0) + (needs->wear ?
-  WEAR_BYTES : 0) +
-                      (needs->life ? LIFE_BYTES : 0) + (needs->stiffness ? STIFFNESS_BYTES : 0);
+  const double more = (needs->deferred ? deferred_bytes[needs->steps > 1][needs->friction] : 0) +
+                      (needs->wear ? WEAR_BYTES : 0) + (needs->life ? LIFE_BYTES : 0) +
+                      (needs->stiffness ? STIFFNESS_BYTES : 0);
 
   return SAM_MEMORY_PROGRAM +
          (bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] + more) * (double)grid->cells;
