@@ -36,6 +36,7 @@ PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 /*
   SamGapSetFromOptions - reads -gap_type (required unless a type has been set), the options of that type, which are all
   required, and -gap_rough_file, -gap_rough_dataset (default /height) for a roughness (m) that is added to the shape.
+  Datasets are separations in m unless their attributes units and quantity say otherwise (README, "Surfaces").
   While the help is printed, the options of all types are listed, none is required, and the gap is left flat.
   Collective. Errors: SAM_ERR_USER for missing or wrong values.
 */
@@ -43,7 +44,7 @@ PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
 /*
   SamGapFill - writes the separation with the roughness (m) into h (one component). Collective. Errors: PETSC_ERR_ORDER
   without a type; SAM_ERR_FILE for a file that cannot be read, is not HDF5, or lacks the dataset, and for a dataset of
-  another shape or with values that are not finite; SAM_ERR_USER when the shape's parameters overflow on this grid.
+  another shape or size, with values that are not finite, or with a unit or quantity that is not known; SAM_ERR_USER when the shape's parameters overflow on this grid.
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
 /*

@@ -8,6 +8,7 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/chunks.h>
 #include <petsam/private/fieldfile.h>
+#include <petsam/private/lengths.h>
 #include <errno.h>
 #include <math.h>
 #include <string.h>
@@ -25,13 +26,19 @@ typedef enum {
   WRONG_RANK,
   WRONG_SHAPE,
   NOT_FINITE,
-  TOO_SMALL
+  TOO_SMALL,
+  WRONG_LENGTHS, /* see lengths.problem */
+  WRONG_SIZE
 } Kind;
 
 typedef struct {
   Kind      kind;
   long long detail[2]; /* UNREADABLE: errno; WRONG_RANK: rank; WRONG_SHAPE: shape; NOT_FINITE, TOO_SMALL: row, column */
+  SamLengths lengths;  /* of a source that is one */
 } Verdict;
+
+/* A surface is stretched to the grid without a word up to this: no instrument's calibration is better. */
+static const double size_tolerance = 1e-3;
 
 /* HDF5 prints its own error stack unless that is switched off; this holds what to restore. */
 typedef struct {
@@ -56,7 +63,7 @@ static void Unsilence(ErrorOutput output)
 PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[])
 {
   const char *prefix = SamOptionsPrefix(from);
-  char        text[64];
+  char        text[96];
   PetscBool   set, print;
 
   PetscFunctionBegin;
@@ -73,7 +80,7 @@ PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions
 
 static Verdict JudgeShape(SamGrid grid, hid_t space)
 {
-  Verdict   verdict = {GOOD, {0, 0}};
+  Verdict   verdict = {.kind = GOOD};
   hsize_t   shape[2];
   const int rank = H5Sget_simple_extent_ndims(space);
 
@@ -92,7 +99,7 @@ static Verdict JudgeDataset(SamGrid grid, hid_t dataset)
 {
   const hid_t       space = H5Dget_space(dataset), type = H5Dget_type(dataset);
   const H5T_class_t kind    = H5Tget_class(type);
-  Verdict           verdict = {DAMAGED, {0, 0}};
+  Verdict           verdict = {.kind = DAMAGED};
 
   if (space >= 0 && type >= 0) {
     verdict = JudgeShape(grid, space);
@@ -123,29 +130,77 @@ static PetscBool HasAllData(hid_t file, hid_t dataset)
   return good;
 }
 
+/* Finds out what the numbers mean, and whether the surface is as large as the grid. */
+static void JudgeLengths(const SamFieldFile *source, SamGrid grid, hid_t file, hid_t dataset, Verdict *verdict)
+{
+  const hsize_t shape[2] = {(hsize_t)grid->ny, (hsize_t)grid->nx};
+  double *const size     = verdict->lengths.size;
+
+  SamLengthsRead(file, dataset, source->dataset, shape, &verdict->lengths);
+  if (verdict->lengths.problem) verdict->kind = WRONG_LENGTHS;
+  for (int d = 0; d < 2 && verdict->kind == GOOD; d++)
+    if (size[d] > 0 && !(fabs(size[d] - grid->width[d]) <= size_tolerance * grid->width[d])) verdict->kind = WRONG_SIZE;
+  for (int d = 0; d < 2; d++)
+    if (!(size[d] > 0)) size[d] = grid->width[d]; /* for the message: one axis may be missing */
+}
+
 /* Examines the file, on one rank. */
 static Verdict Judge(const SamFieldFile *source, SamGrid grid)
 {
-  Verdict     verdict = {GOOD, {0, 0}};
+  Verdict     verdict = {.kind = GOOD};
   struct stat status;
   hid_t       file, dataset;
 
-  if (stat(source->file, &status) || access(source->file, R_OK)) return (Verdict){UNREADABLE, {errno, 0}};
-  if (S_ISDIR(status.st_mode)) return (Verdict){UNREADABLE, {EISDIR, 0}};
-  if (!S_ISREG(status.st_mode)) return (Verdict){NO_FILE, {0, 0}}; /* a pipe would wait for its writer */
-  if (H5Fis_hdf5(source->file) <= 0) return (Verdict){NOT_HDF5, {0, 0}};
+  if (stat(source->file, &status) || access(source->file, R_OK))
+    return (Verdict){.kind = UNREADABLE, .detail = {errno}};
+  if (S_ISDIR(status.st_mode)) return (Verdict){.kind = UNREADABLE, .detail = {EISDIR}};
+  if (!S_ISREG(status.st_mode)) return (Verdict){.kind = NO_FILE}; /* a pipe would wait for its writer */
+  if (H5Fis_hdf5(source->file) <= 0) return (Verdict){.kind = NOT_HDF5};
   file = H5Fopen(source->file, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return (Verdict){DAMAGED, {0, 0}};
+  if (file < 0) return (Verdict){.kind = DAMAGED};
   dataset = H5Dopen2(file, source->dataset, H5P_DEFAULT);
   if (dataset < 0) {
     verdict.kind = NO_DATASET;
   } else {
     verdict = JudgeDataset(grid, dataset);
     if (verdict.kind == GOOD && !HasAllData(file, dataset)) verdict.kind = DAMAGED;
+    if (verdict.kind == GOOD && source->is_length) JudgeLengths(source, grid, file, dataset, &verdict);
     (void)H5Dclose(dataset);
   }
   (void)H5Fclose(file);
   return verdict;
+}
+
+/* The message about a file whose lengths cannot be taken. */
+static PetscErrorCode RaiseLengths(const SamFieldFile *source, SamGrid grid, const Verdict *verdict)
+{
+  const SamLengths *const lengths = &verdict->lengths;
+  const char *const option = source->file_option, *const prefix = source->prefix, *const file = source->file;
+  const char *const of = lengths->name[0] ? lengths->name : source->dataset;
+
+  PetscFunctionBegin;
+  PetscCheck(verdict->kind != WRONG_SIZE, grid->comm, SAM_ERR_FILE,
+             "-%s%s %s: %s is a surface of %.10g m x %.10g m by its x and y or its size, but the grid is %.10g m x "
+             "%.10g m: give -grid_size %.10g,%.10g, or bring the surface to the grid",
+             prefix, option, file, source->dataset, lengths->size[0], lengths->size[1], (double)grid->width[0],
+             (double)grid->width[1], lengths->size[0], lengths->size[1]);
+  switch (lengths->problem) {
+  case SAM_LENGTHS_BAD_UNITS:
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s: its attribute units is \"%s\": known are " SAM_LENGTHS_UNITS,
+            prefix, option, file, of, lengths->text);
+  case SAM_LENGTHS_BAD_QUANTITY:
+    SETERRQ(grid->comm, SAM_ERR_FILE,
+            "-%s%s %s: %s: its attribute quantity is \"%s\": known are " SAM_LENGTHS_QUANTITIES
+            " (heights of body 1 or 2, positive out of the body)",
+            prefix, option, file, of, lengths->text);
+  case SAM_LENGTHS_FALLING_AXIS:
+    SETERRQ(grid->comm, SAM_ERR_FILE,
+            "-%s%s %s: %s falls along the file, so the surface would be mirrored: turn it and the values of %s round",
+            prefix, option, file, of, source->dataset);
+  default: /* SAM_LENGTHS_BAD_SIZE */
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s: its attribute size is not two positive numbers: x, y in m", prefix,
+            option, file, of);
+  }
 }
 
 static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verdict *verdict)
@@ -185,6 +240,10 @@ static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verd
   case TOO_SMALL:
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s[%lld, %lld] is less than %g", source->prefix, source->file_option,
             file, dataset, detail[0], detail[1], (double)source->least);
+  case WRONG_LENGTHS:
+  case WRONG_SIZE:
+    PetscCall(RaiseLengths(source, grid, verdict));
+    PetscFunctionReturn(PETSC_SUCCESS);
   default: /* DAMAGED */
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s cannot be read: the file is damaged or in use", source->prefix,
             source->file_option, file, dataset);
@@ -204,9 +263,10 @@ static void JudgeCase(void *data)
   c->verdict = Judge(c->source, c->grid);
 }
 
-static PetscErrorCode CheckFile(const SamFieldFile *source, SamGrid grid)
+/* Raises an error for a file that is no good; otherwise returns what its values are to be multiplied with. */
+static PetscErrorCode CheckFile(const SamFieldFile *source, SamGrid grid, double *factor)
 {
-  Case        c = {.source = source, .grid = grid, .verdict = {GOOD, {0, 0}}};
+  Case        c = {.source = source, .grid = grid, .verdict = {.kind = GOOD}};
   PetscMPIInt rank;
 
   PetscFunctionBegin;
@@ -214,6 +274,7 @@ static PetscErrorCode CheckFile(const SamFieldFile *source, SamGrid grid)
   if (rank == 0 && !SamCallInChild(JudgeCase, &c, sizeof(c))) c.verdict.kind = DAMAGED;
   PetscCallMPI(MPI_Bcast(&c.verdict, (PetscMPIInt)sizeof(c.verdict), MPI_BYTE, 0, grid->comm));
   PetscCall(Raise(source, grid, &c.verdict));
+  *factor = source->is_length ? c.verdict.lengths.factor : 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -261,7 +322,7 @@ static PetscErrorCode Read(const SamFieldFile *source, SamGrid grid, double arra
   if (dataset >= 0 && H5Dclose(dataset) < 0) bad = 1;
   if (file >= 0 && H5Fclose(file) < 0) bad = 1;
   PetscCall(SamMax(grid->comm, 1, &bad));
-  if (bad != 0) PetscCall(Raise(source, grid, &(Verdict){DAMAGED, {0, 0}}));
+  if (bad != 0) PetscCall(Raise(source, grid, &(Verdict){.kind = DAMAGED}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -281,8 +342,10 @@ static PetscErrorCode CheckValues(const SamFieldFile *source, SamGrid grid, cons
       bad[1] = cell;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_LONG_LONG, MPI_MIN, grid->comm));
-  if (bad[0] != none) PetscCall(Raise(source, grid, &(Verdict){NOT_FINITE, {bad[0] / grid->nx, bad[0] % grid->nx}}));
-  if (bad[1] != none) PetscCall(Raise(source, grid, &(Verdict){TOO_SMALL, {bad[1] / grid->nx, bad[1] % grid->nx}}));
+  if (bad[0] != none)
+    PetscCall(Raise(source, grid, &(Verdict){.kind = NOT_FINITE, .detail = {bad[0] / grid->nx, bad[0] % grid->nx}}));
+  if (bad[1] != none)
+    PetscCall(Raise(source, grid, &(Verdict){.kind = TOO_SMALL, .detail = {bad[1] / grid->nx, bad[1] % grid->nx}}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -290,13 +353,15 @@ static PetscErrorCode CheckValues(const SamFieldFile *source, SamGrid grid, cons
 static PetscErrorCode CheckAndRead(const SamFieldFile *source, SamGrid grid, Vec h)
 {
   PetscScalar *array;
+  double       factor;
 
   PetscFunctionBegin;
-  PetscCall(CheckFile(source, grid));
+  PetscCall(CheckFile(source, grid, &factor));
   PetscCall(VecGetArrayWrite(h, &array));
   PetscCall(Read(source, grid, array));
   PetscCall(CheckValues(source, grid, array));
   PetscCall(VecRestoreArrayWrite(h, &array));
+  if (factor != 1) PetscCall(VecScale(h, factor));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -14,7 +14,8 @@ typedef struct {
   char        prefix[SAM_PREFIX];           /* of the options */
   const char *file_option, *dataset_option; /* without prefix and dash */
   const char *default_dataset, *unit;
-  PetscReal   least; /* values below are refused */
+  PetscReal   least;   /* values below are refused */
+  PetscBool is_length; /* a separation, or heights of one body: attributes say which, in which unit and on what size */
 } SamFieldFile;
 
 /*
@@ -23,9 +24,11 @@ typedef struct {
 */
 PETSC_EXTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[]);
 /*
-  SamFieldFileRead - reads the dataset into a field (one component); its rows are y. Collective. Errors: SAM_ERR_FILE
-  for a file that cannot be read or is not HDF5, and for a dataset that is missing, has another shape than (ny, nx),
-  does not hold numbers, or has values that are not finite or below the limit.
+  SamFieldFileRead - reads the dataset into a field (one component); its rows are y. Lengths become a separation in m as
+  the dataset's attributes have it (SamLengthsRead). Collective. Errors: SAM_ERR_FILE for a file that cannot be read or
+  is not HDF5, for a dataset that is missing, has another shape than (ny, nx), does not hold numbers, or has values that
+  are not finite or below the limit, and for lengths with an unknown unit or quantity, or of a surface whose size is not
+  the grid's.
 */
 PETSC_EXTERN PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec field);
 

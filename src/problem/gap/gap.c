@@ -48,13 +48,15 @@ PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
   g->source = (SamFieldFile){.file_option     = "gap_file",
                              .dataset_option  = "gap_dataset",
                              .default_dataset = "/height",
-                             .unit            = "m",
-                             .least           = PETSC_NINFINITY};
+                             .unit            = "m unless its units say otherwise",
+                             .least           = PETSC_NINFINITY,
+                             .is_length       = PETSC_TRUE};
   g->rough  = (SamFieldFile){.file_option     = "gap_rough_file",
                              .dataset_option  = "gap_rough_dataset",
                              .default_dataset = "/height",
-                             .unit            = "m",
-                             .least           = PETSC_NINFINITY};
+                             .unit            = "m unless its units say otherwise",
+                             .least           = PETSC_NINFINITY,
+                             .is_length       = PETSC_TRUE};
   *gap      = g;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
