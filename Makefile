@@ -113,7 +113,9 @@ $(B)/venv/done: scripts/requirements.txt
 # what only the tests need; where an optional package has no wheel, its tests are skipped with a message
 $(B)/venv/tests-done: tests/requirements.txt tests/requirements-optional.txt $(B)/venv/done
 	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
-	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r tests/requirements-optional.txt || echo "not installed: $$(cat tests/requirements-optional.txt); its tests will be skipped"
+	@while read -r package; do \
+	  $(B)/venv/bin/python -m pip install -q --disable-pip-version-check "$$package" || echo "not installed: $$package; its tests will be skipped"; \
+	done < tests/requirements-optional.txt
 	touch $@
 
 test: all units bench-programs $(B)/venv/tests-done ## run all tests
@@ -137,7 +139,7 @@ check-mutants: $(B)/venv/tests-done ## change lines that guard correctness, one 
 
 # the format of the sources; the tests' environment has the formatters in fixed versions
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
-PYTHON_SOURCES := scripts examples tests scripts/petsam-plot scripts/petsam-study
+PYTHON_SOURCES := scripts examples tests scripts/petsam-plot scripts/petsam-study scripts/petsam-surface
 format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.toml
 	@$(B)/venv/bin/clang-format -i $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)

@@ -9,6 +9,7 @@ open            reading of files of petsam and petsam-stress: Results (results.p
 closed          closed solutions of contact mechanics
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
+surface         measured surfaces into petsam's HDF5: petsam-surface
 comparison      what the examples' comparisons with other solutions share
 isolation       reading of files that may be damaged, in a child process
 environment     where the interpreter, its libraries and petsam are found

@@ -1,0 +1,229 @@
+"""Bring measured surfaces into petsam: units, sign, tilt and form, window, grid; two surfaces into a separation.
+
+    petsam-surface rough.npy --body 2 --units um --size 1mm --level tilt
+    petsam-surface scan.sur --body 1 --mirror x --level sphere --grid-n 512 -o top.h5
+    petsam-surface top.h5 bottom.h5 -o pair.h5         heights of body 1 and 2 make a separation
+
+Reads NumPy's .npy, text (.csv, .txt: a line for each y, a number for each x), HDF5 (.h5), and through the library
+SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for petsam's -gap_file and -gap_rough_file,
+and a picture beside it. What a file does not say itself (units, size, body) must be given. A map lies about
+x = y = 0 unless its file says where. Heights are positive out of their body, so a peak of either body reduces the
+separation. In this order a map is turned, cut, filled, levelled, and brought to another grid.
+"""
+
+import argparse
+import os
+import shlex
+import sys
+import warnings
+from dataclasses import replace
+
+from .. import isolation
+from ..errors import Error, Parser, fail, guarded, short
+from ..files import same
+from . import levels, picture, writing
+from .filling import filled
+from .lengths import several, shown, sides, unit
+from .maps import QUANTITIES, combined, cut, peak_to_valley, rms_height, rms_slope
+from .reading import FORMATS, read_map
+from .resampling import resampled
+
+MOST = 1 << 16  # cells in x or y
+SIGNED = ("--window", "--center", "--missing")  # options whose values may begin with a minus sign
+
+
+def cells(text):
+    """Reader of one or two numbers of cells for argparse, x and y."""
+    try:
+        values = [int(word) for word in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) not in (1, 2) or not all(2 <= value <= MOST for value in values):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected one or two whole numbers from 2 to {MOST}: NX[,NY]")
+    return values[0], values[-1]
+
+
+def bodies(text):
+    """Reader of the bodies for argparse, one for each file."""
+    words = text.split(",")
+    if len(words) > 2 or not set(words) <= {"1", "2"}:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected 1 or 2, or one of them for each file: 1,2")
+    return ["height" + word for word in words]
+
+
+def count(text):
+    """Reader of a number from 0 for argparse."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a whole number")
+    return int(text)
+
+
+def _window(text):
+    """Reader of a window for argparse."""
+    window = several(4, "X0,X1,Y0,Y1")(text)
+    if not (window[0] < window[1] and window[2] < window[3]):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected X0 < X1 and Y0 < Y1")
+    return window
+
+
+def _file_options(parser):
+    about = parser.add_argument_group("what a file holds, if it does not say so itself")
+    holds = about.add_mutually_exclusive_group()
+    holds.add_argument("--body", type=bodies, metavar="1|2", help="heights of this body; of two files: 1,2")
+    holds.add_argument("--separation", action="store_true", help="the separation of both bodies")
+    about.add_argument("--units", type=unit, metavar="UNIT", help="unit of the values: m, mm, um, nm, ...")
+    extent = about.add_mutually_exclusive_group()
+    extent.add_argument("--size", type=sides, metavar="X[,Y]", help="full width of all cells: 1e-3 (m) or 1mm")
+    extent.add_argument("--pixel", type=sides, metavar="DX[,DY]", help="instead: width of one")
+    about.add_argument("--first-row", choices=("bottom", "top"), help="y of the first row, as in images top (bottom)")
+    about.add_argument("--transpose", action="store_true", help="a line of the file, or the first index, is x")
+    about.add_argument("--mirror", choices=("x", "y"), help="turn x or y round, as for body 1 seen from its own side")
+    about.add_argument("--depths", action="store_true", help="values are positive into the body: valleys are large")
+    about.add_argument("--missing", type=float, metavar="VALUE", help="this value stands for a missing point")
+    reader = parser.add_argument_group("how it is read")
+    reader.add_argument("--format", choices=FORMATS, help="instead of by the end of its name")
+    reader.add_argument("--decimal", choices=("point", "comma"), default="point", help="of numbers in a text (point)")
+    reader.add_argument("--skip-rows", type=count, default=0, metavar="K", help="first lines of a text to leave out")
+    reader.add_argument("--skip-columns", type=count, default=0, metavar="K", help="first columns likewise")
+    reader.add_argument("--dataset", metavar="NAME", help="of HDF5 (/height, or /separation)")
+    reader.add_argument("--channel", metavar="NAME|K", help="of an instrument's file (its heights)")
+
+
+def arguments(words):
+    """Read the command line."""
+    parser = Parser(prog="petsam-surface", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="+", metavar="FILE", help="one map, or two for a separation")
+    _file_options(parser)
+    done = parser.add_argument_group("what is done")
+    done.add_argument("--window", type=_window, metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
+    done.add_argument("--fill", choices=("smooth", "nearest"), help="missing points: from their rim, from the nearest")
+    done.add_argument(
+        "--level", choices=levels.KINDS, default="none", help="what is taken off, by least squares (none)"
+    )
+    done.add_argument(
+        "--grid-n", type=cells, metavar="NX[,NY]", help="cells of another grid; values are means over them"
+    )
+    done.add_argument("--grid-size", type=sides, metavar="X[,Y]", help="its full width, about the map's middle (all)")
+    done.add_argument(
+        "--center", type=several(2, "X,Y"), metavar="X,Y", help="where the middle lies then (where it is)"
+    )
+    out = parser.add_argument_group("what is written")
+    out.add_argument("-o", "--output", metavar="NAME.h5", help="(the first file's name, here)")
+    out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
+    out.add_argument("--no-picture", action="store_true", help="draw none")
+    options = parser.parse_args(_joined(words))
+    if len(options.files) > 2:
+        parser.error(f"{len(options.files)} files: expected one, or two for a separation")
+    if options.body and len(options.body) not in (1, len(options.files)):
+        parser.error(f"--body: {len(options.body)} bodies for {len(options.files)} file: expected one for each")
+    if options.separation and options.depths:
+        parser.error("--depths: is for heights, not for a separation")
+    base = os.path.splitext(os.path.basename(options.files[0]))[0]
+    options.output = options.output or base + ".h5"
+    options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
+    if not options.picture.lower().endswith(".png"):
+        parser.error(f"--picture: {short(options.picture)}: expected a name that ends in .png")
+    return options
+
+
+def _joined(words):
+    """Values that begin with a minus sign as `--option=value`: argparse would take them for options."""
+    joined, words = [], list(words)
+    while words:
+        word = words.pop(0)
+        joined.append(f"{word}={words.pop(0)}" if word in SIGNED and words else word)
+    return joined
+
+
+def prepared(path, options, quantity):
+    """The map of one file after all that is done to a single map; says what that was."""
+    one, remarks = read_map(path, options, quantity)
+    if options.window:
+        one = cut(one, options.window)
+        remarks.append("cut to {} x {} points".format(*one.n))
+    one, missing = filled(one, options.fill)
+    if missing:
+        remarks.append(f"{missing} missing point{'s' if missing > 1 else ''} filled ({options.fill})")
+    one, taken = levels.levelled(one, options.level)
+    if taken:
+        remarks.append(taken)
+    if options.grid_n or options.grid_size:
+        before = one.n
+        one = resampled(one, options.grid_n, options.grid_size)
+        remarks.append("from {} x {} points to {} x {} cells".format(*before, *one.n))
+    print(f"{path}: {QUANTITIES[one.quantity]}")
+    for remark in remarks:
+        print("  " + remark)
+    return one
+
+
+def said(one):
+    """Lines that describe a map."""
+    n, cell, size, center = one.n, one.cell, one.size, one.center
+    low, high = (shown(float(value)) for value in (one.values.min(), one.values.max()))
+    slopes = levels.tilt(one)
+    return [
+        "cells   {} x {} of {} x {}".format(*n, *map(shown, cell)),
+        "size    {} x {} about x = {:g} m, y = {:g} m".format(*map(shown, size), *center),
+        f"height  Sq {shown(rms_height(one))}, peak to valley {shown(peak_to_valley(one))}, from {low} to {high}",
+        f"slope   Sdq {rms_slope(one):.4g}; of the mean plane {slopes[0]:.3g} in x, {slopes[1]:.3g} in y",
+    ]
+
+
+def petsam_options(one, path):
+    """petsam's options for the surface as the gap, and as roughness on another."""
+    name = shlex.quote(path)
+    grid = "-grid_n {},{} -grid_size {:.10g},{:.10g}".format(*one.n, *one.size)
+    if any(one.center):
+        grid += " -grid_center {:.10g},{:.10g}".format(*one.center)
+    which = f"_dataset /{writing.dataset(one)}" if writing.dataset(one) != "height" else ""
+    gap, rough = (f" -{kind}{which}" if which else "" for kind in ("gap", "gap_rough"))
+    return f"-gap_type file -gap_file {name}{gap} {grid}", f"-gap_rough_file {name}{rough} {grid}"
+
+
+def carry_out(options, words):
+    """Read, combine, write, draw and say; in a child, as files are read here."""
+    outputs = [options.output] + ([] if options.no_picture else [options.picture])
+    for name in outputs:
+        if any(same(name, path) for path in options.files):
+            raise Error(f"{name}: would replace what is read: --output gives another name")
+    writing.need_own(options.output)
+    quantities = ["separation"] if options.separation else options.body or [None]
+    if len(quantities) < len(options.files):
+        quantities = quantities * len(options.files)
+    maps = [prepared(path, options, quantity) for path, quantity in zip(options.files, quantities)]
+    one = maps[0] if len(maps) == 1 else combined(*maps)
+    if options.center:
+        one = replace(one, center=options.center)
+    if not picture.finite(one):
+        raise Error(f"{one.name}: holds numbers that are too large")
+    writing.write(one, options.output, shlex.join(["petsam-surface", *words]))
+    if not options.no_picture:
+        picture.save(one, options.picture)
+    print(f"{options.output}: /{writing.dataset(one)}, {QUANTITIES[one.quantity]}, m")
+    print("\n".join("  " + line for line in said(one)))
+    if not options.no_picture:
+        print("wrote " + options.picture)
+    gap, rough = petsam_options(one, options.output)
+    print(f"options for petsam:\n  {gap}\nor, added to another gap:\n  {rough}")
+
+
+def _child(options, words):
+    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
+    try:
+        carry_out(options, words)
+    except (Error, OSError) as error:
+        return fail("petsam-surface", error)
+    return 0
+
+
+def main():
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or does not say enough."""
+
+    def parent():
+        words = sys.argv[1:]
+        options = arguments(words)
+        (code,) = isolation.each(lambda _: _child(options, words), [None])
+        return fail("petsam-surface", code) if isinstance(code, Error) else code
+
+    return guarded("petsam-surface", parent)

@@ -1,0 +1,66 @@
+"""A picture of a map: the map, and profiles through its middle along x and y."""
+
+import numpy as np
+
+from ..files import need_replaceable
+from ..plot.style import COLORS, STYLE, extent, field, note, plt
+from ..plot.units import label, largest, scale
+from .lengths import shown
+from .maps import QUANTITIES, peak_to_valley, rms_height, rms_slope
+
+CELLS = 1200  # of a map in x or y that are drawn
+WIDE = 1.5  # ratio of the sides from which on the profiles are below the map
+
+
+def _quantity(one, unit):
+    return label("separation" if one.quantity == "separation" else "height", unit)
+
+
+def _map(figure, axes, one, lateral, height):
+    stride = max(1, -(-max(one.n) // CELLS))
+    x, y = one.axis(0), one.axis(1)
+    values = one.values[::stride, ::stride] * height[0]
+    image = field(axes, values, extent(x, y, 1.0 / lateral[0], stride), values.min(), values.max())
+    axes.set(xlabel=label("x", lateral[1]), ylabel=label("y", lateral[1]), aspect="equal")
+    beside = axes.inset_axes([1.03, 0.0, 0.04, 1.0])  # as tall as the map
+    figure.colorbar(image, cax=beside, label=_quantity(one, height[1]))
+
+
+def _profiles(axes, one, lateral, height):
+    row, column = (n // 2 for n in one.values.shape)
+    texts = ("y = {}", "x = {}")
+    places = (one.axis(1)[row], one.axis(0)[column])
+    for d, values in enumerate((one.values[row], one.values[:, column])):
+        name = f"along {'xy'[d]}, " + texts[d].format(shown(places[d])).replace(" um", " µm")
+        axes.plot(one.axis(d) * lateral[0], values * height[0], color=COLORS[d], linewidth=1.0, label=name)
+    axes.set(xlabel=label("x or y", lateral[1]), ylabel=_quantity(one, height[1]))
+    axes.legend()
+
+
+def draw(one):
+    """The figure."""
+    lateral = scale("m", largest([one.axis(0), one.axis(1)]))
+    height = scale("m", largest([one.values]))
+    wide = one.size[0] > WIDE * one.size[1]
+    figure = plt.figure(layout="constrained")
+    figure.set_size_inches((8.0, 7.0) if wide else (11.0, 4.8))
+    first, second = figure.subplots(*((2, 1) if wide else (1, 2)))
+    _map(figure, first, one, lateral, height)
+    _profiles(second, one, lateral, height)
+    numbers = f"Sq {shown(rms_height(one))}, Sdq {rms_slope(one):.3g}, peak to valley {shown(peak_to_valley(one))}"
+    note(figure, f"{QUANTITIES[one.quantity]}: {numbers}".replace(" um", " µm"), 10)
+    return figure
+
+
+def save(one, path):
+    """The picture as a file."""
+    need_replaceable(path)
+    with plt.rc_context(STYLE):
+        figure = draw(one)
+        figure.savefig(path, format="png")
+        plt.close(figure)
+
+
+def finite(one):
+    """Whether the map can be drawn: what overflows cannot."""
+    return bool(np.all(np.isfinite(one.values)))

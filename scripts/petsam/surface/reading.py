@@ -1,0 +1,243 @@
+"""Maps from files: NumPy, text, HDF5, and what the library SurfaceTopography reads.
+
+What a file does not say, the command line must.
+"""
+
+import os
+import sys
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import Error, short
+from ..files import need_regular
+from ..isolation import reading
+from .lengths import KNOWN, metres
+from .maps import QUANTITIES, SAME, new_map, turned
+from .tables import read_table
+
+FORMATS = ("npy", "table", "hdf5", "surfacetopography")
+ENDINGS = {".npy": "npy", ".csv": "table", ".txt": "table", ".h5": "hdf5", ".hdf5": "hdf5"}
+LIBRARY = "SurfaceTopography"
+EVEN = 1e-3  # largest relative difference of the distances of cells
+LATERAL = {"A": "angstrom", "km": None}  # SurfaceTopography's names that are not ours
+
+
+class Told(NamedTuple):
+    """What a file says about its values (all lengths in m); None: it does not say."""
+
+    values: np.ndarray  # (rows, columns)
+    unit: float = None
+    size: tuple = None
+    center: tuple = None
+    quantity: str = None
+    top: bool = None  # whether the first row has the largest y
+    remarks: tuple = ()
+
+
+# ---------------------------------------------------------------- kinds of file
+
+
+def _read_npy(path, _):
+    try:
+        values = np.load(path, allow_pickle=False)
+    except (ValueError, EOFError, OSError) as error:
+        raise Error(f"{path}: is no array of NumPy: {error}") from error
+    if not isinstance(values, np.ndarray) or values.dtype.kind not in "iuf":
+        raise Error(f"{path}: holds no array of real numbers")
+    if values.ndim != 2:
+        raise Error(f"{path}: has shape {values.shape}: a map has two dimensions, (ny, nx)")
+    return Told(values)
+
+
+def _read_table(path, options):
+    values, header = read_table(path, options.decimal, options.skip_rows, options.skip_columns)
+    return Told(values, remarks=(f"{header} header line{'s' if header > 1 else ''} left out",) if header else ())
+
+
+def _attribute(path, data, name):
+    """A text attribute, or None."""
+    value = data.attrs.get(name)
+    value = value.decode(errors="replace") if isinstance(value, bytes) else value
+    if value is not None and not isinstance(value, str):
+        raise Error(f"{path}: {data.name}: its attribute {name} is not a text")
+    return value
+
+
+def _unit(path, data, name):
+    """Metres of what the attribute units says; None without it."""
+    text = _attribute(path, data, "units")
+    if text is not None and metres(text) is None:
+        raise Error(f"{path}: {name}: its attribute units is {short(text)!r}: known are {KNOWN}")
+    return None if text is None else metres(text)
+
+
+def _axis(path, file, name, n):
+    """Width, centre, and whether it falls, of an axis beside the dataset; None if there is none, or without units."""
+    if name not in file or getattr(file[name], "shape", None) != (n,) or n < 2:
+        return None
+    unit = _unit(path, file[name], name)
+    if unit is None:
+        return None
+    axis = file[name][:] * unit
+    steps = np.diff(axis)
+    if not np.all(np.abs(steps - steps.mean()) <= EVEN * abs(steps.mean())) or not steps.mean():
+        raise Error(f"{path}: {name} is not even: a map has cells of one width")
+    width, middle = abs(steps.mean()) * n, (axis[0] + axis[-1]) / 2
+    return width, middle if abs(middle) > SAME * width else 0.0, steps.mean() < 0.0  # 0 but for rounding
+
+
+def _read_hdf5(path, options):
+    import h5py
+
+    with reading(path), h5py.File(path, "r") as file:
+        name = (options.dataset or ("height" if "height" in file else "separation")).strip("/")
+        data = file.get(name)
+        if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
+            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); --dataset names another")
+        values = data[:]
+        quantity = _attribute(path, data, "quantity")
+        if quantity is not None and quantity not in QUANTITIES:
+            known = ", ".join(QUANTITIES)
+            raise Error(f"{path}: /{name}: its attribute quantity is {short(quantity)!r}: known are {known}")
+        unit, group = _unit(path, data, "/" + name), data.parent
+        axes = [_axis(path, group, letter, n) for letter, n in zip("xy", values.shape[::-1])]
+    if None in axes:
+        return Told(values, unit, quantity=quantity)
+    x, y = axes
+    if x[2]:
+        values = values[:, ::-1]
+    return Told(values, unit, (x[0], y[0]), (x[1], y[1]), quantity, y[2])
+
+
+def _library(path):
+    """The library for instruments' files."""
+    try:
+        import SurfaceTopography.IO as library
+    except ImportError as error:
+        raise Error(
+            f"{path}: such a file is read by the library {LIBRARY}, which {sys.executable} has not ({error}): "
+            f"{sys.executable} -m pip install {LIBRARY}"
+        ) from error
+    return library
+
+
+def _channel(path, reader, wanted):
+    """The channel of that number, from 0, or name; without one that of the heights, the first."""
+    names = [channel.name for channel in reader.channels]
+    if wanted is None:
+        return reader.default_channel
+    if wanted in names:
+        return reader.channels[names.index(wanted)]
+    if wanted.isdigit() and int(wanted) < len(names):
+        return reader.channels[int(wanted)]
+    told = ", ".join(f"{k} {short(name)}" for k, name in enumerate(names))
+    raise Error(f"{path}: --channel {short(wanted)}: there are {told}")
+
+
+def _read_instrument(path, options):
+    library = _library(path)
+    try:
+        with library.open_topography(path) as reader:
+            channel = _channel(path, reader, options.channel)
+            if channel.dim != 2:
+                raise Error(f"{path}: {short(channel.name)} is a line, expected a map")
+            sizes = channel.physical_sizes
+            unknown = {} if sizes is not None else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}
+            topography = channel.topography(**unknown)
+            heights, text = topography.heights(), channel.unit
+            names = [one.name for one in reader.channels]
+    except Error:
+        raise
+    except Exception as error:  # of a library that raises whatever a reader meets
+        reason = type(error).__name__
+        if reason == "CannotDetectFileFormat":  # its text is that of each of its readers
+            raise Error(f"{path}: is of no format that {LIBRARY} knows") from error
+        raise Error(f"{path}: {LIBRARY} cannot read it: {error or reason}") from error
+    heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+    unit = None if text is None else metres(LATERAL.get(text, text) or "")
+    if text is not None and unit is None:
+        raise Error(f"{path}: {short(channel.name)} is in {short(text)}: heights are lengths; --channel names another")
+    remarks = ()
+    if len(names) > 1:
+        remarks = (f"channel {short(channel.name)} of {', '.join(short(name) for name in names)}",)
+    size = tuple(side * unit for side in sizes) if unit and sizes is not None else None
+    # the library's first index is x, and its y goes up
+    return Told(heights.T, unit, size, top=False, remarks=remarks)
+
+
+READERS = {"npy": _read_npy, "table": _read_table, "hdf5": _read_hdf5, "surfacetopography": _read_instrument}
+
+
+# ---------------------------------------------------------------- what files and options say together
+
+
+def _agreed(path, told, given, option):
+    """What the file says or the option does; None if neither does, an Error if one contradicts the other."""
+    if told is None or given is None:
+        return given if told is None else told
+    if not (told == given if isinstance(told, (str, bool)) else np.allclose(told, given, rtol=SAME, atol=0.0)):
+        raise Error(f"{path}: says something else itself than {option}: leave the option out")
+    return told
+
+
+def _need(path, quantity, unit, size):
+    """An Error that names all that neither the file nor an option says."""
+    lacking = [
+        text
+        for value, text in (
+            (quantity, "whether it holds heights (--body 1 or --body 2) or a separation (--separation)"),
+            (unit, "in which unit (--units um or another)"),
+            (size, "how large the surface is (--size X[,Y] or --pixel DX[,DY])"),
+        )
+        if value is None
+    ]
+    if lacking:
+        raise Error(f"{path}: does not say {'; nor '.join(lacking)}: give the options")
+
+
+def _told(path, options):
+    """What the file says."""
+    try:
+        if need_regular(path).st_size == 0:
+            raise Error(f"{path}: is empty")
+        kind = options.format or ENDINGS.get(os.path.splitext(path)[1].lower(), "surfacetopography")
+        return READERS[kind](path, options)
+    except MemoryError as error:
+        raise Error(f"{path}: is too large for the memory") from error
+    except OSError as error:
+        raise Error(f"{path}: cannot be read: {error.strerror or error}") from error
+
+
+def _top(path, told, options):
+    """Whether the first row has the largest y, and what is to be said about it."""
+    if told.top is None:
+        turned_round = "" if options.first_row else "; --first-row top turns it round"
+        place = "largest" if options.first_row == "top" else "smallest"
+        return options.first_row == "top", [f"first row at the {place} y{turned_round}"]
+    if options.first_row and (options.first_row == "top") != told.top:
+        raise Error(f"{path}: says itself which way y goes: leave out --first-row")
+    return told.top, []
+
+
+def read_map(path, options, quantity):
+    """The map of a file, its first row at the smallest y, and remarks about the reading.
+
+    quantity is what the options say that it holds, or None. options: of the command line, see command.py.
+    """
+    told = _told(path, options)
+    values = told.values.T if options.transpose else told.values
+    quantity = _agreed(path, told.quantity, quantity, "--body or --separation")
+    unit = _agreed(path, told.unit, options.units, "--units")
+    given = options.size or options.pixel and tuple(w * n for w, n in zip(options.pixel, values.shape[::-1]))
+    size = _agreed(path, told.size, given, "--size or --pixel")
+    _need(path, quantity, unit, size)
+    if options.missing is not None:
+        values = np.where(values == options.missing, np.nan, values)
+    one = new_map(values * (-unit if options.depths else unit), size, quantity, path, told.center or (0.0, 0.0))
+    top, remarks = _top(path, told, options)
+    if quantity == "height1" and told.quantity is None and not options.mirror:
+        remarks.append(
+            "x and y are petsam's, as seen from above; seen from its own side, body 1 is mirrored: --mirror x or y"
+        )
+    return turned(one, top, options.mirror or ""), [*told.remarks, *remarks]

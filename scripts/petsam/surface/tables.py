@@ -1,0 +1,113 @@
+"""Maps in text files: a line a row of the map, a column a point; what cannot be a map is named by its line."""
+
+import codecs
+import re
+
+import numpy as np
+
+from ..errors import Error, short
+
+COMMENTS = ("#", "%")
+# what instruments and spreadsheets write for a point without a value
+MISSING = {"", "nan", "na", "n/a", "bad", "null", "none", "-", "--", "***", "---", "#n/a"}
+DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+POINTS = 9  # lines of three numbers from which on they are taken for points x, y, z
+
+
+def _text(path):
+    """The file's text, whatever its header's letters are written in."""
+    with open(path, "rb") as file:
+        data = file.read()
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data.decode("utf-16", errors="replace")
+    if b"\0" in data[:4096]:
+        raise Error(f"{path}: is not a text")
+    return data.decode("utf-8-sig", errors="replace")
+
+
+def _lines(path, skip):
+    """Numbers, from 1, and contents of the lines that are not empty, skipped or comments."""
+    for number, line in enumerate(_text(path).splitlines(), 1):
+        if number > skip and line.strip() and not line.lstrip().startswith(COMMENTS):
+            yield number, line
+
+
+def _separator(line):
+    """What separates the numbers of a line; None: white space."""
+    return next((mark for mark in (";", "\t", ",") if mark in line), None)
+
+
+def _has_decimal_commas(words, separator):
+    """Whether some of the words are numbers with a comma for a point."""
+    return separator != "," and any(DECIMAL_COMMA.fullmatch(word) for word in words)
+
+
+def _words(line, decimal):
+    """The words of a line, and what separates them."""
+    separator = _separator(line.replace(",", "") if decimal == "comma" else line)
+    if separator == "," and all(DECIMAL_COMMA.fullmatch(word) for word in line.split()) and len(line.split()) > 1:
+        separator = None  # 0,1 0,2 0,3
+    words = [word.strip() for word in line.split(separator)]
+    return words, separator
+
+
+def _number(word):
+    """A word as a number, NaN for what stands for a missing point; None for another text."""
+    if word.lower() in MISSING:
+        return np.nan
+    try:
+        return float(word)
+    except ValueError:
+        return None
+
+
+def _row(path, number, words, separator, decimal):
+    """The numbers of a line."""
+    if decimal == "comma":
+        words = [word.replace(",", ".") for word in words]
+    try:
+        return np.array([float(word) for word in words])
+    except ValueError:
+        values = [_number(word) for word in words]
+    if None in values:
+        word = words[values.index(None)]
+        if decimal != "comma" and _has_decimal_commas(words, separator):
+            raise Error(f"{path}: line {number}: {short(word)} has a decimal comma: give --decimal comma")
+        column = values.index(None) + 1
+        raise Error(
+            f"{path}: line {number}, column {column}: {short(repr(word))} is not a number; "
+            "--skip-rows and --skip-columns leave out what is no height"
+        )
+    return np.array(values, dtype=float)
+
+
+def _is_header(words, decimal):
+    """Whether no word is a number, so that the line can only name something."""
+    words = [word.replace(",", ".") for word in words] if decimal == "comma" else words
+    return not any(_number(word) is not None and word for word in words)
+
+
+def read_table(path, decimal="point", skip_rows=0, skip_columns=0):
+    """Values (rows, columns) of a text file, NaN where one is missing, and the number of header lines left out."""
+    rows, header, first = [], 0, 0
+    for number, line in _lines(path, skip_rows):
+        words, separator = _words(line, decimal)
+        if not rows and _is_header(words, decimal) and not _has_decimal_commas(words, separator):
+            header += 1
+            continue
+        row = _row(path, number, words[skip_columns:], separator, decimal)
+        if rows and row.size != rows[0].size:
+            raise Error(f"{path}: line {number} has {row.size} numbers, line {first} has {rows[0].size}")
+        first = first or number
+        rows.append(row)
+    if not rows:
+        raise Error(f"{path}: has no numbers")
+    values = np.array(rows)
+    if values.shape[1] > 1 and np.all(np.isnan(values[:, -1])) and line.rstrip(" ").endswith((",", ";", "\t")):
+        values = values[:, :-1]  # every line ends with a separator
+    if values.shape[1] == 3 and values.shape[0] >= POINTS:
+        raise Error(
+            f"{path}: three numbers a line are points x, y, z: a map has a line for each y and a number for each x; "
+            "--format surfacetopography reads points on a regular grid"
+        )
+    return values, header
