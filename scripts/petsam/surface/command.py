@@ -144,6 +144,13 @@ def prepared(path, options, quantity):
     one, missing = filled(one, options.fill)
     if missing:
         remarks.append(f"{missing} missing point{'s' if missing > 1 else ''} filled ({options.fill})")
+    if peak_to_valley(one) > max(one.size):
+        texts = [shown(value) for value in (peak_to_valley(one), max(one.size))]
+        print(
+            "petsam-surface: warning: {}: peak to valley {} is more than the size {}: is the unit right, and "
+            "does no value stand for missing points (--missing)?".format(short(path), *texts),
+            file=sys.stderr,
+        )
     one, taken = levels.levelled(one, options.level)
     if taken:
         remarks.append(taken)

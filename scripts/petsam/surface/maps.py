@@ -13,6 +13,7 @@ QUANTITIES = {
     "separation": "separation of the bodies",
 }
 SMALLEST = 2  # points in x and y: petsam's smallest grid
+HIGHEST = 1e4  # values over the size, beyond which they are none of a surface
 SAME = 1e-6  # relative difference of lengths that are meant to be the same
 
 
@@ -53,6 +54,12 @@ def new_map(values, size, quantity, name, center=(0.0, 0.0)):
         raise Error(f"{name}: has {rows} x {columns} points (rows x columns): a map has at least 2 x 2")
     values = np.array(values, dtype=np.float64)  # a copy: what comes may be read-only, or in another order
     values[~np.isfinite(values)] = np.nan
+    largest = np.max(np.abs(values), initial=0.0, where=~np.isnan(values))
+    if largest > HIGHEST * max(size):
+        raise Error(
+            f"{name}: has values up to {largest:.3g} m: if one stands for missing points, --missing gives it, "
+            "in the file's unit"
+        )
     return Map(values, tuple(size), tuple(center), quantity, name, tuple(np.arange(n) for n in values.shape))
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import Error, short
 from ..files import need_regular
 from ..isolation import reading
+from ..results import DAMAGED
 from .lengths import KNOWN, metres
 from .maps import QUANTITIES, SAME, new_map, turned
 from .tables import read_table
@@ -41,8 +42,10 @@ class Told(NamedTuple):
 def _read_npy(path, _):
     try:
         values = np.load(path, allow_pickle=False)
-    except (ValueError, EOFError, OSError) as error:
-        raise Error(f"{path}: is no array of NumPy: {error}") from error
+    except OSError:
+        raise
+    except Exception as error:  # the header is read as Python, so a damaged one raises anything
+        raise Error(f"{path}: is no array of NumPy: {short(error)}") from error
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "iuf":
         raise Error(f"{path}: holds no array of real numbers")
     if values.ndim != 2:
@@ -205,8 +208,8 @@ def _told(path, options):
         return READERS[kind](path, options)
     except MemoryError as error:
         raise Error(f"{path}: is too large for the memory") from error
-    except OSError as error:
-        raise Error(f"{path}: cannot be read: {error.strerror or error}") from error
+    except DAMAGED as error:
+        raise Error(f"{path}: cannot be read: {getattr(error, 'strerror', None) or short(error)}") from error
 
 
 def _top(path, told, options):
@@ -226,7 +229,8 @@ def read_map(path, options, quantity):
     quantity is what the options say that it holds, or None. options: of the command line, see command.py.
     """
     told = _told(path, options)
-    values = told.values.T if options.transpose else told.values
+    values = np.asarray(told.values, dtype=np.float64)  # before it is scaled: single precision would stay so
+    values = values.T if options.transpose else values
     quantity = _agreed(path, told.quantity, quantity, "--body or --separation")
     unit = _agreed(path, told.unit, options.units, "--units")
     given = options.size or options.pixel and tuple(w * n for w, n in zip(options.pixel, values.shape[::-1]))

@@ -1,8 +1,8 @@
 """A map on another grid, of means over its cells.
 
 Values are taken as means over their cells. Their running integral, a cubic spline through the cells' edges, gives the
-mean over any other cell. So the mean of the surface is kept, coarser cells do not alias what they cannot show, and a
-surface of second order is kept exactly.
+mean over any other cell. So the mean of the surface is kept, waves that coarser cells cannot show are damped instead of
+falsified, and a surface of second order is kept exactly.
 """
 
 from dataclasses import replace
