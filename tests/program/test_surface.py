@@ -340,11 +340,12 @@ def write_hdf5(path, values, attributes, x=None, y=None, units="mm"):
 
 
 def test_a_file_that_says_all_needs_no_option(surface, tmp_path):
-    """Its rows fall in y, as in an image: they are turned."""
+    """Its axes fall, as y does in an image: they are turned."""
     values = np.arange(12.0).reshape(3, 4)
-    write_hdf5(tmp_path / "in.h5", values, dict(units="nm", quantity="height1"), np.arange(4) * 0.1, [3, 2, 1])
+    x, y = [0.3, 0.2, 0.1, 0.0], [3, 2, 1]
+    write_hdf5(tmp_path / "in.h5", values, dict(units="nm", quantity="height1"), x, y)
     surface("in.h5", "-o", "out.h5")
-    assert_close(stored(tmp_path / "out.h5"), values[::-1] * 1e-9, 1e-15)
+    assert_close(stored(tmp_path / "out.h5"), values[::-1, ::-1] * 1e-9, 1e-15)
     assert_close(stored(tmp_path / "out.h5", "x"), np.arange(4) * 1e-4, 1e-13)
     assert_close(stored(tmp_path / "out.h5", "y"), [1e-3, 2e-3, 3e-3], 1e-13)
     with h5py.File(tmp_path / "out.h5") as file:

@@ -95,7 +95,7 @@ static void Write(const Words *words)
   (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
-/* Reads the file as a gap, or as a roughness on a flat one; the error, and the factor between what is read and stored. */
+/* Reads the file as a gap, or as a roughness on a flat one. The error, and the factor from what is stored to that. */
 static PetscErrorCode Read(const Words *words, PetscBool rough, double *factor)
 {
   const PetscInt  n[2]      = {NX, NY};

@@ -1,6 +1,8 @@
 """A picture of a map: the map, and profiles through its middle along x and y."""
 
 import numpy as np
+from matplotlib.ticker import FixedLocator, MaxNLocator
+from mpl_toolkits.axes_grid1 import make_axes_locatable
 
 from ..files import need_replaceable
 from ..plot.style import COLORS, STYLE, extent, field, note, plt
@@ -9,6 +11,9 @@ from .lengths import shown
 from .maps import QUANTITIES, peak_to_valley, rms_height, rms_slope
 
 CELLS = 1200  # of a map in x or y that are drawn
+SIDE = 6.5  # inches of the map's longer side
+TICKS = 6  # along the longer side
+NARROW = 0.25  # share of the longer side that has room for one tick only
 WIDE = 1.5  # ratio of the sides from which on the profiles are below the map
 
 
@@ -22,8 +27,14 @@ def _map(figure, axes, one, lateral, height):
     values = one.values[::stride, ::stride] * height[0]
     image = field(axes, values, extent(x, y, 1.0 / lateral[0], stride), values.min(), values.max())
     axes.set(xlabel=label("x", lateral[1]), ylabel=label("y", lateral[1]), aspect="equal")
-    beside = axes.inset_axes([1.03, 0.0, 0.04, 1.0])  # as tall as the map
-    figure.colorbar(image, cax=beside, label=_quantity(one, height[1]))
+    for d, scaled in enumerate((axes.xaxis, axes.yaxis)):
+        share = min(1.0, one.size[d] / one.size[1 - d])
+        few = FixedLocator([one.center[d] * lateral[0]])  # where two labels would collide
+        scaled.set_major_locator(few if share < NARROW else MaxNLocator(max(2, round(TICKS * share))))
+    # as tall as the map, whatever that is
+    beside = make_axes_locatable(axes).append_axes("right", size=0.15, pad=0.12)
+    ticks = MaxNLocator(max(2, round(TICKS * min(1.0, one.size[1] / one.size[0]))))
+    figure.colorbar(image, cax=beside, label=_quantity(one, height[1]), ticks=ticks)
 
 
 def _profiles(axes, one, lateral, height):
@@ -34,17 +45,21 @@ def _profiles(axes, one, lateral, height):
         name = f"along {'xy'[d]}, " + texts[d].format(shown(places[d])).replace(" um", " µm")
         axes.plot(one.axis(d) * lateral[0], values * height[0], color=COLORS[d], linewidth=1.0, label=name)
     axes.set(xlabel=label("x or y", lateral[1]), ylabel=_quantity(one, height[1]))
-    axes.legend()
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)  # where no curve can be
 
 
 def draw(one):
     """The figure."""
     lateral = scale("m", largest([one.axis(0), one.axis(1)]))
     height = scale("m", largest([one.values]))
-    wide = one.size[0] > WIDE * one.size[1]
-    figure = plt.figure(layout="constrained")
-    figure.set_size_inches((8.0, 7.0) if wide else (11.0, 4.8))
-    first, second = figure.subplots(*((2, 1) if wide else (1, 2)))
+    ratio = one.size[1] / one.size[0]
+    if ratio < 1.0 / WIDE:
+        heights = (SIDE * ratio + 1.0, 3.5)
+        figure, (first, second) = plt.subplots(2, 1, height_ratios=heights, figsize=(SIDE + 1.5, sum(heights) + 0.8))
+    else:
+        widths = (SIDE * min(1.0, 0.65 / ratio) + 1.8, 6.0)
+        figure, (first, second) = plt.subplots(1, 2, width_ratios=widths, figsize=(sum(widths), 4.8))
+    figure.set_layout_engine("tight")
     _map(figure, first, one, lateral, height)
     _profiles(second, one, lateral, height)
     numbers = f"Sq {shown(rms_height(one))}, Sdq {rms_slope(one):.3g}, peak to valley {shown(peak_to_valley(one))}"
