@@ -44,8 +44,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
 /*
   SamGapFill - writes the separation with the roughness (m) into h (one component). Collective. Errors: PETSC_ERR_ORDER
   without a type; SAM_ERR_FILE for a file that cannot be read, is not HDF5, or lacks the dataset, and for a dataset of
-  another shape or size, with values that are not finite, or with a unit or quantity that is not known; SAM_ERR_USER when
-  the shape's parameters overflow on this grid.
+  another shape or size, with values that are not finite, or with a unit or quantity that is not known; SAM_ERR_USER
+  when the shape's parameters overflow on this grid.
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
 /*
