@@ -181,7 +181,7 @@ static PetscErrorCode RaiseLengths(const SamFieldFile *source, SamGrid grid, con
   PetscFunctionBegin;
   PetscCheck(verdict->kind != WRONG_SIZE, grid->comm, SAM_ERR_FILE,
              "-%s%s %s: %s is a surface of %.10g m x %.10g m by its x and y or its size, but the grid is %.10g m x "
-             "%.10g m: give -grid_size %.10g,%.10g, or bring the surface to the grid",
+             "%.10g m: give -grid_size %.10g,%.10g, or cut the surface by petsam-surface",
              prefix, option, file, source->dataset, lengths->size[0], lengths->size[1], (double)grid->width[0],
              (double)grid->width[1], lengths->size[0], lengths->size[1]);
   switch (lengths->problem) {

@@ -204,7 +204,12 @@ class Trials:
         with h5py.File(path, "w", libver=chance.choice(("earliest", "latest"))) as f:
             how = chance.choice(({}, dict(chunks=(7, 24)), dict(chunks=(12, 12), compression="gzip", fletcher32=True)))
             f.create_dataset("height", data=np.add.outer(x**2, x**2) / 0.2, **how)
-            f["height"].attrs["units"] = "m"
+            f["height"].attrs.update(units="m", quantity="separation", size=[3.2e-3, 3.2e-3])
+            if chance.random() < 0.5:  # x and y say the size instead
+                del f["height"].attrs["size"]
+            for name in "xy":
+                f[name] = x
+                f[name].attrs["units"] = "m"
         path.write_bytes(mutations.spoil_bytes(chance, path.read_bytes()))
         words = SPHERE.replace("sphere -gap_radius1 0.2 -gap_radius2 0.2", "file -gap_file gap.h5").split()
         return self.judge([*words, "-output", "out.h5"], ranks)
