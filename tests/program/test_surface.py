@@ -358,6 +358,8 @@ def test_a_file_that_says_all_needs_no_option(surface, tmp_path):
     (dict(units="nm", quantity="height1"), True, ["--units", "um"], "--units"),
     (dict(units="nm", quantity="height1"), True, ["--size", "1"], "--size or --pixel"),
     (dict(units="nm", quantity="height1"), True, ["--first-row", "top"], "--first-row"),
+    (dict(units="nm", quantity="height1"), True, ["--transpose"], "--transpose"),
+    (dict(units="nm", quantity="height1"), True, ["--depths"], "--depths"),
     (dict(units="nm"), True, [], "whether it holds heights"),
     (dict(quantity="height1"), True, [], "in which unit"),
     (dict(units="nm", quantity="height1"), False, [], "how large the surface is"),

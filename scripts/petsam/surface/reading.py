@@ -184,7 +184,7 @@ def _agreed(path, told, given, option):
     return told
 
 
-def _need(path, quantity, unit, size):
+def _need(path, kind, quantity, unit, size):
     """An Error that names all that neither the file nor an option says."""
     lacking = [
         text
@@ -196,7 +196,12 @@ def _need(path, quantity, unit, size):
         if value is None
     ]
     if lacking:
-        raise Error(f"{path}: does not say {'; nor '.join(lacking)}: give the options")
+        hint = "" if kind != "table" else f"; a header may, for {LIBRARY}: --format surfacetopography"
+        raise Error(f"{path}: does not say {'; nor '.join(lacking)}: give the options{hint}")
+
+
+def _kind(path, options):
+    return options.format or ENDINGS.get(os.path.splitext(path)[1].lower(), "surfacetopography")
 
 
 def _told(path, options):
@@ -204,12 +209,16 @@ def _told(path, options):
     try:
         if need_regular(path).st_size == 0:
             raise Error(f"{path}: is empty")
-        kind = options.format or ENDINGS.get(os.path.splitext(path)[1].lower(), "surfacetopography")
-        return READERS[kind](path, options)
+        told = READERS[_kind(path, options)](path, options)
     except MemoryError as error:
         raise Error(f"{path}: is too large for the memory") from error
     except DAMAGED as error:
         raise Error(f"{path}: cannot be read: {getattr(error, 'strerror', None) or short(error)}") from error
+    for option, given, said in (("transpose", options.transpose, told.size), ("depths", options.depths, told.quantity)):
+        if given and said is not None:
+            what = "which direction is x" if option == "transpose" else "what its values are"
+            raise Error(f"{path}: says {what} itself: leave out --{option}")
+    return told
 
 
 def _top(path, told, options):
@@ -235,7 +244,7 @@ def read_map(path, options, quantity):
     unit = _agreed(path, told.unit, options.units, "--units")
     given = options.size or options.pixel and tuple(w * n for w, n in zip(options.pixel, values.shape[::-1]))
     size = _agreed(path, told.size, given, "--size or --pixel")
-    _need(path, quantity, unit, size)
+    _need(path, _kind(path, options), quantity, unit, size)
     if options.missing is not None:
         values = np.where(values == options.missing, np.nan, values)
     one = new_map(values * (-unit if options.depths else unit), size, quantity, path, told.center or (0.0, 0.0))
