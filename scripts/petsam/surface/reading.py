@@ -21,7 +21,7 @@ FORMATS = ("npy", "table", "hdf5", "surfacetopography")
 ENDINGS = {".npy": "npy", ".csv": "table", ".txt": "table", ".h5": "hdf5", ".hdf5": "hdf5"}
 LIBRARY = "SurfaceTopography"
 EVEN = 1e-3  # largest relative difference of the distances of cells
-LATERAL = {"A": "angstrom", "km": None}  # SurfaceTopography's names that are not ours
+THEIRS = {"A": "angstrom"}  # SurfaceTopography's names that are not ours
 
 
 class Told(NamedTuple):
@@ -158,9 +158,9 @@ def _read_instrument(path, options):
             raise Error(f"{path}: is of no format that {LIBRARY} knows") from error
         raise Error(f"{path}: {LIBRARY} cannot read it: {error or reason}") from error
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
-    unit = None if text is None else metres(LATERAL.get(text, text) or "")
+    unit = None if text is None else metres(THEIRS.get(text, text))
     if text is not None and unit is None:
-        raise Error(f"{path}: {short(channel.name)} is in {short(text)}: heights are lengths; --channel names another")
+        raise Error(f"{path}: {short(channel.name)} is in {short(text)}, which is none of {KNOWN}; --channel names another")
     remarks = ()
     if len(names) > 1:
         remarks = (f"channel {short(channel.name)} of {', '.join(short(name) for name in names)}",)
