@@ -160,7 +160,9 @@ def _read_instrument(path, options):
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
     unit = None if text is None else metres(THEIRS.get(text, text))
     if text is not None and unit is None:
-        raise Error(f"{path}: {short(channel.name)} is in {short(text)}, which is none of {KNOWN}; --channel names another")
+        raise Error(
+            f"{path}: {short(channel.name)} is in {short(text)}, which is none of {KNOWN}; --channel names another"
+        )
     remarks = ()
     if len(names) > 1:
         remarks = (f"channel {short(channel.name)} of {', '.join(short(name) for name in names)}",)
