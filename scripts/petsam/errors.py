@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import sys
 
 USAGE, FILE = 2, 3  # exit codes, as petsam's
@@ -47,6 +48,17 @@ class Parser(argparse.ArgumentParser):
     def error(self, message):
         """End with the message."""
         self.exit(fail(self.prog, f"{message}; see {self.prog} --help", USAGE))
+
+
+def joined(words):
+    """Words in which a value that begins with a minus is joined to its option: argparse would take it for one."""
+    found = []
+    for word in words:
+        if found and re.match(r"-[\d.]", word) and re.fullmatch(r"--[a-z][a-z-]*", found[-1]):
+            found[-1] += "=" + word
+        else:
+            found.append(word)
+    return found
 
 
 def _flush():

@@ -278,10 +278,65 @@ class Results(Datafile):
 
     # ------------------------------------------------------------ fields
 
+    @cached_property
+    def fields(self):
+        """Names of all fields that the file has."""
+        shape = (self.times.size, self.y.size, self.x.size)
+        with reading(self.path):
+            links = {name: self.file.get(name, getlink=True) for name in self.file}
+            local = [name for name, link in links.items() if isinstance(link, h5py.HardLink)]
+            return [name for name in local if getattr(self.file[name], "shape", None) == shape]
+
+    @cached_property
+    def vectors(self):
+        """Names without their ending of the fields that are components NAME_x and NAME_y."""
+        return [name[:-2] for name in self.fields if name.endswith("_x") and name[:-2] + "_y" in self.fields]
+
+    def about(self, name):
+        """Attributes of a field as texts: units, and long_name; of a vector those of its first component."""
+        name = name if name in self.fields else name + "_x"
+        try:
+            with reading(self.path):
+                attributes = self._saved(name).attrs
+                unit = self._unit(self._saved(name), name)
+                text = attributes.get("long_name", name.replace("_", " "))
+                return unit, short(text.decode(errors="replace") if isinstance(text, bytes) else str(text))
+        except DAMAGED as error:
+            raise self._error(error) from error
+
+    def flags(self, name):
+        """Words for the values of a field of flags (flag_values, flag_meanings); none of a field of numbers."""
+        if name not in self.fields:
+            return {}
+        try:
+            with reading(self.path):
+                attributes = self._saved(name).attrs
+                if "flag_values" not in attributes or "flag_meanings" not in attributes:
+                    return {}
+                words = attributes["flag_meanings"]
+                words = (words.decode(errors="replace") if isinstance(words, bytes) else str(words)).split()
+                return {int(value): short(word) for value, word in zip(np.ravel(attributes["flag_values"]), words)}
+        except DAMAGED as error:
+            raise self._error(error) from error
+
+    def quantity(self, name, *part, **window):
+        """A field, or the magnitude in the plane of a vector whose components the file has; arguments of field()."""
+        if name not in self.fields and name in self.vectors:
+            return np.hypot(self.field(name + "_x", *part, **window), self.field(name + "_y", *part, **window))
+        return self.field(name, *part, **window)
+
+    def need_quantity(self, name, option=None):
+        """Error where the file has neither a field nor a vector of this name, which an option may have asked for."""
+        if name not in self.fields and name not in self.vectors:
+            there = ", ".join([*self.fields, *self.vectors]) or "no field at all"
+            lack = f"{option} {short(name)}: has no such field" if option else f"has no {short(name)}"
+            raise Error(f"{self.path}: {lack} (petsam -output_fields); it has {there}")
+
     def _saved(self, name):
         """The dataset of a field, or of an edge."""
         if name not in self.file:
-            raise Error(f"{self.path}: has no {name} (petsam -output_fields)")
+            there = ", ".join(self.fields) or "no field at all"
+            raise Error(f"{self.path}: has no {name} (petsam -output_fields); it has {there}")
         return _own(self.file, name)
 
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
@@ -334,9 +389,15 @@ class Results(Datafile):
             return [name for name in EDGES if name in self.file]
 
     def contact_window(self, index, margin=0.15):
-        """Rows and columns (slices) of the smallest rectangle about the contact, and a margin; all without contact."""
+        """Rows and columns (slices) of the smallest rectangle about the contact, and a margin; all without contact.
+
+        The contact is where the state says so, or else where there is pressure; of a file without both it is unknown.
+        """
         stride = max(1, max(self.x.size, self.y.size) // 1024)
-        contact = self.field("state", index, stride=stride) != OPEN
+        known = next((name for name in ("state", "pressure") if name in self.fields), None)
+        if known is None:
+            return slice(0, self.y.size), slice(0, self.x.size)
+        contact = self.field(known, index, stride=stride) != OPEN
         return tuple(
             _window(np.flatnonzero(contact.any(axis=axis)) * stride, stride, size, margin)
             for axis, size in ((1, self.y.size), (0, self.x.size))

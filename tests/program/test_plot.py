@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
-from petsam.plot import command, pictures
+from petsam.plot import command, loops, maps, profiles, series
 from petsam.plot.units import scale
 from petsam.results import Results
 from support import ROOT, ball, slide_limit
@@ -342,11 +342,12 @@ def test_a_damaged_file_is_drawn_or_named(draw, solve, tmp_path, monkeypatch):
 
 def test_maps_show_the_fields_of_the_step_in_the_units_of_the_labels(strokes):
     results = Results(str(strokes))
-    figure = pictures.maps([(results, results.of_step(8))], whole=True)
+    figure = maps.maps([(results, results.of_step(8))], whole=True)
     with h5py.File(strokes, "r") as file:
         k = list(file["time"]).index(file["history/time"][7])
         q = np.hypot(file["shear_x"][k], file["shear_y"][k])
-    image, bar = figure.axes[1].images[0], figure.axes[5]
+    image = figure.axes[1].images[0]
+    bar = image.colorbar.ax
     assert bar.get_ylabel() == "$|q|$, MPa"
     assert np.array_equal(image.get_array(), 1e-6 * q)
     # the contact is about 0.3 mm wide
@@ -375,7 +376,7 @@ def test_windows_and_strides_are_those_of_the_field(strokes, monkeypatch):
 def test_profiles_go_through_the_point(single):
     results = Results(str(single))
     at = (2.2 * (results.x[1] - results.x[0]), -3.4 * (results.y[1] - results.y[0]))
-    panels = pictures.profiles([(results, 0)], at, whole=True).axes
+    panels = profiles.profiles([(results, 0)], at, whole=True).axes
     with h5py.File(single, "r") as file:
         p, row = 1e-6 * file["pressure"][0], np.argmin(np.abs(results.y - at[1]))
         column = np.argmin(np.abs(results.x - at[0]))
@@ -386,14 +387,14 @@ def test_profiles_go_through_the_point(single):
 
 def test_shear_profile_is_drawn_between_its_bounds(single):
     results = Results(str(single))
-    curves = lines(pictures.profiles([(results, 0)], whole=True).axes[2])
+    curves = lines(profiles.profiles([(results, 0)], whole=True).axes[2])
     upper, lower, qx = (y for _, y in curves[:3])
     assert np.all(qx <= upper * (1 + 1e-9)) and np.all(qx >= lower * (1 + 1e-9)) and qx.max() > 0.3 * upper.max()
 
 
 def test_loop_is_force_over_displacement_of_every_step(strokes):
     results = Results(str(strokes))
-    axes = pictures.loop([results]).axes[0]
+    axes = loops.loop([results]).axes[0]
     (x, y), history = lines(axes)[0], results.history
     assert axes.get_ylabel() == "$T_x$, N" and axes.get_xlabel().startswith("$d_x$, ")
     factor = {"µm": 1e6, "nm": 1e9}[axes.get_xlabel().split()[-1]]
@@ -409,18 +410,18 @@ def test_loop_is_that_of_the_load_which_works(solve, tmp_path):
     table = tmp_path / "turns.csv"
     table.write_text("time,load_mz\n0,0\n1,{0!r}\n2,-{0!r}\n".format(float(0.5 * slide_limit(CASE)[1])))
     results = Results(str(solve(dict(CASE, grid_n=32), dict(history=table)).path))
-    assert pictures.busiest(results) == "mz"
+    assert loops.busiest(results) == "mz"
 
 
 def test_history_leaves_out_what_is_zero_but_for_rounding(strokes):
-    labels = [axes.get_ylabel().split(",")[0] for axes in pictures.history([Results(str(strokes))]).axes]
+    labels = [axes.get_ylabel().split(",")[0] for axes in series.history([Results(str(strokes))]).axes]
     assert "$T_x$" in labels and "$d_x$" in labels and "stick area" in labels
     assert not {"$M_x$", "$M_z$", "$r_z$", "$T_y$"} & set(labels)
 
 
 def test_history_sums_the_energy(strokes):
     results = Results(str(strokes))
-    axes = pictures.history([results], ["dissipated_energy"]).axes[0]
+    axes = series.history([results], ["dissipated_energy"]).axes[0]
     assert np.isclose(
         lines(axes)[0][1][-1] * (1e-9 if "nJ" in axes.get_ylabel() else 1e-6),
         results.history["dissipated_energy"].sum(),
@@ -431,8 +432,8 @@ def test_history_sums_the_energy(strokes):
 def test_loop_leaves_out_a_refused_step(refused):
     results = Results(str(refused))
     assert results.history["status"].tolist() == [0, 0, 0, 0, 11] and np.isnan(results.history["disp_x"][-1])
-    assert pictures.busiest(results) == "tx"
-    axes = pictures.loop([results]).axes[0]
+    assert loops.busiest(results) == "tx"
+    axes = loops.loop([results]).axes[0]
     assert np.allclose(lines(axes)[0][1], results.history["load_tx"][:4])
     last = axes.lines[1].get_data()
     assert [one[0] for one in last] == [one[3] for one in lines(axes)[0]]
@@ -443,10 +444,10 @@ def test_loop_leaves_out_a_refused_step(refused):
 
 def test_history_of_a_refused_step_has_the_panels_and_sums_of_the_others(refused):
     results = Results(str(refused))
-    labels = [axes.get_ylabel().split(",")[0] for axes in pictures.history([results]).axes if axes.get_ylabel()]
+    labels = [axes.get_ylabel().split(",")[0] for axes in series.history([results]).axes if axes.get_ylabel()]
     expected = ["$T_x$", "$d_x$", "contact area", "stick area", "dissipated energy", "tangential iterations"]
     assert labels == expected
-    axes = pictures.history([results], ["dissipated_energy", "status"]).axes
+    axes = series.history([results], ["dissipated_energy", "status"]).axes
     (time, energy), (every, status) = lines(axes[0])[0], lines(axes[1])[0]
     assert time.tolist() == [1, 2, 3, 4] and every.tolist() == [1, 2, 3, 4, 5] and status[-1] == 11
     assert np.isclose(
@@ -469,8 +470,8 @@ def test_a_step_that_is_in_some_datasets_only_does_not_count(strokes, tmp_path):
     results = Results(str(path))
     assert results.solved.tolist() == list(range(cut.size))
     assert np.isclose(results.series("dissipated_energy").sum(), cut.sum(), rtol=1e-14)
-    pictures.loop([results])
-    pictures.history([results])
+    loops.loop([results])
+    series.history([results])
 
 
 @pytest.mark.parametrize(
@@ -484,7 +485,17 @@ def test_a_step_that_is_in_some_datasets_only_does_not_count(strokes, tmp_path):
         ("m2", 2.3e-6, 1e6, "mm²"),
         ("N m", 0.05, 1e3, "mN m"),
         ("rad", 2e-9, 1e9, "nrad"),
-        ("J", 1e-12, 1e9, "nJ"),
+        ("J", 1e-12, 1e12, "pJ"),
+        ("m2", 150000e-12, 1e6, "mm²"),
+        ("m2", 5e-3, 1e6, "mm²"),
+        ("m2", 0.3, 1.0, "m²"),
+        ("m2", 4e-12, 1e12, "µm²"),
+        ("J/m2", 2.5e3, 1e-3, "kJ/m²"),
+        ("1/Pa", 1e-9, 1.0, "1/Pa"),
+        ("N", 999.0, 1.0, "N"),
+        ("N", 1000.0, 1e-3, "kN"),
+        ("Pam", 1e9, 1.0, "Pam"),
+        ("N/m", 3e8, 1e-6, "MN/m"),
         ("1", 1e-9, 1.0, ""),
         ("s", 1e-3, 1.0, "s"),
         ("N", 0.0, 1.0, "N"),

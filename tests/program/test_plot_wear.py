@@ -5,13 +5,14 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.plot import pictures, wear
+from petsam.plot import loops, maps, profiles, series, wear
 from petsam.plot.style import plt
 from petsam.plot.units import counted, scale
 from support import ball, slide_limit
 
 CASE = ball(n=24)
 AMPLITUDE = 0.8 * slide_limit(CASE)[0]
+TURNS = "turning points of disp_x"
 SAVED = [0.0, 500.0, 2000.0]
 
 
@@ -151,12 +152,21 @@ def test_each_picture_alone_has_the_name_that_is_given(draw, path, one_body, tmp
     assert drawn(tmp_path) == ["one.pdf"]
 
 
-@pytest.mark.parametrize("words", [("--fretting-log",), ("--life",), ("--maps", "--cycle", "0")])
-def test_a_file_without_a_life_is_named(draw, path, direct, plain, words):
+@pytest.mark.parametrize(
+    "words, lack",
+    [
+        (("--life",), "has no life of many cycles (petsam -wear_cycles)"),
+        (
+            ("--fretting-log",),
+            "--fretting-log: has no whole cycle, by turning points of disp_x; see --turns and --period",
+        ),
+        (("--maps", "--cycle", "0"), "--cycle 0: there is no whole cycle, by " + TURNS),
+    ],
+)
+def test_a_file_without_a_life_or_a_cycle_is_named(draw, path, direct, plain, words, lack):
     for file in (direct, plain):
         for files in ([file], [path, file]):
-            error = f"petsam-plot: error: {file}: has no life of many cycles (petsam -wear_cycles)"
-            assert draw(*words, *files) == (3, [error])
+            assert draw(*words, *files) == (3, [f"petsam-plot: error: {file}: {lack}"])
 
 
 @pytest.mark.parametrize(
@@ -311,7 +321,7 @@ def test_life_shows_the_bodies_that_wear(life, one_body):
 
 def test_maps_and_profiles_have_the_depths_of_what_has_worn(life, one_body, path):
     def columns(*steps):
-        return [axes.get_title() for axes in pictures.maps(list(steps)).axes if axes.get_title()]
+        return [axes.get_title() for axes in maps.maps(list(steps)).axes if axes.get_title()]
 
     end, alone = (life, life.of_last()), petsam.open(one_body)
     assert columns(end)[4:] == ["depth removed of body 1, $w_1$", "depth removed of body 2, $w_2$"]
@@ -319,28 +329,29 @@ def test_maps_and_profiles_have_the_depths_of_what_has_worn(life, one_body, path
     assert len(columns((life, life.of_cycle(0)))) == 4
     with h5py.File(path, "r") as file:
         depth = file["wear_depth2"][-1]
-    figure = pictures.maps([end], whole=True)
-    panel, bar = figure.axes[5], figure.axes[-1]
+    figure = maps.maps([end], whole=True)
+    panel = figure.axes[5]
+    bar = panel.images[0].colorbar.ax
     unit = {"nm": 1e9, "µm": 1e6}[bar.get_ylabel().split()[-1]]
     assert np.allclose(panel.images[0].get_array(), unit * depth)
-    axes = pictures.profiles([end], whole=True).axes
+    axes = profiles.profiles([end], whole=True).axes
     assert np.isclose(max(y.max() for _, y in curves(axes[-2])), unit * depth[11:13].max(), rtol=1e-6)
 
 
 def test_a_file_without_wear_beside_one_with_it_has_an_empty_place(life, plain):
     results = petsam.open(plain)
-    axes = pictures.maps([(life, life.of_last()), (results, results.of_last())]).axes
+    axes = maps.maps([(life, life.of_last()), (results, results.of_last())]).axes
     assert [panel.axison for panel in axes[:12]] == [True] * 10 + [False] * 2
-    pictures.profiles([(life, life.of_last()), (results, results.of_last())])
+    profiles.profiles([(life, life.of_last()), (results, results.of_last())])
 
 
 def test_history_of_a_life_sums_no_energy_of_some_of_its_cycles(life, direct):
     def names(results):
-        return [axes.get_ylabel().split(",")[0] for axes in pictures.history([results]).axes]
+        return [axes.get_ylabel().split(",")[0] for axes in series.history([results]).axes]
 
     assert "dissipated energy" not in names(life) and "volume removed of body 2" in names(life)
     assert {"dissipated energy", "volume removed of body 1"} <= set(names(petsam.open(direct)))
-    assert texts(pictures.loop([life]).axes[0])[1][0].endswith("in the computed cycles")
+    assert texts(loops.loop([life]).axes[0])[1][0].endswith("in the computed cycles")
 
 
 @pytest.mark.parametrize(

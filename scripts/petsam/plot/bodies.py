@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import Error
-from .pictures import PIXELS, need_few
-from .style import colors, extent, field, plt
+from .maps import PIXELS
+from .style import bar, colors, extent, field, need_few, plt
 from .units import label, largest, plain, scale
 
 SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
@@ -99,8 +99,11 @@ def _contours(axes, along, z, values, low, high, color_map):
     return image
 
 
-def _bar(figure, axes, image, unit):
-    figure.colorbar(image, ax=axes, aspect=25, label=unit, ticks=MaxNLocator(7), format="%.4g")
+def _limits(name, component, top, limits):
+    """Lowest and highest value of the colours (Pa): those given are of the component."""
+    if limits and name == _dataset(component):
+        return limits
+    return (-top if _is_signed(name) else 0.0), top
 
 
 def _mark(axes, x, y):
@@ -125,7 +128,7 @@ def _annotate(axes, text):
     )
 
 
-def sections(steps, component=None, at=(0.0, 0.0)):
+def sections(steps, component=None, at=(0.0, 0.0), limits=None):
     """Von Mises and a component of the stress over depth: a row a step, one scale a column."""
     need_few(len(steps), "steps and files")
     for file, _ in steps:
@@ -138,11 +141,14 @@ def sections(steps, component=None, at=(0.0, 0.0)):
     for column, (name, text) in enumerate(columns):
         data = [_section(file, name, index, at) for file, index in steps]
         top = largest(data)
-        factor, prefixed = scale("Pa", top)
-        low, colours = (-factor * top, "RdBu_r") if _is_signed(name) else (0.0, "viridis")
+        low, high = _limits(name, component or "xx", top, limits)
+        factor, prefixed = scale("Pa", max(abs(low), abs(high)))
+        colours = "RdBu_r" if _is_signed(name) else "viridis"
         for row, ((file, index), values) in enumerate(zip(steps, data)):
             panel, (axis, along, _, _, where) = axes[row, column], _line(file, at)
-            image = _contours(panel, length * along, length * file.z, factor * values, low, factor * top, colours)
+            image = _contours(
+                panel, length * along, length * file.z, factor * values, factor * low, factor * high, colours
+            )
             k, i = np.unravel_index(np.argmax(np.abs(values)), values.shape)
             _mark(panel, length * along[i], length * file.z[k])
             panel.set(
@@ -150,7 +156,7 @@ def sections(steps, component=None, at=(0.0, 0.0)):
                 ylabel=label("depth $z$", unit) if column == 0 else "",
                 title=text if row == 0 else "",
             )
-            _bar(figure, panel, image, prefixed)
+            bar(panel, image, prefixed)
             _annotate(panel, f"{file.title(index)}: {_extremes(name, factor * values)} {prefixed}")
     return figure
 
@@ -187,7 +193,7 @@ def _planes(file, depths):
     return sorted({round(k) for k in np.linspace(0, file.z.size - 1, min(PLANES, file.z.size))})
 
 
-def maps(steps, component=None, depths=None):
+def maps(steps, component=None, depths=None, limits=None):
     """Von Mises and a component of the stress over planes: a row a step and depth, one scale a column."""
     rows = [(file, index, k) for file, index in steps for k in _planes(file, depths)]
     for file, _ in steps:
@@ -204,18 +210,19 @@ def maps(steps, component=None, depths=None):
             part = slice(None, None, _stride(file))
             data.append(file.field(name, index, slice(k, k + 1), part, part)[0])
         top = largest(data)
-        factor, prefixed = scale("Pa", top)
-        low, colours = (-factor * top, "RdBu_r") if _is_signed(name) else (0.0, "viridis")
+        low, high = _limits(name, component or "xx", top, limits)
+        factor, prefixed = scale("Pa", max(abs(low), abs(high)))
+        colours = "RdBu_r" if _is_signed(name) else "viridis"
         for row, ((file, index, k), values) in enumerate(zip(rows, data)):
             panel = axes[row, column]
             edges = extent(file.x, file.y, 1.0 / length, _stride(file))
-            image = field(panel, factor * values, edges, low, factor * top, colours)
+            image = field(panel, factor * values, edges, factor * low, factor * high, colours)
             panel.set(
                 xlabel=label("$x$", unit),
                 ylabel=label("$y$", unit) if column == 0 else "",
                 title=text if row == 0 else "",
             )
-            _bar(figure, panel, image, prefixed)
+            bar(panel, image, prefixed)
             _annotate(panel, f"{file.title(index)}, z = {file.z[k]:.4g} m\n{_extremes(name, factor * values)}")
     return figure
 
@@ -267,7 +274,7 @@ def _fatigue_panel(figure, panel, file, name, at):
     else:
         _mark(panel, length * along[i], length * down[k])
         panel.set(ylabel=label("depth $z$" if other == "z" else "$y$", unit))
-        _bar(figure, panel, image, prefixed)
+        bar(panel, image, prefixed)
     place = f"${axis}$ = {length * along[i]:.4g} {unit}, ${other}$ = {length * down[k]:.4g} {unit}"
     panel.set_xlabel(label(f"${axis}$", unit) + _at(where, length, unit))
     panel.set_title(f"{FATIGUE[name]}\nlargest {factor * high:.4g} {prefixed} at {place}", fontsize=9)

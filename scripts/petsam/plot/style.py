@@ -7,6 +7,9 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 import numpy as np  # noqa: E402
+from matplotlib.ticker import MaxNLocator  # noqa: E402
+
+from ..errors import Error  # noqa: E402
 
 STYLE = {
     "font.size": 10, "axes.grid": True, "grid.color": "0.92", "axes.axisbelow": True,
@@ -15,6 +18,9 @@ STYLE = {
     "savefig.dpi": 150, "mathtext.fontset": "dejavusans",
 }  # fmt: skip
 COLORS = ("#3b4cc0", "#c44e52", "#2a9d8f", "#e9a03b", "#7a5195", "#5a5a5a")
+PANELS = 64  # of a picture at most, one below the other or side by side
+MARKED = 80  # points of a curve that are marked one by one; more would be a band
+BINS = 1500  # parts of an axis of time, more than a panel has pixels: of each the extremes are drawn
 CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed solution
 
 
@@ -39,17 +45,78 @@ def joined(axes, x, y, color, mark, **style):
     points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
 
 
+def need_few(count, what):
+    """Error where a picture would have too many panels."""
+    if count > PANELS:
+        raise Error(f"{count} {what} in one picture; expected at most {PANELS}")
+
+
+def curve(count, **style):
+    """Style of a curve of so many points: points joined by a line when they are few, else a line, the thinner the more
+    there are."""
+    if count <= MARKED:
+        return {"marker": ".", "linestyle": "-", "linewidth": 1.1, "markersize": 4.0, **style}
+    return {"marker": "", "linestyle": "-", "linewidth": 1.1 if count <= 600 else 0.6, **style}
+
+
+def outlined(x, y):
+    """The points of a curve over x, or when they are many and x rises, the first, the last and the extremes of each of
+    BINS parts: it looks the same."""
+    if x.size <= 4 * BINS or not np.all(np.diff(x) >= 0.0):
+        return x, y
+    edges = np.unique(np.linspace(0, x.size, BINS + 1).astype(int))
+    kept = {0, x.size - 1}
+    for low, high in zip(edges[:-1], edges[1:]):
+        part = np.where(np.isfinite(y[low:high]), y[low:high], 0.0)
+        kept.update((low, high - 1, low + int(np.argmin(part)), low + int(np.argmax(part))))
+    kept = sorted(kept)
+    return x[kept], y[kept]
+
+
+def ticks(count, most, least=2):
+    """Places of about so many numbers on an axis, at least and at most so many."""
+    return MaxNLocator(int(np.clip(count, least, most)), steps=[1, 2, 2.5, 5, 10])
+
+
+def bar(panel, image, text, height=2.4, **more):
+    """A colour bar beside a map and as tall as it; height, in inches, is room for so many numbers."""
+    beside = panel.inset_axes([1.0, 0.0, 1.0, 1.0], transform=panel.transAxes)
+    beside.set_axes_locator(_Beside(panel))
+    drawn = panel.figure.colorbar(image, cax=beside, label=text, **more)
+    if "ticks" not in more and image.norm.__class__.__name__ == "Normalize":
+        drawn.locator = ticks(height / 0.3, 7, 3)
+        drawn.update_ticks()
+    drawn.outline.set_linewidth(0.6)
+    return drawn
+
+
+class _Beside:
+    """Place of a colour bar: some points right of a map, of a fixed width, whatever the map's size."""
+
+    GAP, WIDTH = 0.08, 0.12  # inches
+
+    def __init__(self, panel):
+        self.panel = panel
+
+    def __call__(self, _axes, _renderer):
+        figure = self.panel.figure
+        inches = figure.get_size_inches()[0]
+        box = self.panel.get_position()
+        return type(box).from_bounds(box.x1 + self.GAP / inches, box.y0, self.WIDTH / inches, box.height)
+
+
 def frame(axes, title, x, y, x_limits=None, y_limits=None):
     """Title, labels and limits of a panel; without limits these follow the data."""
     limits = {"xlim": x_limits, "ylim": y_limits}
     axes.set(title=title, xlabel=x, ylabel=y, **{name: pair for name, pair in limits.items() if pair})
 
 
-def field(axes, values, edges, low=0.0, high=None, color_map="viridis"):
-    """A map of values (ny, nx), the first row below; edges as of extent(); its colours from low to high."""
+def field(axes, values, edges, low=0.0, high=None, color_map="viridis", norm=None):
+    """A map of values (ny, nx), the first row below; edges as of extent(); colours from low to high, or by a norm."""
     style = {"origin": "lower", "interpolation": "nearest", "extent": edges, "cmap": color_map}
     axes.grid(False)
-    return axes.imshow(values, vmin=low, vmax=high, **style)
+    limits = {"norm": norm} if norm is not None else {"vmin": low, "vmax": high}
+    return axes.imshow(values, **limits, **style)
 
 
 def log_ticks(axes, values):

@@ -1,27 +1,41 @@
 """Units of axes, with the prefix that suits the values."""
 
+import re
+
 import numpy as np
 
 from ..errors import short
 
 POWERS = {"m2": 2, "m3": 3}
-PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+LEAST = {"m2": 1e-3, "m3": 1e-3}  # from 1 mm² on there are no µm², and so on: 0.15 mm², not 150000 µm²
+PREFIXES = (
+    (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"),
+)  # fmt: skip
+BASE = re.compile(r"(Pa|N|m[23]?|J|rad|W)(?![A-Za-z0-9])")  # what a unit that takes a prefix begins with
 NUMBERS = ((1e9, "billion "), (1e6, "million "), (1e3, "thousand "))
+
+
+def written(unit):
+    """A unit as it is printed."""
+    return re.sub(r"(?<=m)[23](?!\d)", lambda power: "²³"[int(power[0]) - 2], plain(unit))
 
 
 def scale(unit, largest):
     """Factor and unit with the prefix in which largest has up to three digits before the point.
 
-    Volumes go from 0.001 to six digits: from µm³ to mm³ it is nine.
+    Areas and volumes have more: from µm² to mm² it is six, from µm³ to mm³ nine. There 0.001 stands for its own unit.
     """
-    if unit in ("1", "s") or not np.isfinite(largest) or largest == 0.0:
-        return 1.0, "" if unit == "1" else plain(unit)
-    power = POWERS.get(unit, 1)
-    least = 1e-3 if unit == "m3" else 1.0
+    first = BASE.match(unit)
+    if not first or not np.isfinite(largest) or largest == 0.0:
+        return 1.0, "" if unit == "1" else written(unit)
+    power, least = POWERS.get(first[0], 1), LEAST.get(first[0], 1.0)
     # no kilometres, and no kilo-radians
-    prefixes = [(size**power, prefix) for size, prefix in PREFIXES if size <= 1.0 or unit not in ("m", *POWERS, "rad")]
-    size, prefix = next((pair for pair in prefixes if largest >= least * pair[0]), prefixes[-1])
-    return 1.0 / size, prefix + {"m2": "m²", "m3": "m³", "N m": "N m"}.get(unit, plain(unit))
+    small_only = first[0] in ("m", *POWERS, "rad")
+    prefixes = [(size**power, prefix) for size, prefix in PREFIXES if size <= 1.0 or not small_only]
+    if unit == "m2":  # 5000 mm² are no 0.005 m²
+        prefixes = [(size, prefix) for size, prefix in prefixes if size < 1.0 or largest >= 0.1]
+    size, prefix = next((pair for pair in prefixes if largest >= least * pair[0] * (1.0 - 1e-9)), prefixes[-1])
+    return 1.0 / size, prefix + written(unit)
 
 
 def counted(largest):
@@ -32,7 +46,7 @@ def counted(largest):
 
 def label(text, unit):
     """Text with its unit, as an axis' label."""
-    return f"{text}, {unit}" if unit else text
+    return ", ".join(part for part in (text, unit) if part)
 
 
 def largest(arrays):

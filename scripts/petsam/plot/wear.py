@@ -8,11 +8,12 @@ import numpy as np
 
 from ..errors import Error
 from ..results import BLOCK
-from .pictures import SYMBOLS, crossing, loop_axes, need_few
-from .style import colors, plt, tint
+from .loops import LOOPS, loop_axes, spread
+from .profiles import crossing
+from .style import colors, curve, need_few, plt, tint
+from .symbols import SYMBOLS
 from .units import counted, label, largest, plain, scale
 
-LOOPS = 8  # in a panel: more cannot be told apart
 LINES = 10  # of a scar by itself
 # names in /wear, of both bodies or of the joint, and what they are called
 LIFE = (
@@ -45,33 +46,56 @@ def logged(one):
     return sorted({0, volume.size - 1, *(int(np.argmin(np.abs(volume - part))) for part in wanted[1:-1])})
 
 
-def _loops(panel, one, factors):
+def _of_life(one, wanted):
+    """Cycles, energies and points (name: values) of the loops of a life: of the computed cycles nearest to those
+    wanted, or of some."""
+    cycles = one.wear["cycle"]
+    rows = sorted({int(np.argmin(np.abs(cycles - cycle))) for cycle in wanted}) if wanted else logged(one)
+    loops = [one.of_computed_cycle(cycle) for cycle in cycles[rows]]
+    points = [lambda name, steps=steps: _closed(one.history[name][steps]) for steps in loops]
+    return cycles[rows], one.wear["dissipated_energy"][rows], points
+
+
+def _of_history(one, found, wanted):
+    """The same of a history without a life."""
+    if not len(found):
+        raise Error(f"{one.path}: --fretting-log: has no whole cycle, by {found.manner}; see --turns and --period")
+    chosen = [found.numbered(number) for number in wanted or spread(len(found))]
+    points = [lambda name, rows=cycle.rows: one.series(name)[rows] for cycle in chosen]
+    return np.array([float(cycle.number) for cycle in chosen]), found.energies[[c.number - 1 for c in chosen]], points
+
+
+def _loops(panel, one, factors, loops):
     """Loops of one file's cycles."""
-    rows = logged(one)
-    cycles, energies = (one.wear[name][rows] for name in ("cycle", "dissipated_energy"))
+    cycles, energies, points = loops
     factor, words = counted(cycles[-1])
     joules, unit = scale("J", largest([energies]))
-    for k, (cycle, energy) in enumerate(zip(cycles, energies)):
-        steps = one.of_computed_cycle(cycle)
-        y, x = (size * _closed(one.history[name][steps]) for name, (size, _) in factors.items())
+    for k, (cycle, energy, values) in enumerate(zip(cycles, energies, points)):
+        y, x = (size * values(name) for name, (size, _) in factors.items())
         text = f"{factor * cycle:.3g}: {joules * energy:.3g} {unit}"
-        panel.plot(x, y, ".-", color=tint(k, len(rows)), linewidth=1.2, markersize=3.0, label=text)
+        panel.plot(x, y, color=tint(k, cycles.size), label=text, **curve(x.size, markersize=3.0))
     _legend(panel, f"{words}: dissipated")
     panel.set_title(plain(one.label), fontsize=9.5)
 
 
-def fretting_log(files, pair=None):
-    """Loops of some of the computed cycles, a panel a file; pair names the load, that which does most work if None."""
+def fretting_log(files, pair=None, find=None, wanted=None):
+    """Loops of some cycles, or of those wanted, a panel a file; pair names the load, that which does most work if None.
+
+    Of a life these are computed cycles, of another history those of find(file), petsam.cycles.Cycles.
+    """
     need_few(len(files), "files")
+    need_few(len(wanted or ()), "cycles")
     for one in files:
-        one.need_life()
+        if find is None:
+            one.need_life()
+    data = [_of_life(one, wanted) if one.has_life else _of_history(one, find(one), wanted) for one in files]
     factors = loop_axes(files, pair)
     figure, axes = plt.subplots(
         1, len(files), figsize=(6.9 * len(files), 4.8), squeeze=False, sharex=True, sharey=True, constrained_layout=True
     )
     force, way = ((SYMBOLS[name], unit) for name, (_, unit) in factors.items())
-    for panel, one in zip(axes[0], files):
-        _loops(panel, one, factors)
+    for panel, one, loops in zip(axes[0], files, data):
+        _loops(panel, one, factors, loops)
         panel.set_xlabel(label(*way))
     axes[0, 0].set_ylabel(label(*force))
     return figure

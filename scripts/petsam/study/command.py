@@ -8,14 +8,15 @@ The table is CSV (a column an option, a row a case) or YAML (all combinations of
 hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that
 have finished with the same inputs are not run again, so the same command goes on after an interruption (Ctrl-C, or the
 end of a job). Results of all go to DIRECTORY/results.csv and results.h5. A study has at most 100000 cases.
+petsam-plot draws results.h5. Of histories with cycles the table has the energies of some: --turns, --period, --cycle.
 """
 
 import argparse
 import os
 import sys
 
-from .. import environment
-from ..errors import USAGE, Error, Parser, fail, guarded, short
+from .. import cycles, environment
+from ..errors import USAGE, Error, Parser, fail, guarded, joined, short
 from ..files import same
 from . import slurm, tables
 from .cases import TableError, common_options, read
@@ -34,6 +35,39 @@ def positive(text):
     if not 1 <= value <= MOST:
         raise argparse.ArgumentTypeError(f"{short(text)}: expected a whole number from 1 to {MOST}")
     return value
+
+
+def period(text):
+    """Reader of T or T,START for argparse."""
+    try:
+        return cycles.read_period(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a positive time, or T,START, in s") from None
+
+
+def numbers(text):
+    """Reader of cycles' numbers for argparse."""
+    try:
+        values = tuple(dict.fromkeys(int(word) for word in text.split(",")))
+    except ValueError:
+        values = (0,)
+    if 0 in values or max(map(abs, values)) > MOST:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected whole numbers from 1, or from -1, and commas")
+    return values
+
+
+def _cycle_options(parser):
+    of_cycles = parser.add_argument_group("energies of cycles in the table")
+    how = of_cycles.add_mutually_exclusive_group()
+    how.add_argument("--turns", metavar="NAME", help="cycles by turning points of this scalar (a displacement)")
+    how.add_argument("--period", type=period, metavar="T[,START]", help="cycles by time, s, instead")
+    of_cycles.add_argument(
+        "--cycle",
+        type=numbers,
+        metavar="K,...",
+        default=(),
+        help="further cycles than the last; -2 is the one before it",
+    )
 
 
 def arguments():
@@ -67,7 +101,8 @@ def arguments():
     what.add_argument("--collect", action="store_true", help="write the tables, run nothing")
     what.add_argument("--slurm", action="store_true", help="submit a job array of the cases, and a job that collects")
     parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
-    options = parser.parse_args(words[:at])
+    _cycle_options(parser)
+    options = parser.parse_args(joined(words[:at]))
     if options.sbatch and not options.slurm:
         parser.error("--sbatch: is for --slurm")
     options.words = words[at + 1 :]
@@ -136,6 +171,16 @@ def prepare(options, cases):
     check_folders(options.directory, cases)
 
 
+def write(options, cases):
+    """Write the tables; Error where the cycles asked for are not there."""
+    figures = tables.Figures(options.turns, options.period, options.cycle)
+    names, complaint = tables.write(options.directory, cases, os.path.basename(options.table), figures)
+    for name in names if not options.quiet else ():
+        print("wrote " + name)
+    if complaint:
+        raise Error(complaint)
+
+
 def carry_out(options):
     """Do what the options ask for; the exit code."""
     cases = read(options.table, common_options(options.words), options.ranks)
@@ -151,9 +196,7 @@ def carry_out(options):
     if options.case is not None:
         cases = cases[options.case - 1 : options.case]
     else:
-        for name in tables.write(options.directory, cases, os.path.basename(options.table)):
-            if not options.quiet:
-                print("wrote " + name)
+        write(options, cases)
     code = summary(options.directory, cases)
     if ended:
         print("petsam-study: interrupted; the same command goes on from here", file=sys.stderr)

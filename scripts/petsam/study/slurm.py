@@ -58,6 +58,12 @@ def _study_words(options):
     words = [os.path.abspath(options.table), "--directory", options.directory, "--ranks", str(options.ranks)]
     if options.checkpoint:
         words += ["--checkpoint", str(options.checkpoint)]
+    if options.turns:
+        words += ["--turns", options.turns]
+    if options.period:
+        words += ["--period=" + ",".join(repr(value) for value in options.period if value is not None)]
+    if options.cycle:
+        words += ["--cycle=" + ",".join(map(str, options.cycle))]
     return words
 
 

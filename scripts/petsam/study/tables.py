@@ -2,7 +2,9 @@
 
 CSV: case, exit_code (empty: not run), seconds, ranks, the inputs, `steps`, the names of petsam's /history (those of the
 last step, with NaN for what is unknown if it has no solution; `dissipated_energy_sum` of all steps that have one),
-message. A scalar that has an input's name gets `_end` added.
+message. A scalar that has an input's name gets `_end` added. Of histories with cycles (petsam.cycles) there are also
+`cycles`, their number, `dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last cycle
+differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the cycles K that are asked for.
 
 HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
@@ -10,44 +12,88 @@ results file.
 """
 
 import csv
+import functools
 import io
 import os
+from typing import NamedTuple, Optional
 
 import h5py
 import numpy as np
 
-from .. import isolation
+from .. import cycles, isolation
 from ..errors import Error
 from ..files import need_replaceable
 from ..results import DAMAGED, Results
 from .runs import RESULTS, record, write_atomically
 
+ENERGY = cycles.ENERGY
 
-def scalars(path):
-    """Name: (value, unit) of a results file's last load step, empty where there is none that can be read."""
+
+class Figures(NamedTuple):
+    """How cycles are found (turns, period: of cycles.find) and which energies are wanted besides the last one's."""
+
+    turns: Optional[str] = None
+    period: Optional[tuple] = None
+    numbers: tuple = ()
+
+
+LAST = Figures()
+
+
+def of_cycles(results, figures):
+    """Name: (value, unit) of what the cycles of a file say, empty where it has none; NaN for cycles it has not."""
+    if results.has_life:
+        energies, count = results.wear[ENERGY], results.wear["cycle"][-1].item()
+        by_number = dict(zip(results.wear["cycle"].tolist(), energies.tolist()))
+    elif results.solved.size:
+        energies = cycles.find(results, figures.turns, figures.period).energies
+        count, by_number = energies.size, dict(enumerate(energies.tolist(), 1))
+        by_number.update({number - energies.size - 1: value for number, value in list(by_number.items())})
+    else:
+        return {}
+    if not energies.size and not (figures.turns or figures.period or figures.numbers):
+        return {}
+    unit = results.units[ENERGY]
+    last, before = [*[float("nan")] * 2, *energies.tolist()][:-3:-1]
+    found = {"cycles": (count, "1"), ENERGY + "_cycle_last": (last, unit)}
+    found[ENERGY + "_cycle_change"] = (last / before - 1.0 if before else float("nan"), "1")
+    for number in figures.numbers:
+        found[f"{ENERGY}_cycle_{number}"] = (by_number.get(number, float("nan")), unit)
+    return found
+
+
+def scalars(path, figures=LAST):
+    """Name: (value, unit) of a results file's last load step, empty where there is none that can be read; and what is
+    wrong with the cycles asked for."""
     try:
         with Results(path) as results:
             found = {"steps": (results.history["time"].size, "1")}
             for name, values in results.history.items():
                 if values.ndim == 1:
                     found[name] = (values[-1].item(), results.units[name])
-            energy = "dissipated_energy"
             # without any solution the energy is unknown, not zero
-            total = float(np.sum(results.series(energy))) if results.solved.size else np.nan
-            found[energy + "_sum"] = (total, results.units[energy])
-            return found
+            total = float(np.sum(results.series(ENERGY))) if results.solved.size else np.nan
+            found[ENERGY + "_sum"] = (total, results.units[ENERGY])
+            try:
+                return {**found, **of_cycles(results, figures)}, None
+            except Error as error:
+                return found, str(error)
     except (Error, *DAMAGED):
-        return {}
+        return {}, None
 
 
-def rows(directory, cases):
-    """For every case: the case, its record, its scalars (only where its record is of the same inputs)."""
+def rows(directory, cases, figures=LAST):
+    """For every case: the case, its record, its scalars (only where its record is of the same inputs); and the first
+    thing that is wrong with the cycles asked for, or None."""
     records = [(case, record(directory, case)) for case in cases]
     ended = [case for case, known in records if known.get("exit_code") is not None]
     # a run that was killed may have left a damaged file
-    values = list(isolation.each(scalars, [os.path.join(directory, case.name, RESULTS) for case in ended]))
-    known_values = {case.name: {} if isinstance(one, Error) else one for case, one in zip(ended, values)}
-    return [(case, known, known_values.get(case.name, {})) for case, known in records]
+    paths = [os.path.join(directory, case.name, RESULTS) for case in ended]
+    values = list(isolation.each(functools.partial(scalars, figures=figures), paths))
+    values = [({}, None) if isinstance(one, Error) else one for one in values]
+    known_values = {case.name: one for case, (one, _) in zip(ended, values)}
+    complaint = next((text for _, text in values if text), None)
+    return [(case, known, known_values.get(case.name, {})) for case, known in records], complaint
 
 
 def _names(found):
@@ -141,10 +187,10 @@ def write_hdf5(path, found, study):
     os.replace(path + ".tmp", path)
 
 
-def write(directory, cases, study):
-    """Both tables; their names."""
-    found = rows(directory, cases)
+def write(directory, cases, study, figures=LAST):
+    """Both tables; their names, and what is wrong with the cycles asked for, or None."""
+    found, complaint = rows(directory, cases, figures)
     names = [os.path.join(directory, "results" + ending) for ending in (".csv", ".h5")]
     write_csv(names[0], found)
     write_hdf5(names[1], found, study)
-    return names
+    return names, complaint

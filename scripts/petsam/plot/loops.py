@@ -1,0 +1,135 @@
+"""Loops of a load over its displacement, and the energy of every cycle, of results.Results.
+
+Cycles are those of petsam.cycles, given as one Cycles a file.
+"""
+
+import numpy as np
+from matplotlib.collections import LineCollection
+
+from ..cycles import ENERGY, PAIRS, busiest
+from ..errors import Error
+from . import symbols
+from .style import colors, curve, need_few, plt, tint
+from .units import counted, label, largest, plain, scale
+
+LOOPS = 8  # in a panel: more cannot be told apart
+DENSE = 1000  # points from which a loop is drawn in transparent pieces: where it passes often is darker
+PIECE = 20  # points of a piece
+
+
+def of_computed(results):
+    """What a sum over the steps of a life has to say: the cycles between those computed are not in it."""
+    return " in the computed cycles" if results.has_life else ""
+
+
+def loop_axes(results, pair=None):
+    """The load and the displacement of a loop, and of each the factor and the unit that suit all files."""
+    pair = pair or busiest(results[0])
+    if pair is None:
+        raise Error(f"{results[0].path}: no load varies, a loop needs several steps")
+    return {name: scale(results[0].units[name], largest(one.series(name) for one in results)) for name in PAIRS[pair]}
+
+
+def _labels(axes, factors):
+    force, way = factors
+    axes.set(xlabel=label(symbols.scalar(way), factors[way][1]), ylabel=label(symbols.scalar(force), factors[force][1]))
+
+
+def _line(axes, x, y, color, text):
+    axes.plot(x, y, color=color, label=text, **curve(x.size))
+
+
+def _cloud(axes, x, y, color, text):
+    points = np.column_stack([x, y])
+    pieces = [points[k : k + PIECE + 1] for k in range(0, x.size - 1, PIECE)]
+    axes.add_collection(LineCollection(pieces, colors=color, linewidths=0.6, alpha=0.3))
+    axes.plot([], [], color=color, label=text)
+
+
+def loop(results, pair=None):
+    """A load over its displacement, of every file; steps without a solution are left out."""
+    for one in results:
+        one.need_solution()
+    factors = loop_axes(results, pair)
+    force, way = factors
+    figure, axes = plt.subplots(figsize=(6.4, 4.8), constrained_layout=True)
+    for one, color in zip(results, colors(len(results))):
+        x, y = (factors[name][0] * one.series(name) for name in (way, force))
+        energy = float(np.sum(one.series(ENERGY)))
+        factor, unit = scale("J", energy)
+        text = f"{plain(one.label)}: {factor * energy:.4g} {unit} dissipated" + of_computed(one)
+        (_line if x.size <= DENSE else _cloud)(axes, x, y, color, text)
+        last = {"markersize": 6.0, "markerfacecolor": "white", "zorder": 3}
+        axes.plot(x[-1], y[-1], "o", color=color, label="last step" if one is results[-1] else None, **last)
+    _labels(axes, factors)
+    axes.legend(loc="upper left")
+    axes.margins(y=0.15)
+    return figure
+
+
+# ---------------------------------------------------------------- chosen cycles
+
+
+def cycle_loops(found, pair=None, numbers=None):
+    """Loops of the cycles of these numbers (from 1, or -1 for the last), a curve each, in one panel."""
+    results = [one.results for one in found]
+    chosen = [(one, one.numbered(number)) for one in found for number in numbers]
+    need_few(len(chosen), "cycles and files")
+    factors = loop_axes(results, pair)
+    force, way = factors
+    energies = {id(one): one.energies for one in found}
+    joules, unit = scale("J", largest(energies.values()))
+    figure, axes = plt.subplots(figsize=(7.6, 4.8), constrained_layout=True)
+    tints = [tint(k, len(chosen)) for k in range(len(chosen))] if len(found) == 1 else colors(len(chosen))
+    for (one, cycle), color in zip(chosen, tints):
+        x, y = (factors[name][0] * one.results.series(name)[cycle.rows] for name in (way, force))
+        who = "" if len(found) == 1 else plain(one.results.label) + ", "
+        text = f"{who}{cycle.number}: {joules * energies[id(one)][cycle.number - 1]:.4g} {unit}"
+        axes.plot(x, y, color=color, label=text, **curve(x.size))
+    _labels(axes, factors)
+    outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.3}
+    axes.legend(title="cycle: dissipated", **outside)
+    axes.set_title("cycles by " + plain(found[0].manner), fontsize=9.5, color="0.35")
+    return figure
+
+
+def spread(count):
+    """Numbers of up to LOOPS of count cycles: the first, the last, and others evenly between."""
+    return sorted({1 + round(k) for k in np.linspace(0, count - 1, min(count, LOOPS))})
+
+
+# ---------------------------------------------------------------- energy
+
+
+def _energies(one):
+    """Numbers and energies (J) of a file's cycles; of a life those computed."""
+    if one.results.has_life:
+        return one.results.wear["cycle"], one.results.wear[ENERGY]
+    return np.array([float(cycle.number) for cycle in one]), one.energies
+
+
+def energy(found, logs=()):
+    """Dissipated energy of every cycle, a line a file."""
+    for one in found:
+        if not one.results.has_life and not len(one):
+            raise Error(f"{one.results.path}: --energy: has no whole cycle, by {one.manner}; see --turns and --period")
+    data = [_energies(one) for one in found]
+    many, words = counted(largest(numbers for numbers, _ in data))
+    many, words = (many, words) if many < 1e-2 else (1.0, "cycle")
+    joules, unit = scale("J", largest(energies for _, energies in data))
+    figure, axes = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
+    for one, (numbers, energies), color in zip(found, data, colors(len(found))):
+        text = f"{plain(one.results.label)}: {numbers.size} cycles"
+        if not one.results.has_life:
+            factor, total = scale("J", float(np.sum(energies)))
+            text += f", {factor * np.sum(energies):.4g} {total}"
+        axes.plot(many * numbers, joules * energies, color=color, label=text, **curve(numbers.size))
+    axes.set(xlabel=words, ylabel=label("dissipated energy of a cycle", unit))
+    axes.set(**{f"{axis}scale": "log" for axis in logs})
+    if "y" not in logs:
+        axes.set_ylim(bottom=min(0.0, *(float(np.min(joules * energies)) for _, energies in data)))
+    manners = {one.manner for one in found if not one.results.has_life}
+    if len(manners) == 1:
+        axes.set_title("cycles by " + plain(manners.pop()), fontsize=9.5, color="0.35")
+    axes.legend(loc="best")
+    return figure

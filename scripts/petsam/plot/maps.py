@@ -1,0 +1,194 @@
+"""Maps of fields over the surface, of results.Results.
+
+A saved step is given as a pair (Results, index into its saved fields), and read no further than is drawn. Maps of
+grids that are twice as wide as high stand below each other, others side by side.
+"""
+
+import textwrap
+
+import numpy as np
+from matplotlib.colors import ListedColormap, Normalize
+
+from ..errors import Error
+from ..results import DEPTHS, EDGES, OPEN, SLIP, STICK
+from . import colours, symbols
+from .style import bar, extent, field, need_few, plt, ticks
+from .units import label, largest, plain, scale
+
+USUAL = ("pressure", "shear", "slip", "state")  # drawn unless fields are named, as far as the file has them
+OF_CONTACT = ("slip", "slip_x", "slip_y")  # exist in the contact only
+STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
+PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
+WIDE = 2.0  # width over height from which maps stand below each other
+FLAT = 12.0  # width over height of a map at most: what is longer is stretched, and says so
+SIDE, LONG = 2.4, 7.0  # inches of a map: its height side by side, its width one below the other
+ONE = 5.0  # inches of the longer side of a map that is alone
+NARROW = 1.0  # inches of a map's width below which the numbers of x stand upright
+HIDDEN = 0.02  # of a map's area at most that the points of an edge cover
+
+
+def usual(results):
+    """Names of the fields that a map shows of a file by itself."""
+    names = [name for name in USUAL if results.has([name]) or name in results.vectors]
+    return names or [name for name in results.fields if name not in DEPTHS][:8]
+
+
+def _read(results, index, names, whole):
+    """Fields of one snapshot on the window of its contact, no more cells than the picture has pixels."""
+    rows, columns = (slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index)
+    stride = max(1, -(-max(rows.stop - rows.start, columns.stop - columns.start) // PIXELS))
+    part = {"rows": rows, "columns": columns, "stride": stride}
+    data = {name: results.quantity(name, index, **part) for name in names}
+    masked = [name for name in names if name in OF_CONTACT]
+    if masked and "state" in results.fields:
+        is_open = results.field("state", index, **part) == OPEN
+        data.update({name: np.where(is_open, np.nan, data[name]) for name in masked})
+    edges = extent(results.x[columns], results.y[rows], stride=stride)
+    return {**data, "extent": edges, "edges": [results.edge(name, index) for name in results.edges]}
+
+
+def _gather(snapshots, names, whole):
+    """The data of all snapshots, and the names of the fields that are drawn: those of bodies that have worn, too."""
+    if names:
+        for results, _ in snapshots:
+            for name in names:
+                if name in EDGES:
+                    raise Error(f"{results.path}: --field {name}: is an edge, which maps show by themselves")
+                results.need_quantity(name, "--field")
+        return [_read(*one, names, whole) for one in snapshots], list(names)
+    wanted = {results: usual(results) for results, _ in snapshots}
+    if not any(wanted.values()):
+        results = snapshots[0][0]
+        results.need_quantity("pressure")
+    data = [_read(*one, [*wanted[one[0]], *one[0].depths], whole) for one in snapshots]
+    worn = [name for name in DEPTHS if largest(one[name] for one in data if name in one) > 0.0]
+    return data, list(dict.fromkeys([*(name for fields in wanted.values() for name in fields), *worn]))
+
+
+class Layout:
+    """Where the maps go, and how large they are: data of _read(), the number of fields."""
+
+    def __init__(self, data, fields):
+        sizes = np.array([[one["extent"][1] - one["extent"][0], one["extent"][3] - one["extent"][2]] for one in data])
+        width, height = sizes.max(axis=0)
+        self.ratio = width / height
+        self.stacked = self.ratio >= WIDE
+        self.stretch = self.ratio / min(max(self.ratio, 1.0 / FLAT), FLAT)  # of y over x as it is drawn
+        shown = self.ratio / self.stretch
+        alone = fields == 1 and len(data) == 1
+        if self.stacked:
+            self.rows, self.columns = len(data) * fields, 1
+            self.width = LONG
+            self.height = LONG / shown
+        else:
+            self.rows, self.columns = len(data), fields
+            side = ONE if alone else SIDE
+            self.height = side / min(1.0, shown) if not alone else side / max(1.0, shown)
+            self.height = min(self.height, 6.0)
+            self.width = self.height * shown
+        self.pitch = (self.width + (1.5 if self.stacked else 1.2), self.height + (0.85 if self.stacked else 0.95))
+
+    @property
+    def size(self):
+        """Width and height of the figure, inches."""
+        return self.columns * self.pitch[0] + 0.2, self.rows * self.pitch[1] + 0.2
+
+    @property
+    def remark(self):
+        """What a stretched map says of it."""
+        if np.isclose(self.stretch, 1.0):
+            return ""
+        axis, times = ("y", self.stretch) if self.stretch > 1.0 else ("x", 1.0 / self.stretch)
+        return f" (${axis}$ is stretched {times:.3g} times)"
+
+    def place(self, snapshot, column, fields):
+        """Row and column of a panel."""
+        return (snapshot * fields + column, 0) if self.stacked else (snapshot, column)
+
+
+def _colours_of_state(results, name, values):
+    """Colours, places and words of a field of flags, such as the state."""
+    words = results.flags(name)
+    count = max([*words, int(np.max(values, initial=0))]) + 1
+    tints = [STATES[k][1] if k in STATES else plt.get_cmap("tab10")(k % 10) for k in range(count)]
+    texts = [words.get(k, str(k)) for k in range(count)]
+    return ListedColormap(tints), (-0.5, count - 0.5), texts
+
+
+def _edge_points(panel, points, length, layout, color):
+    """Points of an edge, so small that they do not hide the map."""
+    if not len(points):
+        return
+    size = min(1.2, np.sqrt(HIDDEN * layout.width * layout.height / len(points)) * 72.0)
+    panel.plot(*(length * points.T), ".", color=color, markersize=max(size, 0.25), markeredgewidth=0.0)
+
+
+def _draw(panel, one, name, shown, layout, length):
+    """One map and its colour bar; shown is Colours, or (colour map, limits, words) of flags."""
+    edges = [length * value for value in one["extent"]]
+    if isinstance(shown, colours.Colours):
+        image = field(panel, shown.factor * one[name], edges, color_map=shown.color_map, norm=shown.norm)
+        image.cmap = image.cmap.with_extremes(bad="white", under=image.cmap(0.0))
+        drawn = bar(panel, image, shown.text(one["symbols"][name]), layout.height, extend=shown.extend)
+        drawn.ax.yaxis.label.set_fontsize(8 if shown.remark or layout.height < 1.2 else 9)
+        if type(shown.norm) is not Normalize:
+            places = colours.log_ticks(shown.norm, np.clip(layout.height / 0.3, 3, 9))
+            drawn.set_ticks(places, labels=[f"{value:g}".replace("-", "\u2212", value < 0) for value in places])
+            drawn.ax.minorticks_off()
+    else:
+        tints, limits, words = shown
+        image = field(panel, one[name], edges, *limits, tints)
+        drawn = bar(panel, image, "", layout.height, ticks=range(len(words)))
+        drawn.set_ticks(range(len(words)), labels=words)
+    drawn.ax.tick_params(labelsize=8)
+    panel.set_aspect(layout.stretch)
+    for points in one["edges"]:
+        _edge_points(panel, points, length, layout, "black" if not isinstance(shown, colours.Colours) else "0.85")
+    panel.set(xlim=edges[:2], ylim=edges[2:])
+    panel.xaxis.set_major_locator(ticks(layout.width / 0.6, 9))
+    panel.yaxis.set_major_locator(ticks(layout.height / 0.35, 6))
+    if layout.width < NARROW:
+        panel.tick_params(axis="x", labelrotation=90)
+    panel.tick_params(labelsize=8 if min(layout.width, layout.height) < 1.5 else 10)
+
+
+def _titles(panel, layout, title, heading):
+    """The field's title above a map, and above that of the first field what the snapshot is."""
+    wrapped = "\n".join(textwrap.wrap(title, max(12, int(11 * layout.pitch[0])), break_long_words=False))
+    if layout.stacked:
+        panel.set_title(title, loc="left", fontsize=10)
+        panel.set_title(heading, loc="right", fontsize=8.5, color="0.35")
+        return
+    panel.set_title(wrapped, fontsize=10.5)
+    if heading:
+        above = (22.0 + 13.0 * wrapped.count("\n")) / 72.0 / layout.height
+        panel.set_title(heading, loc="left", y=1.0 + above, fontsize=8.5, color="0.35")
+
+
+def maps(snapshots, whole=False, names=None, choice=None):
+    """Fields of every snapshot, one scale a field: those named, or pressure, |q|, |s|, state and removed depths."""
+    if choice and choice.limits and len(names or ()) != 1:
+        raise Error("--limits: expected one field, by --field")
+    data, names = _gather(snapshots, names, whole)
+    layout = Layout(data, len(names))
+    need_few(layout.rows * layout.columns if layout.stacked else layout.rows, "steps and files")
+    length, unit = scale("m", largest(np.array(one["extent"]) for one in data))
+    figure, axes = plt.subplots(layout.rows, layout.columns, figsize=layout.size, squeeze=False, layout="constrained")
+    for column, name in enumerate(names):
+        having = [(one, results) for one, (results, _) in zip(data, snapshots) if name in one]
+        title, symbol, base = symbols.field(having[0][1], name)
+        if having[0][1].flags(name):
+            shown = _colours_of_state(having[0][1], name, np.concatenate([one[name].ravel() for one, _ in having]))
+        else:
+            shown = colours.choose(name, [one[name] for one, _ in having], base, choice)
+        for row, (one, (results, index)) in enumerate(zip(data, snapshots)):
+            panel = axes[layout.place(row, column, len(names))]
+            if name not in one:  # a file without wear
+                panel.set_axis_off()
+                continue
+            one.setdefault("symbols", {})[name] = symbol
+            _draw(panel, one, name, shown, layout, length)
+            _titles(panel, layout, title, plain(results.title(index)) + layout.remark if column == 0 else "")
+            first = column == 0 or layout.stacked
+            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if first else "")
+    return figure

@@ -1,0 +1,125 @@
+"""Profiles of fields along x and y through a point, of results.Results.
+
+A saved step is given as a pair (Results, index into its saved fields), and read no further than is drawn.
+"""
+
+import numpy as np
+
+from ..errors import Error
+from ..results import DEPTHS, OPEN
+from . import symbols
+from .maps import OF_CONTACT
+from .style import colors, plt
+from .units import label, largest, plain, scale
+
+ROWS = (
+    (("pressure",), "pressure $p$", "$p$", "Pa", False),
+    (("shear_x", "shear_y"), "shear $q_x$ (line), $q_y$ (dashed), $\\pm\\mu p$ (dots)", "$q$", "Pa", True),
+    (("slip_x", "slip_y"), "slip $s_x$ (line), $s_y$ (dashed)", "$s$", "m", False),
+    (DEPTHS, "removed depth $w_1$ (line), $w_2$ (dashed)", "$w$", "m", False),
+)  # names, title, symbol, unit, whether it is bounded by friction
+
+
+def crossing(results, axis, at):
+    """Number of the row (axis 0) or column (axis 1) of cells nearest to the point at."""
+    across = (results.y, results.x)[axis]
+    half = 0.5 * (across[1] - across[0])
+    if not across[0] - half <= at[1 - axis] <= across[-1] + half:
+        raise Error("{}: --at {:g},{:g}: is not on the grid".format(results.path, *at))
+    return int(np.argmin(np.abs(across - at[1 - axis])))
+
+
+def _profile(results, index, axis, at, names, whole):
+    """Fields along x (axis 0) or y (axis 1) through the cells nearest to the point at; NaN where slip does not exist,
+    0 where a field of another file is not in this one."""
+    window = (slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index)
+    along = (results.x, results.y)[axis]
+    k = crossing(results, axis, at)
+    rows, columns = (slice(k, k + 1), window[1]) if axis == 0 else (window[0], slice(k, k + 1))
+    part = {"rows": rows, "columns": columns}
+    x = along[window[1 - axis]]
+    has = [name for name in names if name in results.fields or name in results.vectors]
+    data = {
+        **dict.fromkeys(names, np.zeros(x.size)),
+        **{name: results.quantity(name, index, **part).ravel() for name in has},
+    }
+    if "state" in results.fields and any(name in OF_CONTACT for name in names):
+        is_open = results.field("state", index, **part).ravel() == OPEN
+        data.update({name: np.where(is_open, np.nan, data[name]) for name in names if name in OF_CONTACT})
+    return {**data, "along": x}
+
+
+def _bounds(axes, data, mu, color, length, factor):
+    """Dots at +-mu p."""
+    for sign in (1.0, -1.0):
+        y = sign * factor * mu * data["pressure"]
+        axes.plot(length * data["along"], y, ":", color=color, linewidth=0.9, alpha=0.7)
+
+
+def _panel(axes, lines, names, length, factor, friction):
+    """Lines of the components names of every snapshot; with friction, if a number, the bounds +-mu p behind."""
+    for data, color, mu, text in lines:
+        if friction and mu > 0.0 and "pressure" in data:
+            _bounds(axes, data, mu, color, length, factor)
+        for name, style in zip(names, ("-", "--")):
+            text_of_line = text if style == "-" else None
+            look = {"color": color, "linewidth": 1.3, "label": text_of_line}
+            axes.plot(length * data["along"], factor * data[name], style, **look)
+
+
+def _rows(snapshots, names):
+    """What each row of panels shows: names, title, symbol, unit and whether it is bounded by friction."""
+    if names:
+        for results, _ in snapshots:
+            for name in names:
+                results.need_quantity(name, "--field")
+        described = [symbols.field(snapshots[0][0], name) for name in names]
+        return [((name,), *texts, False) for name, texts in zip(names, described)]
+    fields = {name for results, _ in snapshots for name in results.fields}
+    rows = [row for row in ROWS if any(name in fields for name in row[0])]
+    if not rows:
+        snapshots[0][0].need_quantity("pressure")
+    return rows
+
+
+def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, logs=()):
+    """Fields along x (left) and y (right): those named, or pressure, shear, slip and removed depths."""
+    if limits and len(names or ()) != 1:
+        raise Error("--limits: expected one field, by --field")
+    rows = _rows(snapshots, names)
+    read = list(dict.fromkeys(name for row in rows for name in row[0]))
+    tints = colors(len(snapshots))
+    lines = [
+        [
+            (
+                _profile(results, index, axis, at, read, whole),
+                tint,
+                results.friction(index),
+                plain(results.title(index)),
+            )
+            for (results, index), tint in zip(snapshots, tints)
+        ]
+        for axis in (0, 1)
+    ]
+    every = [line[0] for side in lines for line in side]
+    length, unit = scale("m", largest(data["along"] for data in every))
+    tops = [largest(data[name] for data in every for name in row[0]) for row in rows]
+    shown = [(row, top) for row, top in zip(rows, tops) if top > 0.0] or [(rows[0], 0.0)]
+    size = (11.0, 2.7 * len(shown) + (0.4 if len(shown) > 1 else 1.2))
+    shared = {"sharey": "row", "sharex": "col", "constrained_layout": True}
+    figure, axes = plt.subplots(len(shown), 2, figsize=size, squeeze=False, **shared)
+    for panels, ((group, text, symbol, base, friction), top) in zip(axes, shown):
+        factor, prefixed = scale(base, max(map(abs, limits)) if limits else top)
+        for panel, side in zip(panels, lines):
+            _panel(panel, side, group, length, factor, friction)
+            panel.set(**{f"{axis}scale": "log" for axis in logs})
+            panel.set(**({"ylim": [factor * value for value in limits]} if limits else {}))
+        panels[0].set(ylabel=label(symbol, prefixed))
+        panels[0].set_title(text, loc="left", fontsize=9.5)
+    axes[-1, 0].set_xlabel("{}  at $y$ = {:.4g} {}".format(label("$x$", unit), length * at[1], unit))
+    axes[-1, 1].set_xlabel("{}  at $x$ = {:.4g} {}".format(label("$y$", unit), length * at[0], unit))
+    if len(snapshots) > 1:
+        axes[0, 0].legend(loc="best")
+    else:
+        figure.suptitle(plain(snapshots[0][0].title(snapshots[0][1])), fontsize=9, color="0.35")
+    return figure

@@ -1,0 +1,109 @@
+"""Scalars of /history over time, or over one another, of results.Results."""
+
+import numpy as np
+
+from ..cycles import ENERGY, PAIRS
+from ..errors import Error, short
+from . import symbols
+from .style import colors, curve, need_few, outlined, plt
+from .units import label, largest, plain, scale
+
+VOLUMES = ("wear_volume1", "wear_volume2")
+TIME = "time"
+
+
+def series(results, name):
+    """Times and values of /history/name of the steps that have a solution; of the dissipated energy the sum.
+
+    The status is that of all steps: it tells which of them have none.
+    """
+    if name == "status":
+        status, time = results.history[name], results.history[TIME]
+        complete = min(status.size, time.size)
+        return time[:complete], status[:complete].astype(float)
+    values = results.series(name).astype(float)
+    return results.series(TIME), np.cumsum(values) if name == ENERGY else values
+
+
+def against(results, name, other):
+    """Values of a scalar and of the other one that it is drawn over, of the same steps."""
+    time, values = series(results, name)
+    if other == TIME:
+        return time, values
+    beside = series(results, other)[1]
+    if name == "status" or other == "status":
+        rows = [
+            np.arange(one.size) if who == "status" else results.solved for who, one in ((name, values), (other, beside))
+        ]
+        shared, mine, theirs = np.intersect1d(*rows, return_indices=True)
+        values, beside = values[mine], beside[theirs]
+    return beside, values
+
+
+def _varying(results):
+    """Names that a picture of the history shows by itself: what is zero but for rounding does not vary."""
+    length = max(largest((one.x, one.y)) for one in results)
+    force, way = (
+        max(largest(one.series(name) for one in results) for name in names)
+        for names in (("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y"))
+    )
+    size = {"N": force, "N m": force * length, "m": way, "rad": way / length}
+    loads = [
+        name
+        for pair in PAIRS.values()
+        for name in pair
+        if any(np.ptp(one.series(name)) > 1e-9 * size.get(one.units[name], 0.0) for one in results)
+    ]
+    shared = [name for name in VOLUMES if all(name in one.history for one in results)]
+    worn = [name for name in shared if any(np.any(one.series(name)) for one in results)]
+    # of a life the sum of the energy over the computed cycles says nothing
+    energy = [] if any(one.has_life for one in results) else [ENERGY]
+    return [*loads, "contact_area", "stick_area", *worn, *energy, "tangential_iterations"]
+
+
+def need_scalars(results, names, option):
+    """Error where the history lacks one of the names, which the option has asked for."""
+    for name in names:
+        if name in results.matrices:
+            raise Error(f"{results.path}: {option} {short(name)}: is a matrix for every step")
+        if name not in results.history:
+            there = ", ".join(sorted(results.history))
+            raise Error(f"{results.path}: {option} {short(name)}: has no such dataset; it has {there}")
+
+
+def _panel(panel, results, name, other, across):
+    """One scalar of all files; across is the factor of the other one."""
+    lines = [against(one, name, other) for one in results]
+    factor, unit = scale(results[0].units[name], largest(values for _, values in lines))
+    for one, (x, y), tint in zip(results, lines, colors(len(results))):
+        x, y = outlined(across * x, factor * y)
+        panel.plot(x, y, color=tint, label=plain(one.label), **curve(x.size))
+    panel.set(ylabel=label(symbols.scalar(name), unit))
+
+
+def history(results, names=None, other=TIME, option="--names", logs=()):
+    """Scalars of /history over time, or over another scalar: a panel each, a line a file.
+
+    Of steps without a solution the status alone. logs are the axes, x or y, that are logarithmic.
+    """
+    for one in results:
+        one.need_solution()
+        need_scalars(one, names or (), option)
+        need_scalars(one, [other], "--against")
+    names = names or [name for name in _varying(results) if name != other]
+    need_few(len(names), "datasets")
+    columns = min(3, len(names))
+    rows = -(-len(names) // columns)
+    size = (4.2 * columns, 2.6 * rows + 0.3) if len(names) > 1 else (6.4, 4.4)
+    figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False, sharex=True, constrained_layout=True)
+    across, unit = scale(results[0].units[other], largest(series(one, other)[1] for one in results))
+    for panel, name in zip(axes.flat, names):
+        _panel(panel, results, name, other, across)
+        panel.set(**{f"{axis}scale": "log" for axis in logs})
+    for panel in axes.flat[len(names) :]:
+        panel.set_axis_off()
+    for panel in axes.flat[max(0, len(names) - columns) : len(names)]:
+        panel.set_xlabel(label("time" if other == TIME else symbols.scalar(other), unit))
+        panel.tick_params(labelbottom=True)
+    axes.flat[0].legend(loc="best")
+    return figure

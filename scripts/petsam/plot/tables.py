@@ -1,0 +1,198 @@
+"""Pictures of a study: any number of its table over another, of studies.Study."""
+
+import numpy as np
+
+from ..errors import Error, short
+from . import symbols
+from .style import MARKED, colors, need_few, plt
+from .units import label, largest, plain, scale
+
+MARKS = ("o", "s", "^", "D", "v", "x", "+")
+MOST = 9  # panels of a picture unless columns are named
+CURVES = 40  # in a panel
+SAME = 1e-9  # relative: what differs by less does not vary
+NOISE = 1e-9  # of the largest number with the same dimension: what is smaller is zero but for rounding; rad by itself
+DIMENSION = {"J": "N m"}
+
+
+def _numbers(study, name, option):
+    """Values of a column of numbers, and their unit."""
+    try:
+        values, unit = study.column(name)
+    except Error as error:
+        raise Error(f"{error} ({option})") from error
+    if values.dtype.kind not in "biuf":
+        raise Error(f"{study.path}: {option} {short(name)}: holds texts, no numbers")
+    return values.astype(float), unit
+
+
+def _varies(values):
+    """Whether a column has different values: texts, or numbers by more than rounding."""
+    if values.dtype.kind not in "biuf":
+        return len(set(values)) > 1
+    known = values[np.isfinite(values)].astype(float)
+    return known.size > 1 and float(np.ptp(known)) > SAME * float(np.max(np.abs(known)))
+
+
+def _distinct(values):
+    return len(set(values.tolist()))
+
+
+def swept(study):
+    """Names of the inputs that vary, the one with the most values first."""
+    names = [name for name, values in study.inputs.items() if _varies(values)]
+    return sorted(names, key=lambda name: -_distinct(study.inputs[name]))
+
+
+def abscissa(study):
+    """The input of numbers that has the most values."""
+    names = [name for name in swept(study) if study.inputs[name].dtype.kind in "biuf"]
+    if not names:
+        raise Error(f"{study.path}: no input of numbers varies; --against names what is drawn over")
+    return names[0]
+
+
+def _results(study, other):
+    """Names of the results that a picture shows by itself: physical quantities that vary by more than rounding."""
+    sizes = {"rad": 1.0}
+    for name, unit in study.units.items():
+        unit = DIMENSION.get(unit, unit)
+        sizes[unit] = max(sizes.get(unit, 0.0), largest([study.results[name].astype(float)]))
+    names = []
+    for name, unit in study.units.items():
+        values = study.results[name].astype(float)
+        if name != other and unit not in ("1", "s") and _varies(values):
+            size = sizes[DIMENSION.get(unit, unit)]
+            names += [name] if np.nanmax(values) - np.nanmin(values) > NOISE * size else []
+    if not names:
+        raise Error(f"{study.path}: no result varies; --scalar names what is drawn: {', '.join(study.names)}")
+    return [name + "_end" if name in study.inputs else name for name in names[:MOST]]
+
+
+def rows(study, where=()):
+    """Which cases are drawn: those that finished, and whose columns have the values asked for (name, text)."""
+    chosen = study.codes == 0
+    for name, text in where:
+        try:
+            values, _ = study.column(name)
+        except Error as error:
+            raise Error(f"{error} (--where)") from error
+        if values.dtype.kind in "biuf":
+            try:
+                wanted = float(text)
+            except ValueError:
+                raise Error(f"{study.path}: --where {short(name)}={short(text)}: expected a number") from None
+            match = np.isclose(values.astype(float), wanted, rtol=1e-9, atol=0.0)
+        else:
+            match = values == text
+        if not match.any():
+            there = ", ".join(sorted({f"{value:g}" if values.dtype.kind in "biuf" else value for value in values})[:8])
+            raise Error(f"{study.path}: --where {short(name)}={short(text)}: no case has it; there are {there}")
+        chosen = chosen & match
+    if not chosen.any():
+        raise Error(f"{study.path}: none of the cases asked for has finished")
+    return chosen
+
+
+def _text(name, value):
+    return f"{plain(name)} = {value:g}" if isinstance(value, float) else f"{plain(name)} = {plain(value)}"
+
+
+def groups(study, other, by, chosen):
+    """Names of the parameters that tell curves apart, `by` first, and of every curve their values and its rows."""
+    rest = [name for name in swept(study) if name != other]
+    names = [name for name in rest if _varies(study.inputs[name][chosen])]
+    if by is not None:
+        study_values, _ = study.column(by)
+        names = [by, *(name for name in names if name != by)]
+    columns = [study_values if name == by else study.inputs[name] for name in names]
+    found = {}
+    for k in np.flatnonzero(chosen):
+        found.setdefault(tuple(column[k].item() for column in columns), []).append(int(k))
+    curves = [(key, np.array(found[key])) for key in sorted(found, key=lambda key: [(str(type(v)), v) for v in key])]
+    if len(curves) > CURVES:
+        raise Error(f"{study.path}: {len(curves)} curves, by {', '.join(names)}; --where chooses cases")
+    return names, curves
+
+
+def _styles(curves):
+    """Colour by the first parameter, mark by the others."""
+    first = sorted({key[0] for key, _ in curves if key}, key=str)
+    others = sorted({key[1:] for key, _ in curves}, key=str)
+    firsts = [key[0] for key, _ in curves if key]
+    first = list(dict.fromkeys(firsts)) or first
+    tints = colors(max(1, len(first)))
+    for key, _ in curves:
+        yield tints[first.index(key[0]) if key else 0], MARKS[others.index(key[1:]) % len(MARKS)]
+
+
+def _curves(studies, other, by, where):
+    """(study, label, colour, mark, rows) of every curve."""
+    found = []
+    for study in studies:
+        names, curves = groups(study, other, by, rows(study, where))
+        who = [plain(study.label)] if len(studies) > 1 else []
+        for (key, cases), (color, mark) in zip(curves, _styles(curves)):
+            text = ", ".join([*who, *(_text(name, value) for name, value in zip(names, key))])
+            found.append([study, text, color, mark, cases])
+    if len(studies) > 1:  # colours tell the curves of several studies apart
+        for curve, color in zip(found, colors(len(found))):
+            curve[2] = color
+    return found
+
+
+def _draw(panel, curves, name, other, across, logs):
+    """One column over the other of all curves."""
+    data = [(study.column(other)[0][cases].astype(float), _numbers(study, name, "--scalar")[0][cases])
+            for study, _, _, _, cases in curves]  # fmt: skip
+    factor, unit = scale(_numbers(curves[0][0], name, "--scalar")[1], largest(y for _, y in data))
+    for (_, text, color, mark, _), (x, y) in zip(curves, data):
+        order = np.argsort(x, kind="stable")
+        many = {"marker": "", "linewidth": 0.8} if x.size > MARKED else {"marker": mark, "linewidth": 1.0}
+        look = {"markersize": 4.5, "markerfacecolor": "white", "color": color, "label": text, **many}
+        panel.plot(across * x[order], factor * y[order], **look)
+    bare = name[:-4] if name.endswith("_end") else name
+    text = "dissipated energy, sum" if name == "dissipated_energy_sum" else symbols.scalar(bare)
+    text = "dissipated energy, last step" if name == "dissipated_energy" else text
+    panel.set(ylabel=label(text, unit))
+    panel.set(**{f"{axis}scale": "log" for axis in logs})
+
+
+def study(studies, names=None, other=None, by=None, where=(), logs=()):
+    """Columns of studies over another one: a panel each, a curve for every value of the other inputs that vary.
+
+    Without names the results that vary; without other the input with the most values; by names the parameter that the
+    colours stand for. Cases that have not finished are left out, and the picture says how many.
+    """
+    other = other or abscissa(studies[0])
+    for one in studies:
+        _numbers(one, other, "--against")
+    names = names or _results(studies[0], other)
+    need_few(len(names), "columns")
+    curves = _curves(studies, other, by, where)
+    across, unit = _abscissa(curves, other)
+    columns = min(3, len(names))
+    height = -(-len(names) // columns)
+    size = (4.4 * columns, 3.0 * height + 0.4) if len(names) > 1 else (6.8, 4.6)
+    figure, axes = plt.subplots(height, columns, figsize=size, squeeze=False, constrained_layout=True)
+    for panel, name in zip(axes.flat, names):
+        _draw(panel, curves, name, other, across, logs)
+        panel.set_xlabel(label(plain(other), unit))
+    for panel in axes.flat[len(names) :]:
+        panel.set_axis_off()
+    handles, texts = axes.flat[0].get_legend_handles_labels()
+    if any(texts):
+        outside = {"loc": "outside right upper"} if len(curves) > 4 else {}
+        (figure if outside else axes.flat[0]).legend(handles, texts, **outside)
+    left = sum(int(np.sum(one.codes != 0)) for one in studies)
+    if left:
+        figure.suptitle(f"{left} cases that have not finished are left out", fontsize=9, color="0.35")
+    return figure
+
+
+def _abscissa(curves, other):
+    """Factor and unit of what is drawn over; an input has the numbers that the table gives."""
+    unit = curves[0][0].column(other)[1]
+    return (
+        scale(unit, largest(study.column(other)[0][cases] for study, _, _, _, cases in curves)) if unit else (1.0, "")
+    )

@@ -1,0 +1,85 @@
+"""Reading of petsam-study's results.h5: inputs and scalars of all cases. SI units."""
+
+import os
+
+import h5py
+import numpy as np
+
+from .errors import Error, Missing, short
+from .files import need_regular
+from .isolation import reading
+from .results import DAMAGED, WHOLE, _own, _reason
+
+
+class Study:
+    """The table of a study, open for reading; Error where it cannot be read.
+
+    cases     names of the cases
+    codes     their exit codes, -1 where a case has not run
+    inputs    name: an array of numbers, or of texts, a value a case
+    results   name: an array of numbers, a value a case, NaN where there is none
+    units     name: unit, of the results
+    """
+
+    def __init__(self, path, label=None):
+        self.path = str(path)
+        name = os.path.basename(os.path.dirname(os.path.abspath(self.path)))
+        self.label = label or name
+        with reading(self.path):
+            try:
+                need_regular(self.path)
+                with h5py.File(self.path, "r") as file:
+                    self._read(file)
+            except FileNotFoundError as error:
+                raise Missing(f"{self.path}: no such file") from error
+            except DAMAGED as error:
+                raise Error(f"{self.path}: {_reason(error)}") from error
+
+    def _read(self, file):
+        self.cases = self._column(file, "case")
+        self.codes = self._column(file, "exit_code")
+        groups = {name: _own(file, name) for name in ("inputs", "results") if name in file}
+        columns = {group: {name: self._column(data, name) for name in data} for group, data in groups.items()}
+        self.inputs, self.results = columns.get("inputs", {}), columns.get("results", {})
+        self.units = {name: short(str(groups["results"][name].attrs.get("units", "1"))) for name in self.results}
+        for values in (*self.inputs.values(), *self.results.values(), self.codes):
+            if values.size != self.cases.size:
+                raise ValueError("its columns have different lengths")
+
+    @staticmethod
+    def _column(group, name):
+        data = _own(group, name)
+        if getattr(data, "ndim", None) != 1 or data.size > WHOLE:
+            raise ValueError(f"/{name} is not a row")
+        return data[:] if data.dtype.kind in "biuf" else np.array(data.asstr(errors="replace")[:], dtype=str)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        """Nothing is open: the table is read whole."""
+
+    def column(self, name):
+        """Values of an input or of a result, and the unit; a result that has an input's name ends with _end."""
+        if name in self.inputs:
+            return self.inputs[name], ""
+        bare = name[:-4] if name.endswith("_end") and name[:-4] in self.inputs else name
+        if bare not in self.results:
+            raise Error(f"{self.path}: {short(name)}: there is no such column; there are {', '.join(self.names)}")
+        return self.results[bare], self.units[bare]
+
+    @property
+    def names(self):
+        """Names of all columns."""
+        return [*self.inputs, *(name + "_end" if name in self.inputs else name for name in self.results)]
+
+
+def is_study(path):
+    """Whether a file looks like the table of a study."""
+    try:
+        with reading(str(path)):
+            need_regular(str(path))
+            with h5py.File(str(path), "r") as file:
+                return all(name in file for name in ("case", "exit_code", "cases"))
+    except (Error, *DAMAGED):
+        return False
