@@ -59,13 +59,17 @@ class Study:
     def __exit__(self, *_):
         """Nothing is open: the table is read whole."""
 
-    def column(self, name):
-        """Values of an input or of a result, and the unit; a result that has an input's name ends with _end."""
+    def column(self, name, option=""):
+        """Values of an input or of a result, and the unit; a result that has an input's name ends with _end.
+
+        option is what the message names where there is no such column.
+        """
         if name in self.inputs:
             return self.inputs[name], ""
         bare = name[:-4] if name.endswith("_end") and name[:-4] in self.inputs else name
         if bare not in self.results:
-            raise Error(f"{self.path}: {short(name)}: there is no such column; there are {', '.join(self.names)}")
+            what = f"{option} {short(name)}".strip()
+            raise Error(f"{self.path}: {what}: there is no such column; there are {', '.join(self.names)}")
         return self.results[bare], self.units[bare]
 
     @property

@@ -179,8 +179,9 @@ def test_of_many_cycles_some_are_drawn(count, shown):
 
 def test_long_loops_are_lines_without_marks(results):
     assert loops.loop([results]).axes[0].lines[0].get_marker() == "."
-    x = np.sin(np.arange(loops.DENSE + 5.0))
+    x = 5.0 * np.sin(np.arange(loops.DENSE + 5.0))
     results.history.update({name: np.zeros(x.size) for name in results.history})
+    del results.__dict__["solved"]
     results.history.update(load_tx=x, disp_x=2.0 * x)
     axes = loops.loop([results], "tx").axes[0]
     assert all(line.get_marker() in ("", "None", None) for line in axes.lines if len(line.get_xdata()) > MARKED)

@@ -133,7 +133,7 @@ def _draw(panel, one, name, shown, layout, length):
         drawn.ax.yaxis.label.set_fontsize(8 if shown.remark or layout.height < 1.2 else 9)
         if type(shown.norm) is not Normalize:
             places = colours.log_ticks(shown.norm, np.clip(layout.height / 0.3, 3, 9))
-            drawn.set_ticks(places, labels=[f"{value:g}".replace("-", "\u2212", value < 0) for value in places])
+            drawn.set_ticks(places, labels=[f"{value:g}" for value in places])
             drawn.ax.minorticks_off()
     else:
         tints, limits, words = shown

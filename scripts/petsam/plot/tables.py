@@ -17,10 +17,7 @@ DIMENSION = {"J": "N m"}
 
 def _numbers(study, name, option):
     """Values of a column of numbers, and their unit."""
-    try:
-        values, unit = study.column(name)
-    except Error as error:
-        raise Error(f"{error} ({option})") from error
+    values, unit = study.column(name, option)
     if values.dtype.kind not in "biuf":
         raise Error(f"{study.path}: {option} {short(name)}: holds texts, no numbers")
     return values.astype(float), unit
@@ -61,22 +58,20 @@ def _results(study, other):
     names = []
     for name, unit in study.units.items():
         values = study.results[name].astype(float)
-        if name != other and unit not in ("1", "s") and _varies(values):
+        column = name + "_end" if name in study.inputs else name
+        if column != other and unit not in ("1", "s") and _varies(values):
             size = sizes[DIMENSION.get(unit, unit)]
-            names += [name] if np.nanmax(values) - np.nanmin(values) > NOISE * size else []
+            names += [column] if np.nanmax(values) - np.nanmin(values) > NOISE * size else []
     if not names:
         raise Error(f"{study.path}: no result varies; --scalar names what is drawn: {', '.join(study.names)}")
-    return [name + "_end" if name in study.inputs else name for name in names[:MOST]]
+    return names[:MOST]
 
 
 def rows(study, where=()):
     """Which cases are drawn: those that finished, and whose columns have the values asked for (name, text)."""
     chosen = study.codes == 0
     for name, text in where:
-        try:
-            values, _ = study.column(name)
-        except Error as error:
-            raise Error(f"{error} (--where)") from error
+        values, _ = study.column(name, "--where")
         if values.dtype.kind in "biuf":
             try:
                 wanted = float(text)
@@ -98,18 +93,39 @@ def _text(name, value):
     return f"{plain(name)} = {value:g}" if isinstance(value, float) else f"{plain(name)} = {plain(value)}"
 
 
-def groups(study, other, by, chosen):
-    """Names of the parameters that tell curves apart, `by` first, and of every curve their values and its rows."""
-    rest = [name for name in swept(study) if name != other]
-    names = [name for name in rest if _varies(study.inputs[name][chosen])]
-    if by is not None:
-        study_values, _ = study.column(by)
-        names = [by, *(name for name in names if name != by)]
-    columns = [study_values if name == by else study.inputs[name] for name in names]
+def _split(columns, chosen):
+    """Rows of the chosen cases by their values in the columns."""
     found = {}
     for k in np.flatnonzero(chosen):
         found.setdefault(tuple(column[k].item() for column in columns), []).append(int(k))
-    curves = [(key, np.array(found[key])) for key in sorted(found, key=lambda key: [(str(type(v)), v) for v in key])]
+    return found
+
+
+def _ambiguous(curves, x, column):
+    """Whether in some curve there are cases with one x that differ in a column."""
+    for rows_of_curve in curves.values():
+        values = {}
+        for k in rows_of_curve:
+            values.setdefault(x[k].item(), set()).add(column[k].item())
+        if any(len(some) > 1 for some in values.values()):
+            return True
+    return False
+
+
+def groups(study, other, by, chosen):
+    """Names of the parameters that tell curves apart, `by` first, and of every curve their values and its rows.
+
+    Besides `by` these are inputs in which cases with the same x differ; what changes along a curve tells none apart.
+    """
+    x = study.column(other)[0]
+    names = [by] if by is not None else []
+    columns = [study.column(by, "--by")[0]] if names else []
+    for name in reversed(swept(study)):  # those with few values first
+        if name not in (other, by) and _ambiguous(_split(columns, chosen), x, study.inputs[name]):
+            names.append(name)
+            columns.append(study.inputs[name])
+    found = _split(columns, chosen)
+    curves = [(key, np.array(found[key])) for key in sorted(found)]
     if len(curves) > CURVES:
         raise Error(f"{study.path}: {len(curves)} curves, by {', '.join(names)}; --where chooses cases")
     return names, curves
@@ -117,13 +133,11 @@ def groups(study, other, by, chosen):
 
 def _styles(curves):
     """Colour by the first parameter, mark by the others."""
-    first = sorted({key[0] for key, _ in curves if key}, key=str)
-    others = sorted({key[1:] for key, _ in curves}, key=str)
-    firsts = [key[0] for key, _ in curves if key]
-    first = list(dict.fromkeys(firsts)) or first
-    tints = colors(max(1, len(first)))
+    first = list(dict.fromkeys(key[:1] for key, _ in curves))
+    others = list(dict.fromkeys(key[1:] for key, _ in curves))
+    tints = colors(len(first))
     for key, _ in curves:
-        yield tints[first.index(key[0]) if key else 0], MARKS[others.index(key[1:]) % len(MARKS)]
+        yield tints[first.index(key[:1])], MARKS[others.index(key[1:]) % len(MARKS)]
 
 
 def _curves(studies, other, by, where):
@@ -186,7 +200,7 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
         (figure if outside else axes.flat[0]).legend(handles, texts, **outside)
     left = sum(int(np.sum(one.codes != 0)) for one in studies)
     if left:
-        figure.suptitle(f"{left} cases that have not finished are left out", fontsize=9, color="0.35")
+        figure.suptitle(f"left out, as they have not finished: {left} of the cases", fontsize=9, color="0.35")
     return figure
 
 

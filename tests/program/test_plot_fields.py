@@ -1,0 +1,414 @@
+"""petsam-plot's maps and profiles of chosen fields: colours, limits, layout; scalars over one another; many points."""
+
+import h5py
+import numpy as np
+import pytest
+from matplotlib.colors import LogNorm, Normalize, SymLogNorm
+
+import petsam
+from petsam.plot import colours, maps, profiles, series, style
+from petsam.plot.style import plt
+from support import ball, slide_limit
+
+CASE = ball(n=32)
+AMPLITUDE = 0.7 * slide_limit(CASE)[0]
+# steel on steel, a narrow ellipse: 10 mm x 1 mm
+LONG = dict(CASE, body1_young=210e9, body2_young=210e9, body1_poisson=0.3, body2_poisson=0.3, friction=0.3)
+LONG.update(gap_type="ellipsoid", gap_radius_x=4.0, gap_radius_y=0.1, gap_radius1=None, gap_radius2=None)
+LONG.update(grid_n=(320, 32), grid_size=(20e-3, 1.6e-3), load_n=2000.0)
+
+
+@pytest.fixture(scope="module")
+def path(solve, tmp_path_factory):
+    """To the amplitude and back, both tangential loads."""
+    table = tmp_path_factory.mktemp("history") / "h.csv"
+    amplitude = float(AMPLITUDE)
+    table.write_text(f"time,load_tx,load_ty\n0,0,0\n1,{amplitude!r},{0.5 * amplitude!r}\n2,{-amplitude!r},0\n")
+    return solve(CASE, dict(history=table, steps=3)).path
+
+
+@pytest.fixture(scope="module")
+def edges(solve):
+    """A narrow contact on a long grid, with its edge."""
+    more = dict(load_tx=300.0, load_ty=100.0, output_fields="all,contact_edge")
+    return solve(dict(LONG, **more)).path
+
+
+@pytest.fixture
+def results(path):
+    with petsam.open(path) as results:
+        yield results
+
+
+@pytest.fixture(autouse=True)
+def closing():
+    """Figures are closed after each test: matplotlib keeps them."""
+    yield
+    plt.close("all")
+
+
+def image(figure, panel=0):
+    """The picture of a map, and its colour bar's axes."""
+    drawn = figure.axes[panel].images[0]
+    return drawn, drawn.colorbar.ax
+
+
+# ---------------------------------------------------------------- fields by name
+
+
+def test_fields_and_vectors_of_a_file_are_known_by_what_it_holds(results, path):
+    with h5py.File(path, "r") as file:
+        shape = (results.times.size, results.y.size, results.x.size)
+        named = [name for name in file if getattr(file[name], "shape", None) == shape]
+        expected = np.hypot(file["displacement_x"][-1], file["displacement_y"][-1])
+    assert sorted(results.fields) == sorted(named) and "state" in named
+    assert {"shear", "slip", "displacement"} <= set(results.vectors)
+    assert np.array_equal(results.quantity("displacement"), expected)
+    assert results.about("displacement") == ("m", "relative elastic displacement along x")
+    assert results.flags("state") == {0: "open", 1: "stick", 2: "slip"} and results.flags("gap") == {}
+
+
+def test_a_new_field_needs_no_change_here(path, tmp_path):
+    other = tmp_path / "other.h5"
+    other.write_bytes(path.read_bytes())
+    with h5py.File(other, "r+") as file:
+        file["friction_energy"] = 3.0e3 * file["pressure"][:] / file["pressure"][:].max()
+        file["friction_energy"].attrs.update(units="J/m2", long_name="energy of friction")
+        file["history/slip_max"] = np.arange(file["history/time"].size) * 1e-7
+        file["history/slip_max"].attrs["units"] = "m"
+    with petsam.open(other) as results:
+        figure = maps.maps([(results, results.of_last())], names=["friction_energy"])
+        drawn, bar = image(figure)
+        assert bar.get_ylabel() == "kJ/m²" and figure.axes[0].get_title() == "energy of friction"
+        assert drawn.get_array().max() == pytest.approx(3.0, rel=1e-12)
+        axes = series.history([results], ["slip_max"]).axes[0]
+        assert axes.get_ylabel().startswith("slip max, ")
+
+
+def test_one_field_alone_with_its_sign_is_symmetric_about_zero(results, path):
+    with h5py.File(path, "r") as file:
+        shear = 1e-6 * file["shear_x"][-1]
+    figure = maps.maps([(results, results.of_last())], whole=True, names=["shear_x"])
+    drawn, bar = image(figure)
+    assert len(figure.axes) == 1 and bar.get_ylabel() == "$q_x$, MPa"
+    assert np.allclose(drawn.get_array(), shear) and drawn.get_cmap().name == colours.SIGNED
+    low, high = drawn.get_clim()
+    assert low == -high and high == pytest.approx(np.abs(shear).max(), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "name, values, signed",
+    [
+        ("shear_x", [0.0, 1.0], True),
+        ("gap", [-1e-12, 1.0], False),
+        ("any", [-0.1, 1.0], True),
+        ("pressure", [0.0, 1.0], False),
+        ("any", [], False),
+    ],
+)
+def test_a_sign_is_in_the_name_or_in_the_values(name, values, signed):
+    assert colours.is_signed(name, np.array(values)) == signed
+    assert (colours.choose(name, [np.array(values)], "m").color_map == colours.SIGNED) == signed
+
+
+def test_slip_is_not_drawn_where_there_is_no_contact(results):
+    is_open = results.field("state") == 0
+    for name in ("slip_x", "slip"):
+        drawn = image(maps.maps([(results, results.of_last())], whole=True, names=[name]))[0]
+        assert np.array_equal(np.ma.getmaskarray(np.ma.masked_invalid(drawn.get_array())), is_open)
+
+
+# ---------------------------------------------------------------- colours
+
+
+def test_limits_are_those_given_in_SI_units(results):
+    choice = colours.Choice((1e6, 2e6))
+    drawn, bar = image(maps.maps([(results, results.of_step(6))], names=["shear_x"], choice=choice))
+    assert np.allclose(drawn.get_clim(), (1.0, 2.0)) and bar.get_ylabel() == "$q_x$, MPa"
+    assert drawn.colorbar.extend == "both"
+    choice = colours.Choice((0.0, 1e12))
+    assert image(maps.maps([(results, 0)], names=["pressure"], choice=choice))[0].colorbar.extend == "neither"
+
+
+def test_a_few_peaks_do_not_darken_the_map_and_the_label_says_so():
+    chance = np.random.default_rng(1)
+    cells = np.concatenate([np.zeros(1000), chance.uniform(1e6, 2e6, 9850), np.full(150, 5e7)])
+    found = colours.choose("pressure", [cells], "Pa")
+    assert found.norm.vmax == pytest.approx(1e-6 * np.percentile(cells[1000:], 98.0), rel=1e-12)
+    assert found.text("$p$") == "$p$, MPa\n98 % of non-zero cells below" and found.extend == "max"
+    share = np.mean(found.factor * cells[1000:] <= found.norm.vmax)
+    assert 0.979 < share < 0.981
+    signed = colours.choose("shear_x", [-cells], "Pa")
+    assert signed.norm.vmin == -signed.norm.vmax and signed.extend == "min"
+    assert signed.text("q").endswith("98 % of non-zero cells within")
+
+
+@pytest.mark.parametrize("count, share", [(0, 100.0), (5, 99.8), (90, 99.0), (150, 98.0), (400, 95.0), (600, 100.0)])
+def test_the_percentile_leaves_out_as_little_as_it_takes(count, share):
+    cells = np.ones(10000)
+    cells[:count] = 10.0
+    assert colours.top(cells) == ((1.0 if share < 100 else cells.max()), share)
+
+
+def test_a_smooth_field_is_drawn_to_its_largest_value(results):
+    for name in ("pressure", "shear", "slip"):
+        drawn, bar = image(maps.maps([(results, results.of_last())], names=[name]))
+        assert drawn.get_clim()[1] == pytest.approx(np.nanmax(drawn.get_array())) and "%" not in bar.get_ylabel()
+
+
+def test_the_percentile_is_that_which_is_given(results):
+    choice = colours.Choice(percentile=50.0)
+    drawn, bar = image(maps.maps([(results, 0)], whole=True, names=["pressure"], choice=choice))
+    inside = np.asarray(drawn.get_array())
+    assert drawn.get_clim()[1] == pytest.approx(np.median(inside[inside > 0]), rel=1e-12)
+    assert bar.get_ylabel().endswith("50 % of non-zero cells below")
+
+
+def test_logarithmic_colours_span_some_decades_or_the_limits():
+    values = np.array([0.0, 1e-3, 1.0, 500.0])
+    found = colours.choose("pressure", [values], "Pa", colours.Choice(log=True))
+    assert isinstance(found.norm, LogNorm) and np.allclose((found.norm.vmin, found.norm.vmax), (0.05, 500.0))
+    found = colours.choose("pressure", [values], "Pa", colours.Choice((0.1, 100.0), True))
+    assert np.allclose((found.norm.vmin, found.norm.vmax), (0.1, 100.0))
+    found = colours.choose("shear_x", [-values], "Pa", colours.Choice(log=True))
+    assert isinstance(found.norm, SymLogNorm) and np.isclose(found.norm.linthresh, 0.05)
+    assert found.norm.vmin == -found.norm.vmax == pytest.approx(-500.0)
+    with pytest.raises(petsam.Error, match="--log colors: no value is positive"):
+        colours.choose("pressure", [np.zeros(3)], "Pa", colours.Choice(log=True))
+    with pytest.raises(petsam.Error, match="expected a positive lower limit"):
+        colours.choose("pressure", [values], "Pa", colours.Choice((0.0, 1.0), True))
+
+
+@pytest.mark.parametrize(
+    "norm, count, expected",
+    [
+        (LogNorm(0.01, 100.0), 9, [0.01, 0.1, 1, 10, 100]),
+        (LogNorm(0.01, 100.0), 3, [0.01, 1, 100]),
+        (LogNorm(0.2, 0.9), 4, [0.2, 0.5]),
+        (SymLogNorm(0.1, vmin=-10.0, vmax=10.0, base=10), 7, [-10, -1, -0.1, 0, 0.1, 1, 10]),
+        (SymLogNorm(0.1, vmin=-10.0, vmax=10.0, base=10), 3, [-10, 0, 10]),
+    ],
+)
+def test_numbers_on_a_logarithmic_bar_do_not_collide(norm, count, expected):
+    assert np.allclose(colours.log_ticks(norm, count), expected)
+
+
+# ---------------------------------------------------------------- layout
+
+
+def boxes(figure):
+    """Places, in pixels, of the maps and of their colour bars."""
+    figure.canvas.draw()
+    renderer = figure.canvas.get_renderer()
+    panels = [axes for axes in figure.axes if axes.images]
+    bars = [axes.images[0].colorbar.ax for axes in panels]
+    return [[one.get_window_extent(renderer) for one in group] for group in (panels, bars)]
+
+
+@pytest.mark.parametrize("kind", ["square", "wide", "tall"])
+def test_colour_bars_are_as_tall_as_their_maps_and_nothing_overlaps(path, edges, tmp_path, kind):
+    file = path if kind == "square" else edges
+    if kind == "tall":
+        file = tmp_path / "tall.h5"
+        file.write_bytes(edges.read_bytes())
+        turn(file)
+    with petsam.open(file) as results:
+        figure = maps.maps([(results, results.of_last())], whole=True)
+        panels, bars = boxes(figure)
+        assert len(panels) == 4
+        for panel, bar in zip(panels, bars):
+            assert bar.y0 == pytest.approx(panel.y0, abs=1.0) and bar.y1 == pytest.approx(panel.y1, abs=1.0)
+            assert 4 < bar.x0 - panel.x1 < 30 and bar.width < 30
+        figure.axes[0].set_title("", loc="left")  # the snapshot's name has a line of its own, over all maps
+        extents = [axes.get_tightbbox(figure.canvas.get_renderer()) for axes in figure.axes]
+        for k, one in enumerate(extents):
+            assert one.x0 > -1 and one.x1 < figure.bbox.width + 1
+            assert all(not overlap(one, other) for other in extents[k + 1 :])
+        if kind == "wide":
+            assert all(panel.width > 6 * panel.height and panel.width > 0.7 * figure.bbox.width for panel in panels)
+        if kind == "tall":
+            assert all(panel.height > 6 * panel.width for panel in panels)
+        for axes in figure.axes:
+            for labels in (axes.get_xticklabels(), axes.get_yticklabels()):
+                places = [text.get_window_extent() for text in labels if text.get_text() and text.get_visible()]
+                inside = [place for place in places if place.width]
+                assert all(not overlap(a, b) for a, b in zip(inside, inside[1:]))
+
+
+def overlap(one, other):
+    """Whether two boxes share more than a pixel."""
+    width = min(one.x1, other.x1) - max(one.x0, other.x0)
+    height = min(one.y1, other.y1) - max(one.y0, other.y0)
+    return width > 1.0 and height > 1.0
+
+
+def turn(path):
+    """Exchange x and y of a file's fields."""
+    with h5py.File(path, "r+") as file:
+        shape = (file["time"].size, file["y"].size, file["x"].size)
+        axes = {name: (file[name][:], dict(units="m")) for name in "xy"}
+        fields = {name: (file[name][:], file[name].attrs["units"]) for name in file if shape == shape_of(file[name])}
+        flags = {name: file["state"].attrs[name] for name in ("flag_values", "flag_meanings")}
+        for name in [*axes, *fields, "contact_edge"]:
+            del file[name]
+        file["x"], file["y"] = axes["y"][0], axes["x"][0]
+        for name, (values, units) in fields.items():
+            file[name] = np.swapaxes(values, 1, 2)
+            file[name].attrs["units"] = units
+        file["state"].attrs.update(flags)
+
+
+def shape_of(data):
+    return getattr(data, "shape", None)
+
+
+@pytest.mark.parametrize(
+    "width, height, stretch", [(30.0, 1.0, 2.5), (1.0, 30.0, 0.4), (5.0, 1.0, 1.0), (1.0, 1.0, 1.0)]
+)
+def test_what_is_very_long_is_stretched_and_says_so(width, height, stretch):
+    layout = maps.Layout([{"extent": [0.0, width, 0.0, height]}], 4)
+    assert layout.stretch == pytest.approx(stretch) and layout.stacked == (width > 2 * height)
+    assert layout.width / layout.height == pytest.approx(width / height / stretch)
+    said = {2.5: " ($y$ is stretched 2.5 times)", 0.4: " ($x$ is stretched 2.5 times)"}.get(stretch, "")
+    assert layout.remark == said
+
+
+def test_the_points_of_an_edge_do_not_hide_the_map(edges):
+    with petsam.open(edges) as results:
+        assert len(results.edge("contact_edge")) > 20
+        figure = maps.maps([(results, results.of_last())])
+        panels, _ = boxes(figure)
+        for axes, box in zip(figure.axes, panels):
+            assert axes.lines
+            for line in axes.lines:
+                area = len(line.get_xdata()) * (line.get_markersize() / 72.0 * figure.dpi) ** 2
+                assert line.get_markersize() <= 1.2 and area < 1.5 * maps.HIDDEN * box.width * box.height
+
+
+# ---------------------------------------------------------------- profiles, scalars
+
+
+def test_profiles_of_chosen_fields(results, path):
+    figure = profiles.profiles([(results, results.of_last())], whole=True, names=["gap", "shear_y"], logs=["y"])
+    assert [axes.get_title(loc="left") for axes in figure.axes[::2]] == ["gap $g$", "shear $q_y$"]
+    row = int(np.argmin(np.abs(results.y)))
+    values = figure.axes[0].lines[0].get_ydata()
+    with h5py.File(path, "r") as file:
+        expected = file["gap"][-1, row]
+    assert np.allclose(values / values.max(), expected / expected.max()) and figure.axes[0].get_yscale() == "log"
+    figure = profiles.profiles([(results, 0)], names=["pressure"], limits=(0.0, 5e9))
+    assert figure.axes[0].get_ylim() == (0.0, 5.0) and figure.axes[0].get_ylabel() == "$p$, GPa"
+
+
+def test_any_scalar_is_drawn_over_any_other_of_several_files(results, edges):
+    with petsam.open(edges, "other") as other:
+        axes = series.history([results, other], ["contact_area"], "load_tx").axes[0]
+        first, second = axes.lines
+        assert np.allclose(first.get_xdata(), results.history["load_tx"]) and axes.get_xlabel() == "$T_x$, N"
+        assert np.allclose(first.get_ydata(), 1e6 * results.history["contact_area"])
+        assert axes.get_ylabel() == "contact area, mm²"
+        assert np.allclose(second.get_ydata(), 1e6 * other.history["contact_area"])
+        assert [text.get_text() for text in axes.get_legend().get_texts()] == ["results", "other"]
+
+
+def test_the_status_is_over_what_has_a_solution(results):
+    results.history["status"][-1] = 11
+    axes = series.history([results], ["status"], "load_tx").axes[0]
+    assert np.allclose(axes.lines[0].get_xdata(), results.history["load_tx"][:-1])
+    assert len(series.history([results], ["status"]).axes[0].lines[0].get_xdata()) == results.history["time"].size
+
+
+def test_many_points_have_no_marks_and_keep_their_extremes():
+    assert style.curve(style.MARKED)["marker"] == "." and style.curve(style.MARKED + 1)["marker"] == ""
+    assert style.curve(10000)["linewidth"] < style.curve(100)["linewidth"]
+    x, y = np.arange(1e5), np.random.default_rng(2).normal(size=100000)
+    y[5], y[77777] = 50.0, -60.0
+    a, b = style.outlined(x, y)
+    assert a.size < 5 * style.BINS and (a[0], a[-1]) == (x[0], x[-1]) and np.all(np.diff(a) > 0)
+    assert b.max() == 50.0 and b.min() == -60.0 and np.array_equal(b, y[a.astype(int)])
+    assert style.outlined(x[::-1], y)[0].size == x.size  # a loop stays as it is
+
+
+# ---------------------------------------------------------------- the program
+
+
+@pytest.mark.parametrize(
+    "words, name, begin",
+    [
+        (("--field", "shear_x", "--limits", "-1e7,1e7"), "a.svg", b"<?xml"),
+        (("--field", "pressure,slip_y", "--log", "colors"), "a.png", b"\x89PNG"),
+        (("--field", "pressure", "--percentile", "99"), "a.pdf", b"%PDF"),
+        (("--profiles", "--field", "gap", "--log", "y"), "a.svg", b"<?xml"),
+        (("--scalar", "contact_area,stick_area", "--against", "load_tx"), "a.svg", b"<?xml"),
+        (("--against", "disp_x", "--log", "x,y"), "a.png", b"\x89PNG"),
+    ],
+)
+def test_one_picture_as_asked_for(draw, path, tmp_path, words, name, begin):
+    assert draw(path, *words, "-o", name) == (0, [])
+    assert (tmp_path / name).read_bytes().startswith(begin)
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (["--limits", "0,1"], "--limits: is for one field"),
+        (["--limits", "0,1", "--field", "gap,pressure"], "--limits: is for one field"),
+        (["--limits", "1,0", "--field", "gap"], "--limits: 1,0: expected LOW,HIGH"),
+        (["--limits", "1", "--field", "gap"], "--limits: 1: expected LOW,HIGH"),
+        (["--limits", "nan,1", "--field", "gap"], "--limits: nan,1: expected LOW,HIGH"),
+        (["--limits", "0,1", "--field", "gap", "--percentile", "9"], "--percentile: not allowed with --limits"),
+        (["--percentile", "0"], "--percentile: 0: expected a number above 0, at most 100"),
+        (["--percentile", "101"], "--percentile: 101: expected"),
+        (["--log", "z"], "--log: z: expected colors, x, y"),
+        (["--field", ""], "--field: expected names"),
+        (["--scalar", ""], "--scalar"),
+        (["--where", "mu"], "--where: mu: expected NAME=VALUE"),
+        (["--format", "gif"], "--format"),
+        (["--format", "pdf", "-o", "a.svg"], "--format pdf: the name a.svg says otherwise"),
+    ],
+)
+def test_bad_usage_names_the_option_with_exit_code_2(draw, path, words, says):
+    code, (error,) = draw(path, *words)
+    assert code == 2 and error.startswith("petsam-plot: error: ") and says in error
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (["--field", "presure"], "--field presure: has no such field (petsam -output_fields); it has "),
+        (["--profiles", "--field", "q"], "--field q: has no such field"),
+        (["--field", "contact_edge"], "--field contact_edge: "),
+        (["--scalar", "area", "--against", "load_n"], "--scalar area: has no such dataset; it has contact_area, "),
+        (["--names", "area"], "--names area: has no such dataset"),
+        (["--against", "force"], "--against force: has no such dataset; it has contact_area, "),
+        (["--scalar", "stick_area", "--by", "mu"], "--by: is for results.h5 of petsam-study"),
+        (["--field", "gap", "--log", "colors", "--limits", "0,1"], "expected a positive lower limit"),
+    ],
+)
+def test_what_a_file_lacks_is_named_with_what_there_is(draw, path, words, says):
+    code, (error,) = draw(path, *words)
+    assert code == 3 and says in error and "TRACEBACK" not in error
+
+
+def test_maps_of_a_file_without_some_fields_show_the_others(draw, solve, tmp_path):
+    some = solve(dict(CASE, output_fields="pressure,gap", load_tx=float(AMPLITUDE))).path
+    assert draw(some, "--maps", "--profiles") == (0, [])
+    with petsam.open(some) as results:
+        figure = maps.maps([(results, 0)])
+        assert [axes.get_title() for axes in figure.axes] == ["pressure $p$"]
+        rows, columns = results.contact_window(0, margin=0.0)
+        inside = np.zeros_like(results.field("pressure"))
+        inside[rows, columns] = 1
+        assert np.all(inside[results.field("pressure") > 0]) and inside.sum() < 0.7 * inside.size
+    bare = tmp_path / "bare.h5"
+    bare.write_bytes(some.read_bytes())
+    with h5py.File(bare, "r+") as file:
+        del file["pressure"], file["gap"]
+    code, (error,) = draw(bare, "--maps")
+    assert code == 3 and "has no pressure (petsam -output_fields); it has no field at all" in error
+
+
+def test_norms_are_linear_unless_asked_for(results):
+    drawn, _ = image(maps.maps([(results, 0)], names=["pressure"]))
+    assert type(drawn.norm) is Normalize

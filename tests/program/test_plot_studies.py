@@ -1,0 +1,189 @@
+"""petsam-plot of petsam-study's tables: columns over one another, curves by other columns, and what is not there."""
+
+import itertools
+
+import h5py
+import numpy as np
+import pytest
+
+import petsam
+from petsam.plot import tables
+from petsam.plot.style import plt
+from petsam.studies import Study
+from petsam.study.cases import Case
+from petsam.study.tables import write_hdf5
+
+RATIOS, FRICTIONS, SHAPES = (0.5, 0.1, 0.9), (0.1, 0.4), ("ball", "punch")
+
+
+def energy(ratio, mu, shape):
+    """What the cases would have dissipated, J."""
+    return mu * ratio**3 * (1e-6 if shape == "ball" else 2e-6)
+
+
+def row(number, ratio, mu, shape, code=0):
+    """A case as the tables have it; of one that has failed nothing is known."""
+    inputs = {"ratio": str(ratio), "load_tx": str(100 * mu * ratio), "mu": str(mu), "shape": shape, "nu": "0.3"}
+    case = Case(number, f"case{number}", inputs, {"grid_n": "64"}, {}, 1)
+    values = {
+        "load_tx": (99.9 * mu * ratio, "N"),
+        "load_ty": (1e-13 * number, "N"),
+        "dissipated_energy_sum": (energy(ratio, mu, shape), "J"),
+        "stick_area": (1e-6 * (1 - ratio), "m2"),
+        "contact_area": (1e-6, "m2"),
+        "normal_iterations": (number, "1"),
+    }
+    return case, {"exit_code": code, "seconds": 1.0, "message": ""}, values if code == 0 else {}
+
+
+@pytest.fixture
+def path(tmp_path):
+    """A study of every combination, and a case that has failed."""
+    (tmp_path / "mine").mkdir()
+    combinations = itertools.product(RATIOS, FRICTIONS, SHAPES)
+    found = [row(number, *values) for number, values in enumerate(combinations, 1)]
+    write_hdf5(str(tmp_path / "mine" / "results.h5"), [*found, row(99, 1.0, 0.1, "ball", 11)], "mine.yaml")
+    return tmp_path / "mine" / "results.h5"
+
+
+@pytest.fixture
+def study(path):
+    return Study(path)
+
+
+@pytest.fixture(autouse=True)
+def closing():
+    """Figures are closed after each test: matplotlib keeps them."""
+    yield
+    plt.close("all")
+
+
+def curves(axes):
+    """Label: (x, y, colour, mark) of the curves."""
+    return {line.get_label(): (*line.get_data(), line.get_color(), line.get_marker()) for line in axes.lines}
+
+
+# ---------------------------------------------------------------- reading
+
+
+def test_a_table_is_read_whole(study):
+    assert study.label == "mine" and study.cases.size == study.codes.size == 13
+    assert study.inputs["ratio"].dtype.kind == "f" and study.inputs["shape"].tolist()[:2] == ["ball", "punch"]
+    assert study.column("stick_area")[1] == "m2" and study.column("mu")[1] == ""
+    assert study.column("load_tx_end")[0][0] == pytest.approx(99.9 * 0.05) and study.column("load_tx")[0][0] == 5.0
+    assert "load_tx_end" in study.names and "load_tx" in study.names
+    with pytest.raises(petsam.Error, match="area: there is no such column; there are load_tx, mu, nu, ratio, shape, "):
+        study.column("area")
+
+
+# ---------------------------------------------------------------- what is drawn
+
+
+def test_a_result_is_drawn_over_a_parameter_with_a_curve_for_each_of_the_others(study):
+    axes = tables.study([study], ["dissipated_energy_sum"], "ratio", "mu").axes[0]
+    drawn = curves(axes)
+    assert set(drawn) == {f"mu = {mu:g}, shape = {shape}" for mu in FRICTIONS for shape in SHAPES}
+    assert axes.get_ylabel() == "dissipated energy, sum, nJ" and axes.get_xlabel() == "ratio"
+    for mu, shape in itertools.product(FRICTIONS, SHAPES):
+        x, y, _, _ = drawn[f"mu = {mu:g}, shape = {shape}"]
+        assert x.tolist() == sorted(RATIOS)
+        assert np.allclose(y, [1e9 * energy(ratio, mu, shape) for ratio in sorted(RATIOS)], rtol=1e-12)
+    colours = {name: color for name, (_, _, color, _) in drawn.items()}
+    marks = {name: mark for name, (_, _, _, mark) in drawn.items()}
+    assert colours["mu = 0.1, shape = ball"] == colours["mu = 0.1, shape = punch"] != colours["mu = 0.4, shape = ball"]
+    assert marks["mu = 0.1, shape = ball"] == marks["mu = 0.4, shape = ball"] != marks["mu = 0.1, shape = punch"]
+
+
+def test_by_names_what_the_colours_stand_for(study):
+    drawn = curves(tables.study([study], ["stick_area"], "ratio", "shape").axes[0])
+    colours = {name: color for name, (_, _, color, _) in drawn.items()}
+    assert colours["shape = ball, mu = 0.1"] == colours["shape = ball, mu = 0.4"] != colours["shape = punch, mu = 0.1"]
+
+
+def test_cases_are_chosen_by_their_values(study):
+    where = [("mu", "0.4"), ("shape", "punch")]
+    axes = tables.study([study], ["stick_area"], "load_tx", None, where, ["x", "y"]).axes[0]
+    ((x, y, _, _),) = curves(axes).values()
+    assert np.allclose(x, [4.0, 20.0, 36.0]) and np.allclose(y, [0.9, 0.5, 0.1])
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log") and axes.get_ylabel() == "stick area, mm²"
+
+
+def test_by_itself_what_varies_is_drawn_over_the_input_with_the_most_values(study):
+    figure = tables.study([study])
+    drawn = [axes.get_ylabel().split(",")[0] for axes in figure.axes if axes.lines]
+    # neither what is constant, nor numbers without a unit, nor rounding
+    assert drawn == ["dissipated energy", "$T_x$", "stick area"]
+    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx"}
+    assert figure.get_suptitle() == "left out, as they have not finished: 1 of the cases"
+
+
+def test_several_studies_are_told_apart(study, path):
+    drawn = curves(
+        tables.study([study, Study(path, "other")], ["stick_area"], "ratio", "mu", [("shape", "ball")]).axes[0]
+    )
+    assert set(drawn) == {f"{who}, mu = {mu:g}" for who in ("mine", "other") for mu in FRICTIONS}
+    assert len({color for _, _, color, _ in drawn.values()}) == 4
+
+
+def test_a_result_is_drawn_over_another_one(study):
+    axes = tables.study([study], ["stick_area"], "dissipated_energy_sum", "mu", [("shape", "ball")]).axes[0]
+    assert axes.get_xlabel() == "dissipated_energy_sum, nJ"
+    x, y, _, _ = curves(axes)["mu = 0.1"]
+    assert np.allclose(x, [1e9 * energy(ratio, 0.1, "ball") for ratio in (0.1, 0.5, 0.9)])
+    assert np.allclose(y, (0.9, 0.5, 0.1))
+
+
+# ---------------------------------------------------------------- the program
+
+
+@pytest.mark.parametrize(
+    "words", [(), ("--scalar", "stick_area,load_tx_end", "--by", "mu"), ("--against", "ratio", "--where", "shape=ball")]
+)
+def test_one_picture_is_drawn(draw, path, tmp_path, words):
+    assert draw(path, *words, "-o", "a.svg") == (0, [])
+    assert (tmp_path / "a.svg").read_bytes().startswith(b"<?xml")
+    assert draw(path, *words) == (0, []) and (tmp_path / "results_study.png").exists()
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (["--scalar", "area"], "--scalar area: there is no such column; there are load_tx, mu, nu, ratio, shape, "),
+        (["--against", "shape"], "--against shape: holds texts, no numbers"),
+        (["--against", "x"], "--against x: there is no such column; there are load_tx"),
+        (["--by", "x"], "--by x: there is no such column; there are load_tx"),
+        (["--where", "mu=0.2"], "--where mu=0.2: no case has it; there are 0.1, 0.4"),
+        (["--where", "mu=high"], "--where mu=high: expected a number"),
+        (["--where", "shape=cube"], "--where shape=cube: no case has it; there are ball, punch"),
+        (["--where", "size=1"], "--where size: there is no such column"),
+        (["--where", "ratio=1"], "none of the cases asked for has finished"),
+        (["--maps"], "--maps: a table of petsam-study, drawn by --scalar, --against and --by"),
+        (["--step", "1"], "--step: a table of petsam-study, which has no steps"),
+    ],
+)
+def test_what_a_study_lacks_is_named(draw, path, words, says):
+    code, (error,) = draw(path, *words)
+    assert code == 3 and error.startswith(f"petsam-plot: error: {path}: ") and says in error, error
+
+
+def test_tables_and_results_do_not_go_into_one_picture(draw, path, solve):
+    from support import ball
+
+    code, (error,) = draw(path, solve(ball(n=24)).path)
+    assert code == 3 and "results of petsam-study and of petsam do not go into one picture" in error
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda file: file.__delitem__("exit_code"),
+        lambda file: file["inputs"].__setitem__("more", np.zeros(3)),
+        lambda file: file["results"].__setitem__("more", np.zeros((13, 2))),
+        lambda file: (file.__delitem__("results"), file.__setitem__("results", np.zeros(3))),
+    ],
+)
+def test_tables_of_another_form_are_named(draw, path, change):
+    with h5py.File(path, "r+") as file:
+        change(file)
+    code, (error,) = draw(path)
+    assert code == 3 and error.startswith(f"petsam-plot: error: {path}: ") and "TRACEBACK" not in error
