@@ -5,7 +5,9 @@
     print(results.history["stick_area"][-1], results.field("pressure").max())
 
 Contact         a contact in this process: steps, stiffness, fields (contact.py)
-open            reading of files of petsam and petsam-stress: Results (results.py) or Stresses (stresses.py)
+open            reading of files: Results of petsam (results.py), Stresses of petsam-stress (stresses.py), the table of
+                petsam-study (studies.py)
+cycles          cycles of a load history and their energies
 closed          closed solutions of contact mechanics
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
@@ -33,6 +35,7 @@ __all__ = [
     "Results",
     "Snapshot",
     "Stresses",
+    "Study",
     "open",
 ]
 
@@ -46,6 +49,7 @@ _HOMES = {
     "Results": ".results",
     "Snapshot": ".results",
     "Stresses": ".stresses",
+    "Study": ".studies",
 }
 
 
@@ -56,7 +60,9 @@ def __getattr__(name):
 
 
 def open(path, label=None):
-    """The Results of a file of petsam, or the Stresses of one of petsam-stress; Error where it cannot be read.
+    """The Results of a file of petsam, the Stresses of one of petsam-stress, the Study of petsam-study's results.h5.
+
+    Error where it cannot be read.
 
     label names it in pictures (the file's name).
     """

@@ -5,6 +5,7 @@ import numpy as np
 from .errors import Error
 from .isolation import reading
 from .results import DAMAGED, WHOLE, Datafile, NotSaved, Results, _own, _some
+from .studies import Study, is_study
 
 # parameters of a cycle; the critical plane's normal is in NAME_normal_x, _y, _z
 FATIGUE = ("crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz_1", "ruiz_2")
@@ -102,7 +103,9 @@ class Stresses(Datafile):
 
 
 def open_any(path, label=None):
-    """The Stresses or the Results of a file, by what is in it."""
+    """The Stresses, the Results or the Study of a file, by what is in it."""
+    if is_study(path):
+        return Study(path, label)
     try:
         return Stresses(path, label)
     except Error:

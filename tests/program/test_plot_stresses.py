@@ -76,6 +76,23 @@ def test_planes_are_chosen_and_principal_stresses_drawn(plot, launcher, folder):
     plot("--sections", "--component", "shear_max", "many.h5")
 
 
+def test_limits_are_those_of_the_component_and_nothing_is_cut_off(folder):
+    file = petsam.open(folder / "maps.h5")
+    figure = bodies.maps([(file, 0)], "xz", None, (-2e6, 3e6))
+    first, second = (axes.images[0] for axes in figure.axes[:2])
+    assert np.allclose(second.get_clim(), (-2.0, 3.0)) and second.colorbar.ax.get_ylabel() == "MPa"
+    with h5py.File(folder / "maps.h5") as f:
+        assert first.get_clim() == pytest.approx((0.0, 1e-6 * f["mises"][0].max()), rel=1e-6)
+    figure.canvas.draw()
+    for axes in figure.axes:
+        box, bar = axes.get_tightbbox(), axes.images[0].colorbar.ax.get_window_extent()
+        assert box.x0 >= 0 and box.x1 <= figure.bbox.width and box.y0 >= 0 and box.y1 <= figure.bbox.height
+        assert bar.y0 == pytest.approx(axes.get_window_extent().y0, abs=1.0)
+        assert bar.y1 == pytest.approx(axes.get_window_extent().y1, abs=1.0)
+    image = bodies.sections([(petsam.open(folder / "section.h5"), 0)], "xz", limits=(-2e6, 2e6)).axes[-1]
+    assert image.collections[0].get_clim() == pytest.approx((-2.0, 2.0))
+
+
 def test_profile_is_the_stress_on_the_surface(folder):
     file = petsam.open(folder / "maps.h5")
     figure = bodies.profiles([(file, 1)], "yy", (0.0, 1e-4))

@@ -66,7 +66,8 @@ def curves(axes):
 # ---------------------------------------------------------------- reading
 
 
-def test_a_table_is_read_whole(study):
+def test_a_table_is_read_whole(study, path):
+    assert isinstance(petsam.open(path), petsam.Study)
     assert study.label == "mine" and study.cases.size == study.codes.size == 13
     assert study.inputs["ratio"].dtype.kind == "f" and study.inputs["shape"].tolist()[:2] == ["ball", "punch"]
     assert study.column("stick_area")[1] == "m2" and study.column("mu")[1] == ""

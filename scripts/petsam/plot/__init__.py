@@ -1,6 +1,8 @@
-"""Pictures: command (petsam-plot), pictures (maps, profiles, loops, histories), bodies (stresses), wear (scars, lives).
+"""Pictures: command (petsam-plot) and its arguments; maps and profiles of fields, series (scalars over time or over one
+another), loops (and energies of cycles), wear (scars, lives), bodies (stresses), tables (studies).
 
-units has the prefixes, style the look of all.
+colours chooses the colours of maps, symbols what known quantities are called, units the prefixes; style has the look of
+all.
 """
 
 import os

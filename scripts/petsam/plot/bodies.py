@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import Error
-from .maps import PIXELS
+from .maps import PIXELS, Layout
 from .style import bar, colors, extent, field, need_few, plt
 from .units import label, largest, plain, scale
 
@@ -117,15 +117,9 @@ def _extremes(name, values):
     return f"{high}, smallest {np.min(values):.4g}" if _is_signed(name) else high
 
 
-def _annotate(axes, text):
-    axes.annotate(
-        "\n".join(plain(line) for line in text.split("\n")),
-        (0.02, 0.03),
-        xycoords="axes fraction",
-        fontsize=8,
-        color="white",
-        bbox={"facecolor": "black", "alpha": 0.45, "linewidth": 0, "pad": 2},
-    )
+def _title(panel, text, remark, file, index):
+    """What is drawn, and below it of which step; above the map, which nothing hides."""
+    panel.set_title(f"{text}: {remark}\n{plain(file.title(index))}", fontsize=9.5)
 
 
 def sections(steps, component=None, at=(0.0, 0.0), limits=None):
@@ -154,10 +148,9 @@ def sections(steps, component=None, at=(0.0, 0.0), limits=None):
             panel.set(
                 xlabel=label(f"${axis}$", unit) + _at(where, length, unit),
                 ylabel=label("depth $z$", unit) if column == 0 else "",
-                title=text if row == 0 else "",
             )
             bar(panel, image, prefixed)
-            _annotate(panel, f"{file.title(index)}: {_extremes(name, factor * values)} {prefixed}")
+            _title(panel, text, f"{_extremes(name, factor * values)} {prefixed}", file, index)
     return figure
 
 
@@ -202,8 +195,9 @@ def maps(steps, component=None, depths=None, limits=None):
     need_few(len(rows), "steps, depths and files")
     columns = _columns([file for file, _ in steps], component)
     length, unit = scale("m", max(np.ptp(file.x) for file, _ in steps) / 2)
-    size = (5.0 * len(columns), 3.8 * len(rows) + 0.3)
-    figure, axes = plt.subplots(len(rows), len(columns), figsize=size, squeeze=False, layout="compressed")
+    edges = [extent(file.x, file.y, 1.0 / length, _stride(file)) for file, _, _ in rows]
+    layout = Layout([{"extent": one} for one in edges], len(columns), side=3.2)
+    figure, axes = plt.subplots(layout.rows, layout.columns, figsize=layout.size, squeeze=False, layout="constrained")
     for column, (name, text) in enumerate(columns):
         data = []
         for file, index, k in rows:
@@ -214,16 +208,13 @@ def maps(steps, component=None, depths=None, limits=None):
         factor, prefixed = scale("Pa", max(abs(low), abs(high)))
         colours = "RdBu_r" if _is_signed(name) else "viridis"
         for row, ((file, index, k), values) in enumerate(zip(rows, data)):
-            panel = axes[row, column]
-            edges = extent(file.x, file.y, 1.0 / length, _stride(file))
-            image = field(panel, factor * values, edges, factor * low, factor * high, colours)
-            panel.set(
-                xlabel=label("$x$", unit),
-                ylabel=label("$y$", unit) if column == 0 else "",
-                title=text if row == 0 else "",
-            )
-            bar(panel, image, prefixed)
-            _annotate(panel, f"{file.title(index)}, z = {file.z[k]:.4g} m\n{_extremes(name, factor * values)}")
+            panel = axes[layout.place(row, column, len(columns))]
+            image = field(panel, factor * values, edges[row], factor * low, factor * high, colours)
+            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if column == 0 or layout.stacked else "")
+            layout.number(panel)
+            bar(panel, image, prefixed, layout.height)
+            depth = f"$z$ = {length * file.z[k]:.4g} {unit}, {_extremes(name, factor * values)}{layout.remark}"
+            _title(panel, text, depth, file, index)
     return figure
 
 
@@ -234,7 +225,8 @@ def fatigue(file, at=(0.0, 0.0)):
         raise Error(f"{file.path}: has no fatigue parameter (petsam-stress -fatigue)")
     columns = min(2, len(names))
     rows = -(-len(names) // columns)
-    size = (5.6 * columns, (4.6 if file.along is None else 3.6) * rows + 0.3)
+    ratio = np.ptp(file.x) / np.ptp(file.y) if file.along is None else 1.0
+    size = (5.6 * columns, (4.6 / min(max(1.0, ratio), 2.5) if file.along is None else 3.6) * rows + 0.3)
     figure, axes = plt.subplots(
         rows, columns, figsize=size, squeeze=False, layout="compressed" if file.along is None else "constrained"
     )

@@ -26,7 +26,7 @@ from ..errors import Error, fail, guarded
 from ..files import need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
-from ..studies import Study, is_study
+from ..studies import Study
 from . import arguments, bodies, colours, loops, maps, profiles, series, tables, wear
 from .arguments import FORMATS
 from .style import STYLE, plt
@@ -254,7 +254,7 @@ def need_options(options, results):
 def draw_all(options):
     """All pictures that are asked for."""
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
-    results = [Study(*one) if is_study(one[0]) else open_any(*one) for one in zip(options.files, labels)]
+    results = [open_any(*one) for one in zip(options.files, labels)]
     need_options(options, results)
     kinds = chosen(options, results)
     with plt.rc_context(STYLE):

@@ -66,9 +66,10 @@ def _gather(snapshots, names, whole):
 
 
 class Layout:
-    """Where the maps go, and how large they are: data of _read(), the number of fields."""
+    """Where the maps go, and how large they are: the extent of each snapshot (data), the number of fields, and the
+    height of maps that stand side by side (inches)."""
 
-    def __init__(self, data, fields):
+    def __init__(self, data, fields, side=SIDE):
         sizes = np.array([[one["extent"][1] - one["extent"][0], one["extent"][3] - one["extent"][2]] for one in data])
         width, height = sizes.max(axis=0)
         self.ratio = width / height
@@ -82,16 +83,25 @@ class Layout:
             self.height = LONG / shown
         else:
             self.rows, self.columns = len(data), fields
-            side = ONE if alone else SIDE
+            side = ONE if alone else side
             self.height = side / min(1.0, shown) if not alone else side / max(1.0, shown)
             self.height = min(self.height, 6.0)
             self.width = self.height * shown
-        self.pitch = (self.width + (1.5 if self.stacked else 1.2), self.height + (0.85 if self.stacked else 0.95))
+        self.pitch = (self.width + 1.5, self.height + (0.85 if self.stacked else 0.95))
 
     @property
     def size(self):
         """Width and height of the figure, inches."""
         return self.columns * self.pitch[0] + 0.2, self.rows * self.pitch[1] + 0.2
+
+    def number(self, panel):
+        """Numbers on the axes of a map, no more than there is room for; and its shape."""
+        panel.set_aspect(self.stretch)
+        panel.xaxis.set_major_locator(ticks(self.width / 0.55, 9))
+        panel.yaxis.set_major_locator(ticks(self.height / 0.35, 6))
+        if self.width < NARROW:
+            panel.tick_params(axis="x", labelrotation=90)
+        panel.tick_params(labelsize=8 if min(self.width, self.height) < 1.5 else 10)
 
     @property
     def remark(self):
@@ -141,15 +151,10 @@ def _draw(panel, one, name, shown, layout, length):
         drawn = bar(panel, image, "", layout.height, ticks=range(len(words)))
         drawn.set_ticks(range(len(words)), labels=words)
     drawn.ax.tick_params(labelsize=8)
-    panel.set_aspect(layout.stretch)
     for points in one["edges"]:
         _edge_points(panel, points, length, layout, "black" if not isinstance(shown, colours.Colours) else "0.85")
     panel.set(xlim=edges[:2], ylim=edges[2:])
-    panel.xaxis.set_major_locator(ticks(layout.width / 0.6, 9))
-    panel.yaxis.set_major_locator(ticks(layout.height / 0.35, 6))
-    if layout.width < NARROW:
-        panel.tick_params(axis="x", labelrotation=90)
-    panel.tick_params(labelsize=8 if min(layout.width, layout.height) < 1.5 else 10)
+    layout.number(panel)
 
 
 def _titles(panel, layout, title, heading):
