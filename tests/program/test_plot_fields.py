@@ -329,6 +329,16 @@ def test_many_points_have_no_marks_and_keep_their_extremes():
     assert style.outlined(x[::-1], y)[0].size == x.size  # a loop stays as it is
 
 
+def test_numbers_of_a_logarithmic_axis_are_plain():
+    figure, axes = plt.subplots()
+    axes.plot([30.0, 60.0], [1e-7, 1e7])
+    style.logarithmic(axes, ["x", "y"])
+    figure.canvas.draw()
+    across = [text.get_text() for text in axes.get_xticklabels(minor=True)]
+    assert "30" in across and "60" in across and (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+    assert any("10^{6}" in text.get_text() or "10^{7}" in text.get_text() for text in axes.get_yticklabels())
+
+
 # ---------------------------------------------------------------- the program
 
 

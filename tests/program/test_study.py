@@ -491,6 +491,14 @@ def test_the_same_command_again_runs_only_what_has_not_finished(run, tmp_path, f
     assert len(runs(tmp_path)) == 4
 
 
+def test_the_table_overrides_the_options_file_that_all_cases_have(run, tmp_path, fake):
+    table(tmp_path, "load_tx,friction\n1,0.2\n")
+    (tmp_path / "a.opts").write_text("-friction 0.1\n")
+    run("cases.csv", "--", "-grid_n", "64", "-options_file", "a.opts", **fake)
+    words = runs(tmp_path)[0]
+    assert words.index("-options_file") < words.index("-friction") and words[words.index("-friction") + 1] == "0.2"
+
+
 def test_a_changed_table_or_options_file_runs_its_cases_again(run, tmp_path, fake):
     (tmp_path / "a.opts").write_text("-grid_n 64\n")
     table(tmp_path, "options_file,load_tx\na.opts,1\n,2\n")

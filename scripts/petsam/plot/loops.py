@@ -9,7 +9,7 @@ from matplotlib.collections import LineCollection
 from ..cycles import ENERGY, PAIRS, busiest
 from ..errors import Error
 from . import symbols
-from .style import colors, curve, need_few, plt, tint
+from .style import colors, curve, logarithmic, need_few, plt, tint
 from .units import counted, label, largest, plain, scale
 
 LOOPS = 8  # in a panel: more cannot be told apart
@@ -125,7 +125,7 @@ def energy(found, logs=()):
             text += f", {factor * np.sum(energies):.4g} {total}"
         axes.plot(many * numbers, joules * energies, color=color, label=text, **curve(numbers.size))
     axes.set(xlabel=words, ylabel=label("dissipated energy of a cycle", unit))
-    axes.set(**{f"{axis}scale": "log" for axis in logs})
+    logarithmic(axes, logs)
     if "y" not in logs:
         axes.set_ylim(bottom=min(0.0, *(float(np.min(joules * energies)) for _, energies in data)))
     manners = {one.manner for one in found if not one.results.has_life}

@@ -9,7 +9,7 @@ from ..errors import Error
 from ..results import DEPTHS, OPEN
 from . import symbols
 from .maps import OF_CONTACT
-from .style import colors, plt
+from .style import colors, logarithmic, plt
 from .units import label, largest, plain, scale
 
 ROWS = (
@@ -112,7 +112,7 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
         factor, prefixed = scale(base, max(map(abs, limits)) if limits else top)
         for panel, side in zip(panels, lines):
             _panel(panel, side, group, length, factor, friction)
-            panel.set(**{f"{axis}scale": "log" for axis in logs})
+            logarithmic(panel, logs)
             panel.set(**({"ylim": [factor * value for value in limits]} if limits else {}))
         panels[0].set(ylabel=label(symbol, prefixed))
         panels[0].set_title(text, loc="left", fontsize=9.5)

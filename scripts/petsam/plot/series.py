@@ -5,7 +5,7 @@ import numpy as np
 from ..cycles import ENERGY, PAIRS
 from ..errors import Error, short
 from . import symbols
-from .style import colors, curve, need_few, outlined, plt
+from .style import colors, curve, logarithmic, need_few, outlined, plt
 from .units import label, largest, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
@@ -99,7 +99,7 @@ def history(results, names=None, other=TIME, option="--names", logs=()):
     across, unit = scale(results[0].units[other], largest(series(one, other)[1] for one in results))
     for panel, name in zip(axes.flat, names):
         _panel(panel, results, name, other, across)
-        panel.set(**{f"{axis}scale": "log" for axis in logs})
+        logarithmic(panel, logs)
     for panel in axes.flat[len(names) :]:
         panel.set_axis_off()
     for panel in axes.flat[max(0, len(names) - columns) : len(names)]:

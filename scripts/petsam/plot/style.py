@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 import numpy as np  # noqa: E402
-from matplotlib.ticker import MaxNLocator  # noqa: E402
+from matplotlib.ticker import LogFormatterMathtext, MaxNLocator  # noqa: E402
 
 from ..errors import Error  # noqa: E402
 
@@ -117,6 +117,23 @@ def field(axes, values, edges, low=0.0, high=None, color_map="viridis", norm=Non
     axes.grid(False)
     limits = {"norm": norm} if norm is not None else {"vmin": low, "vmax": high}
     return axes.imshow(values, **limits, **style)
+
+
+class _Plain(LogFormatterMathtext):
+    """Numbers of a logarithmic axis as they are written elsewhere: 30, not 3 times 10 to the first."""
+
+    def __call__(self, x, pos=None):
+        text = super().__call__(x, pos)
+        return f"{x:g}" if text and 1e-3 <= abs(x) < 1e5 else text
+
+
+def logarithmic(panel, axes):
+    """Logarithmic axes x, y or both."""
+    for name in axes:
+        panel.set(**{f"{name}scale": "log"})
+        axis = getattr(panel, name + "axis")
+        axis.set_major_formatter(_Plain())
+        axis.set_minor_formatter(_Plain(minor_thresholds=(1.0, 0.4)))
 
 
 def log_ticks(axes, values):

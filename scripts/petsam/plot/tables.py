@@ -4,7 +4,7 @@ import numpy as np
 
 from ..errors import Error, short
 from . import symbols
-from .style import MARKED, colors, need_few, plt
+from .style import MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, plain, scale
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
@@ -169,7 +169,7 @@ def _draw(panel, curves, name, other, across, logs):
     text = "dissipated energy, sum" if name == "dissipated_energy_sum" else symbols.scalar(bare)
     text = "dissipated energy, last step" if name == "dissipated_energy" else text
     panel.set(ylabel=label(text, unit))
-    panel.set(**{f"{axis}scale": "log" for axis in logs})
+    logarithmic(panel, logs)
 
 
 def study(studies, names=None, other=None, by=None, where=(), logs=()):

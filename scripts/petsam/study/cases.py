@@ -55,12 +55,12 @@ class Case(NamedTuple):
     ranks: int
 
     def words(self):
-        """The command line of petsam but for the results' name."""
-        return [
-            word
-            for name, value in self.options.items()
-            for word in (["-" + name] if value is None else ["-" + name, value])
-        ]
+        """The command line of petsam but for the results' name.
+
+        An options file comes first: of an option that is in it, too, the last value counts, which is the table's.
+        """
+        options = sorted(self.options.items(), key=lambda item: item[0] != "options_file")
+        return [word for name, value in options for word in (["-" + name] if value is None else ["-" + name, value])]
 
     def identity(self):
         """Digest of all that determines the results: options, and the contents of the files they name."""
