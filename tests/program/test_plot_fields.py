@@ -329,6 +329,23 @@ def test_many_points_have_no_marks_and_keep_their_extremes():
     assert style.outlined(x[::-1], y)[0].size == x.size  # a loop stays as it is
 
 
+def test_an_entry_of_the_stiffness_is_a_scalar(solve, draw):
+    path = solve(
+        dict(CASE, stiffness=True, load_tx=float(AMPLITUDE), load_ty=0.2 * float(AMPLITUDE)), dict(steps=4)
+    ).path
+    with petsam.open(path) as results:
+        axes = series.history([results], ["stiffness.load_ty.disp_x"], "load_tx").axes[0]
+        x, y = axes.lines[0].get_data()
+        unit = axes.get_ylabel().split()[-1]
+    with h5py.File(path, "r") as file:
+        expected = file["history/stiffness"][:, 2, 1]
+        assert np.allclose(x, file["history/load_tx"])
+    assert np.allclose(y * {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6}[unit], expected) and np.ptp(expected) > 0
+    for name, says in (("stiffness", "is a matrix"), ("stiffness.load_q.disp_x", "stiffness.LOAD.DISPLACEMENT")):
+        code, (error,) = draw(path, "--scalar", name)
+        assert code == 3 and f"--scalar {name}: " in error and says in error
+
+
 def test_numbers_of_a_logarithmic_axis_are_plain():
     figure, axes = plt.subplots()
     axes.plot([30.0, 60.0], [1e-7, 1e7])

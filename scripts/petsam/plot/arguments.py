@@ -127,7 +127,7 @@ def _quantities(parser):
     )  # fmt: skip
     what.add_argument(
         "--scalar", "--names", dest="scalar", type=names, action=_Scalars, metavar="NAME,...",
-        help="scalars of /history, or columns of a study (those that vary)",
+        help="scalars of /history, of a matrix stiffness.load_tx.disp_x, or columns of a study (those that vary)",
     )  # fmt: skip
     what.add_argument(
         "--against", metavar="NAME", help="over which scalar, or column (time; the input with most values)"

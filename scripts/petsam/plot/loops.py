@@ -119,7 +119,8 @@ def energy(found, logs=()):
     joules, unit = scale("J", largest(energies for _, energies in data))
     figure, axes = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
     for one, (numbers, energies), color in zip(found, data, colors(len(found))):
-        text = f"{plain(one.results.label)}: {numbers.size} cycles"
+        computed = " computed" if one.results.has_life else ""
+        text = f"{plain(one.results.label)}: {numbers.size}{computed} cycles"
         if not one.results.has_life:
             factor, total = scale("J", float(np.sum(energies)))
             text += f", {factor * np.sum(energies):.4g} {total}"

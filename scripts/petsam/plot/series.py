@@ -10,6 +10,24 @@ from .units import label, largest, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"
+# rows and columns of the matrices of /history
+LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
+WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
+
+
+def entry(results, name):
+    """Of a name such as stiffness.load_tx.disp_x the matrix and the two names in it; None of another name."""
+    matrix, *pair = name.split(".")
+    known = len(pair) == 2 and pair[0] in LOADS and pair[1] in WAYS and matrix in results.matrices
+    return (matrix, *pair) if known else None
+
+
+def unit_of(results, name):
+    """Unit of a scalar, or of an entry of a matrix."""
+    if not entry(results, name):
+        return results.units[name]
+    _, load, way = entry(results, name)
+    return f"{results.units[load]}/{results.units[way]}"
 
 
 def series(results, name):
@@ -17,6 +35,10 @@ def series(results, name):
 
     The status is that of all steps: it tells which of them have none.
     """
+    if entry(results, name):
+        matrix, load, way = entry(results, name)
+        values = results.matrices[matrix][results.solved]
+        return results.series(TIME), values[:, LOADS.index(load), WAYS.index(way)]
     if name == "status":
         status, time = results.history[name], results.history[TIME]
         complete = min(status.size, time.size)
@@ -65,16 +87,18 @@ def need_scalars(results, names, option):
     """Error where the history lacks one of the names, which the option has asked for."""
     for name in names:
         if name in results.matrices:
-            raise Error(f"{results.path}: {option} {short(name)}: is a matrix for every step")
-        if name not in results.history:
-            there = ", ".join(sorted(results.history))
+            text = f"{option} {name}: is a matrix for every step; {name}.load_tx.disp_x is one of its entries"
+            raise Error(f"{results.path}: {text}")
+        if name not in results.history and not entry(results, name):
+            entries = [f"{matrix}.LOAD.DISPLACEMENT" for matrix in results.matrices]
+            there = ", ".join([*sorted(results.history), *entries])
             raise Error(f"{results.path}: {option} {short(name)}: has no such dataset; it has {there}")
 
 
 def _panel(panel, results, name, other, across):
     """One scalar of all files; across is the factor of the other one."""
     lines = [against(one, name, other) for one in results]
-    factor, unit = scale(results[0].units[name], largest(values for _, values in lines))
+    factor, unit = scale(unit_of(results[0], name), largest(values for _, values in lines))
     for one, (x, y), tint in zip(results, lines, colors(len(results))):
         x, y = outlined(across * x, factor * y)
         panel.plot(x, y, color=tint, label=plain(one.label), **curve(x.size))
@@ -96,7 +120,7 @@ def history(results, names=None, other=TIME, option="--names", logs=()):
     rows = -(-len(names) // columns)
     size = (4.2 * columns, 2.6 * rows + 0.3) if len(names) > 1 else (6.4, 4.4)
     figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False, sharex=True, constrained_layout=True)
-    across, unit = scale(results[0].units[other], largest(series(one, other)[1] for one in results))
+    across, unit = scale(unit_of(results[0], other), largest(series(one, other)[1] for one in results))
     for panel, name in zip(axes.flat, names):
         _panel(panel, results, name, other, across)
         logarithmic(panel, logs)

@@ -18,6 +18,9 @@ FIELDS = {
 
 def scalar(name):
     """What a dataset of /history is called."""
+    if name.count(".") == 2:  # an entry of a matrix
+        matrix, load, way = name.split(".")
+        return f"{scalar(matrix)}, d{SYMBOLS[load]}/d{SYMBOLS[way]}"
     return SYMBOLS.get(name) or plain(name.replace("_", " "))
 
 
