@@ -1,16 +1,18 @@
 """Cycles of a history: turning points, periods, their energies and loops, in petsam-plot and in petsam-study."""
 
 import csv
+import sys
 
 import h5py
 import numpy as np
 import pytest
 
 import petsam
+from conftest import PROGRAM as PETSAM
 from petsam import cycles
 from petsam.plot import loops, wear
 from petsam.plot.style import MARKED, plt
-from support import ball, slide_limit
+from support import ball, slide_limit, words
 
 CASE = ball(n=24)
 LIMIT = slide_limit(CASE)[0]
@@ -250,13 +252,10 @@ def test_what_is_no_cycle_is_named(draw, path, words, code, says):
 @pytest.fixture
 def study(launcher, tmp_path, monkeypatch, capfd):
     """study(*words): exit code and messages of petsam-study in tmp_path."""
-    import sys
-
     from petsam.study import command
-    from support import ROOT
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PETSAM", str(ROOT / "build" / "bin" / "petsam"))
+    monkeypatch.setenv("PETSAM", str(PETSAM))
     monkeypatch.setenv("MPIRUN", " ".join(launcher))
 
     def run(*words):
@@ -276,8 +275,6 @@ def table(folder):
 
 
 def test_the_table_of_a_study_has_energies_of_cycles(study, tmp_path):
-    from support import words
-
     program(tmp_path, TURNS, "long.csv")
     program(tmp_path, TURNS[:2], "short.csv")
     (tmp_path / "cases.csv").write_text("history,case\nlong.csv,long\nshort.csv,short\n")
