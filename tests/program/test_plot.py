@@ -492,6 +492,7 @@ def test_a_step_that_is_in_some_datasets_only_does_not_count(strokes, tmp_path):
         ("m2", 4e-12, 1e12, "µm²"),
         ("J/m2", 2.5e3, 1e-3, "kJ/m²"),
         ("1/Pa", 1e-9, 1.0, "1/Pa"),
+        ("Pa J/m2", 3.9e10, 1e-9, "GPa J/m²"),
         ("N", 999.0, 1.0, "N"),
         ("N", 1000.0, 1e-3, "kN"),
         ("Pam", 1e9, 1.0, "Pam"),

@@ -135,12 +135,12 @@ def test_a_few_peaks_do_not_darken_the_map_and_the_label_says_so():
     cells = np.concatenate([np.zeros(1000), chance.uniform(1e6, 2e6, 9850), np.full(150, 5e7)])
     found = colours.choose("pressure", [cells], "Pa")
     assert found.norm.vmax == pytest.approx(1e-6 * np.percentile(cells[1000:], 98.0), rel=1e-12)
-    assert found.text("$p$") == "$p$, MPa\n98 % of non-zero cells below" and found.extend == "max"
+    assert found.text("$p$") == "$p$, MPa\n98 % of non-zero cells below, largest 50" and found.extend == "max"
     share = np.mean(found.factor * cells[1000:] <= found.norm.vmax)
     assert 0.979 < share < 0.981
     signed = colours.choose("shear_x", [-cells], "Pa")
     assert signed.norm.vmin == -signed.norm.vmax and signed.extend == "min"
-    assert signed.text("q").endswith("98 % of non-zero cells within")
+    assert signed.text("q").endswith("98 % of non-zero cells within, largest 50")
 
 
 @pytest.mark.parametrize("count, share", [(0, 100.0), (5, 99.8), (90, 99.0), (150, 98.0), (400, 95.0), (600, 100.0)])
@@ -161,7 +161,7 @@ def test_the_percentile_is_that_which_is_given(results):
     drawn, bar = image(maps.maps([(results, 0)], whole=True, names=["pressure"], choice=choice))
     inside = np.asarray(drawn.get_array())
     assert drawn.get_clim()[1] == pytest.approx(np.median(inside[inside > 0]), rel=1e-12)
-    assert bar.get_ylabel().endswith("50 % of non-zero cells below")
+    assert f"50 % of non-zero cells below, largest {inside.max():.3g}" in bar.get_ylabel()
 
 
 def test_logarithmic_colours_span_some_decades_or_the_limits():

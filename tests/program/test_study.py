@@ -722,6 +722,20 @@ def test_a_study_is_submitted_as_arrays_and_collected(run, tmp_path, slurm):
     assert "--array=2 " in lines(tmp_path / "sbatch.txt")[3]
 
 
+@pytest.mark.parametrize(
+    "words, passed",
+    [
+        (("--turns", "load_tx", "--cycle", "1,-2"), "--turns load_tx --cycle=1,-2"),
+        (("--period", "0.5,-1", "--cycle", "-2"), "--period=0.5,-1.0 --cycle=-2"),
+    ],
+)
+def test_the_job_that_collects_knows_which_cycles_are_wanted(run, tmp_path, slurm, words, passed):
+    table(tmp_path, "load_tx\n1\n")
+    run("cases.csv", "--slurm", *words, **slurm)
+    *_, collecting = lines(tmp_path / "sbatch.txt")
+    assert "--collect" in collecting and passed in collecting
+
+
 def test_a_task_of_the_array_that_was_stopped_is_queued_again(run, tmp_path, slurm):
     table(tmp_path, "wait,stoppable\n60,true\n")
     (tmp_path / "limit").touch()

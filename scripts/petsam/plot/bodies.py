@@ -249,8 +249,7 @@ def _fatigue_panel(figure, panel, file, name, at):
     some = np.isfinite(values)
     k, i = np.unravel_index(np.argmax(np.where(some, values, -np.inf)), values.shape)
     high, base = float(values[k, i]), file.unit(name)
-    factor, prefixed = scale(base.split()[0], abs(high))
-    prefixed = " ".join([prefixed, *base.split()[1:]]) if prefixed else ""
+    factor, prefixed = scale(base, abs(high))
     length, unit = scale("m", np.ptp(along) / 2)
     limits = (min(0.0, factor * float(np.min(values[some]))), factor * high)
     if file.along is None:

@@ -69,11 +69,11 @@ def top(magnitudes, percentile=None, automatic=True):
     return whole, 100.0
 
 
-def _remark(share, signed):
-    """What the label says of a limit that is a percentile."""
+def _remark(share, signed, whole):
+    """What the label says of a limit that is a percentile; whole is the largest value, in the label's unit."""
     if share >= 100.0:
         return ""
-    return f"{share:g} % of non-zero cells {'within' if signed else 'below'}"
+    return f"{share:g} % of non-zero cells {'within' if signed else 'below'}, largest {whole:.3g}"
 
 
 def _log_limits(magnitudes, high, limits):
@@ -109,6 +109,7 @@ def choose(name, arrays, unit, choice=None):
     signed = is_signed(name, values)
     magnitudes = np.abs(values)
     high, share = (choice.limits[1], 100.0) if choice.limits else top(magnitudes, choice.percentile, not choice.log)
+    whole = float(np.max(magnitudes, initial=0.0))
     low = choice.limits[0] if choice.limits else (-high if signed else 0.0)
     if choice.log:
         floor, high = _log_limits(magnitudes, high, None if signed and choice.limits else choice.limits)
@@ -123,4 +124,6 @@ def choose(name, arrays, unit, choice=None):
     above = bool(magnitudes.size) and factor * np.max(values) > high * (1.0 + 1e-9)
     below = bool(magnitudes.size) and factor * np.min(values) < low - 1e-9 * abs(high) and not choice.log
     extend = {(True, True): "both", (True, False): "max", (False, True): "min"}.get((above, below), "neither")
-    return Colours(norm, SIGNED if signed else UNSIGNED, factor, prefixed, _remark(share, signed), extend)
+    return Colours(
+        norm, SIGNED if signed else UNSIGNED, factor, prefixed, _remark(share, signed, factor * whole), extend
+    )
