@@ -56,13 +56,14 @@ typedef struct {
   PetscInt  compress;                /* deflate level of the fields, 0 (none) to 9 */
   PetscInt  chunk[2];                /* most cells of an HDF5 chunk in x, y */
   PetscBool xdmf;                    /* write an XDMF file beside the results */
+  PetscBool single;                  /* fields of cells in single precision */
   PetscBool with[SAM_OUTPUT_OPTIONS];
   SamWear   wear; /* whose depths are written; borrowed; NULL without wear */
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state and depths of wear, no compression,
-  chunks of 1024 x 256 cells, with XDMF file, no optional columns), then reads -output_fields, -output_compress,
-  -output_chunk and -output_xdmf. Collective. Errors: SAM_ERR_USER.
+  chunks of 1024 x 256 cells, double precision, with XDMF file, no optional columns), then reads -output_fields,
+  -output_compress, -output_chunk, -output_single and -output_xdmf. Collective. Errors: SAM_ERR_USER.
   SamOutputSettingsSetFields - chooses `count` fields by their names in the results; "all" stands for all of them, a
   single "none" for none; count < 0: the default. `unknown`: a name that there is not, or NULL. Not collective.
   SamOutputSettingsCheck - refuses fields that are named and that these results do not have. Collective. Errors:
@@ -117,13 +118,16 @@ PETSC_EXTERN PetscErrorCode SamOutputSetReals(SamOutput output, const char name[
 PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[], const char text[]);
 /*
   SamOutputWriteStep - appends the numbers of a step to /history and, when `contact` is not NULL, its time and the
-  fields of the contact's solution (SamContactGetSolution()). Then flushes: the file is complete up to here, whatever
-  happens later. Collective. Errors: SAM_ERR_FILE, also when another program has replaced the file, or changed its
-  size, since the last step. When there is no space for the step, nothing is written and the file
-  can be closed. When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and
-  the program should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
+  fields of the contact's solution (SamContactGetSolution()). Then the file is complete up to here, whatever happens
+  later; but a step without fields may wait in memory, for two seconds at most if steps go on to be written, since many
+  are written in the time of one. Collective. Errors: SAM_ERR_FILE, also when another program has replaced the file, or
+  changed its size, since it was written last. When there is no space, nothing is written and the file can be closed.
+  When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and the program
+  should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
+  SamOutputFlush - writes the steps that wait. Collective. Errors: as SamOutputWriteStep().
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, const SamStep *step, SamContact contact);
+PETSC_EXTERN PetscErrorCode SamOutputFlush(SamOutput output);
 /*
   SamOutputWriteFields - appends only the fields, of a step whose numbers are in the file already; `time` (s) is that of
   the step. Otherwise as SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.

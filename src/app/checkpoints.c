@@ -246,6 +246,7 @@ static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamPara
   PetscInt      solved;
 
   PetscFunctionBegin;
+  if (progress->output) PetscCall(SamOutputFlush(progress->output));
   PetscCall(Pack(progress, at));
   PetscCall(CountSolved(progress, &solved));
   PetscCall(ChecksumColumns(progress->history, solved, columns));

@@ -8,6 +8,7 @@
 /* The position of a run in its load program. */
 typedef struct {
   SamHistory history;
+  SamOutput  output;    /* results, which must be in their file when a checkpoint is; NULL: none */
   SamWear    wear;      /* NULL: none */
   SamLife    life;      /* NULL: none */
   PetscReal  cycles;    /* of the life */

@@ -192,6 +192,7 @@ static PetscErrorCode Begin(SamRun *run)
     PetscCall(ContinueResults(run));
   else if (run->has_output)
     PetscCall(CreateResults(run));
+  run->point.output = run->output;
   if (run->output) PetscCall(SamOutputHasReplaced(run->output, &replaced));
   PetscCall(PetscSNPrintf(results, sizeof(results), "%s%s", run->filename, replaced ? ", replacing those there" : ""));
   PetscCall(SamReportBanner(run->report, run->setup.grid, SamRunMemory(run->setup.grid, &run->needs), run->needs.steps,
@@ -242,7 +243,9 @@ static PetscErrorCode FinishResults(SamRun *run)
   PetscCall(SamReportAddFile(run->report, run->filename, content));
   PetscCall(SamOutputGetXdmf(run->output, &xdmf));
   if (xdmf) PetscCall(SamReportAddFile(run->report, xdmf, "the same for ParaView and VisIt"));
+  run->writing = PETSC_TRUE;
   PetscCall(SamOutputDestroy(&run->output));
+  run->writing = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -342,13 +342,14 @@ static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep
   PetscFunctionBegin;
   PetscCall(SamOutputSetParameters(to, wanted->parameters));
   PetscCall(CopyOptions(from, to));
-  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to) +
+  PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to->f->grid, &to->set) +
                                     (off_t)(wanted->point.steps + wanted->point.cycles) * STEP_BYTES));
   to->copying = PETSC_TRUE;
   PetscCall(PetscMalloc1(PetscMax(from->f->grid->cells, 1), &cells));
   ierr = CopySteps(from, (hsize_t)wanted->point.steps, keep, to, cells);
   if (!ierr) ierr = CopyCycles(from, (hsize_t)wanted->point.cycles, to);
   PetscCall(PetscFree(cells));
+  if (!ierr) ierr = SamOutputFlush(to);
   PetscCall(ierr);
   PetscCall(SamFileBegin(to->f));
   (void)SamFileNote(to->f, H5Fflush(to->f->id, H5F_SCOPE_GLOBAL));
@@ -366,6 +367,7 @@ static PetscErrorCode WriteCopy(SamOutput from, const SamOutputSettings *set, co
 
   PetscFunctionBegin;
   plain.xdmf = PETSC_FALSE;
+  plain.single = from->set.single;
   PetscCall(PetscArraycpy(plain.fields, from->set.fields, SAM_OUTPUT_MOST));
   for (PetscInt k = 0; k < SAM_OUTPUT_OPTIONS; k++) plain.with[k] = set->with[k] || Has(from, k);
   PetscCall(SamOutputCreateAs(from->f->grid, temporary, SAM_FILE_TEMPORARY, &plain, &to));

@@ -264,6 +264,8 @@ PETSC_INTERN void SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t
 PETSC_INTERN void           SamOutputGetPointsExtent(SamOutput output, PetscInt f, hsize_t extent[2]);
 PETSC_INTERN PetscErrorCode SamOutputReadPoints(SamOutput output, hid_t dataset, hsize_t step, SamOutputPoints *points);
 
+#define SAM_OUTPUT_WAIT 256 /* most steps that wait to be written: those of a chunk of the series */
+
 /* The XDMF file beside the results. */
 typedef struct _n_SamXdmf *SamXdmf;
 
@@ -277,11 +279,15 @@ struct _n_SamOutput {
   PetscBool       replaced;  /* there were older results */
   SamXdmf         xdmf;      /* NULL: none */
   hid_t           time, point, fields[SAM_OUTPUT_MOST], columns[SAM_SERIES][SAM_OUTPUT_MOST];
-  signed char    *states; /* of this rank's cells */
+  signed char    *states;  /* of this rank's cells */
+  float          *singles; /* the same; NULL until fields in single precision are written */
   Vec             work;   /* for fields that are computed; NULL until the first one */
   SamOutputPoints points; /* of the edge that is being written */
   /* status */
-  hsize_t   rows[SAM_SERIES]; /* load steps in the history, computed cycles */
+  SamStep  *waiting;          /* load steps that are not in the file yet, room for SAM_OUTPUT_WAIT; NULL until needed */
+  PetscInt  waits;            /* number of these */
+  double    flushed;          /* MPI_Wtime() when the file was complete last */
+  hsize_t   rows[SAM_SERIES]; /* in the file: load steps in the history, computed cycles */
   hsize_t   saved;            /* steps with fields */
   PetscReal saved_time;       /* of the last step with fields */
   PetscBool unchanged;        /* the file has only been examined, so `closed` stays as it is */
@@ -301,7 +307,7 @@ PETSC_INTERN void           SamOutputOpenLayout(SamOutput output);
 PETSC_INTERN void SamOutputMark(SamOutput output);
 PETSC_INTERN void SamOutputCloseLayout(SamOutput output);
 /* SamOutputFieldBytes - the size of the fields of one step, uncompressed. Not collective. */
-PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
+PETSC_INTERN off_t SamOutputFieldBytes(SamGrid grid, const SamOutputSettings *set);
 /*
   SamOutputCreateVTK, SamOutputOpenVTK - create or open the group VTKHDF of the file.
   SamOutputCountVTK - sets the number of steps that VTK sees.
@@ -333,9 +339,9 @@ PETSC_INTERN PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSetti
 PETSC_INTERN PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[], SamFileUse use,
                                               const SamOutputSettings *set, SamOutput *output);
 /*
-  SamOutputAppend - appends the numbers of a step (NULL: none) and its fields (`values` NULL: none), and flushes the
-  file unless `copying`. `values` returns this rank's values of field f, doubles or bytes; it is called with `context`.
-  Collective. Errors: SAM_ERR_FILE.
+  SamOutputAppend - appends the numbers of a step (NULL: none) and its fields (`values` NULL: none). Without fields the
+  numbers may wait (SamOutputFlush()); otherwise the file is flushed unless `copying`. `values` returns this rank's
+  values of field f, doubles or bytes; it is called with `context`. Collective. Errors: SAM_ERR_FILE.
 */
 typedef PetscErrorCode (*SamOutputValues)(SamOutput output, PetscInt f, void *context, const void **values);
 PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const SamStep *step, PetscReal time,

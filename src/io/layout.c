@@ -8,7 +8,7 @@
 #include <hdf5_hl.h>
 #include <string.h>
 
-#define CHUNK_STEPS 256 /* steps in a chunk of a series, which has one number a step */
+#define CHUNK_STEPS SAM_OUTPUT_WAIT /* steps in a chunk of a series, which has one number a step */
 
 static const SamOutputLabel x_label        = {"x", "m", "x of the cell centres"};
 static const SamOutputLabel y_label        = {"y", "m", "y of the cell centres"};
@@ -66,33 +66,33 @@ static hsize_t ChunkSize(hsize_t n, hsize_t most)
 }
 
 /* Chunks are one step deep. */
-static SamShape FieldShape(SamOutput o)
+static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
 {
-  const hsize_t ny = (hsize_t)o->f->grid->ny, nx = (hsize_t)o->f->grid->nx;
+  const hsize_t ny = (hsize_t)grid->ny, nx = (hsize_t)grid->nx;
 
   return (SamShape){3,
                     {0, ny, nx},
                     {H5S_UNLIMITED, ny, nx},
-                    {1, ChunkSize(ny, (hsize_t)o->set.chunk[1]), ChunkSize(nx, (hsize_t)o->set.chunk[0])}};
+                    {1, ChunkSize(ny, (hsize_t)set->chunk[1]), ChunkSize(nx, (hsize_t)set->chunk[0])}};
 }
 
-static hid_t StoredType(const SamOutputField *field)
+static hid_t StoredType(const SamOutputField *field, PetscBool single)
 {
-  return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : H5T_IEEE_F64LE;
+  return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
 }
 
-off_t SamOutputFieldBytes(SamOutput o)
+off_t SamOutputFieldBytes(SamGrid grid, const SamOutputSettings *set)
 {
-  const SamShape shape = FieldShape(o);
+  const SamShape shape = FieldShape(grid, set);
   hsize_t        cells = 1, bytes = 0, points = 0; /* cells in whole chunks; bytes of all fields in a cell; of edges */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
-    if (!SamOutputWantsField(&o->set, f)) continue;
+    if (!SamOutputWantsField(set, f)) continue;
     if (SamOutputFields[f].kind == SAM_FIELD_POINTS)
       points += EDGE * (shape.size[1] + shape.size[2]) * 2 * sizeof(double);
     else
-      bytes += H5Tget_size(StoredType(&SamOutputFields[f]));
+      bytes += H5Tget_size(StoredType(&SamOutputFields[f], set->single));
   }
   return (off_t)(cells * bytes + points);
 }
@@ -107,7 +107,7 @@ static void WriteFlags(SamOutput o, hid_t dataset)
 
 static PetscErrorCode CreateFields(SamOutput o)
 {
-  const SamShape shape = FieldShape(o);
+  const SamShape shape = FieldShape(o->f->grid, &o->set);
   hid_t          scales[3]; /* of [time, y, x] */
   PetscBool      points = PETSC_FALSE;
 
@@ -124,7 +124,8 @@ static PetscErrorCode CreateFields(SamOutput o)
       points       = PETSC_TRUE;
       continue;
     }
-    o->fields[f] = SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field), &shape, o->set.compress);
+    o->fields[f] = SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field, o->set.single), &shape,
+                                        o->set.compress);
     if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
     for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
   }
@@ -249,16 +250,21 @@ static void OpenSeries(SamOutput o, SamOutputSeriesKind kind)
   if (group >= 0) (void)SamFileNote(o->f, H5Gclose(group));
 }
 
-/* Takes over the fields, and the chunk sizes, that the file has. */
+/* Takes over the fields, their precision and the chunk sizes that the file has. */
 static void ReadFields(SamOutput o)
 {
   PetscInt some = -1;
-  hid_t    creation;
+  hid_t    creation, type;
   hsize_t  chunk[3] = {1, 1, 1};
 
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
     o->set.fields[f] = o->fields[f] >= 0 ? PETSC_TRUE : PETSC_FALSE;
-    if (o->set.fields[f] && SamOutputFields[f].kind != SAM_FIELD_POINTS) some = f;
+    if (!o->set.fields[f] || SamOutputFields[f].kind == SAM_FIELD_POINTS) continue;
+    some = f;
+    if (SamOutputFields[f].kind != SAM_FIELD_REAL) continue;
+    type          = SamFileNote(o->f, H5Dget_type(o->fields[f]));
+    o->set.single = H5Tget_size(type) == sizeof(float) ? PETSC_TRUE : PETSC_FALSE;
+    if (type >= 0) (void)SamFileNote(o->f, H5Tclose(type));
   }
   if (some < 0) return;
   creation = SamFileNote(o->f, H5Dget_create_plist(o->fields[some]));

@@ -1,0 +1,378 @@
+/*
+  Load steps and computed cycles, appended to a results file.
+
+  Steps without fields wait in memory, so that many are written at once, column by column. Written one by one, with the
+  file made complete after each, they took more time than small steps take to solve. What waits is written with the next
+  fields, when there is a chunk of it, after INTERVAL, and before a checkpoint.
+
+  Disk space is reserved before any of it is written.
+*/
+#include "ioimpl.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define INTERVAL 2.0 /* s that a step waits */
+
+/* ---- on rank 0 ---- */
+
+/*
+  Sets the end of data in the superblock to the end of the file, before HDF5 flushes its metadata. HDF5 itself updates
+  the superblock last. A run killed in between would leave metadata that point beyond the recorded end, and earlier
+  steps, too, would be lost. The space of a step is reserved before, so all of its data lie within the file. Version 0
+  of the superblock has no checksum, and the end of data at byte 40 (HDF5 file format specification, II.A); other
+  versions are left to HDF5. Returns an errno or 0.
+*/
+#define SUPERBLOCK_VERSION 8  /* byte: version of the superblock */
+#define SUPERBLOCK_OFFSETS 13 /* byte: size of an address, in bytes */
+#define SUPERBLOCK_END     40 /* byte: first of the end of data */
+static int MoveEnd(const char filename[])
+{
+  const int     file = open(filename, O_RDWR);
+  unsigned char start[SUPERBLOCK_END], end[8];
+  struct stat   status;
+  int           error = 0;
+
+  if (file < 0) return errno;
+  errno = EIO; /* for a short read or write, which sets none */
+  if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status))
+    error = errno;
+  else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
+    for (unsigned k = 0; k < sizeof(end); k++) end[k] = (unsigned char)((uint64_t)status.st_size >> 8 * k & 0xff);
+    if (pwrite(file, end, sizeof(end), SUPERBLOCK_END) != (ssize_t)sizeof(end)) error = errno;
+  }
+  return close(file) && !error ? errno : error;
+}
+
+/* Makes the file complete up to here: first sets its end of data, then lets HDF5 write its metadata. */
+static PetscErrorCode Flush(SamOutput o)
+{
+  int error = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileAgree(o->f)); /* a step that failed on any rank must not be flushed */
+  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (o->f->rank == 0) error = MoveEnd(o->f->filename);
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->f->grid->comm)); /* no rank flushes before the end is set */
+  if (error) {
+    o->f->failed = PETSC_TRUE;
+    (void)snprintf(o->f->reason, sizeof(o->f->reason), "%s", strerror(error));
+  } else
+    (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  o->flushed = MPI_Wtime();
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- rows ---- */
+
+/* Appends `count` numbers to a series, or square matrices of n rows; rank 0 writes them. */
+static void Append(SamOutput o, hid_t dataset, hid_t type, hsize_t index, hsize_t count, hsize_t n, const void *numbers)
+{
+  const hsize_t size[3] = {index + count, n, n}, start[3] = {index, 0, 0}, block[3] = {count, n, n};
+  const hsize_t all     = count * n * n;
+  const hid_t   memory  = SamFileNote(o->f, H5Screate_simple(1, &all, NULL));
+  hid_t         space;
+
+  (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
+  space = SamFileNote(o->f, H5Dget_space(dataset));
+  if (o->f->rank == 0) {
+    (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL));
+  } else {
+    (void)SamFileNote(o->f, H5Sselect_none(space));
+    (void)SamFileNote(o->f, H5Sselect_none(memory));
+  }
+  (void)SamFileNote(o->f, H5Dwrite(dataset, type, memory, space, o->f->transfer, numbers));
+  (void)SamFileNote(o->f, H5Sclose(space));
+  (void)SamFileNote(o->f, H5Sclose(memory));
+}
+
+/* The values of a column in `count` rows, each of so many bytes: real numbers, or whole ones of 64 bits. */
+static void GatherColumn(const SamOutputColumn *column, const void *rows, size_t bytes, PetscInt count, double values[])
+{
+  int64_t *const whole = (int64_t *)values;
+
+  for (PetscInt k = 0; k < count; k++) {
+    const char *const place = (const char *)rows + (size_t)k * bytes + column->offset;
+
+    switch (column->kind) {
+    case SAM_COLUMN_REAL:
+      values[k] = (double)*(const PetscReal *)place;
+      break;
+    case SAM_COLUMN_INT:
+      whole[k] = (int64_t) * (const PetscInt *)place;
+      break;
+    case SAM_COLUMN_STATUS:
+      whole[k] = (int64_t) * (const SamStatus *)place;
+      break;
+    case SAM_COLUMN_MATRIX:
+      memcpy(values + k * SAM_COMPONENTS * SAM_COMPONENTS, place, sizeof(double) * SAM_COMPONENTS * SAM_COMPONENTS);
+      break;
+    }
+  }
+}
+
+/* Appends rows to a series: an array of SamStep or SamLifeReport. */
+static PetscErrorCode AppendRows(SamOutput o, SamOutputSeriesKind kind, const void *rows, size_t bytes, PetscInt count)
+{
+  const SamOutputSeries *s = &SamOutputAllSeries[kind];
+  double                *values;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(count * SAM_COMPONENTS * SAM_COMPONENTS, &values));
+  for (PetscInt c = 0; c < s->count; c++) {
+    const SamOutputColumn *column = &s->columns[c];
+    const PetscBool        real =
+      (column->kind == SAM_COLUMN_REAL || column->kind == SAM_COLUMN_MATRIX) ? PETSC_TRUE : PETSC_FALSE;
+
+    if (o->columns[kind][c] < 0) continue; /* an optional column that this file does not have */
+    GatherColumn(column, rows, bytes, count, values);
+    Append(o, o->columns[kind][c], real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64, o->rows[kind], (hsize_t)count,
+           column->kind == SAM_COLUMN_MATRIX ? SAM_COMPONENTS : 1, values);
+  }
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- fields ---- */
+
+static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *values)
+{
+  const hsize_t size[3] = {o->saved + 1, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
+
+  (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
+  SamFileWriteLayer(o->f, dataset, type, o->saved, values);
+}
+
+/* In single precision. Converted here: HDF5 would have each rank write by itself, which compressed fields do not allow. */
+static void AppendSingle(SamOutput o, hid_t dataset, const double values[])
+{
+  for (PetscInt k = 0; k < o->f->grid->cells; k++) o->singles[k] = (float)values[k];
+  AppendField(o, dataset, H5T_NATIVE_FLOAT, o->singles);
+}
+
+static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *context)
+{
+  PetscFunctionBegin;
+  if (o->set.single && !o->singles) PetscCall(PetscMalloc1(o->f->grid->cells, &o->singles));
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    const void *cells;
+
+    if (o->fields[f] < 0) continue;
+    PetscCall(values(o, f, context, &cells));
+    switch (SamOutputFields[f].kind) {
+    case SAM_FIELD_POINTS:
+      SamOutputAppendPoints(o, o->fields[f], o->saved, (const SamOutputPoints *)cells);
+      break;
+    case SAM_FIELD_STATE:
+      AppendField(o, o->fields[f], H5T_NATIVE_SCHAR, cells);
+      break;
+    case SAM_FIELD_REAL:
+      if (o->set.single)
+        AppendSingle(o, o->fields[f], (const double *)cells);
+      else
+        AppendField(o, o->fields[f], H5T_NATIVE_DOUBLE, cells);
+      break;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- writing ---- */
+
+/*
+  Before anything is written: raises an error if the file is not as it was left, and reserves disk space. What waits is
+  given up then: there is no file for it.
+*/
+static PetscErrorCode Begin(SamOutput o, off_t bytes)
+{
+  PetscErrorCode ierr = 0;
+
+  PetscFunctionBegin;
+  if (!o->copying) ierr = SamHoldCheck(o->f->grid, "output", o->f->filename, &o->hold);
+  if (!o->copying && !ierr) ierr = SamFileReserve(o->f, bytes);
+  if (ierr) o->waits = 0;
+  PetscCall(ierr);
+  PetscCall(SamFileBegin(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes the steps that wait. */
+static PetscErrorCode WriteWaiting(SamOutput o)
+{
+  PetscFunctionBegin;
+  if (!o->waits) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(AppendRows(o, SAM_SERIES_HISTORY, o->waiting, sizeof(*o->waiting), o->waits));
+  o->rows[SAM_SERIES_HISTORY] += (hsize_t)o->waits;
+  o->waits = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode End(SamOutput o)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  if (!o->copying) PetscCall(Flush(o));
+  ierr = SamFileEnd(o->f);
+  if (ierr) o->broken = PETSC_TRUE;
+  PetscCall(ierr);
+  SamHoldNoteSize(&o->hold);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether no more may wait, by rank 0's clock. */
+static PetscErrorCode IsDue(SamOutput o, PetscBool *due)
+{
+  int late = o->waits == SAM_OUTPUT_WAIT;
+
+  PetscFunctionBegin;
+  if (!late && !o->copying) {
+    late = MPI_Wtime() - o->flushed >= INTERVAL;
+    PetscCallMPI(MPI_Bcast(&late, 1, MPI_INT, 0, o->f->grid->comm));
+  }
+  *due = late ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckWhole(SamOutput o)
+{
+  PetscFunctionBegin;
+  PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename,
+             o->f->reason);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time, SamOutputValues values, void *context)
+{
+  const double now = (double)time;
+  PetscBool    due = values ? PETSC_TRUE : PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(CheckWhole(o));
+  if (step && !o->waiting) PetscCall(PetscMalloc1(SAM_OUTPUT_WAIT, &o->waiting));
+  if (step) o->waiting[o->waits++] = *step;
+  if (!due) PetscCall(IsDue(o, &due));
+  if (!due) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Begin(o, values ? SamOutputFieldBytes(o->f->grid, &o->set) : 0));
+  PetscCall(WriteWaiting(o));
+  if (values) {
+    Append(o, o->time, H5T_NATIVE_DOUBLE, o->saved, 1, 1, &now);
+    PetscCall(AppendFields(o, values, context));
+    SamOutputCountVTK(o, o->saved + 1);
+    o->saved_time = time;
+  }
+  PetscCall(End(o));
+  o->saved += values ? 1 : 0;
+  if (values && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputAppendCycle(SamOutput o, const SamLifeReport *cycle)
+{
+  PetscFunctionBegin;
+  PetscCall(CheckWhole(o));
+  PetscCall(Begin(o, 0));
+  PetscCall(WriteWaiting(o));
+  PetscCall(AppendRows(o, SAM_SERIES_WEAR, cycle, sizeof(*cycle), 1));
+  PetscCall(End(o));
+  o->rows[SAM_SERIES_WEAR]++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputFlush(SamOutput o)
+{
+  PetscFunctionBegin;
+  PetscCall(CheckWhole(o));
+  if (!o->waits) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Begin(o, 0));
+  PetscCall(WriteWaiting(o));
+  PetscCall(End(o));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- fields of a contact ---- */
+
+/* Gives SamOutputAppend() the fields of a contact. */
+typedef struct {
+  SamContact    contact;
+  Vec           field; /* whose array is in use; NULL: none */
+  const double *array;
+} ContactFields;
+
+static PetscErrorCode Release(ContactFields *from)
+{
+  PetscFunctionBegin;
+  if (from->field) PetscCall(VecRestoreArrayRead(from->field, &from->array));
+  from->field = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, const void **values)
+{
+  const SamOutputField *field = &SamOutputFields[f];
+  const PetscInt        cells = o->f->grid->cells;
+  ContactFields        *from  = (ContactFields *)context;
+  PetscInt              component;
+  SamEdge               edge;
+
+  PetscFunctionBegin;
+  PetscCall(Release(from));
+  if (field->kind == SAM_FIELD_POINTS) {
+    PetscCall(SamContactFindEdge(from->contact, (SamContactEdge)field->component, NULL, &edge));
+    PetscCall(SamOutputGatherPoints(o, &edge));
+    PetscCall(SamEdgeDestroy(&edge));
+    *values = &o->points;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (field->compute && !o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
+  PetscCall(SamOutputFindField(field, from->contact, o->set.wear, o->work, &from->field, &component));
+  PetscCall(VecGetArrayRead(from->field, &from->array));
+  *values = from->array + component * cells;
+  if (field->kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)from->array[k];
+  *values = o->states;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Write(SamOutput o, const SamStep *step, PetscReal time, SamContact contact)
+{
+  ContactFields from = {.contact = contact};
+
+  PetscFunctionBegin;
+  PetscCall(SamOutputAppend(o, step, time, contact ? GetContactValues : NULL, &from));
+  PetscCall(Release(&from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteStep(SamOutput o, const SamStep *step, SamContact contact)
+{
+  PetscFunctionBegin;
+  PetscCall(Write(o, step, step->control.time, contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time, SamContact contact)
+{
+  PetscFunctionBegin;
+  PetscCall(Write(o, NULL, time, contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteCycle(SamOutput o, const SamLifeReport *cycle)
+{
+  PetscFunctionBegin;
+  PetscCheck(o->columns[SAM_SERIES_WEAR][0] >= 0, o->f->grid->comm, PETSC_ERR_ORDER, "The file has no group wear");
+  PetscCall(SamOutputAppendCycle(o, cycle));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputGetSaved(SamOutput o, PetscInt *steps, PetscInt *saved, PetscReal *time)
+{
+  PetscFunctionBegin;
+  if (steps) *steps = (PetscInt)o->rows[SAM_SERIES_HISTORY] + o->waits;
+  if (saved) *saved = (PetscInt)o->saved;
+  if (time) *time = o->saved_time;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
