@@ -97,8 +97,11 @@ typedef struct {
   PetscReal  load[SAM_COMPONENTS];     /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS];    /* m, rad: given or found */
   PetscReal  contact_area, stick_area; /* m2: counted cells, or by the edges (SamContactSetEdges()) */
+  PetscReal  contact_fraction;         /* contact area over that of the grid */
   PetscInt   contact_cells, stick_cells;
   PetscReal  pressure_max, shear_max; /* Pa: of the cells; the shear also at the edge of stick, where that is found */
+  PetscReal  slip_max;                /* m, the largest slip since the start of a cell in contact */
+  PetscReal  spots, gap_mean;         /* number of spots; m, mean of all cells; NaN unless SamContactSetSpots() */
   PetscReal  edge_accepted;           /* share of the edges of contact and stick that are reconstructed, 0 to 1 */
   PetscReal  dissipated_energy;       /* J, frictional work of the step: slip times the mean bound of the step */
   PetscReal  stored_energy;           /* J, elastic: half the work of the tractions on the elastic displacements */
@@ -156,7 +159,7 @@ PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
 /*
   SamContactSetFromOptions - reads -coupling (full or none), -coupling_rtol, -coupling_max_it, -warm_start,
-  -allow_edge_contact, -edges and -edges_passes, which mirror the functions below; -coupling_monitor (prints the change
+  -allow_edge_contact, -edges, -edges_passes, -contact_spots, -sum_slip_path and -sum_friction_energy, which mirror the functions below; -coupling_monitor (prints the change
   after each pass); -contact_check (prints the errors of each step); and the options of both solvers. Collective.
   Errors: SAM_ERR_USER.
 */
@@ -191,6 +194,14 @@ PETSC_EXTERN PetscErrorCode SamContactAllowEdge(SamContact contact, PetscBool al
 */
 typedef enum { SAM_CONTACT_EDGES_NONE, SAM_CONTACT_EDGES_RECONSTRUCT, SAM_CONTACT_EDGES_DEFERRED } SamContactEdges;
 PETSC_EXTERN PetscErrorCode SamContactSetEdges(SamContact contact, SamContactEdges edges, PetscInt passes);
+/*
+  SamContactSetSpots - whether the spots of contact are counted in each step, and the mean gap is computed (default:
+  false). Spots are zones of cells in contact that are connected by their sides, not by corners alone; over the edges of
+  a grid that is one period, too. Option -contact_spots. Not collective.
+  SamContactGetSpots - whether they are. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamContactSetSpots(SamContact contact, PetscBool count);
+PETSC_EXTERN PetscErrorCode SamContactGetSpots(SamContact contact, PetscBool *count);
 /* SamContactGetEdges - what is done for the edges. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactGetEdges(SamContact contact, SamContactEdges *edges);
 /* The objects of a contact. Not collective. */
@@ -253,6 +264,21 @@ PETSC_EXTERN PetscErrorCode SamContactComputeShearCenter(SamContact contact, Pet
 PETSC_EXTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
 
 /*
+  Sums over all steps, of what SamContactComputeFriction() gives for each of them:
+    SLIP_PATH        path, m
+    FRICTION_ENERGY  work, J/m2
+  SamContactKeepSum - keeps one from now on, from 0; it takes the memory of a field. Collective.
+  SamContactGetSum - that over the committed steps, NULL if it is not kept; borrowed. Who sets its values has them
+  counted on from there. Not collective.
+  SamContactComputeSum - into a vector of one component, with the tried step if there is one. Collective. Errors:
+  PETSC_ERR_ORDER if it is not kept.
+*/
+typedef enum { SAM_CONTACT_SLIP_PATH, SAM_CONTACT_FRICTION_ENERGY, SAM_CONTACT_SUMS } SamContactSum;
+PETSC_EXTERN PetscErrorCode SamContactKeepSum(SamContact contact, SamContactSum which);
+PETSC_EXTERN PetscErrorCode SamContactGetSum(SamContact contact, SamContactSum which, Vec *sum);
+PETSC_EXTERN PetscErrorCode SamContactComputeSum(SamContact contact, SamContactSum which, Vec sum);
+
+/*
   SamContactState - the committed state: all that later steps depend on. A contact of the same problem that is given the
   state of another goes on as that one would, to the last bit, on any number of ranks.
 */
@@ -261,6 +287,7 @@ typedef struct {
   SamSolution now;                          /* of the last committed step */
   SamSolution plain;                        /* of that step, where its shear is corrected: the plain solution */
   SamSolution before;                       /* one step back, tractions only; vectors NULL before the second step */
+  Vec         sums[SAM_CONTACT_SUMS];       /* over the committed steps; NULL: not kept */
   PetscInt    window_first[2], window_n[2]; /* part of the grid that the solvers worked on: cells; n = 0: all of it */
   PetscBool   gap_is_current;               /* `now` was solved with the gap that the problem has now */
 } SamContactState;

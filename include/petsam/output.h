@@ -45,6 +45,7 @@ typedef enum {
   SAM_OUTPUT_WEAR,           /* wear_volume1, wear_volume2; the fields wear_depth1, wear_depth2 */
   SAM_OUTPUT_LIFE,           /* cycle; the group /wear */
   SAM_OUTPUT_STIFFNESS,      /* stiffness, stiffness_reversal */
+  SAM_OUTPUT_SPOTS,          /* contact_spots, gap_mean */
   SAM_OUTPUT_OPTIONS
 } SamOutputOption;
 
@@ -68,11 +69,15 @@ typedef struct {
   single "none" for none; count < 0: the default. `unknown`: a name that there is not, or NULL. Not collective.
   SamOutputSettingsCheck - refuses fields that are named and that these results do not have. Collective. Errors:
   SAM_ERR_USER.
+  SamOutputSettingsHas - whether a field of that name is among them. Not collective.
+  SamOutputSettingsPrepare - makes a contact keep the sums over the steps that are among the fields. Collective.
   SamOutputGetFieldNames - the names that there are, as a sentence has them. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *settings, PetscInt count,
                                                        const char *const names[], const char **unknown);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsCheck(const SamOutputSettings *settings, const SamOptions *from);
+PETSC_EXTERN PetscBool      SamOutputSettingsHas(const SamOutputSettings *settings, const char name[]);
+PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(const SamOutputSettings *settings, SamContact contact);
 PETSC_EXTERN PetscErrorCode SamOutputGetFieldNames(char names[], size_t size);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 
@@ -89,8 +94,13 @@ PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[],
   again; the caller frees them with PetscFree(). Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputNames(const char filename[], char **xdmf, char **temporary);
-/* How far the results of a stopped run go that are kept. */
+/*
+  How far the results of a stopped run go that are kept. Results that begin in the middle of a history have the root
+  attribute SAM_OUTPUT_BRANCH, a number: the load steps before the first of the file.
+*/
+#define SAM_OUTPUT_BRANCH "branch_step"
 typedef struct {
+  PetscInt first;  /* load steps before those of the file */
   PetscInt steps;  /* of /history */
   PetscInt cycles; /* of /wear */
   uint64_t times;  /* checksum of the times of these steps */
@@ -153,6 +163,19 @@ PETSC_EXTERN PetscBool      SamStepGetNumber(const SamStep *step, const char nam
   last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
+/*
+  SamOutputFindMissing - the name of a field that the file has and that the contact cannot give, NULL for none: a sum over
+  the steps that it does not keep. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamOutputFindMissing(SamOutput output, SamContact contact, const char **name);
+/*
+  SamOutputForecast - the size (bytes) of a file like this one of so many load steps and so many steps with fields,
+  without compression. Not collective.
+  SamOutputGetSpace - the free space (bytes) of the file system that the file is on; infinite if that is not known.
+  Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
+PETSC_EXTERN PetscErrorCode SamOutputGetSpace(SamOutput output, double *bytes);
 /* SamOutputHasReplaced - whether the file has replaced older results. Not collective. */
 PETSC_EXTERN PetscErrorCode SamOutputHasReplaced(SamOutput output, PetscBool *replaced);
 /* SamOutputGetXdmf - the name of the XDMF file beside the results, NULL without one; borrowed. Not collective. */

@@ -32,7 +32,7 @@ PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
   SamResultsGetPair - the materials.
   SamResultsGetElasticity - the type of the bodies, as -elasticity names it; borrowed.
   SamResultsGetOptions - the options of the run, as far as they are known; borrowed.
-  SamResultsGetSteps - number of load steps, and of those whose fields have been saved.
+  SamResultsGetSteps - number of load steps, also of those before the file's, and of those whose fields have been saved.
   SamResultsGetSaved - load step (from 1) and time (s) of the k-th saved one (from 0).
   None is collective.
 */

@@ -151,6 +151,7 @@ class Results(Datafile):
     x, y        cell centres, m
     times       of the saved fields, s
     steps       numbers of the load steps, from 1, whose fields are saved
+    before      load steps before those of the file, which are in another one (petsam -restart); mostly 0
     history     name: array with a value for every load step, all of /history; NaN where a step has no solution
     units       name: unit, of the same
     matrices    stiffness and stiffness_reversal, (steps, 6, 6), with -stiffness: d(loads)/d(rigid displacements)
@@ -167,7 +168,10 @@ class Results(Datafile):
         time = self.history["time"]
         if not time.size:
             raise Error(f"{self.path}: has no load step yet")
-        self.steps = [int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
+        self.before = int(self.parameters.get("branch_step", 0))
+        if self.before < 0:
+            raise ValueError(f"it begins after step {self.before}")
+        self.steps = [self.before + int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
         self.wear, self.wear_units = Named(self.path, {}), {}
         if "wear" in self.file:
             self.wear, self.wear_units = self._read_table("wear")
@@ -198,14 +202,21 @@ class Results(Datafile):
     def of_step(self, number):
         """Index into the fields of the load step number: from 1, or from the end, -1 being the last."""
         count = self.history["time"].size
-        step = count + 1 + number if number < 0 else number
+        last = self.before + count
+        step = last + 1 + number if number < 0 else number
         self._need_fields()
-        if not 1 <= step <= count:
+        if self.before and not self.before < step <= last:
+            raise NotSaved(self.path, f"step {number}", f"the file has the steps {self.before + 1} to {last}")
+        if not 1 <= step <= count + self.before:
             raise NotSaved(self.path, f"step {number}", "there is 1 step" if count == 1 else f"there are {count} steps")
         if step in self.steps:
             return self.steps.index(step)
         reason = f"its fields were not saved, those of steps {_some(self.steps)} were"
         raise NotSaved(self.path, f"step {number}", reason)
+
+    def row(self, index):
+        """Row of the history, from 0, of a saved step."""
+        return self.steps[index] - 1 - self.before
 
     def of_time(self, time):
         """Index into the fields of the saved step nearest to time (s), between the first and the last."""
@@ -238,7 +249,7 @@ class Results(Datafile):
         """Coefficient of friction of a saved step; NaN where it is a field (-friction_file)."""
         try:
             number = float(self.parameters["friction"]) if "friction" in self.parameters else np.nan
-            scale = self.history["friction_scale"][self.steps[index] - 1] if "friction_scale" in self.history else 1.0
+            scale = self.history["friction_scale"][self.row(index)] if "friction_scale" in self.history else 1.0
             return number * float(scale)
         except DAMAGED as error:
             raise self._error(error) from error
@@ -259,7 +270,7 @@ class Results(Datafile):
     def cycles(self):
         """Cycles of the life before each saved step's."""
         self.need_life()
-        return self.history["cycle"][np.array(self.steps, dtype=int) - 1]
+        return self.history["cycle"][np.array(self.steps, dtype=int) - 1 - self.before]
 
     @cached_property
     def cycle_ends(self):
@@ -358,7 +369,8 @@ class Results(Datafile):
             parts = []
             for k in range(low, high, block):
                 with reading(self.path):
-                    parts.append(data[index, k : min(k + block, high), columns][::stride, ::stride])
+                    part = data[index, k : min(k + block, high), columns][::stride, ::stride]
+                    parts.append(part.astype(float) if part.dtype == np.float32 else part)  # of -output_single
         except DAMAGED as error:
             raise self._error(error) from error
         return np.concatenate(parts)
@@ -420,7 +432,7 @@ class Snapshot:
 
     def __getitem__(self, name):
         if name in self.results.history:
-            value = self.results.history[name][self.results.steps[self.index] - 1]
+            value = self.results.history[name][self.results.row(self.index)]
             return value if value.ndim else value.item()
         if name not in self._fields:
             self._fields[name] = self.results.field(name, self.index)

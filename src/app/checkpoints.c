@@ -12,6 +12,7 @@ struct _n_SamCheckpoints {
   /* what the user set */
   MPI_Comm      comm;
   char          filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
+  PetscBool     other_gap;                                                 /* than in the checkpoint of -restart */
   PetscInt      every;                                                     /* load steps, 0: never */
   double        limit;                                                     /* seconds, 0: none */
   SamCheckpoint files;                                                     /* NULL: none */
@@ -82,7 +83,7 @@ static PetscErrorCode ReadLimit(SamCheckpoints cp, const SamOptions *from, Petsc
 PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckpoints *checkpoints)
 {
   SamCheckpoints cp;
-  PetscBool      has_file, has_every, has_limit, help;
+  PetscBool      has_file, has_every, has_limit, has_gap, help;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&cp));
@@ -96,7 +97,11 @@ PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckp
   PetscCall(SamOptionsInt(from, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
                           0, &cp->every, &has_every));
   PetscCall(ReadLimit(cp, from, &has_limit));
-  PetscCall(SamOptionsString(from, "restart", "go on from this checkpoint", cp->restart, sizeof(cp->restart), NULL));
+  PetscCall(SamOptionsString(from, "restart", "go on from this checkpoint; with a new -output, in a file of its own",
+                             cp->restart, sizeof(cp->restart), NULL));
+  PetscCall(SamOptionsBool(from, "restart_gap", "with another gap than that of the checkpoint; the slip is kept",
+                           &cp->other_gap, &has_gap));
+  PetscCheck(cp->restart[0] || !has_gap || help, from->comm, SAM_ERR_USER, "-restart_gap is given without -restart");
   PetscCheck(has_file || !has_every || help, from->comm, SAM_ERR_USER,
              "-checkpoint_every is given without -checkpoint");
   PetscCheck(has_file || !has_limit || help, from->comm, SAM_ERR_USER,
@@ -121,6 +126,11 @@ PetscErrorCode SamCheckpointsGetNames(SamCheckpoints cp, const char **checkpoint
   *checkpoint = cp->filename[0] ? cp->filename : NULL;
   *restart    = cp->restart[0] ? cp->restart : NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamCheckpointsChangeGap(SamCheckpoints cp)
+{
+  return cp->other_gap;
 }
 
 PetscErrorCode SamCheckpointsGetLast(SamCheckpoints cp, PetscInt *step)
@@ -189,7 +199,7 @@ static PetscReal ValueOf(uint64_t bits)
 }
 
 /* Where the run is, as whole numbers. */
-#define AT 10
+#define AT 12
 static PetscErrorCode Pack(const SamRunPoint *p, uint64_t at[AT])
 {
   SamLifeState life = {0};
@@ -205,7 +215,9 @@ static PetscErrorCode Pack(const SamRunPoint *p, uint64_t at[AT])
   at[6] = SamHashBits((double)life.jump);
   at[7] = SamHashBits((double)life.error);
   at[8] = (uint64_t)life.computed;
-  at[9] = life.by_turns ? 1 : 0;
+  at[9]  = life.by_turns ? 1 : 0;
+  at[10] = (uint64_t)p->first;
+  at[11] = (uint64_t)p->first_row;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -223,10 +235,15 @@ static PetscErrorCode Unpack(const uint64_t at[AT], SamRunPoint *p)
   p->worst     = (SamStatus)at[1];
   p->rows      = (PetscInt)at[2];
   p->times     = at[3];
+  p->first     = (PetscInt)at[10];
+  p->first_row = (PetscInt)at[11];
   p->restarted = PETSC_TRUE;
   if (p->life) PetscCall(SamLifeSetState(p->life, &life));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* The name of the results file is noted as its bytes. */
+#define NAME (sizeof(((SamRunPoint *)NULL)->results) / sizeof(uint64_t))
 
 /* The part of the load program that has been solved: all of it in a life. */
 static PetscErrorCode CountSolved(const SamRunPoint *p, PetscInt *steps)
@@ -241,8 +258,8 @@ static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamPara
                             const SamRunPoint *progress)
 {
   const double  begin = MPI_Wtime();
-  uint64_t      at[AT], columns[COLUMNS];
-  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}};
+  uint64_t      at[AT], columns[COLUMNS], name[NAME];
+  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", NAME, name}};
   PetscInt      solved;
 
   PetscFunctionBegin;
@@ -250,7 +267,8 @@ static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamPara
   PetscCall(Pack(progress, at));
   PetscCall(CountSolved(progress, &solved));
   PetscCall(ChecksumColumns(progress->history, solved, columns));
-  PetscCall(SamCheckpointWrite(cp->files, contact, progress->wear, parameters, 2, note));
+  memcpy(name, progress->results, sizeof(name));
+  PetscCall(SamCheckpointWrite(cp->files, contact, progress->wear, parameters, 3, note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
   cp->last    = progress->steps;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -287,12 +305,13 @@ static PetscErrorCode CompareLoads(SamCheckpoints cp, const SamRunPoint *progres
 PetscErrorCode SamCheckpointsRestart(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
                                      SamRunPoint *progress)
 {
-  uint64_t      at[AT], columns[COLUMNS];
-  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}};
+  uint64_t      at[AT], columns[COLUMNS], name[NAME];
+  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", NAME, name}};
 
   PetscFunctionBegin;
-  PetscCall(SamCheckpointRead(cp->restart, contact, progress->wear, parameters, 2, note));
+  PetscCall(SamCheckpointRead(cp->restart, contact, progress->wear, parameters, 3, note));
   PetscCall(Unpack(at, progress));
+  memcpy(progress->results, name, sizeof(progress->results));
   cp->seen = progress->steps;
   PetscCall(CompareLoads(cp, progress, columns));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -14,8 +14,11 @@ typedef struct {
   PetscReal  cycles;    /* of the life */
   PetscInt   steps;     /* number of steps solved so far, of computed cycles in a life */
   PetscInt   rows;      /* number of computed cycles that were written */
-  uint64_t   times;     /* checksum of the times of these steps */
-  SamStatus  worst;     /* worst status of these */
+  PetscInt   first;     /* steps before those of the results file, 0: it begins with the history */
+  PetscInt   first_row; /* computed cycles before those of the results file */
+  uint64_t   times;     /* checksum of the times of the steps of the results file */
+  SamStatus  worst;     /* worst status of the steps */
+  char       results[PETSC_MAX_PATH_LEN]; /* the file, as it was named; empty: none */
   PetscBool  restarted; /* goes on from a checkpoint */
 } SamRunPoint;
 
@@ -27,14 +30,16 @@ typedef struct _n_SamCheckpoints *SamCheckpoints;
 
 /*
   SamCheckpointsCreateFromOptions - reads -checkpoint (file), -checkpoint_every (load steps; 0: only at signals and at
-  the limit), -max_walltime (seconds, m:s or h:m:s, counted from this call) and -restart (file). Both signals are caught
-  from now on. Collective. Errors: SAM_ERR_USER.
+  the limit), -max_walltime (seconds, m:s or h:m:s, counted from this call), -restart (file) and -restart_gap. Both
+  signals are caught from now on. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckpoints *checkpoints);
 PETSC_INTERN PetscErrorCode SamCheckpointsDestroy(SamCheckpoints *checkpoints);
 /* SamCheckpointsGetNames - the files of -checkpoint and -restart, NULL without one; borrowed. Not collective. */
 PETSC_INTERN PetscErrorCode SamCheckpointsGetNames(SamCheckpoints checkpoints, const char **checkpoint,
                                                    const char **restart);
+/* SamCheckpointsChangeGap - whether the gap may differ from that of the checkpoint. Not collective. */
+PETSC_INTERN PetscBool SamCheckpointsChangeGap(SamCheckpoints checkpoints);
 /*
   SamCheckpointsRestart - gives the contact the state in the file of -restart, and sets steps and worst status in
   `progress`, whose history is given. Collective. Errors: those of SamCheckpointRead(); SAM_ERR_USER when up to there

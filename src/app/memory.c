@@ -20,12 +20,14 @@ static const double deferred_bytes[2][2] = {{135, 480}, {135, 950}};
 #define WEAR_BYTES      (6 * 8)
 #define LIFE_BYTES      (15 * 8)
 #define STIFFNESS_BYTES 215
+#define SUM_BYTES       8 /* of each field that is a sum over the steps */
 
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
   const double more = (needs->deferred ? deferred_bytes[needs->steps > 1][needs->friction] : 0) +
                       (needs->wear ? WEAR_BYTES : 0) + (needs->life ? LIFE_BYTES : 0) +
-                      (needs->stiffness ? STIFFNESS_BYTES : 0);
+                      (needs->stiffness ? STIFFNESS_BYTES : 0) +
+                      (double)needs->sums * (needs->life ? 2 : 1) * SUM_BYTES;
 
   return SAM_MEMORY_PROGRAM +
          (bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] + more) * (double)grid->cells;

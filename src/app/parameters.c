@@ -1,5 +1,6 @@
 /* The parameters that define a run, named as its options. */
 #include "runimpl.h"
+#include <string.h>
 
 /*
   The loads and bulk stresses of the last step. The steps of a history are in /history of the results, and checkpoints
@@ -59,5 +60,7 @@ PetscErrorCode SamRunCollectParameters(SamRun *run)
   PetscCall(SamSetupAddParameters(&run->setup, &run->parameters));
   PetscCall(AddLoads(&run->parameters, run->history));
   PetscCall(AddWear(&run->parameters, &run->wearing));
+  for (PetscInt k = 0; k < run->parameters.count && run->restart_gap; k++)
+    if (!strncmp(run->parameters.list[k].name, "gap_", 4)) run->parameters.list[k].fixed = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -104,7 +104,29 @@ PetscErrorCode SamReportSetRestart(SamReport r, const char checkpoint[], const S
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt steps, const char output[])
+PetscErrorCode SamReportSetBranch(SamReport r, const char results[], PetscBool gap)
+{
+  PetscFunctionBegin;
+  r->branch = PETSC_TRUE;
+  r->gap    = gap;
+  PetscCall(PetscStrncpy(r->followed, results, sizeof(r->followed)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* From where the run goes on. */
+static PetscErrorCode PrintRestart(SamReport r)
+{
+  PetscFunctionBegin;
+  if (!r->restart) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  after %s, from %s\n", "restart", r->restart_at, r->restart));
+  if (!r->branch) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  the results begin after %s%s%s%s\n", "branch", r->restart_at,
+                        r->followed[0] ? ", of " : "", r->followed, r->gap ? ", with another gap and the slip so far" : ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt steps, const char output[],
+                               const char size[])
 {
   PetscMPIInt ranks;
   double      nodes;
@@ -125,7 +147,8 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %.3g MB a rank\n", "memory", 1e-6 * bytes));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n", "steps", steps,
                         output ? "in " : "not kept (no -output)", output ? output : ""));
-  if (r->restart) PetscCall(PetscPrintf(r->comm, "  %-10s  after %s, from %s\n", "restart", r->restart_at, r->restart));
+  if (output) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", size));
+  PetscCall(PrintRestart(r));
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

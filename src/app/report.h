@@ -33,15 +33,18 @@ PETSC_INTERN PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, S
 PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
 /*
   SamReportSetRestart - for the banner: the run goes on from this checkpoint, at this point. The name is not copied.
-  Not collective.
+  SamReportSetBranch - that its results begin there, while those before are in the file of that name (empty: in none);
+  `gap`: the gap has changed.
+  Neither is collective.
 */
 PETSC_INTERN PetscErrorCode SamReportSetRestart(SamReport report, const char checkpoint[], const SamRunPoint *point);
+PETSC_INTERN PetscErrorCode SamReportSetBranch(SamReport report, const char results[], PetscBool gap);
 /*
   SamReportBanner - prints version, libraries, ranks, grid, memory (`bytes`: what this rank will need; the largest is
-  printed), number of steps, and the results file (NULL: none). Collective.
+  printed), number of steps, and the results file (NULL: none) with its size in words. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, double bytes, PetscInt steps,
-                                            const char output[]);
+                                            const char output[], const char size[]);
 /*
   SamReportBeginStep - to be called before a step; `number` counts from 0. Progress is shown by monitors, which it adds
   to the contact's solvers. Collective.

@@ -76,9 +76,10 @@ static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
 
 static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
 {
-  SamElasticityTraits traits;
-  PetscBool           help;
-  char                edges[16] = "";
+  static const char *const sums[] = {"slip_path", "friction_energy"};
+  SamElasticityTraits      traits;
+  PetscBool                help;
+  char                     edges[16] = "";
 
   PetscFunctionBegin;
   PetscCall(SamSetupReadOptions(&run->setup, from));
@@ -93,6 +94,7 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
   PetscCall(CheckComponents(run, from));
   PetscCall(SamReportCreateFromOptions(from, &run->report));
   PetscCall(SamCheckpointsCreateFromOptions(from, &run->checkpoints));
+  run->restart_gap = SamCheckpointsChangeGap(run->checkpoints);
   PetscCall(SamOptionsHeading(from, "Results and resources"));
   PetscCall(SamOptionsString(from, "output", "HDF5 file of the results", run->filename, sizeof(run->filename),
                              &run->has_output));
@@ -103,6 +105,7 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
                            &run->needs.stiffness, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&run->output_settings, from));
   run->output_settings.with[SAM_OUTPUT_STIFFNESS] = run->needs.stiffness;
+  for (size_t k = 0; k < 2 && run->has_output; k++) run->needs.sums += SamOutputSettingsHas(&run->output_settings, sums[k]);
   PetscCall(SamPrintHelp(&help));
   PetscCheck(!run->needs.stiffness || run->has_output || help, from->comm, SAM_ERR_USER,
              "-stiffness is given without -output, the file that it goes to");
@@ -122,6 +125,8 @@ PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments)
   PetscCall(SamRunCheckFiles(run, from.comm, arguments));
   PetscCall(SamRunRefuseTooLarge(run->setup.grid, &run->needs, &from));
   PetscCall(SamSetupCreateContact(&run->setup, &from));
+  if (!help && run->has_output) PetscCall(SamOutputSettingsPrepare(&run->output_settings, run->setup.contact));
+  PetscCall(SamContactGetSpots(run->setup.contact, &run->output_settings.with[SAM_OUTPUT_SPOTS]));
   if (!help) PetscCall(SamRunCreateWear(run));
   if (!help) PetscCall(SamOutputSettingsCheck(&run->output_settings, &from));
   if (!help) PetscCall(SamRunCollectParameters(run));
@@ -144,59 +149,26 @@ PetscErrorCode SamRunTearDown(SamRun *run)
 
 /* ---- results ---- */
 
-static PetscErrorCode CreateResults(SamRun *run)
-{
-  char *all;
-
-  PetscFunctionBegin;
-  PetscCall(SamOutputCreate(run->setup.grid, run->filename, &run->output_settings, &run->output));
-  PetscCall(PetscOptionsGetAll(NULL, &all));
-  PetscCall(SamOutputSetText(run->output, "options", all));
-  PetscCall(PetscFree(all));
-  PetscCall(SamOutputSetParameters(run->output, &run->parameters));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Opens the results of the stopped run, up to its checkpoint. */
-static PetscErrorCode ContinueResults(SamRun *run)
-{
-  const SamOutputPoint point = {run->point.steps, run->point.rows, run->point.times};
-  SamControl           last;
-
-  PetscFunctionBegin;
-  if (!run->life) {
-    PetscCall(SamHistoryGetStep(run->history, run->point.steps - 1, &last));
-    run->last_time = last.time;
-  }
-  PetscCall(
-    SamOutputContinue(run->setup.grid, run->filename, &run->output_settings, &run->parameters, &point, &run->output));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Restores the state of a stopped run, if there is one, opens the results, and prints the banner. */
 static PetscErrorCode Begin(SamRun *run)
 {
   const char *checkpoint, *restart;
-  char        results[PETSC_MAX_PATH_LEN + 32];
+  char        results[PETSC_MAX_PATH_LEN + 32], size[64] = "";
   PetscBool   replaced = PETSC_FALSE;
 
   PetscFunctionBegin;
   run->last_time = PETSC_NINFINITY;
   PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
-  if (restart) {
-    PetscCall(SamCheckpointsRestart(run->checkpoints, run->setup.contact, &run->parameters, &run->point));
-    PetscCall(SamReportSetRestart(run->report, restart, &run->point));
-  }
+  if (restart) PetscCall(SamCheckpointsRestart(run->checkpoints, run->setup.contact, &run->parameters, &run->point));
+  if (restart) PetscCall(SamReportSetRestart(run->report, restart, &run->point));
   PetscCall(SamCheckpointsBegin(run->checkpoints, run->setup.grid));
-  if (run->has_output && restart)
-    PetscCall(ContinueResults(run));
-  else if (run->has_output)
-    PetscCall(CreateResults(run));
+  if (run->has_output) PetscCall(SamRunOpenResults(run, restart));
   run->point.output = run->output;
   if (run->output) PetscCall(SamOutputHasReplaced(run->output, &replaced));
+  if (run->output) PetscCall(SamRunForecast(run, size, sizeof(size)));
   PetscCall(PetscSNPrintf(results, sizeof(results), "%s%s", run->filename, replaced ? ", replacing those there" : ""));
   PetscCall(SamReportBanner(run->report, run->setup.grid, SamRunMemory(run->setup.grid, &run->needs), run->needs.steps,
-                            run->has_output ? results : NULL));
+                            run->has_output ? results : NULL, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

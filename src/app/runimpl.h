@@ -13,6 +13,7 @@
 typedef struct {
   PetscBool friction, coupled, deferred, wear, life, stiffness;
   PetscInt  steps;
+  PetscInt  sums; /* fields that are sums over the steps */
 } SamRunNeeds;
 
 typedef struct {
@@ -31,6 +32,7 @@ typedef struct {
   PetscBool         stopped; /* before its end, with a checkpoint */
   PetscInt          output_every;
   PetscBool         has_output;
+  PetscBool         restart_gap; /* goes on with another gap than the stopped run's */
   PetscBool         told;      /* in a life: the step that failed is in the file */
   PetscBool         warned;    /* a warning has been printed in this life */
   PetscReal         last_time; /* of the last step that was written, s; -infinity: none */
@@ -47,6 +49,13 @@ PETSC_INTERN PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *argumen
 PETSC_INTERN PetscErrorCode SamRunCheckFiles(const SamRun *run, MPI_Comm comm, const SamArguments *arguments);
 /* SamRunSolve - banner, restart, all load steps with their results and checkpoints, closing table. Collective. */
 PETSC_INTERN PetscErrorCode SamRunSolve(SamRun *run);
+/*
+  SamRunOpenResults - opens the results. After a restart (`checkpoint` NULL: none) it goes on with a file that is there;
+  a new name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
+  SamRunForecast - how large the results will be, in words; warns where the disk has not that much space. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamRunOpenResults(SamRun *run, const char checkpoint[]);
+PETSC_INTERN PetscErrorCode SamRunForecast(SamRun *run, char text[], size_t size);
 /* SamRunCreateWear - makes what wears, once there is a contact. Collective. */
 PETSC_INTERN PetscErrorCode SamRunCreateWear(SamRun *run);
 /* SamRunLive - the cycles of a life, with their results and checkpoints. Collective. */

@@ -229,3 +229,11 @@ PetscBool SamWearingIsOutput(const SamWearing *w, PetscReal cycles)
     if (w->output[k] == cycles) return PETSC_TRUE;
   return PETSC_FALSE;
 }
+
+PetscInt SamWearingCountOutputs(const SamWearing *w)
+{
+  PetscInt count = 0;
+
+  for (PetscInt k = 0; k < w->outputs; k++) count += k == 0 || w->output[k] != w->output[k - 1];
+  return count;
+}

@@ -31,6 +31,8 @@ PETSC_INTERN PetscErrorCode SamWearingDestroy(SamWearing *wearing);
 PETSC_INTERN PetscErrorCode SamWearingCheckCycle(const SamWearing *wearing, SamHistory history, const SamOptions *from);
 /* SamWearingNextStop - after so many cycles, up to where they may be jumped over. Not collective. */
 PETSC_INTERN PetscReal SamWearingNextStop(const SamWearing *wearing, PetscReal cycles);
+/* SamWearingCountOutputs - the number of cycles whose fields are asked for. Not collective. */
+PETSC_INTERN PetscInt SamWearingCountOutputs(const SamWearing *wearing);
 /* SamWearingIsOutput - whether the fields of the cycle after so many are asked for. Not collective. */
 PETSC_INTERN PetscBool SamWearingIsOutput(const SamWearing *wearing, PetscReal cycles);
 /* SamWearingFriction - the friction after so many cycles over that at the start. Not collective. */

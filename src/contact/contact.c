@@ -54,6 +54,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(SamSolutionDestroy(&c->tried.plain));
   PetscCall(SamSolutionDestroy(&c->tried.solution));
   PetscCall(SamSolutionDestroy(&c->before));
+  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) PetscCall(VecDestroy(&c->sums[k]));
   PetscCall(SamProblemDestroy(&c->problem));
   PetscCall(PetscFree(*contact));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -104,6 +105,20 @@ PetscErrorCode SamContactAllowEdge(SamContact c, PetscBool allow)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactSetSpots(SamContact c, PetscBool count)
+{
+  PetscFunctionBegin;
+  c->spots = count;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetSpots(SamContact c, PetscBool *count)
+{
+  PetscFunctionBegin;
+  *count = c->spots;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactSetEdges(SamContact c, SamContactEdges edges, PetscInt passes)
 {
   PetscFunctionBegin;
@@ -121,6 +136,24 @@ PetscErrorCode SamContactGetEdges(SamContact c, SamContactEdges *edges)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* For programs that do not write results, which keep the sums that are among their fields. */
+static PetscErrorCode ReadSums(SamContact c, const SamOptions *from)
+{
+  static const struct {
+    const char *option, *text;
+  } sums[SAM_CONTACT_SUMS] = {{"sum_slip_path", "sum the path of the slip over all steps (field slip_path)"},
+                              {"sum_friction_energy", "sum the frictional work over all steps (field friction_energy)"}};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
+    PetscBool keep = PETSC_FALSE;
+
+    PetscCall(SamOptionsBool(from, sums[k].option, sums[k].text, &keep, NULL));
+    if (keep) PetscCall(SamContactKeepSum(c, (SamContactSum)k));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
@@ -129,7 +162,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscInt         coupling = c->coupling ? 1 : 0, max_it = c->coupling_max_it;
   PetscReal        rtol  = c->coupling_rtol;
   PetscInt         edges = (PetscInt)c->edges, passes = c->edge_passes;
-  PetscBool        warm = c->warm, edge = c->allow_edge;
+  PetscBool        warm = c->warm, edge = c->allow_edge, spots = c->spots;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
@@ -145,11 +178,14 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, none: count cells, deferred: solve again for them", edge_words,
                            &edges, NULL));
   PetscCall(SamOptionsInt(&from, "edges_passes", "solutions again with -edges deferred", 1, &passes, NULL));
+  PetscCall(SamOptionsBool(&from, "contact_spots", "number of spots of contact and mean gap of each step", &spots, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamContactSetCoupling(c, coupling ? PETSC_TRUE : PETSC_FALSE, rtol, max_it));
   PetscCall(SamContactSetWarmStart(c, warm));
   PetscCall(SamContactAllowEdge(c, edge));
+  PetscCall(SamContactSetSpots(c, spots));
   PetscCall(SamContactSetEdges(c, (SamContactEdges)edges, passes));
+  PetscCall(ReadSums(c, &from));
   PetscCall(SamSolverSetFromOptions(c->normal));
   PetscCall(SamSolverSetFromOptions(c->tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -302,7 +338,7 @@ static void SetUnknown(SamStep *step)
     step->rigid[k] = step->control.force[k] ? NAN : step->control.value[k];
   }
   step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = step->edge_accepted = NAN;
-  step->pressure_max = step->shear_max = NAN;
+  step->pressure_max = step->shear_max = step->slip_max = step->contact_fraction = NAN;
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
@@ -320,6 +356,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
              PETSC_ERR_SUP, "Pressure and shear that act on each other are not corrected for their edges");
   PetscCall(PetscMemzero(step, sizeof(*step)));
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS * SAM_COMPONENTS; k++) (&step->stiffness[0][0][0])[k] = NAN;
+  step->spots = step->gap_mean = NAN;
   step->control             = given;
   c->tried.solution.control = given;
   PetscCall(SamProblemGetGapRevision(c->problem, &c->tried.gap_revision));
@@ -343,6 +380,7 @@ PetscErrorCode SamContactCommit(SamContact c)
 
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
+  PetscCall(SamContactAddSums(c));
   c->before                = c->committed.solution;
   c->before.displacement_z = c->before.displacement_t = NULL;
   recycled.displacement_z                             = c->committed.solution.displacement_z;

@@ -22,6 +22,7 @@ struct _n_SamContact {
   PetscReal       coupling_rtol;
   PetscInt        coupling_max_it;
   PetscBool       coupling_monitor, print_check;
+  PetscBool       spots; /* counted in each step */
   /* its parts */
   SamProblem          problem;
   SamElasticity       elasticity; /* of the problem; borrowed */
@@ -35,6 +36,7 @@ struct _n_SamContact {
   PetscInt       steps;     /* number of committed steps */
   SamContactMark committed; /* after the last of them */
   SamSolution    before;    /* one step back: tractions only */
+  Vec            sums[SAM_CONTACT_SUMS]; /* over the committed steps; NULL: not kept */
   SamContactMark tried;
   PetscBool      has_tried;
 };
@@ -105,15 +107,15 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
 
 /*
   SamIncrement - the slip of a step: the slip of a solution minus that of the previous one (NULL: no slip so far).
-  ComputeRow writes the slip (m) along x and y of this rank's row j to row[0] and row[1]. Creation and destruction are
-  collective.
+  ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
+  start to slip[0] and slip[1]. Creation and destruction are collective.
 */
 typedef struct {
   SamGrid       grid;
   SamMotion     now, before;
   Vec           v_now, v_before;
   const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
-  double       *row[2], *scratch;
+  double       *slip[2], *row[2], *scratch;
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
@@ -161,6 +163,19 @@ PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before,
 */
 PETSC_INTERN PetscErrorCode SamContactSolveStep(SamContact contact, const SamStepStart *start, PetscBool same_pressure,
                                                 SamStep *step);
+/* SamContactAddSums - adds the tried step to the sums that are kept (sums.c). Collective. */
+PETSC_INTERN PetscErrorCode SamContactAddSums(SamContact contact);
+/* SamContactSetSums - takes over sums (NULL: none); those that are kept and not given begin at 0. Collective. */
+PETSC_INTERN PetscErrorCode SamContactSetSums(SamContact contact, const Vec sums[SAM_CONTACT_SUMS]);
+/* SamContactComputeFriction(), which adds to the fields with `add`. Collective. */
+PETSC_INTERN PetscErrorCode SamContactAddFriction(SamContact contact, PetscBool add, Vec path, Vec pressed, Vec work);
+
+/*
+  Of the tried step (spots.c): the number of spots, which are zones of cells in contact that are connected by their
+  sides; the mean gap over all cells of the grid, m. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamContactCountSpots(SamContact contact, PetscReal *spots);
+PETSC_INTERN PetscErrorCode SamContactMeanGap(SamContact contact, PetscReal *mean);
 /* SamContactComputeScalars - the numbers of the tried step that follow from its solution (scalars.c). Collective. */
 PETSC_INTERN PetscErrorCode SamContactComputeScalars(SamContact contact, SamStep *step);
 /*

@@ -2,10 +2,11 @@
 #include "contactimpl.h"
 #include <math.h>
 
-/* What of a step is needed, and where it goes; NULL: not wanted. */
+/* What of a step is needed, and where it goes, or is added to; NULL: not wanted. */
 typedef struct {
   const double *p, *p_before, *b, *b_before, *q, *slips;
   double       *path, *pressed, *work;
+  PetscBool     add;
 } Fields;
 
 static void FrictionRow(const Fields *f, ptrdiff_t first, PetscInt nx, PetscInt cells, const double sx[],
@@ -16,11 +17,13 @@ static void FrictionRow(const Fields *f, ptrdiff_t first, PetscInt nx, PetscInt 
     const double    length = hypot(sx[i], sy[i]);
     const PetscBool slips  = f->slips[k] > 0 ? PETSC_TRUE : PETSC_FALSE;
 
-    if (f->path) f->path[k] = length;
-    if (f->pressed) f->pressed[k] = slips ? 0.5 * (f->p_before[k] + f->p[k]) * length : 0;
+    if (f->path) f->path[k] = length + (f->add ? f->path[k] : 0);
+    if (f->pressed)
+      f->pressed[k] = (slips ? 0.5 * (f->p_before[k] + f->p[k]) * length : 0) + (f->add ? f->pressed[k] : 0);
     if (f->work)
       f->work[k] =
-        slips && f->b[k] > 0 ? -(f->q[k] * sx[i] + f->q[l] * sy[i]) * 0.5 * (f->b_before[k] + f->b[k]) / f->b[k] : 0;
+        (slips && f->b[k] > 0 ? -(f->q[k] * sx[i] + f->q[l] * sy[i]) * 0.5 * (f->b_before[k] + f->b[k]) / f->b[k] : 0) +
+        (f->add ? f->work[k] : 0);
   }
 }
 
@@ -28,22 +31,22 @@ static PetscErrorCode GetOptional(Vec field, double **values)
 {
   PetscFunctionBegin;
   *values = NULL;
-  if (field) PetscCall(VecGetArrayWrite(field, values));
+  if (field) PetscCall(VecGetArray(field, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode RestoreOptional(Vec field, double **values)
 {
   PetscFunctionBegin;
-  if (field) PetscCall(VecRestoreArrayWrite(field, values));
+  if (field) PetscCall(VecRestoreArray(field, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactComputeFriction(SamContact c, Vec path, Vec pressed, Vec work)
+PetscErrorCode SamContactAddFriction(SamContact c, PetscBool add, Vec path, Vec pressed, Vec work)
 {
   const SamSolution *s = &c->tried.solution, *last = SamContactBefore(c), *before = last ? last : s;
   SamIncrement       increment;
-  Fields             f;
+  Fields             f = {.add = add};
   Vec                slips;
 
   PetscFunctionBegin;
@@ -75,5 +78,12 @@ PetscErrorCode SamContactComputeFriction(SamContact c, Vec path, Vec pressed, Ve
   PetscCall(VecRestoreArrayRead(slips, &f.slips));
   PetscCall(VecDestroy(&slips));
   PetscCall(SamIncrementDestroy(&increment));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactComputeFriction(SamContact c, Vec path, Vec pressed, Vec work)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactAddFriction(c, PETSC_FALSE, path, pressed, work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

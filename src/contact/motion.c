@@ -120,6 +120,7 @@ PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before,
   s->v_now    = now->displacement_t;
   s->v_before = before ? before->displacement_t : NULL;
   PetscCall(PetscMalloc3(grid->nx, &s->row[0], grid->nx, &s->row[1], grid->nx, &s->scratch));
+  PetscCall(PetscMalloc2(grid->nx, &s->slip[0], grid->nx, &s->slip[1]));
   PetscCall(SamMotionSet(&s->now, problem, now));
   PetscCall(VecGetArrayRead(s->v_now, &s->u_now));
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
@@ -134,6 +135,7 @@ PetscErrorCode SamIncrementDestroy(SamIncrement *s)
   if (s->v_before) PetscCall(VecRestoreArrayRead(s->v_before, &s->u_before));
   PetscCall(VecRestoreArrayRead(s->v_now, &s->u_now));
   PetscCall(PetscFree3(s->row[0], s->row[1], s->scratch));
+  PetscCall(PetscFree2(s->slip[0], s->slip[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -142,10 +144,12 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
   for (PetscInt c = 0; c < 2; c++) {
     const ptrdiff_t k = (ptrdiff_t)c * s->grid->cells + (ptrdiff_t)j * s->grid->nx;
 
-    SamMotionSubtract(&s->now, SamMotionOfSlip(&s->now, c, j), s->u_now + k, s->row[c]);
-    if (!s->u_before) continue;
-    SamMotionSubtract(&s->before, SamMotionOfSlip(&s->before, c, j), s->u_before + k, s->scratch);
-    for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] -= s->scratch[i];
+    SamMotionSubtract(&s->now, SamMotionOfSlip(&s->now, c, j), s->u_now + k, s->slip[c]);
+    if (s->u_before)
+      SamMotionSubtract(&s->before, SamMotionOfSlip(&s->before, c, j), s->u_before + k, s->scratch);
+    else
+      SamZero(s->grid->nx, s->scratch);
+    for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] = s->slip[c][i] - s->scratch[i];
   }
 }
 

@@ -4,61 +4,77 @@
 #include <math.h>
 
 /*
-  Cells in contact and in stick, largest tractions, the elastic energy of both bodies, half the work of the tractions on
+  Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of the tractions on
   the displacements, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips while its
   pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over steps second
   order. Before the first step there is no bound; its pressure counts as there before its slip.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, SUMS };
+enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
+
+/* The fields of the step's solution, and the bound before it. */
+typedef struct {
+  const double *p, *b, *b_before, *q, *u_z, *u_t;
+} Fields;
+
+static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first, double sums[SUMS],
+                   double most[MOSTS])
+{
+  const PetscInt nx = increment->grid->nx, cells = increment->grid->cells;
+  const double  *p = f->p, *b = f->b, *q = f->q, *sx = increment->slip[0], *sy = increment->slip[1];
+
+  for (PetscInt i = 0; i < nx; i++) {
+    const ptrdiff_t k = first + i, l = k + cells;
+    const SamState  state = SamStateOf(p[k], q[k], q[l], b[k]);
+
+    if (state == SAM_STATE_OPEN) continue;
+    most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
+    most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
+    most[SLIP]     = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
+    sums[CONTACT] += 1;
+    sums[STICK] += state == SAM_STATE_STICK ? 1 : 0;
+    sums[STORED] += 0.5 * (p[k] * f->u_z[k] + q[k] * f->u_t[k] + q[l] * f->u_t[l]);
+    sums[DISSIPATED] -= (q[k] * increment->row[0][i] + q[l] * increment->row[1][i]) *
+                        (state == SAM_STATE_SLIP && b[k] > 0 ? 0.5 * (f->b_before[k] + b[k]) / b[k] : 1);
+  }
+}
+
 static PetscErrorCode SumCells(SamContact c, const SamSolution *s, const SamSolution *last, SamStep *step)
 {
-  const PetscInt cells = c->grid->cells, nx = c->grid->nx;
-  const double   area         = c->grid->dx * c->grid->dy;
-  SamTotal       totals[SUMS] = {{0}};
-  double         sums[SUMS], most[2] = {0, 0};
-  const double  *p, *b, *b_before, *q, *u_z, *u_t;
-  SamIncrement   increment;
-  const Vec      before = last ? last->bound : s->bound;
+  const double area         = c->grid->dx * c->grid->dy;
+  SamTotal     totals[SUMS] = {{0}};
+  double       sums[SUMS], most[MOSTS] = {0};
+  SamIncrement increment;
+  Fields       f;
+  const Vec    before = last ? last->bound : s->bound;
 
   PetscFunctionBegin;
   PetscCall(SamIncrementCreate(c->problem, last, s, &increment));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->bound, &b));
-  PetscCall(VecGetArrayRead(before, &b_before));
-  PetscCall(VecGetArrayRead(s->shear, &q));
-  PetscCall(VecGetArrayRead(s->displacement_z, &u_z));
-  PetscCall(VecGetArrayRead(s->displacement_t, &u_t));
+  PetscCall(VecGetArrayRead(s->pressure, &f.p));
+  PetscCall(VecGetArrayRead(s->bound, &f.b));
+  PetscCall(VecGetArrayRead(before, &f.b_before));
+  PetscCall(VecGetArrayRead(s->shear, &f.q));
+  PetscCall(VecGetArrayRead(s->displacement_z, &f.u_z));
+  PetscCall(VecGetArrayRead(s->displacement_t, &f.u_t));
   for (PetscInt j = 0; j < c->grid->rows; j++) {
-    const ptrdiff_t first     = (ptrdiff_t)j * nx;
-    double          row[SUMS] = {0};
+    double row[SUMS] = {0};
 
     SamIncrementComputeRow(&increment, j);
-    for (PetscInt i = 0; i < nx; i++) {
-      const ptrdiff_t k = first + i, l = k + cells;
-      const SamState  state = SamStateOf(p[k], q[k], q[l], b[k]);
-
-      if (state == SAM_STATE_OPEN) continue;
-      most[0] = PetscMax(most[0], p[k]);
-      most[1] = PetscMax(most[1], q[k] * q[k] + q[l] * q[l]);
-      row[CONTACT] += 1;
-      row[STICK] += state == SAM_STATE_STICK ? 1 : 0;
-      row[STORED] += 0.5 * (p[k] * u_z[k] + q[k] * u_t[k] + q[l] * u_t[l]);
-      row[DISSIPATED] -= (q[k] * increment.row[0][i] + q[l] * increment.row[1][i]) *
-                         (state == SAM_STATE_SLIP && b[k] > 0 ? 0.5 * (b_before[k] + b[k]) / b[k] : 1);
-    }
+    SumRow(&f, &increment, (ptrdiff_t)j * c->grid->nx, row, most);
     SamAddAll(SUMS, totals, row);
   }
-  PetscCall(VecRestoreArrayRead(s->displacement_t, &u_t));
-  PetscCall(VecRestoreArrayRead(s->displacement_z, &u_z));
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(before, &b_before));
-  PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(VecRestoreArrayRead(s->displacement_t, &f.u_t));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &f.u_z));
+  PetscCall(VecRestoreArrayRead(s->shear, &f.q));
+  PetscCall(VecRestoreArrayRead(before, &f.b_before));
+  PetscCall(VecRestoreArrayRead(s->bound, &f.b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &f.p));
   PetscCall(SamIncrementDestroy(&increment));
   PetscCall(SamSumTotals(c->grid->comm, SUMS, totals, sums));
-  PetscCall(SamMax(c->grid->comm, 2, most));
-  step->pressure_max      = most[0];
-  step->shear_max         = sqrt(most[1]);
+  PetscCall(SamMax(c->grid->comm, MOSTS, most));
+  step->pressure_max      = most[PRESSURE];
+  step->shear_max         = sqrt(most[SHEAR]);
+  step->slip_max          = sqrt(most[SLIP]);
   step->contact_cells     = (PetscInt)sums[CONTACT];
   step->stick_cells       = (PetscInt)sums[STICK];
   step->contact_area      = sums[CONTACT] * area;
@@ -181,5 +197,8 @@ PetscErrorCode SamContactComputeScalars(SamContact c, SamStep *step)
     PetscCall(SamContactAddEnergyWithin(c, step));
   step->edge_accepted = 0;
   if (c->edges != SAM_CONTACT_EDGES_NONE) PetscCall(FindEdges(c, step));
+  step->contact_fraction = step->contact_area / (c->grid->width[0] * c->grid->width[1]);
+  if (c->spots) PetscCall(SamContactCountSpots(c, &step->spots));
+  if (c->spots) PetscCall(SamContactMeanGap(c, &step->gap_mean));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -165,6 +165,7 @@ PetscErrorCode SamContactGetState(SamContact c, SamContactState *s)
   s->now   = c->committed.solution;
   s->plain = c->committed.plain;
   if (c->steps > 1) s->before = c->before;
+  PetscCall(PetscArraycpy(s->sums, c->sums, SAM_CONTACT_SUMS));
   PetscCall(PetscArraycpy(s->window_first, c->committed.window_first, 2));
   PetscCall(PetscArraycpy(s->window_n, c->committed.window_n, 2));
   PetscCall(SamContactIsGapCurrent(c, &s->gap_is_current));
@@ -229,6 +230,7 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
     PetscCall(CopySolution(c->grid, &s->plain, &c->committed.plain));
   }
   if (s->steps > 1) PetscCall(CopySolution(c->grid, &s->before, &c->before));
+  PetscCall(SamContactSetSums(c, s->sums));
   c->steps = s->steps;
   PetscCall(PetscArraycpy(c->committed.window_first, s->window_first, 2));
   PetscCall(PetscArraycpy(c->committed.window_n, s->window_n, 2));

@@ -14,7 +14,8 @@
 #define NUMBERS 37 /* numbers of a solution: control, loads, rigid displacements, passes of the corrections */
 
 /* The fields and their names in the file, and which states have them. */
-typedef enum { ALWAYS, CORRECTED, SHEARED, PLAIN, SECOND } Condition; /* SECOND: from the second step on */
+/* SECOND: from the second step on; SUM: if it is kept */
+typedef enum { ALWAYS, CORRECTED, SHEARED, PLAIN, SECOND, SUM } Condition;
 static const struct {
   const char *name;
   PetscInt    components;
@@ -40,7 +41,9 @@ static const struct {
             {"plain_displacement_t", 2, offsetof(SamContactState, plain.displacement_t), PLAIN},
             {"before_pressure", 1, offsetof(SamContactState, before.pressure), SECOND},
             {"before_bound", 1, offsetof(SamContactState, before.bound), SECOND},
-            {"before_shear", 2, offsetof(SamContactState, before.shear), SECOND}};
+            {"before_shear", 2, offsetof(SamContactState, before.shear), SECOND},
+            {"slip_path", 1, offsetof(SamContactState, sums[SAM_CONTACT_SLIP_PATH]), SUM},
+            {"friction_energy", 1, offsetof(SamContactState, sums[SAM_CONTACT_FRICTION_ENERGY]), SUM}};
 enum { KEPT = sizeof(kept) / sizeof(kept[0]) };
 
 static Vec *FieldOf(SamContactState *state, PetscInt k)
@@ -48,8 +51,9 @@ static Vec *FieldOf(SamContactState *state, PetscInt k)
   return (Vec *)((char *)state + kept[k].offset);
 }
 
-static PetscBool IsKept(const SamContactState *state, PetscInt k)
+static PetscBool IsKept(SamContactState *state, PetscInt k)
 {
+  if (kept[k].when == SUM) return *FieldOf(state, k) ? PETSC_TRUE : PETSC_FALSE;
   if (kept[k].when == CORRECTED) return state->now.passes > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (kept[k].when == PLAIN) return state->now.sheared.has;
   if (kept[k].when == SHEARED)
@@ -399,8 +403,12 @@ static PetscErrorCode IsUsable(SamFile f, const SamParameters *parameters, char 
 static PetscErrorCode ReadFields(SamFile f, SamContactState *state)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < KEPT; k++)
-    if (IsKept(state, k)) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
+  for (PetscInt k = 0; k < KEPT; k++) {
+    const PetscBool has =
+      kept[k].when == SUM ? SamFileNote(f, H5Lexists(f->id, kept[k].name, H5P_DEFAULT)) > 0 : IsKept(state, k);
+
+    if (has) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -476,6 +484,26 @@ static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *re
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A sum over all steps cannot begin in the middle. */
+static PetscErrorCode CheckSums(const char filename[], SamContact contact, SamContactState *s)
+{
+  SamGrid grid;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetGrid(contact, &grid));
+  for (PetscInt k = 0; k < KEPT; k++) {
+    Vec own;
+
+    if (kept[k].when != SUM) continue;
+    PetscCall(SamContactGetSum(contact, (SamContactSum)(FieldOf(s, k) - s->sums), &own));
+    PetscCheck(!own || *FieldOf(s, k), grid->comm, SAM_ERR_USER,
+               "-restart %s: cannot go on from it: %s is a sum over all steps, and has not been kept since the start: "
+               "leave it out, or begin anew",
+               filename, kept[k].name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Gives contact and wear what was read: first the wear, which decides the gap. */
 static PetscErrorCode SetStates(SamContact contact, SamWear wear, Content *c)
 {
@@ -504,6 +532,7 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamW
   PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
   ierr = ReadFile(grid, filename, &rest, &c);
   PetscCall(PetscPopErrorHandler());
+  if (!ierr) PetscCall(CheckSums(filename, contact, &c.state));
   if (!ierr) PetscCall(SetStates(contact, wear, &c));
   PetscCall(DestroyContent(&c));
   if (ierr == SAM_ERR_FILE) PetscCall(Advise(grid, filename, &rest, advice, sizeof(advice)));

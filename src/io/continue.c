@@ -91,6 +91,22 @@ static PetscBool HasAllWanted(SamOutput o)
   return PETSC_TRUE;
 }
 
+/* A file must begin where the results of the checkpoint's run do. */
+static void CompareBranches(SamOutput o, const Wanted *wanted, Found *found)
+{
+  double first = 0;
+  char   text[192];
+
+  if (SamFileNote(o->f, H5Aexists(o->f->id, SAM_OUTPUT_BRANCH)) > 0)
+    SamFileReadAttribute(o->f, o->f->id, SAM_OUTPUT_BRANCH, H5T_NATIVE_DOUBLE, 1, &first);
+  if (o->f->failed || first == (double)wanted->point.first) return;
+  (void)snprintf(text, sizeof(text),
+                 "its first step is number %.0f, and that of the checkpoint's results is %ld: remove it, or give "
+                 "another name, to begin a file with the steps after the checkpoint",
+                 first + 1, (long)wanted->point.first + 1);
+  Complain(found, SAM_ERR_USER, text);
+}
+
 /* Examines a file that is open. */
 static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
 {
@@ -101,6 +117,7 @@ static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
   SamOutputOpenLayout(o);
   if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (SamParametersDiffer(o->f, wanted->parameters, text, sizeof(text))) Complain(found, SAM_ERR_USER, text);
+  CompareBranches(o, wanted, found);
   CountSteps(o, found);
   if (o->f->failed || found->code) PetscFunctionReturn(PETSC_SUCCESS);
   steps  = found->rows[SAM_SERIES_HISTORY];
@@ -319,18 +336,33 @@ static PetscErrorCode CopyCycles(SamOutput from, hsize_t cycles, SamOutput to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps the command line of the first run. */
-static PetscErrorCode CopyOptions(SamOutput from, SamOutput to)
+/* Keeps the command line of the first run, and what it says of the results that it follows. */
+static PetscErrorCode CopyAttributes(SamOutput from, SamOutput to)
 {
-  char *options = NULL;
+  static const char *const texts[]   = {"options", "branch_checkpoint", "branch_results", "branch_gap", NULL};
+  static const char *const numbers[] = {SAM_OUTPUT_BRANCH, "branch_cycles", NULL};
 
   PetscFunctionBegin;
-  PetscCall(SamFileBegin(from->f));
-  if (SamFileNote(from->f, H5Aexists(from->f->id, "options")) > 0)
-    SamFileReadTextAttribute(from->f, from->f->id, "options", &options);
-  PetscCall(SamFileEnd(from->f));
-  if (options) PetscCall(SamOutputSetText(to, "options", options));
-  PetscCall(PetscFree(options));
+  for (PetscInt k = 0; texts[k]; k++) {
+    char *text = NULL;
+
+    PetscCall(SamFileBegin(from->f));
+    if (SamFileNote(from->f, H5Aexists(from->f->id, texts[k])) > 0)
+      SamFileReadTextAttribute(from->f, from->f->id, texts[k], &text);
+    PetscCall(SamFileEnd(from->f));
+    if (text) PetscCall(SamOutputSetText(to, texts[k], text));
+    PetscCall(PetscFree(text));
+  }
+  for (PetscInt k = 0; numbers[k]; k++) {
+    double    number;
+    PetscBool has = PETSC_FALSE;
+
+    PetscCall(SamFileBegin(from->f));
+    has = SamFileNote(from->f, H5Aexists(from->f->id, numbers[k])) > 0 ? PETSC_TRUE : PETSC_FALSE;
+    if (has) SamFileReadAttribute(from->f, from->f->id, numbers[k], H5T_NATIVE_DOUBLE, 1, &number);
+    PetscCall(SamFileEnd(from->f));
+    if (has) PetscCall(SamOutputSetReals(to, numbers[k], 1, &number));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -341,7 +373,7 @@ static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep
 
   PetscFunctionBegin;
   PetscCall(SamOutputSetParameters(to, wanted->parameters));
-  PetscCall(CopyOptions(from, to));
+  PetscCall(CopyAttributes(from, to));
   PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to->f->grid, &to->set) +
                                     (off_t)(wanted->point.steps + wanted->point.cycles) * STEP_BYTES));
   to->copying = PETSC_TRUE;

@@ -148,6 +148,17 @@ PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputGetSpace(SamOutput o, double *bytes)
+{
+  struct statvfs space;
+
+  PetscFunctionBegin;
+  *bytes = PETSC_INFINITY;
+  if (o->f->rank == 0 && !statvfs(o->f->filename, &space)) *bytes = (double)space.f_bavail * (double)space.f_frsize;
+  PetscCallMPI(MPI_Bcast(bytes, 1, MPI_DOUBLE, 0, o->f->grid->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- keeping other runs from a file ---- */
 
 /*

@@ -52,6 +52,14 @@ static PetscErrorCode ComputeShearCenter(SamContact contact, SamWear wear, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ComputeSum(SamContact contact, SamWear wear, PetscInt which, Vec field)
+{
+  PetscFunctionBegin;
+  (void)wear;
+  PetscCall(SamContactComputeSum(contact, (SamContactSum)which, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ComputeDepth(SamContact contact, SamWear wear, PetscInt body, Vec field)
 {
   PetscFunctionBegin;
@@ -98,6 +106,10 @@ const SamOutputField SamOutputFields[] = {
            ComputeShearCenter, 0),
   COMPUTED("shear_center_y", "Pa", "shear traction along y at the centre of the cell", NO, SAM_FIELD_REAL,
            ComputeShearCenter, 1),
+  COMPUTED("slip_path", "m", "path of the slip: sum of |ds| over all steps", NO, SAM_FIELD_REAL, ComputeSum,
+           SAM_CONTACT_SLIP_PATH),
+  COMPUTED("friction_energy", "J/m2", "frictional work: sum of -q.ds over all steps", NO, SAM_FIELD_REAL, ComputeSum,
+           SAM_CONTACT_FRICTION_ENERGY),
   POINTS("contact_edge", "points of the edge of contact, x and y", SAM_CONTACT_EDGE_CONTACT),
   POINTS("stick_edge", "points of the edge of the stick zone, x and y", SAM_CONTACT_EDGE_STICK),
   DEPTH("wear_depth1", "depth removed of body 1", 0),
@@ -154,10 +166,14 @@ static const SamOutputColumn history[] = {
   BULK(1, SAM_BULK_XY, "bulk2_stress_xy"),
   REAL("contact_area", "m2", "area in contact", contact_area),
   REAL("stick_area", "m2", "area in stick", stick_area),
+  REAL("contact_fraction", "1", "area in contact over that of the grid", contact_fraction),
   INT("contact_cells", "cells in contact", contact_cells),
   INT("stick_cells", "cells in stick", stick_cells),
   REAL("pressure_max", "Pa", "largest pressure", pressure_max),
   REAL("shear_max", "Pa", "largest shear", shear_max),
+  REAL("slip_max", "m", "largest slip since the start of a cell in contact", slip_max),
+  OPTIONAL(SAM_OUTPUT_SPOTS, "contact_spots", "1", "zones of contact, connected by the sides of cells", spots),
+  OPTIONAL(SAM_OUTPUT_SPOTS, "gap_mean", "m", "mean gap of all cells", gap_mean),
   REAL("edge_accepted", "1", "share of the edges of contact and stick that are reconstructed", edge_accepted),
   REAL("normal_residual", "1", "relative error of the normal problem, by the check", check.normal),
   REAL("tangential_residual", "1", "relative error of the tangential problem, by the check", check.tangential),
@@ -239,6 +255,36 @@ PetscErrorCode SamOutputSettingsCheck(const SamOutputSettings *set, const SamOpt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool SamOutputSettingsHas(const SamOutputSettings *set, const char name[])
+{
+  const PetscInt f = Find(name);
+
+  return f < SamOutputFieldCount ? SamOutputWantsField(set, f) : PETSC_FALSE;
+}
+
+PetscErrorCode SamOutputSettingsPrepare(const SamOutputSettings *set, SamContact contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
+    if (set->fields[f] && SamOutputFields[f].compute == ComputeSum)
+      PetscCall(SamContactKeepSum(contact, (SamContactSum)SamOutputFields[f].component));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputFindMissing(SamOutput o, SamContact contact, const char **name)
+{
+  PetscFunctionBegin;
+  *name = NULL;
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    Vec sum;
+
+    if (!o->set.fields[f] || SamOutputFields[f].compute != ComputeSum) continue;
+    PetscCall(SamContactGetSum(contact, (SamContactSum)SamOutputFields[f].component, &sum));
+    if (!sum) *name = SamOutputFields[f].label.name;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputGetFieldNames(char names[], size_t size)
 {
   PetscFunctionBegin;
@@ -268,6 +314,18 @@ PetscErrorCode SamOutputFindField(const SamOutputField *field, SamContact contac
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether a field that is a sum over the steps is kept. */
+static PetscErrorCode CheckSum(SamContact contact, PetscInt f, PetscBool *found)
+{
+  Vec sum;
+
+  PetscFunctionBegin;
+  if (!*found || SamOutputFields[f].compute != ComputeSum) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetSum(contact, (SamContactSum)SamOutputFields[f].component, &sum));
+  *found = sum ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamFieldGet(SamContact contact, SamWear worn, const char name[], Vec field, PetscBool *found)
 {
   const double *from;
@@ -280,6 +338,7 @@ PetscErrorCode SamFieldGet(SamContact contact, SamWear worn, const char name[], 
                (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR)
              ? PETSC_TRUE
              : PETSC_FALSE;
+  PetscCall(CheckSum(contact, f, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputFindField(&SamOutputFields[f], contact, worn, field, &holder, &component));
   if (holder == field) PetscFunctionReturn(PETSC_SUCCESS);

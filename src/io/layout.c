@@ -6,6 +6,7 @@
 */
 #include "ioimpl.h"
 #include <hdf5_hl.h>
+#include <math.h>
 #include <string.h>
 
 #define CHUNK_STEPS SAM_OUTPUT_WAIT /* steps in a chunk of a series, which has one number a step */
@@ -95,6 +96,35 @@ off_t SamOutputFieldBytes(SamGrid grid, const SamOutputSettings *set)
       bytes += H5Tget_size(StoredType(&SamOutputFields[f], set->single));
   }
   return (off_t)(cells * bytes + points);
+}
+
+/* Bytes that a series takes: whole chunks. */
+static double SeriesBytes(double rows, hsize_t chunk, hsize_t numbers)
+{
+  return ceil(rows / (double)chunk) * (double)(chunk * numbers * sizeof(double));
+}
+
+#define STRUCTURE 100e3 /* bytes, of an empty file */
+#define INDEX     64    /* bytes for a chunk in HDF5's indices */
+PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double *bytes)
+{
+  const SamOutputSettings *set   = &o->set;
+  const SamOutputSeries   *s     = &SamOutputAllSeries[SAM_SERIES_HISTORY];
+  const SamShape           shape = FieldShape(o->f->grid, set);
+  double                   index = INDEX;
+
+  PetscFunctionBegin;
+  for (int d = 1; d < 3; d++) index *= (double)((shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d]);
+  *bytes = STRUCTURE + SeriesBytes(saved, CHUNK_STEPS, 1) + saved * (double)SamOutputFieldBytes(o->f->grid, set);
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
+    if (SamOutputWantsField(set, f)) *bytes += saved * index;
+  for (PetscInt c = 0; c < s->count; c++) {
+    const PetscBool matrix = s->columns[c].kind == SAM_COLUMN_MATRIX ? PETSC_TRUE : PETSC_FALSE;
+
+    if (SamOutputWants(set, s->columns[c].option))
+      *bytes += SeriesBytes(steps, matrix ? CHUNK_MATRICES : CHUNK_STEPS, matrix ? SAM_COMPONENTS * SAM_COMPONENTS : 1);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static void WriteFlags(SamOutput o, hid_t dataset)

@@ -16,6 +16,7 @@ typedef struct {
   double  n[2], width[2], center[2], young[2], poisson[2];
   char    elasticity[64], options[4096]; /* options: empty if they are longer */
   hsize_t steps, saved;
+  double  first; /* load steps before those of the file */
   int     has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS], cycle;
   char    problem[SAM_MESSAGE]; /* empty: none */
 } Facts;
@@ -144,6 +145,7 @@ static PetscBool IsPlausible(const Facts *f)
   for (int k = 0; k < 2; k++) {
     if (!(f->n[k] >= 2 && f->n[k] <= 1e9 && f->n[k] == floor(f->n[k]) && f->width[k] > 0 && isfinite(f->width[k])))
       return PETSC_FALSE;
+    if (!(f->first >= 0 && f->first <= 1e9 && f->first == floor(f->first))) return PETSC_FALSE;
     if (!isfinite(f->center[k]) || !(f->young[k] > 0) || !(f->poisson[k] > -1 && f->poisson[k] <= 0.5))
       return PETSC_FALSE;
   }
@@ -176,6 +178,7 @@ static void ExamineInChild(void *data)
   GetNumbers(f, file, "body2_poisson", 1, &f->poisson[1]);
   GetText(file, "elasticity", sizeof(f->elasticity), f->elasticity);
   GetText(file, "options", sizeof(f->options), f->options);
+  if (H5Aexists(file, SAM_OUTPUT_BRANCH) > 0) GetNumbers(f, file, SAM_OUTPUT_BRANCH, 1, &f->first);
   if (!f->elasticity[0]) Complain(f, "it lacks the attribute elasticity of a results file of petsam");
   if (!f->problem[0] && !IsPlausible(f)) Complain(f, "its parameters are not those of a run of petsam");
   if (!f->problem[0]) ExamineFields(f, file);
@@ -235,7 +238,7 @@ static PetscErrorCode ReadTimes(SamResults r)
   PetscCall(SamFileEnd(r->file));
   for (hsize_t k = 0; k < saved; k++) {
     while (step < steps && times[step] < r->saved_time[k]) step++;
-    r->saved_step[k] = (PetscInt)step + 1;
+    r->saved_step[k] = (PetscInt)r->facts.first + (PetscInt)step + 1;
     if (step < steps && times[step] == r->saved_time[k]) continue;
     r->facts.saved = k; /* a run that was killed may leave fields without their row */
     break;
@@ -327,7 +330,7 @@ PetscErrorCode SamResultsGetOptions(SamResults r, const char **options)
 PetscErrorCode SamResultsGetSteps(SamResults r, PetscInt *steps, PetscInt *saved)
 {
   PetscFunctionBegin;
-  if (steps) *steps = (PetscInt)r->facts.steps;
+  if (steps) *steps = (PetscInt)r->facts.first + (PetscInt)r->facts.steps;
   if (saved) *saved = (PetscInt)r->facts.saved;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -376,7 +379,7 @@ static PetscErrorCode ReadNumber(SamResults r, const char column[], PetscInt ste
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", column));
   PetscCall(SamFileBegin(r->file));
-  ReadSeries(r->file, name, (hsize_t)step - 1, 1, value);
+  ReadSeries(r->file, name, (hsize_t)(step - (PetscInt)r->facts.first) - 1, 1, value);
   PetscCall(SamFileEnd(r->file));
   PetscCall(CheckFinite(r, 1, value, name, step));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -52,9 +52,24 @@ PetscErrorCode SamLifeFindTurns(SamLife l)
 
 /* ---- means over the cycle ---- */
 
+/* Sums over the steps go on from those before the cycle; in the middle of a jump from 0. */
+static PetscErrorCode BeginSums(SamLife l, PetscBool middle)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
+    Vec sum;
+
+    PetscCall(SamContactGetSum(l->wear->contact, (SamContactSum)k, &sum));
+    if (sum && middle) PetscCall(VecSet(sum, 0));
+    if (sum && !middle) PetscCall(VecCopy(l->before[k], sum));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
 {
   PetscFunctionBegin;
+  PetscCall(BeginSums(l, rate == &l->middle ? PETSC_TRUE : PETSC_FALSE));
   PetscCall(VecSet(l->wear->cycle, 0));
   PetscCall(VecSet(l->wear->path, 0));
   PetscCall(VecSet(rate->pressure, 0));

@@ -90,6 +90,7 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   if (!l) PetscFunctionReturn(PETSC_SUCCESS);
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
   PetscCall(VecDestroy(&l->shear));
+  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) PetscCall(VecDestroy(&l->before[k]));
   PetscCall(PetscFree(l->turns));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -299,9 +300,42 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- what the contact sums over its steps ---- */
+
+/* Remembers the sums before a cycle. */
+static PetscErrorCode KeepSums(SamLife l)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
+    Vec sum;
+
+    PetscCall(SamContactGetSum(l->wear->contact, (SamContactSum)k, &sum));
+    if (sum && !l->before[k]) PetscCall(SamGridCreateVec(l->wear->grid, 1, &l->before[k]));
+    if (sum) PetscCall(VecCopy(sum, l->before[k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The sums after a jump, whose middle cycle they hold; after no jump those before the cycle. */
+static PetscErrorCode JumpSums(SamLife l, PetscReal cycles)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
+    Vec sum;
+
+    PetscCall(SamContactGetSum(l->wear->contact, (SamContactSum)k, &sum));
+    if (sum && cycles > 0) PetscCall(VecAYPX(sum, cycles, l->before[k]));
+    if (sum && cycles == 0) PetscCall(VecCopy(l->before[k], sum));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- its cycles and jumps ---- */
+
 PetscErrorCode SamLifeCompute(SamLife l, SamLifeReport *report)
 {
   PetscFunctionBegin;
+  if (!l->known) PetscCall(KeepSums(l));
   if (!l->known) PetscCall(SamLifeComputeRate(l, &l->start, l->state.cycles, PETSC_TRUE, &l->known));
   PetscCall(Report(l, report));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -322,6 +356,7 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
     accepted = solved && (l->set.fixed || jump <= 1 || error <= HALVES * l->set.rtol) ? PETSC_TRUE : PETSC_FALSE;
     next     = solved ? NextTry(l, jump, error / (HALVES * l->set.rtol)) : PetscMin(jump, Whole(GROW_LEAST * jump));
   }
+  PetscCall(JumpSums(l, accepted ? jump : 0));
   if (accepted) {
     PetscCall(VecCopy(l->halves, l->wear->load));
     if (!l->set.fixed) l->state.next = next;

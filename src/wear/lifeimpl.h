@@ -35,9 +35,14 @@ struct _n_SamLife {
   Vec             whole, half, halves; /* wear loads: after the jump as a whole, after its first half, after both */
   Vec             p, q, diagonal, gap; /* scratch */
   Vec             shear;               /* scratch, two components */
+  Vec             before[SAM_CONTACT_SUMS]; /* the contact's sums before this cycle; NULL: not kept */
 };
 
 /*
+  What a contact sums over its steps (SamContactKeepSum()) is, in a life, that of all cycles so far and of this one up to
+  the step. A jump adds that of the cycle in its middle, times its cycles, which is of second order as the wear is.
+  Cycles that close the loop or are tried do not count.
+
   SamLifeComputeRate - solves the cycle on the problem's gap; `cycles`: so far; `solved`: all of its steps have a
   solution; `tell`: the steps are told to the caller. Collective.
 */
