@@ -4,7 +4,10 @@
 
 #include <petsam/output.h>
 
-/* SamNote - whole numbers that a program adds to a checkpoint under a name, such as its position in a load program. */
+/*
+  SamNote - whole numbers that a program adds to a checkpoint under a name, such as its position in a load program. With
+  a negative count the checkpoint may lack them; they are read as 0 then.
+*/
 typedef struct {
   const char *name;
   PetscInt    count;

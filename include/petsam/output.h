@@ -52,32 +52,36 @@ typedef enum {
 /* How a results file is written. */
 #define SAM_OUTPUT_MOST 64 /* most fields, and most columns */
 typedef struct {
-  PetscBool fields[SAM_OUTPUT_MOST]; /* which ones of the table of fields; SamOutputSettingsSetFields() */
-  PetscBool named;                   /* each of them by its name */
-  PetscInt  compress;                /* deflate level of the fields, 0 (none) to 9 */
-  PetscInt  chunk[2];                /* most cells of an HDF5 chunk in x, y */
-  PetscBool xdmf;                    /* write an XDMF file beside the results */
-  PetscBool single;                  /* fields of cells in single precision */
-  PetscBool with[SAM_OUTPUT_OPTIONS];
-  SamWear   wear; /* whose depths are written; borrowed; NULL without wear */
+  PetscBool  fields[SAM_OUTPUT_MOST]; /* which ones of the table of fields; SamOutputSettingsSetFields() */
+  PetscBool  named;                   /* each of them by its name */
+  PetscInt   compress;                /* deflate level of the fields, 0 (none) to 9 */
+  PetscInt   chunk[2];                /* most cells of an HDF5 chunk in x, y */
+  PetscBool  xdmf;                    /* write an XDMF file beside the results */
+  PetscBool  single;                  /* fields of cells in single precision */
+  PetscReal  flush;                   /* s that steps without fields may wait to be written together; 0: they do not */
+  PetscBool  with[SAM_OUTPUT_OPTIONS];
+  SamWear    wear;    /* whose depths are written; borrowed; NULL without wear */
+  SamContact contact; /* that keeps the sums over the steps among the fields; borrowed; NULL: not known */
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state and depths of wear, no compression,
-  chunks of 1024 x 256 cells, double precision, with XDMF file, no optional columns), then reads -output_fields,
-  -output_compress, -output_chunk, -output_single and -output_xdmf. Collective. Errors: SAM_ERR_USER.
+  chunks of 1024 x 256 cells, double precision, with XDMF file, each step written at once, no optional columns), then
+  reads -output_fields, -output_compress, -output_chunk, -output_single and -output_xdmf. Collective. Errors:
+  SAM_ERR_USER.
   SamOutputSettingsSetFields - chooses `count` fields by their names in the results; "all" stands for all of them, a
   single "none" for none; count < 0: the default. `unknown`: a name that there is not, or NULL. Not collective.
   SamOutputSettingsCheck - refuses fields that are named and that these results do not have. Collective. Errors:
   SAM_ERR_USER.
   SamOutputSettingsHas - whether a field of that name is among them. Not collective.
-  SamOutputSettingsPrepare - makes a contact keep the sums over the steps that are among the fields. Collective.
+  SamOutputSettingsPrepare - makes a contact keep the sums over the steps that are among the fields; SamOutputContinue()
+  then refuses a file with sums that the contact does not keep. Collective.
   SamOutputGetFieldNames - the names that there are, as a sentence has them. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *settings, PetscInt count,
                                                        const char *const names[], const char **unknown);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsCheck(const SamOutputSettings *settings, const SamOptions *from);
 PETSC_EXTERN PetscBool      SamOutputSettingsHas(const SamOutputSettings *settings, const char name[]);
-PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(const SamOutputSettings *settings, SamContact contact);
+PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings, SamContact contact);
 PETSC_EXTERN PetscErrorCode SamOutputGetFieldNames(char names[], size_t size);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 
@@ -129,8 +133,8 @@ PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
 /*
   SamOutputWriteStep - appends the numbers of a step to /history and, when `contact` is not NULL, its time and the
   fields of the contact's solution (SamContactGetSolution()). Then the file is complete up to here, whatever happens
-  later; but a step without fields may wait in memory, for two seconds at most if steps go on to be written, since many
-  are written in the time of one. Collective. Errors: SAM_ERR_FILE, also when another program has replaced the file, or
+  later; but where the settings allow it, steps without fields wait in memory, since many are written in the time of
+  one: for so long, if steps go on to be written, or until there is a chunk of them. Collective. Errors: SAM_ERR_FILE, also when another program has replaced the file, or
   changed its size, since it was written last. When there is no space, nothing is written and the file can be closed.
   When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and the program
   should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
@@ -163,11 +167,6 @@ PETSC_EXTERN PetscBool      SamStepGetNumber(const SamStep *step, const char nam
   last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
-/*
-  SamOutputFindMissing - the name of a field that the file has and that the contact cannot give, NULL for none: a sum over
-  the steps that it does not keep. Not collective.
-*/
-PETSC_EXTERN PetscErrorCode SamOutputFindMissing(SamOutput output, SamContact contact, const char **name);
 /*
   SamOutputForecast - the size (bytes) of a file like this one of so many load steps and so many steps with fields,
   without compression. Not collective.

@@ -199,7 +199,7 @@ static PetscReal ValueOf(uint64_t bits)
 }
 
 /* Where the run is, as whole numbers. */
-#define AT 12
+#define AT 10
 static PetscErrorCode Pack(const SamRunPoint *p, uint64_t at[AT])
 {
   SamLifeState life = {0};
@@ -215,9 +215,7 @@ static PetscErrorCode Pack(const SamRunPoint *p, uint64_t at[AT])
   at[6] = SamHashBits((double)life.jump);
   at[7] = SamHashBits((double)life.error);
   at[8] = (uint64_t)life.computed;
-  at[9]  = life.by_turns ? 1 : 0;
-  at[10] = (uint64_t)p->first;
-  at[11] = (uint64_t)p->first_row;
+  at[9] = life.by_turns ? 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -235,15 +233,13 @@ static PetscErrorCode Unpack(const uint64_t at[AT], SamRunPoint *p)
   p->worst     = (SamStatus)at[1];
   p->rows      = (PetscInt)at[2];
   p->times     = at[3];
-  p->first     = (PetscInt)at[10];
-  p->first_row = (PetscInt)at[11];
   p->restarted = PETSC_TRUE;
   if (p->life) PetscCall(SamLifeSetState(p->life, &life));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The name of the results file is noted as its bytes. */
-#define NAME (sizeof(((SamRunPoint *)NULL)->results) / sizeof(uint64_t))
+#define NAME ((PetscInt)(sizeof(((SamRunPoint *)NULL)->results) / sizeof(uint64_t)))
 
 /* The part of the load program that has been solved: all of it in a life. */
 static PetscErrorCode CountSolved(const SamRunPoint *p, PetscInt *steps)
@@ -258,9 +254,10 @@ static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamPara
                             const SamRunPoint *progress)
 {
   const double  begin = MPI_Wtime();
-  uint64_t      at[AT], columns[COLUMNS], name[NAME];
-  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", NAME, name}};
-  PetscInt      solved;
+  uint64_t      at[AT], columns[COLUMNS], name[NAME], first[2];
+  const SamNote note[] = {
+    {"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", -NAME, name}, {"results_begin", -2, first}};
+  PetscInt solved;
 
   PetscFunctionBegin;
   if (progress->output) PetscCall(SamOutputFlush(progress->output));
@@ -268,7 +265,9 @@ static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamPara
   PetscCall(CountSolved(progress, &solved));
   PetscCall(ChecksumColumns(progress->history, solved, columns));
   memcpy(name, progress->results, sizeof(name));
-  PetscCall(SamCheckpointWrite(cp->files, contact, progress->wear, parameters, 3, note));
+  first[0] = (uint64_t)progress->first;
+  first[1] = (uint64_t)progress->first_row;
+  PetscCall(SamCheckpointWrite(cp->files, contact, progress->wear, parameters, 4, note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
   cp->last    = progress->steps;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -305,14 +304,17 @@ static PetscErrorCode CompareLoads(SamCheckpoints cp, const SamRunPoint *progres
 PetscErrorCode SamCheckpointsRestart(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
                                      SamRunPoint *progress)
 {
-  uint64_t      at[AT], columns[COLUMNS], name[NAME];
-  const SamNote note[] = {{"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", NAME, name}};
+  uint64_t      at[AT], columns[COLUMNS], name[NAME], first[2];
+  const SamNote note[] = {
+    {"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", -NAME, name}, {"results_begin", -2, first}};
 
   PetscFunctionBegin;
-  PetscCall(SamCheckpointRead(cp->restart, contact, progress->wear, parameters, 3, note));
+  PetscCall(SamCheckpointRead(cp->restart, contact, progress->wear, parameters, 4, note));
   PetscCall(Unpack(at, progress));
   memcpy(progress->results, name, sizeof(progress->results));
-  cp->seen = progress->steps;
+  progress->first     = (PetscInt)first[0];
+  progress->first_row = (PetscInt)first[1];
+  cp->seen            = progress->steps;
   PetscCall(CompareLoads(cp, progress, columns));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

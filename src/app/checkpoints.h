@@ -8,18 +8,18 @@
 /* The position of a run in its load program. */
 typedef struct {
   SamHistory history;
-  SamOutput  output;    /* results, which must be in their file when a checkpoint is; NULL: none */
-  SamWear    wear;      /* NULL: none */
-  SamLife    life;      /* NULL: none */
-  PetscReal  cycles;    /* of the life */
-  PetscInt   steps;     /* number of steps solved so far, of computed cycles in a life */
-  PetscInt   rows;      /* number of computed cycles that were written */
-  PetscInt   first;     /* steps before those of the results file, 0: it begins with the history */
-  PetscInt   first_row; /* computed cycles before those of the results file */
-  uint64_t   times;     /* checksum of the times of the steps of the results file */
-  SamStatus  worst;     /* worst status of the steps */
+  SamOutput  output;                      /* results, which must be in their file when a checkpoint is; NULL: none */
+  SamWear    wear;                        /* NULL: none */
+  SamLife    life;                        /* NULL: none */
+  PetscReal  cycles;                      /* of the life */
+  PetscInt   steps;                       /* number of steps solved so far, of computed cycles in a life */
+  PetscInt   rows;                        /* number of computed cycles that were written */
+  PetscInt   first;                       /* steps before those of the results file, 0: it begins with the history */
+  PetscInt   first_row;                   /* computed cycles before those of the results file */
+  uint64_t   times;                       /* checksum of the times of the steps of the results file */
+  SamStatus  worst;                       /* worst status of the steps */
   char       results[PETSC_MAX_PATH_LEN]; /* the file, as it was named; empty: none */
-  PetscBool  restarted; /* goes on from a checkpoint */
+  PetscBool  restarted;                   /* goes on from a checkpoint */
 } SamRunPoint;
 
 /*

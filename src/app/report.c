@@ -121,7 +121,8 @@ static PetscErrorCode PrintRestart(SamReport r)
   PetscCall(PetscPrintf(r->comm, "  %-10s  after %s, from %s\n", "restart", r->restart_at, r->restart));
   if (!r->branch) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(r->comm, "  %-10s  the results begin after %s%s%s%s\n", "branch", r->restart_at,
-                        r->followed[0] ? ", of " : "", r->followed, r->gap ? ", with another gap and the slip so far" : ""));
+                        r->followed[0] ? ", of " : "", r->followed,
+                        r->gap ? ", with another gap and the slip so far" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

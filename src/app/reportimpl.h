@@ -28,9 +28,9 @@ struct _n_SamReport {
   /* what the user set */
   MPI_Comm    comm;
   PetscBool   quiet;
-  const char *restart;        /* the checkpoint from which the run goes on; NULL: none */
-  char        restart_at[64]; /* "step 7" or "1e5 cycles" */
-  PetscBool   branch, gap;    /* results begin there; with a gap that has changed */
+  const char *restart;                      /* the checkpoint from which the run goes on; NULL: none */
+  char        restart_at[64];               /* "step 7" or "1e5 cycles" */
+  PetscBool   branch, gap;                  /* results begin there; with a gap that has changed */
   char        followed[PETSC_MAX_PATH_LEN]; /* file of the results before a branch; empty: none */
   /* status */
   PetscMPIInt    rank;

@@ -24,8 +24,7 @@ static PetscErrorCode Continue(SamRun *run)
   const SamRunPoint   *p     = &run->point;
   const SamOutputPoint point = {
     .first = p->first, .steps = p->steps - p->first, .cycles = p->rows - p->first_row, .times = p->times};
-  SamControl  last;
-  const char *missing;
+  SamControl last;
 
   PetscFunctionBegin;
   if (!run->life) {
@@ -34,10 +33,6 @@ static PetscErrorCode Continue(SamRun *run)
   }
   PetscCall(
     SamOutputContinue(run->setup.grid, run->filename, &run->output_settings, &run->parameters, &point, &run->output));
-  PetscCall(SamOutputFindMissing(run->output, run->setup.contact, &missing));
-  PetscCheck(!missing, PETSC_COMM_WORLD, SAM_ERR_USER,
-             "-output %s: cannot go on: it has %s, a sum over all steps, which the run of the checkpoint has not kept",
-             run->filename, missing);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -84,10 +79,11 @@ PetscErrorCode SamRunOpenResults(SamRun *run, const char checkpoint[])
   PetscFunctionBegin;
   if (checkpoint) {
     PetscCall(Exists(run->setup.grid, run->filename, &exists));
-    PetscCheck(!exists || !run->restart_gap, PETSC_COMM_WORLD, SAM_ERR_USER,
-               "-output %s: is there, and results with another gap (-restart_gap) need a file of their own: give another "
-               "name",
-               run->filename);
+    PetscCheck(
+      !exists || !run->restart_gap, PETSC_COMM_WORLD, SAM_ERR_USER,
+      "-output %s: is there, and results with another gap (-restart_gap) need a file of their own: give another "
+      "name",
+      run->filename);
     if (!exists && strcmp(run->filename, run->point.results))
       PetscCall(Branch(run, checkpoint));
     else /* where the stopped run's own file is missing, that is an error */
@@ -132,10 +128,8 @@ static PetscErrorCode Estimate(const SamRun *run, double *whole, double *rest)
     *rest = *whole;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamOutputForecast(run->output, (double)(last - p->first), (double)CountSaved(run, p->first, last),
-                              whole));
-  PetscCall(SamOutputForecast(run->output, (double)(last - p->steps), (double)CountSaved(run, p->steps, last),
-                              rest));
+  PetscCall(SamOutputForecast(run->output, (double)(last - p->first), (double)CountSaved(run, p->first, last), whole));
+  PetscCall(SamOutputForecast(run->output, (double)(last - p->steps), (double)CountSaved(run, p->steps, last), rest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -152,9 +146,9 @@ PetscErrorCode SamRunForecast(SamRun *run, char text[], size_t size)
   PrintBytes(rest, words[1], sizeof(words[1]));
   PrintBytes(space, words[2], sizeof(words[2]));
   (void)snprintf(text, size, "%s %s, %s free there",
-                 run->life                            ? "at least"
+                 run->life                           ? "at least"
                  : run->output_settings.compress > 0 ? "at most"
-                                                      : "about",
+                                                     : "about",
                  words[0], words[2]);
   if (rest <= space) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_rank(run->setup.grid->comm, &rank));

@@ -1,6 +1,8 @@
 /* The run: reads all options, makes the objects, solves the load steps, writes results and checkpoints. */
 #include "runimpl.h"
 
+#define FLUSH 2.0 /* s that steps without fields wait to be written */
+
 /* ---- set-up ---- */
 
 /* Refuses bulk stress of a rigid body, and of periodic ones. */
@@ -104,8 +106,11 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
   PetscCall(SamOptionsBool(from, "stiffness", "tangent stiffness of every step, for steps that go on and reverse",
                            &run->needs.stiffness, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&run->output_settings, from));
+  run->output_settings.flush = FLUSH;
+  PetscCall(SamOptionsReal(from, "output_flush", "s that steps without fields may wait to be written, 0: none",
+                           SAM_RANGE_NONNEGATIVE, &run->output_settings.flush, NULL));
   run->output_settings.with[SAM_OUTPUT_STIFFNESS] = run->needs.stiffness;
-  for (size_t k = 0; k < 2 && run->has_output; k++) run->needs.sums += SamOutputSettingsHas(&run->output_settings, sums[k]);
+  for (size_t k = 0; k < 2; k++) run->needs.sums += SamOutputSettingsHas(&run->output_settings, sums[k]);
   PetscCall(SamPrintHelp(&help));
   PetscCheck(!run->needs.stiffness || run->has_output || help, from->comm, SAM_ERR_USER,
              "-stiffness is given without -output, the file that it goes to");
@@ -125,7 +130,7 @@ PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments)
   PetscCall(SamRunCheckFiles(run, from.comm, arguments));
   PetscCall(SamRunRefuseTooLarge(run->setup.grid, &run->needs, &from));
   PetscCall(SamSetupCreateContact(&run->setup, &from));
-  if (!help && run->has_output) PetscCall(SamOutputSettingsPrepare(&run->output_settings, run->setup.contact));
+  if (!help) PetscCall(SamOutputSettingsPrepare(&run->output_settings, run->setup.contact));
   PetscCall(SamContactGetSpots(run->setup.contact, &run->output_settings.with[SAM_OUTPUT_SPOTS]));
   if (!help) PetscCall(SamRunCreateWear(run));
   if (!help) PetscCall(SamOutputSettingsCheck(&run->output_settings, &from));

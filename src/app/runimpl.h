@@ -33,10 +33,10 @@ typedef struct {
   PetscInt          output_every;
   PetscBool         has_output;
   PetscBool         restart_gap; /* goes on with another gap than the stopped run's */
-  PetscBool         told;      /* in a life: the step that failed is in the file */
-  PetscBool         warned;    /* a warning has been printed in this life */
-  PetscReal         last_time; /* of the last step that was written, s; -infinity: none */
-  PetscBool         writing;   /* a collective write is under way */
+  PetscBool         told;        /* in a life: the step that failed is in the file */
+  PetscBool         warned;      /* a warning has been printed in this life */
+  PetscReal         last_time;   /* of the last step that was written, s; -infinity: none */
+  PetscBool         writing;     /* a collective write is under way */
   char              filename[PETSC_MAX_PATH_LEN];
 } SamRun;
 

@@ -26,8 +26,9 @@ PetscErrorCode SamStepView(const SamStep *s, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g m\n", "largest",
                                      (double)s->pressure_max, (double)s->shear_max, (double)s->slip_max));
     if (!isnan(s->spots))
-      PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n", "spots",
-                                       (double)s->spots, 100 * (double)s->contact_fraction, (double)s->gap_mean));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n",
+                                       "spots", (double)s->spots, 100 * (double)s->contact_fraction,
+                                       (double)s->gap_mean));
     PetscCall(PetscViewerASCIIPrintf(viewer,
                                      "  %-10s  normal %" PetscInt_FMT " (%" PetscInt_FMT
                                      " products), tangential %" PetscInt_FMT " (%" PetscInt_FMT " products)",
@@ -54,8 +55,8 @@ PetscErrorCode SamStepViewHeading(PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(
     viewer, "%6s %10s %10s %10s %10s %10s %10s %10s %10s %9s %9s %9s %9s %4s %4s %7s %7s %8s %9s\n", "step", "time/s",
-    "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2", "stick/m2", "p max/Pa", "q max/Pa", "slip/m", "it n",
-    "it t", "res n", "res t", "s", "left"));
+    "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2", "stick/m2", "p max/Pa", "q max/Pa", "slip/m",
+    "it n", "it t", "res n", "res t", "s", "left"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -68,13 +69,12 @@ PetscErrorCode SamStepViewLine(const SamStep *s, PetscInt number, double seconds
   SamReportDuration(left, duration, sizeof(duration));
   PetscCall(PetscViewerASCIIPrintf(
     viewer,
-    "%6" PetscInt_FMT
-    " %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9.3g %9.3g %9.3g %9.3g %4" PetscInt_FMT
+    "%6" PetscInt_FMT " %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9.3g %9.3g %9.3g %9.3g %4" PetscInt_FMT
     " %4" PetscInt_FMT " %7.1e %7.1e %8.2f %9s\n",
     number, (double)s->control.time, (double)l[SAM_COMPONENT_N], (double)l[SAM_COMPONENT_TX],
     (double)l[SAM_COMPONENT_TY], (double)l[SAM_COMPONENT_MX], (double)l[SAM_COMPONENT_MY], (double)l[SAM_COMPONENT_MZ],
     (double)s->contact_area, (double)s->stick_area, (double)s->pressure_max, (double)s->shear_max, (double)s->slip_max,
-    s->normal_iterations, s->tangential_iterations,
-    (double)s->check.normal, (double)s->check.tangential, seconds, duration));
+    s->normal_iterations, s->tangential_iterations, (double)s->check.normal, (double)s->check.tangential, seconds,
+    duration));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -142,7 +142,8 @@ static PetscErrorCode ReadSums(SamContact c, const SamOptions *from)
   static const struct {
     const char *option, *text;
   } sums[SAM_CONTACT_SUMS] = {{"sum_slip_path", "sum the path of the slip over all steps (field slip_path)"},
-                              {"sum_friction_energy", "sum the frictional work over all steps (field friction_energy)"}};
+                              {"sum_friction_energy",
+                               "sum the frictional work over all steps (field friction_energy)"}};
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
@@ -178,7 +179,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, none: count cells, deferred: solve again for them", edge_words,
                            &edges, NULL));
   PetscCall(SamOptionsInt(&from, "edges_passes", "solutions again with -edges deferred", 1, &passes, NULL));
-  PetscCall(SamOptionsBool(&from, "contact_spots", "number of spots of contact and mean gap of each step", &spots, NULL));
+  PetscCall(
+    SamOptionsBool(&from, "contact_spots", "number of spots of contact and mean gap of each step", &spots, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamContactSetCoupling(c, coupling ? PETSC_TRUE : PETSC_FALSE, rtol, max_it));
   PetscCall(SamContactSetWarmStart(c, warm));
@@ -357,8 +359,8 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(PetscMemzero(step, sizeof(*step)));
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS * SAM_COMPONENTS; k++) (&step->stiffness[0][0][0])[k] = NAN;
   step->spots = step->gap_mean = NAN;
-  step->control             = given;
-  c->tried.solution.control = given;
+  step->control                = given;
+  c->tried.solution.control    = given;
   PetscCall(SamProblemGetGapRevision(c->problem, &c->tried.gap_revision));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
   PetscCall(SamContactPredict(c, &given, &start));

@@ -33,9 +33,9 @@ struct _n_SamContact {
   SamProfile          profile;       /* of the pressure along its edge; NULL until needed */
   SamShearProfile     shear_profile; /* likewise */
   /* its states */
-  PetscInt       steps;     /* number of committed steps */
-  SamContactMark committed; /* after the last of them */
-  SamSolution    before;    /* one step back: tractions only */
+  PetscInt       steps;                  /* number of committed steps */
+  SamContactMark committed;              /* after the last of them */
+  SamSolution    before;                 /* one step back: tractions only */
   Vec            sums[SAM_CONTACT_SUMS]; /* over the committed steps; NULL: not kept */
   SamContactMark tried;
   PetscBool      has_tried;

@@ -90,7 +90,7 @@ enum { SPOTS, FIRST, LAST, COUNTS }; /* of a rank: its spots, and the runs that 
 static PetscErrorCode Tell(SamGrid grid, Run runs[], const PetscInt64 start[], PetscInt64 told[COUNTS], Run **list)
 {
   const PetscInt64 n = start[grid->rows], last = grid->rows ? start[grid->rows - 1] : 0;
-  PetscInt64      *place, count = 0;
+  PetscInt64      *place, count                = 0;
 
   PetscFunctionBegin;
   told[FIRST] = grid->rows ? start[1] : 0;
@@ -137,7 +137,8 @@ static PetscErrorCode CountRanksWithRows(SamGrid grid, PetscMPIInt *ranks)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Gather(SamGrid grid, PetscBool wrap, const PetscInt64 told[COUNTS], const Run own[], double *spots)
+static PetscErrorCode Gather(SamGrid grid, PetscBool wrap, const PetscInt64 told[COUNTS], const Run own[],
+                             double *spots)
 {
   PetscMPIInt size, rank, ranks, *counts, *starts, total = 0;
   PetscInt64 *all;

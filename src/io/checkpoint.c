@@ -269,8 +269,8 @@ static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, 
   SamParametersWrite(f, rest->parameters);
   SamFileWriteAttribute(f, f->id, "gap_checksum", H5T_STD_U64LE, H5T_NATIVE_UINT64, 1, &gap);
   for (PetscInt k = 0; k < rest->n; k++)
-    SamFileWriteAttribute(f, f->id, rest->notes[k].name, H5T_STD_U64LE, H5T_NATIVE_UINT64, rest->notes[k].count,
-                          rest->notes[k].values);
+    SamFileWriteAttribute(f, f->id, rest->notes[k].name, H5T_STD_U64LE, H5T_NATIVE_UINT64,
+                          PetscAbsInt(rest->notes[k].count), rest->notes[k].values);
   WriteNumbers(f, state);
   for (PetscInt k = 0; k < KEPT; k++)
     if (IsKept(state, k)) PetscCall(WriteField(f, kept[k].name, kept[k].components, *FieldOf(state, k)));
@@ -427,6 +427,17 @@ static PetscErrorCode DestroyContent(Content *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ReadNote(SamFile f, const SamNote *note)
+{
+  const PetscInt count = PetscAbsInt(note->count);
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(note->values, count));
+  if (note->count > 0 || SamFileNote(f, H5Aexists(f->id, note->name)) > 0)
+    SamFileReadAttribute(f, f->id, note->name, H5T_NATIVE_UINT64, count, note->values);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadAll(SamFile f, const Rest *rest, Content *c)
 {
   char      message[256] = "";
@@ -437,9 +448,7 @@ static PetscErrorCode ReadAll(SamFile f, const Rest *rest, Content *c)
   PetscCall(IsUsable(f, rest->parameters, message, sizeof(message), &good));
   if (!f->failed && good) {
     SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, &c->gap);
-    for (PetscInt k = 0; k < rest->n; k++)
-      SamFileReadAttribute(f, f->id, rest->notes[k].name, H5T_NATIVE_UINT64, rest->notes[k].count,
-                           rest->notes[k].values);
+    for (PetscInt k = 0; k < rest->n; k++) PetscCall(ReadNote(f, &rest->notes[k]));
     ReadNumbers(f, &c->state);
     PetscCall(ReadFields(f, &c->state));
     if (rest->wear) PetscCall(ReadField(f, "wear_load", 1, &c->load));

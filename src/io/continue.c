@@ -110,14 +110,19 @@ static void CompareBranches(SamOutput o, const Wanted *wanted, Found *found)
 /* Examines a file that is open. */
 static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
 {
-  hsize_t steps, cycles;
-  char    text[192];
+  hsize_t     steps, cycles;
+  char        text[192];
+  const char *missing;
 
   PetscFunctionBegin;
   SamOutputOpenLayout(o);
   if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (SamParametersDiffer(o->f, wanted->parameters, text, sizeof(text))) Complain(found, SAM_ERR_USER, text);
   CompareBranches(o, wanted, found);
+  PetscCall(SamOutputFindMissing(o, &missing));
+  if (missing)
+    (void)snprintf(text, sizeof(text), "it has %s, a sum over all steps, and the checkpoint has not", missing);
+  if (missing) Complain(found, SAM_ERR_USER, text);
   CountSteps(o, found);
   if (o->f->failed || found->code) PetscFunctionReturn(PETSC_SUCCESS);
   steps  = found->rows[SAM_SERIES_HISTORY];
@@ -398,7 +403,7 @@ static PetscErrorCode WriteCopy(SamOutput from, const SamOutputSettings *set, co
   PetscErrorCode    ierr;
 
   PetscFunctionBegin;
-  plain.xdmf = PETSC_FALSE;
+  plain.xdmf   = PETSC_FALSE;
   plain.single = from->set.single;
   PetscCall(PetscArraycpy(plain.fields, from->set.fields, SAM_OUTPUT_MOST));
   for (PetscInt k = 0; k < SAM_OUTPUT_OPTIONS; k++) plain.with[k] = set->with[k] || Has(from, k);

@@ -110,6 +110,13 @@ static int CheckContent(int file, SamFileUse use)
 
 /* ---- space ---- */
 
+static off_t SizeOf(int file)
+{
+  struct stat status;
+
+  return fstat(file, &status) ? -1 : status.st_size;
+}
+
 /* Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer, else it is as before. */
 static int Reserve(int file, off_t bytes, PetscBool keep)
 {
@@ -128,14 +135,28 @@ static int Reserve(int file, off_t bytes, PetscBool keep)
   return keep && ftruncate(file, status.st_size + bytes) ? errno : 0;
 }
 
-static int ReserveInFile(const char filename[], off_t bytes)
+static int ReserveInFile(SamFile f, off_t bytes)
 {
-  const int file = open(filename, O_WRONLY);
+  const int file  = open(f->filename, O_WRONLY);
+  off_t     begin = 0;
   int       error;
 
   if (file < 0) return errno;
+  begin = SizeOf(file);
   error = Reserve(file, bytes, PETSC_TRUE);
+  if (!error) {
+    f->reserved_begin = begin;
+    f->reserved_end   = begin + bytes;
+  }
   return close(file) && !error ? errno : error;
+}
+
+off_t SamFileFindUnused(SamFile f)
+{
+  struct stat status;
+
+  return !stat(f->filename, &status) && f->reserved_end > 0 && status.st_size == f->reserved_end ? f->reserved_begin
+                                                                                                 : -1;
 }
 
 PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
@@ -143,7 +164,7 @@ PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
   int error = 0;
 
   PetscFunctionBegin;
-  if (f->rank == 0) error = ReserveInFile(f->filename, SAM_FILE_METADATA + bytes);
+  if (f->rank == 0) error = ReserveInFile(f, SAM_FILE_METADATA + bytes);
   PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -197,13 +218,6 @@ static int CheckPlace(const char filename[], SamFileUse use)
   if (stat(filename, &status)) return errno == ENOENT ? 0 : errno;
   if (S_ISDIR(status.st_mode)) return EISDIR;
   return S_ISREG(status.st_mode) ? 0 : NOT_A_FILE;
-}
-
-static off_t SizeOf(int file)
-{
-  struct stat status;
-
-  return fstat(file, &status) ? -1 : status.st_size;
 }
 
 void SamHoldRelease(const char filename[], SamHold *hold)

@@ -262,24 +262,25 @@ PetscBool SamOutputSettingsHas(const SamOutputSettings *set, const char name[])
   return f < SamOutputFieldCount ? SamOutputWantsField(set, f) : PETSC_FALSE;
 }
 
-PetscErrorCode SamOutputSettingsPrepare(const SamOutputSettings *set, SamContact contact)
+PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact contact)
 {
   PetscFunctionBegin;
+  set->contact = contact;
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
     if (set->fields[f] && SamOutputFields[f].compute == ComputeSum)
       PetscCall(SamContactKeepSum(contact, (SamContactSum)SamOutputFields[f].component));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputFindMissing(SamOutput o, SamContact contact, const char **name)
+PetscErrorCode SamOutputFindMissing(SamOutput o, const char **name)
 {
   PetscFunctionBegin;
   *name = NULL;
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+  for (PetscInt f = 0; f < SamOutputFieldCount && o->set.contact; f++) {
     Vec sum;
 
     if (!o->set.fields[f] || SamOutputFields[f].compute != ComputeSum) continue;
-    PetscCall(SamContactGetSum(contact, (SamContactSum)SamOutputFields[f].component, &sum));
+    PetscCall(SamContactGetSum(o->set.contact, (SamContactSum)SamOutputFields[f].component, &sum));
     if (!sum) *name = SamOutputFields[f].label.name;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -25,9 +25,10 @@ struct _n_SamFile {
   PetscMPIInt rank;
   hid_t       id, transfer; /* the file; property list for collective transfer */
   /* status */
-  PetscBool   failed;      /* on this rank; on all after SamFileEnd() or SamFileAgree() */
-  char        reason[256]; /* of the first failure */
-  H5E_auto2_t print;       /* HDF5's own error output, to be restored by SamFileEnd() */
+  off_t       reserved_begin, reserved_end; /* on rank 0: the part that was reserved last */
+  PetscBool   failed;                       /* on this rank; on all after SamFileEnd() or SamFileAgree() */
+  char        reason[256];                  /* of the first failure */
+  H5E_auto2_t print;                        /* HDF5's own error output, to be restored by SamFileEnd() */
   void       *print_data;
 };
 
@@ -86,9 +87,11 @@ typedef enum {
 PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use);
 /*
   SamFileReserve - allocates disk space for so many bytes and HDF5's metadata: the file becomes longer, and HDF5 cuts
-  off the unused part when it flushes. Collective. Errors: SAM_ERR_FILE.
+  off the unused part when it flushes, unless all of it is unused. Collective. Errors: SAM_ERR_FILE.
+  SamFileFindUnused - where what was reserved last begins, if HDF5 has not cut it off, else -1. On rank 0.
 */
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
+PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
 /*
   SamFileReplace - flushes the finished file `temporary` to the disk and renames it to `filename`. A file of that name
   is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these
@@ -135,7 +138,7 @@ PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold,
 PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
 PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
 
-#define SAM_CHECKPOINT_FORMAT 6   /* version of a checkpoint's contents */
+#define SAM_CHECKPOINT_FORMAT 5   /* version of a checkpoint's contents */
 #define SAM_SEAL              512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
 /*
   SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
@@ -281,8 +284,8 @@ struct _n_SamOutput {
   hid_t           time, point, fields[SAM_OUTPUT_MOST], columns[SAM_SERIES][SAM_OUTPUT_MOST];
   signed char    *states;  /* of this rank's cells */
   float          *singles; /* the same; NULL until fields in single precision are written */
-  Vec             work;   /* for fields that are computed; NULL until the first one */
-  SamOutputPoints points; /* of the edge that is being written */
+  Vec             work;    /* for fields that are computed; NULL until the first one */
+  SamOutputPoints points;  /* of the edge that is being written */
   /* status */
   SamStep  *waiting;          /* load steps that are not in the file yet, room for SAM_OUTPUT_WAIT; NULL until needed */
   PetscInt  waits;            /* number of these */
@@ -315,6 +318,12 @@ PETSC_INTERN off_t SamOutputFieldBytes(SamGrid grid, const SamOutputSettings *se
 PETSC_INTERN void SamOutputCreateVTK(SamOutput output);
 PETSC_INTERN void SamOutputOpenVTK(SamOutput output);
 PETSC_INTERN void SamOutputCountVTK(SamOutput output, hsize_t saved);
+
+/*
+  SamOutputFindMissing - the name of a field of the file that the contact of the settings cannot give, NULL for none: a
+  sum over the steps that it does not keep. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamOutputFindMissing(SamOutput output, const char **name);
 
 /*
   SamStructureSeal - seals a results file that has been closed: notes a checksum of its structure at its end.

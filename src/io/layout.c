@@ -154,8 +154,8 @@ static PetscErrorCode CreateFields(SamOutput o)
       points       = PETSC_TRUE;
       continue;
     }
-    o->fields[f] = SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field, o->set.single), &shape,
-                                        o->set.compress);
+    o->fields[f] =
+      SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field, o->set.single), &shape, o->set.compress);
     if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
     for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
   }

@@ -45,8 +45,8 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, from->comm, SAM_ERR_USER,
              "-%soutput_compress %" PetscInt_FMT ": this HDF5 was built without zlib", prefix, set->compress);
   PetscCall(SamOptionsIntPair(from, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
-  PetscCall(SamOptionsBool(from, "output_single", "fields in single precision: files of half the size", &set->single,
-                           NULL));
+  PetscCall(
+    SamOptionsBool(from, "output_single", "fields in single precision: files of half the size", &set->single, NULL));
   PetscCall(
     SamOptionsBool(from, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);

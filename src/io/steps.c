@@ -1,9 +1,9 @@
 /*
   Load steps and computed cycles, appended to a results file.
 
-  Steps without fields wait in memory, so that many are written at once, column by column. Written one by one, with the
-  file made complete after each, they took more time than small steps take to solve. What waits is written with the next
-  fields, when there is a chunk of it, after INTERVAL, and before a checkpoint.
+  Where the settings allow it, steps without fields wait in memory, so that many are written at once, column by column.
+  Written one by one, with the file made complete after each, they took 29 % of a run of 10,000 steps of 128 x 128 cells
+  that saved the fields of every 1,000th, and wait for the disk where other programs write; now 1 to 3 %.
 
   Disk space is reserved before any of it is written.
 */
@@ -14,21 +14,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define INTERVAL 2.0 /* s that a step waits */
-
 /* ---- on rank 0 ---- */
 
 /*
-  Sets the end of data in the superblock to the end of the file, before HDF5 flushes its metadata. HDF5 itself updates
+  Sets the end of data in the superblock, to the end of the file before HDF5 flushes its metadata. HDF5 itself updates
   the superblock last. A run killed in between would leave metadata that point beyond the recorded end, and earlier
   steps, too, would be lost. The space of a step is reserved before, so all of its data lie within the file. Version 0
   of the superblock has no checksum, and the end of data at byte 40 (HDF5 file format specification, II.A); other
-  versions are left to HDF5. Returns an errno or 0.
+  versions are left to HDF5. `end_of_data` < 0: the end of the file. Returns an errno or 0.
 */
 #define SUPERBLOCK_VERSION 8  /* byte: version of the superblock */
 #define SUPERBLOCK_OFFSETS 13 /* byte: size of an address, in bytes */
 #define SUPERBLOCK_END     40 /* byte: first of the end of data */
-static int MoveEnd(const char filename[])
+static int MoveEnd(const char filename[], off_t end_of_data)
 {
   const int     file = open(filename, O_RDWR);
   unsigned char start[SUPERBLOCK_END], end[8];
@@ -40,10 +38,22 @@ static int MoveEnd(const char filename[])
   if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status))
     error = errno;
   else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
-    for (unsigned k = 0; k < sizeof(end); k++) end[k] = (unsigned char)((uint64_t)status.st_size >> 8 * k & 0xff);
+    for (unsigned k = 0; k < sizeof(end); k++)
+      end[k] = (unsigned char)((uint64_t)(end_of_data < 0 ? status.st_size : end_of_data) >> 8 * k & 0xff);
     if (pwrite(file, end, sizeof(end), SUPERBLOCK_END) != (ssize_t)sizeof(end)) error = errno;
   }
   return close(file) && !error ? errno : error;
+}
+
+/*
+  Cuts off what was reserved for steps that fitted into the file as it was: HDF5 does so only where its data have grown.
+  The end of data goes first, which must never lie beyond the file.
+*/
+static void CutUnused(SamOutput o)
+{
+  const off_t unused = o->f->rank == 0 && !o->copying ? SamFileFindUnused(o->f) : -1;
+
+  if (unused > 0 && !MoveEnd(o->f->filename, unused)) (void)!truncate(o->f->filename, unused);
 }
 
 /* Makes the file complete up to here: first sets its end of data, then lets HDF5 write its metadata. */
@@ -54,7 +64,7 @@ static PetscErrorCode Flush(SamOutput o)
   PetscFunctionBegin;
   PetscCall(SamFileAgree(o->f)); /* a step that failed on any rank must not be flushed */
   if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (o->f->rank == 0) error = MoveEnd(o->f->filename);
+  if (o->f->rank == 0) error = MoveEnd(o->f->filename, -1);
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->f->grid->comm)); /* no rank flushes before the end is set */
   if (error) {
     o->f->failed = PETSC_TRUE;
@@ -71,8 +81,8 @@ static PetscErrorCode Flush(SamOutput o)
 static void Append(SamOutput o, hid_t dataset, hid_t type, hsize_t index, hsize_t count, hsize_t n, const void *numbers)
 {
   const hsize_t size[3] = {index + count, n, n}, start[3] = {index, 0, 0}, block[3] = {count, n, n};
-  const hsize_t all     = count * n * n;
-  const hid_t   memory  = SamFileNote(o->f, H5Screate_simple(1, &all, NULL));
+  const hsize_t all    = count * n * n;
+  const hid_t   memory = SamFileNote(o->f, H5Screate_simple(1, &all, NULL));
   hid_t         space;
 
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
@@ -218,6 +228,7 @@ static PetscErrorCode End(SamOutput o)
   ierr = SamFileEnd(o->f);
   if (ierr) o->broken = PETSC_TRUE;
   PetscCall(ierr);
+  CutUnused(o);
   SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -225,11 +236,11 @@ static PetscErrorCode End(SamOutput o)
 /* Whether no more may wait, by rank 0's clock. */
 static PetscErrorCode IsDue(SamOutput o, PetscBool *due)
 {
-  int late = o->waits == SAM_OUTPUT_WAIT;
+  int late = o->waits == SAM_OUTPUT_WAIT || (o->set.flush == 0 && !o->copying);
 
   PetscFunctionBegin;
   if (!late && !o->copying) {
-    late = MPI_Wtime() - o->flushed >= INTERVAL;
+    late = MPI_Wtime() - o->flushed >= (double)o->set.flush;
     PetscCallMPI(MPI_Bcast(&late, 1, MPI_INT, 0, o->f->grid->comm));
   }
   *due = late ? PETSC_TRUE : PETSC_FALSE;

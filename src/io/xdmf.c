@@ -122,7 +122,11 @@ static char *StepText(SamXdmf x, long step, double time, size_t *length)
     const PetscBool state = SamOutputFields[f].kind == SAM_FIELD_STATE ? PETSC_TRUE : PETSC_FALSE;
 
     if (!SamOutputWantsField(&x->set, f) || SamOutputFields[f].kind == SAM_FIELD_POINTS) continue;
-    PrintField(x, &text, length, SamOutputFields[f].label.name, state ? "Char" : "Float", state ? 1 : x->set.single ? 4 : 8, step);
+    PrintField(x, &text, length, SamOutputFields[f].label.name, state ? "Char" : "Float",
+               state           ? 1
+               : x->set.single ? 4
+                               : 8,
+               step);
   }
   Print(&text, length, "      </Grid>\n%s", tail);
   return text;

@@ -109,7 +109,8 @@ def small_disk(folder):
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_full_disk_ends_the_run(launcher, small_disk, ranks):
-    code, steps, complaint = ended(start(launcher, small_disk, ranks))
+    code, steps, (warning, *complaint) = ended(start(launcher, small_disk, ranks))
+    assert "warning: -output out/out.h5: needs about" in warning
     assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0] and "No space left" in complaint[0]
     assert steps >= 10
     assert_intact(small_disk / "out" / "out.h5", steps)

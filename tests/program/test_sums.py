@@ -1,0 +1,149 @@
+"""Fields that are sums over all steps: the path of the slip and the work of friction, saved or not."""
+
+from math import cos, sin
+
+import h5py
+import numpy as np
+import pytest
+
+from kill_at_random import differences
+from support import SPHERE, ball
+from test_wear import BALL, cycle
+
+CASE = dict(SPHERE, load_n=None, grid_n=40, history="history.csv", output="out.h5")
+SUMS = dict(output_fields="slip_path,friction_energy")
+STEPS = 14
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Along a curve, with a normal load that changes, to where much slips and back."""
+    t = [k / 2 for k in range(STEPS)]
+    rows = [f"{k + 1}, {1000 + 150 * sin(s)!r}, {70 * sin(s)!r}, {50 * cos(s)!r}" for k, s in enumerate(t)]
+    (tmp_path / "history.csv").write_text("time, load_n, load_tx, load_ty\n" + "\n".join(rows) + "\n")
+    return tmp_path
+
+
+def summed(path, friction):
+    """Both sums after each step, by the fields of every step."""
+    with h5py.File(path) as f:
+        p, q = f["pressure"][:], np.stack((f["shear_x"], f["shear_y"]))
+        slip, slips = np.stack((f["slip_x"], f["slip_y"])), f["state"][:] == 2
+    ds = np.diff(slip, axis=1, prepend=0)
+    before = np.concatenate((p[:1], p[:-1]))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        work = np.where(slips, -(q * ds).sum(axis=0) * 0.5 * (before + p) / p, 0)
+    return np.cumsum(np.hypot(*ds), axis=0), np.cumsum(work, axis=0)
+
+
+def sums(path):
+    with h5py.File(path) as f:
+        return f["slip_path"][:], f["friction_energy"][:]
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_sums_are_over_all_steps_saved_or_not(folder, petsam, ranks):
+    petsam(CASE, dict(output="all.h5"))
+    petsam(CASE, SUMS, dict(output_every=5), ranks=ranks)
+    expected = summed(folder / "all.h5", CASE["friction"])
+    saved = [4, 9, 13]
+    for found, known in zip(sums(folder / "out.h5"), expected):
+        assert np.allclose(found, known[saved], rtol=0, atol=1e-12 * known.max()) and known.max() > 0
+    with h5py.File(folder / "out.h5") as f:
+        assert f["slip_path"].attrs["units"] == "m" and f["friction_energy"].attrs["units"] == "J/m2"
+        area = np.diff(f["x"])[0] * np.diff(f["y"])[0]
+        work = np.cumsum(f["history/dissipated_energy"])[saved]
+        assert f["friction_energy"][:].sum(axis=(1, 2)) * area == pytest.approx(work, rel=1e-4)
+
+
+@pytest.mark.parametrize("before, after", [(1, 1), (2, 3)])
+def test_sums_go_on_after_a_restart(folder, petsam, before, after):
+    """To the last bit; also in a branch, and where they are not asked for again."""
+    kept = dict(checkpoint="state.h5", checkpoint_every=6)
+    petsam(CASE, SUMS, dict(output="whole.h5"))
+    petsam(CASE, SUMS, kept, ranks=before)
+    with h5py.File(folder / "out.h5", "a") as f:
+        f.attrs["closed"] = np.int8(0)
+    petsam(CASE, dict(restart="state.h5", output_fields=None), ranks=after)
+    assert not differences(folder / "out.h5", folder / "whole.h5")
+    petsam(CASE, SUMS, dict(restart="state.h5.1", output="branch.h5"), ranks=after)
+    for found, known in zip(sums(folder / "branch.h5"), sums(folder / "whole.h5")):
+        assert np.array_equal(found, known[6:])
+
+
+def test_sums_cannot_begin_in_the_middle(folder, petsam):
+    petsam(CASE, dict(output_fields="pressure", checkpoint="state.h5", checkpoint_every=6))
+    done = petsam(CASE, SUMS, dict(restart="state.h5", output="branch.h5"), check=2)
+    assert "-restart state.h5" in done.complaint[0] and "slip_path is a sum over all steps" in done.complaint[0]
+    assert not (folder / "branch.h5").exists()
+
+
+def test_results_with_sums_need_a_checkpoint_with_sums(folder, petsam):
+    petsam(CASE, dict(output_fields="pressure", checkpoint="state.h5", checkpoint_every=6))
+    petsam(CASE, SUMS)
+    before = (folder / "out.h5").read_bytes()
+    done = petsam(CASE, dict(output_fields="pressure", restart="state.h5.1"), check=2)
+    assert "-output out.h5" in done.complaint[0] and "friction_energy" in done.complaint[0]
+    assert (folder / "out.h5").read_bytes() == before
+
+
+def test_sums_are_kept_only_where_they_are_asked_for(folder, petsam):
+    for fields, there in (("pressure", False), ("slip_path", True)):
+        petsam(CASE, dict(output_fields=fields, checkpoint="state.h5", checkpoint_every=6))
+        with h5py.File(folder / "state.h5") as f:
+            assert ("slip_path" in f) == there and "friction_energy" not in f
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_sums_of_a_life_are_those_of_its_cycles(tmp_path, petsam, ranks):
+    """With no wear to speak of all cycles are the same: after n of them the sums are n times those of one."""
+    life = dict(cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-30, wear_cycles=1e4, wear_output=0)
+    petsam(BALL, life, SUMS, dict(output="life.h5"), ranks=ranks)
+    for found in sums(tmp_path / "life.h5"):
+        assert len(found) == 16
+        one, after = found[7], found[15]  # the end of the first cycle, of the one after 1e4
+        assert np.allclose(one, (after - one) / 1e4, rtol=0, atol=1e-3 * one.max()) and one.max() > 0
+    # the same cycle twice, step by step
+    rows = (tmp_path / "cycle.csv").read_text().splitlines()
+    t, z, x = np.array([[float(v) for v in row.split(",")] for row in rows[1:]]).T
+    columns = (np.append(t, t[1:] + 1), np.append(z, z[1:]), np.append(x, x[1:]))
+    twice = [",".join(map(repr, row)) for row in np.transpose(columns).tolist()]
+    (tmp_path / "twice.csv").write_text("\n".join([rows[0], *twice]) + "\n")
+    petsam(BALL, dict(history="twice.csv", output="direct.h5"), SUMS)
+    for found, direct in zip(sums(tmp_path / "life.h5"), sums(tmp_path / "direct.h5")):
+        second = direct[-1] - direct[len(t) - 1]
+        assert np.allclose((found[15] - found[7]) / 1e4, second, rtol=0, atol=1e-3 * second.max())
+
+
+def test_sums_of_a_life_go_on_after_a_restart(tmp_path, petsam):
+    life = dict(cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-14, wear_cycles=1e5, **SUMS)
+    petsam(BALL, life, dict(output="whole.h5", checkpoint="state.h5", checkpoint_every=1))
+    petsam(BALL, life, dict(output="branch.h5", restart="state.h5.1"))
+    with h5py.File(tmp_path / "branch.h5") as one, h5py.File(tmp_path / "whole.h5") as two:
+        rows = len(one["wear/cycle"])
+        assert 0 < rows < len(two["wear/cycle"])
+        for name in ("cycle", "volume2", "error"):
+            assert np.array_equal(one[f"wear/{name}"][:], two[f"wear/{name}"][-rows:])
+        assert one.attrs["branch_cycles"] > 0
+        for name in ("slip_path", "friction_energy"):
+            assert np.array_equal(one[name][-1], two[name][-1])
+
+
+def test_embedded_contact_keeps_sums_by_an_option():
+    import petsam
+
+    options = {name: value for name, value in ball(24).items() if name not in ("load_n", "output_fields")}
+    with petsam.Contact(**options, sum_slip_path=True) as contact:
+        path, before = 0.0, 0.0
+        for tx in (5.0, 20.0, -10.0):
+            contact.try_step(load_n=180.0, load_tx=40.0 if tx == 20.0 else tx)
+            contact.reject()
+            contact.try_step(load_n=180.0, load_tx=tx)
+            slip = np.stack((contact["slip_x"], contact["slip_y"]))
+            path = path + np.hypot(*(slip - before))
+            assert np.allclose(contact["slip_path"], path, rtol=1e-12, atol=0)
+            contact.commit()
+            assert np.allclose(contact["slip_path"], path, rtol=1e-12, atol=0)
+            before = slip
+        with pytest.raises(petsam.ContactError, match="friction_energy"):
+            contact.field("friction_energy")
