@@ -159,9 +159,9 @@ PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
 /*
   SamContactSetFromOptions - reads -coupling (full or none), -coupling_rtol, -coupling_max_it, -warm_start,
-  -allow_edge_contact, -edges, -edges_passes, -contact_spots, -sum_slip_path and -sum_friction_energy, which mirror the functions below; -coupling_monitor (prints the change
-  after each pass); -contact_check (prints the errors of each step); and the options of both solvers. Collective.
-  Errors: SAM_ERR_USER.
+  -allow_edge_contact, -edges, -edges_passes, -contact_spots, -sum_slip_path and -sum_friction_energy, which mirror the
+  functions below; -coupling_monitor (prints the change after each pass); -contact_check (prints the errors of each
+  step); and the options of both solvers. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 /*

@@ -134,8 +134,9 @@ PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
   SamOutputWriteStep - appends the numbers of a step to /history and, when `contact` is not NULL, its time and the
   fields of the contact's solution (SamContactGetSolution()). Then the file is complete up to here, whatever happens
   later; but where the settings allow it, steps without fields wait in memory, since many are written in the time of
-  one: for so long, if steps go on to be written, or until there is a chunk of them. Collective. Errors: SAM_ERR_FILE, also when another program has replaced the file, or
-  changed its size, since it was written last. When there is no space, nothing is written and the file can be closed.
+  one: for so long, if steps go on to be written, or until there is a chunk of them. Collective. Errors: SAM_ERR_FILE,
+  also when another program has replaced the file, or changed its size, since it was written last. When there is no
+  space, nothing is written and the file can be closed.
   When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and the program
   should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
   SamOutputFlush - writes the steps that wait. Collective. Errors: as SamOutputWriteStep().

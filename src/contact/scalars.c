@@ -4,10 +4,10 @@
 #include <math.h>
 
 /*
-  Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of the tractions on
-  the displacements, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips while its
-  pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over steps second
-  order. Before the first step there is no bound; its pressure counts as there before its slip.
+  Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of
+  the tractions on the displacements, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
+  while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
+  steps second order. Before the first step there is no bound; its pressure counts as there before its slip.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */

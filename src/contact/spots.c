@@ -2,8 +2,8 @@
   Numbers of rough contact: its spots, and the mean gap.
 
   A spot is a zone of cells in contact that are connected by their sides. Within a rank, the runs of cells in contact of
-  each row are joined with those of the row before that they touch (Hoshen and Kopelman 1976, Phys. Rev. B 14, 3438, with
-  runs for cells). Rank 0 gets the runs of each rank's first and last row and joins them over the ranks' borders.
+  each row are joined with those of the row before that they touch (Hoshen and Kopelman 1976, Phys. Rev. B 14, 3438,
+  with runs for cells). Rank 0 gets the runs of each rank's first and last row and joins them over the ranks' borders.
 */
 #include "contactimpl.h"
 
@@ -27,7 +27,7 @@ static PetscInt64 Join(Run runs[], PetscInt64 a, PetscInt64 b)
   return one != other;
 }
 
-/* Joins runs a ... a_end - 1 of a row with those of the next one, each in order; returns how many spots fewer there are. */
+/* Joins runs a ... a_end - 1 of a row with those of the next one, in order; returns how many spots fewer there are. */
 static PetscInt64 JoinRows(Run runs[], PetscInt64 a, PetscInt64 a_end, PetscInt64 b, PetscInt64 b_end)
 {
   PetscInt64 fewer = 0;

@@ -1,8 +1,7 @@
 /*
   The state of a contact in a file: SamContactState, the parameters that define the contact, and a program's notes.
 
-  The fields are datasets of shape (components, ny, nx). All else is stored as attributes of the root group. The whole
-  file is sealed with a checksum (seal.c).
+  The fields are datasets (components, ny, nx), all else attributes of the root group; all is sealed (seal.c).
 */
 #include "ioimpl.h"
 #include <petsam/checkpoint.h>
@@ -66,28 +65,6 @@ struct _n_SamCheckpoint {
   char   *filename, *before, *temporary;
   SamHold hold; /* of the temporary file */
 };
-
-/* ---- checksums ---- */
-
-/* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
-PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum)
-{
-  const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,
-                 first = (uint64_t)grid->nx * (uint64_t)grid->row_start;
-  const PetscScalar *values;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  *checksum = 0;
-  PetscCall(VecGetLocalSize(field, &n));
-  PetscCall(VecGetArrayRead(field, &values));
-  for (PetscInt k = 0; k < n; k++)
-    *checksum += SamHashMix(SamHashBits(values[k]) +
-                            SamHashMix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
-  PetscCall(VecRestoreArrayRead(field, &values));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, checksum, 1, MPI_UINT64_T, MPI_SUM, grid->comm));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* ---- the state as numbers ---- */
 
@@ -458,7 +435,7 @@ static PetscErrorCode ReadAll(SamFile f, const Rest *rest, Content *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads a checkpoint. The caller destroys the content, also after an error. */
+/* The caller destroys the content, also after an error. */
 static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *rest, Content *c)
 {
   SamFile        f;

@@ -341,36 +341,6 @@ static PetscErrorCode CopyCycles(SamOutput from, hsize_t cycles, SamOutput to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps the command line of the first run, and what it says of the results that it follows. */
-static PetscErrorCode CopyAttributes(SamOutput from, SamOutput to)
-{
-  static const char *const texts[]   = {"options", "branch_checkpoint", "branch_results", "branch_gap", NULL};
-  static const char *const numbers[] = {SAM_OUTPUT_BRANCH, "branch_cycles", NULL};
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; texts[k]; k++) {
-    char *text = NULL;
-
-    PetscCall(SamFileBegin(from->f));
-    if (SamFileNote(from->f, H5Aexists(from->f->id, texts[k])) > 0)
-      SamFileReadTextAttribute(from->f, from->f->id, texts[k], &text);
-    PetscCall(SamFileEnd(from->f));
-    if (text) PetscCall(SamOutputSetText(to, texts[k], text));
-    PetscCall(PetscFree(text));
-  }
-  for (PetscInt k = 0; numbers[k]; k++) {
-    double    number;
-    PetscBool has = PETSC_FALSE;
-
-    PetscCall(SamFileBegin(from->f));
-    has = SamFileNote(from->f, H5Aexists(from->f->id, numbers[k])) > 0 ? PETSC_TRUE : PETSC_FALSE;
-    if (has) SamFileReadAttribute(from->f, from->f->id, numbers[k], H5T_NATIVE_DOUBLE, 1, &number);
-    PetscCall(SamFileEnd(from->f));
-    if (has) PetscCall(SamOutputSetReals(to, numbers[k], 1, &number));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep, SamOutput to)
 {
   double        *cells;
@@ -378,7 +348,7 @@ static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep
 
   PetscFunctionBegin;
   PetscCall(SamOutputSetParameters(to, wanted->parameters));
-  PetscCall(CopyAttributes(from, to));
+  PetscCall(SamOutputCopyOrigin(from, to));
   PetscCall(SamFileReserve(to->f, (off_t)keep * SamOutputFieldBytes(to->f->grid, &to->set) +
                                     (off_t)(wanted->point.steps + wanted->point.cycles) * STEP_BYTES));
   to->copying = PETSC_TRUE;

@@ -339,6 +339,11 @@ PETSC_INTERN PetscBool SamStructureIsSealed(const char filename[]);
 PETSC_INTERN hsize_t SamOutputLength(SamOutput output, hid_t dataset);
 PETSC_INTERN void    SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t type, hsize_t first, hsize_t count,
                                          void *values);
+/*
+  SamOutputCopyOrigin - copies the command line of the first run, and what the file says of the results that it follows.
+  Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to);
 /* SamOutputAllocate - an object that takes over an open file; no dataset is open yet. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output);
 /*

@@ -105,3 +105,32 @@ PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char m
   }
   return PETSC_FALSE;
 }
+
+PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to)
+{
+  static const char *const texts[]   = {"options", "branch_checkpoint", "branch_results", "branch_gap", NULL};
+  static const char *const numbers[] = {SAM_OUTPUT_BRANCH, "branch_cycles", NULL};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; texts[k]; k++) {
+    char *text = NULL;
+
+    PetscCall(SamFileBegin(from->f));
+    if (SamFileNote(from->f, H5Aexists(from->f->id, texts[k])) > 0)
+      SamFileReadTextAttribute(from->f, from->f->id, texts[k], &text);
+    PetscCall(SamFileEnd(from->f));
+    if (text) PetscCall(SamOutputSetText(to, texts[k], text));
+    PetscCall(PetscFree(text));
+  }
+  for (PetscInt k = 0; numbers[k]; k++) {
+    double    number;
+    PetscBool has = PETSC_FALSE;
+
+    PetscCall(SamFileBegin(from->f));
+    has = SamFileNote(from->f, H5Aexists(from->f->id, numbers[k])) > 0 ? PETSC_TRUE : PETSC_FALSE;
+    if (has) SamFileReadAttribute(from->f, from->f->id, numbers[k], H5T_NATIVE_DOUBLE, 1, &number);
+    PetscCall(SamFileEnd(from->f));
+    if (has) PetscCall(SamOutputSetReals(to, numbers[k], 1, &number));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -6,6 +6,7 @@
   its place; the sum of the hashes does not depend on which rank took which block.
 */
 #include "ioimpl.h"
+#include <petsam/checkpoint.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
@@ -130,5 +131,27 @@ PetscErrorCode SamSealCheck(SamGrid grid, const char option[], const char filena
     PetscCallMPI(MPI_Bcast(text, (PetscMPIInt)sizeof(text), MPI_CHAR, 0, grid->comm));
   }
   PetscCheck(!text[0], grid->comm, SAM_ERR_FILE, "-%s %s: cannot be read: %s", option, filename, text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- of a field ---- */
+
+/* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
+PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum)
+{
+  const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,
+                 first = (uint64_t)grid->nx * (uint64_t)grid->row_start;
+  const PetscScalar *values;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  *checksum = 0;
+  PetscCall(VecGetLocalSize(field, &n));
+  PetscCall(VecGetArrayRead(field, &values));
+  for (PetscInt k = 0; k < n; k++)
+    *checksum += SamHashMix(SamHashBits(values[k]) +
+                            SamHashMix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
+  PetscCall(VecRestoreArrayRead(field, &values));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, checksum, 1, MPI_UINT64_T, MPI_SUM, grid->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

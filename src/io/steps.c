@@ -155,7 +155,7 @@ static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *valu
   SamFileWriteLayer(o->f, dataset, type, o->saved, values);
 }
 
-/* In single precision. Converted here: HDF5 would have each rank write by itself, which compressed fields do not allow. */
+/* In single precision, made here: HDF5 would have each rank write by itself, which compressed fields do not allow. */
 static void AppendSingle(SamOutput o, hid_t dataset, const double values[])
 {
   for (PetscInt k = 0; k < o->f->grid->cells; k++) o->singles[k] = (float)values[k];

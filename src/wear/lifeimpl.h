@@ -39,8 +39,8 @@ struct _n_SamLife {
 };
 
 /*
-  What a contact sums over its steps (SamContactKeepSum()) is, in a life, that of all cycles so far and of this one up to
-  the step. A jump adds that of the cycle in its middle, times its cycles, which is of second order as the wear is.
+  What a contact sums over its steps (SamContactKeepSum()) is, in a life, that of all cycles so far and of this one up
+  to the step. A jump adds that of the cycle in its middle, times its cycles, which is of second order as the wear is.
   Cycles that close the loop or are tried do not count.
 
   SamLifeComputeRate - solves the cycle on the problem's gap; `cycles`: so far; `solved`: all of its steps have a
