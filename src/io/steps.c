@@ -53,7 +53,7 @@ static void CutUnused(SamOutput o)
 {
   const off_t unused = o->f->rank == 0 && !o->copying ? SamFileFindUnused(o->f) : -1;
 
-  if (unused > 0 && !MoveEnd(o->f->filename, unused)) (void)!truncate(o->f->filename, unused);
+  if (unused > 0 && o->hold.file >= 0 && !MoveEnd(o->f->filename, unused)) (void)!ftruncate(o->hold.file, unused);
 }
 
 /* Makes the file complete up to here: first sets its end of data, then lets HDF5 write its metadata. */

@@ -1,4 +1,4 @@
-"""Branches of a history: a restart with a new name of the results begins a file of its own, with another gap if asked."""
+"""Branches of a history: a restart with a new name of the results begins a file of its own, with another gap too."""
 
 import re
 import subprocess
@@ -137,7 +137,7 @@ def test_steps_of_a_branch_have_the_numbers_of_the_run(stopped, petsam):
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_another_gap_keeps_the_slip(stopped, petsam, ranks):
-    """The next step is solved on the new gap, from the slip of the checkpoint: its work says so, which no file tells."""
+    """The next step is solved on the new gap, from the slip of the checkpoint: its work says so."""
     done = petsam(CASE, FROM, dict(restart_gap=True, gap_radius1=0.25), ranks=ranks)
     assert "the results begin after step 14, of out.h5, with another gap and the slip so far" in done.stdout
     values, attributes = read(stopped / "branch.h5")

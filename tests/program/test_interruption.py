@@ -270,9 +270,9 @@ def deadly(tmp_path_factory):
     return library
 
 
-def die(deadly, folder, **variables):
+def die(deadly, folder, options=None, **variables):
     """Steps told before the end, and how the run ended."""
-    command = [str(conftest.PROGRAM), *flatten([CASE, dict(grid_n=24)])]
+    command = [str(conftest.PROGRAM), *flatten([CASE, dict(grid_n=24), options or {}])]
     run = subprocess.run(
         command,
         cwd=folder,
@@ -302,3 +302,22 @@ def test_no_write_of_a_step_harms_the_steps_before(deadly, folder):
                 for name in (*FIELDS, "time", *(f"history/{column}" for column in f["history"])):
                     assert len(f[name][:]) >= steps, (n, name)
             assert_intact(folder / "out" / "out.h5", steps)
+
+
+@pytest.mark.parametrize("more", [dict(output_fields="none"), dict(output_every=1000)], ids=["none", "later"])
+def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder, more):
+    """Its space is reserved and, where its numbers fit into the chunks that are there, cut off again."""
+    (folder / "history.csv").write_text("\n".join((folder / "history.csv").read_text().splitlines()[:13]) + "\n")
+    options = dict(more, output_flush=0)
+    die(deadly, folder, options, DIE_LOG="log")
+    writes = len((folder / "log").read_text().split())
+    tried = 0
+    for n in range(writes // 3, writes, max(1, writes // 60)):
+        steps, code = die(deadly, folder, options, DIE_AT=str(n))
+        if code == 0 or not steps:
+            continue
+        tried += 1
+        with h5py.File(folder / "out" / "out.h5") as f:
+            assert f["history/time"][:steps].tolist() == [k + 1.0 for k in range(steps)]
+            assert all(len(column[:]) >= steps for column in f["history"].values())
+    assert tried > 10
