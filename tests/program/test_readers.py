@@ -17,10 +17,11 @@ CASE = dict(
     output_every=2,
 )
 CHUNKED = dict(CASE, output_chunk=(16, 9), output_compress=4)
+SINGLE = dict(CASE, output_single=True)
 SAVED = [0.4, 0.8, 1.0]
 
 
-@pytest.fixture(params=[CASE, CHUNKED], ids=["plain", "chunked and compressed"])
+@pytest.fixture(params=[CASE, CHUNKED, SINGLE], ids=["plain", "chunked and compressed", "single"])
 def path(solve, request):
     return solve(request.param, ranks=2).path
 
