@@ -236,7 +236,7 @@ static PetscErrorCode End(SamOutput o)
 /* Whether no more may wait, by rank 0's clock. */
 static PetscErrorCode IsDue(SamOutput o, PetscBool *due)
 {
-  int late = o->waits == SAM_OUTPUT_WAIT || (o->set.flush == 0 && !o->copying);
+  int late = o->waits == SAM_OUTPUT_WAIT;
 
   PetscFunctionBegin;
   if (!late && !o->copying) {
