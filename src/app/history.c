@@ -11,6 +11,7 @@
 struct _n_SamHistory {
   SamControl constant; /* the kind of control of each component, and the values of those without a column */
   PetscInt   rows, increments;
+  PetscInt   start;                        /* steps up to the first row */
   SamTable   table;                        /* empty without a file */
   PetscInt   time, friction;               /* columns; -1: none */
   PetscInt   column[SAM_COMPONENTS];       /* column of each component, -1: constant */
@@ -24,13 +25,45 @@ PetscErrorCode SamHistoryClaimOption(void)
   return code ? code : PetscOptionsSetAlias(NULL, "-history", "-load_history");
 }
 
-/* Reads one component: its load or its displacement, from an option or a column, but only one of these four. */
-static PetscErrorCode ReadComponent(SamHistory h, const SamOptions *from, const char file[], PetscInt c)
+/* What reading needs: whose options, what was given for this run (NULL: all of it), and the file. */
+typedef struct {
+  const SamOptions   *from;
+  const SamArguments *arguments;
+  const char         *file;
+} Reader;
+
+/*
+  A value that has a column too: refused if it is given for this run. One that is only in an options file does not
+  count, and that is said: such files are shared by several runs.
+*/
+static PetscErrorCode Override(const Reader *r, const char name[], const char column[], PetscBool *set)
 {
+  const char *prefix = SamOptionsPrefix(r->from);
+  char        option[96];
+  PetscBool   given = PETSC_TRUE;
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(option, sizeof(option), "%s%s", prefix, name));
+  if (r->arguments) PetscCall(SamArgumentsHas(r->from->comm, r->arguments, option, &given));
+  PetscCheck(!given, r->from->comm, SAM_ERR_USER, "-%s: %s has the column %s: give one of them", option, r->file,
+             column);
+  *set = PETSC_FALSE;
+  PetscCallMPI(MPI_Comm_rank(r->from->comm, &rank));
+  if (rank == 0)
+    fprintf(stderr, "petsam: warning: -%s of the options file is not used: %s has the column %s\n", option, r->file,
+            column);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads one component: its load or its displacement, from an option or a column, but only one of these four. */
+static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
+{
+  const SamOptions *const from        = r->from;
   const SamComponentName *name        = &SamComponentNames[c];
   const PetscInt          load_column = SamTableFind(&h->table, name->load), line = h->table.header_line;
   const PetscInt          rigid_column = SamTableFind(&h->table, name->rigid);
-  const PetscBool         has_column   = (load_column >= 0 || rigid_column >= 0) ? PETSC_TRUE : PETSC_FALSE;
   const char             *prefix = SamOptionsPrefix(from), *column = load_column >= 0 ? name->load : name->rigid;
   PetscReal               load = 0, rigid = 0;
   PetscBool               has_load, has_rigid, help;
@@ -41,66 +74,51 @@ static PetscErrorCode ReadComponent(SamHistory h, const SamOptions *from, const 
   PetscCall(SamOptionsReal(from, name->load, text, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &load, &has_load));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", name->rigid_text, name->rigid_unit));
   PetscCall(SamOptionsReal(from, name->rigid, text, SAM_RANGE_ANY, &rigid, &has_rigid));
-  PetscCheck(!has_load || !has_rigid, from->comm, SAM_ERR_USER, "-%s%s and -%s%s are conjugate: give one of them",
-             prefix, name->load, prefix, name->rigid);
   PetscCheck(load_column < 0 || rigid_column < 0, from->comm, SAM_ERR_USER,
-             "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file, line,
+             "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", r->file, line,
              name->load, name->rigid);
-  PetscCheck(!has_column || (!has_load && !has_rigid), from->comm, SAM_ERR_USER,
-             "-%s%s: %s has the column %s: give one of them", prefix, has_rigid ? name->rigid : name->load, file,
-             column);
+  h->column[c] = PetscMax(load_column, rigid_column);
+  if (h->column[c] >= 0) {
+    PetscCall(Override(r, name->load, column, &has_load));
+    PetscCall(Override(r, name->rigid, column, &has_rigid));
+  }
+  PetscCheck(!has_load || !has_rigid, from->comm, SAM_ERR_USER,
+             "-%s%s and -%s%s are conjugate, one follows from the other: give one of them", prefix, name->load, prefix,
+             name->rigid);
   h->constant.force[c] = (has_rigid || rigid_column >= 0) ? PETSC_FALSE : PETSC_TRUE;
-  h->constant.value[c] = has_rigid ? rigid : load;
-  h->column[c]         = has_column ? PetscMax(load_column, rigid_column) : -1;
+  h->constant.value[c] = has_rigid ? rigid : has_load ? load : 0;
   if (c != SAM_COMPONENT_N) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPrintHelp(&help));
-  PetscCheck(has_load || has_rigid || h->column[c] >= 0 || help, from->comm, SAM_ERR_USER,
-             "-%sload_n or -%sdisp_z is missing: the normal force (N) or the approach (m)", prefix, prefix);
+  PetscCall(SamOptionsRequire(from, has_load || has_rigid || h->column[c] >= 0 || help, "load_n",
+                              "the normal force (N), or instead -disp_z, the approach (m)"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Reads one bulk stress, from an option or a column. */
-static PetscErrorCode ReadBulkStress(SamHistory h, const SamOptions *from, const char file[], PetscInt body, PetscInt k)
+static PetscErrorCode ReadBulkStress(SamHistory h, const Reader *r, PetscInt body, PetscInt k)
 {
-  const SamBulkName *name   = &SamBulkNames[body][k];
-  const PetscInt     column = SamTableFind(&h->table, name->name);
+  const SamBulkName *name     = &SamBulkNames[body][k];
+  PetscReal *const   constant = &h->constant.bulk_stress[body][k];
   char               text[96];
   PetscBool          set;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (Pa), parallel to the surface", name->text));
-  PetscCall(SamOptionsReal(from, name->name, text, SAM_RANGE_ANY, &h->constant.bulk_stress[body][k], &set));
-  PetscCheck(!set || column < 0, from->comm, SAM_ERR_USER, "-%s%s: %s has the column %s: give one of them",
-             SamOptionsPrefix(from), name->name, file, name->name);
-  h->bulk[body][k] = column;
+  PetscCall(SamOptionsReal(r->from, name->name, text, SAM_RANGE_ANY, constant, &set));
+  h->bulk[body][k] = SamTableFind(&h->table, name->name);
+  if (h->bulk[body][k] < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Override(r, name->name, name->name, &set));
+  *constant = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the name of a column is known. */
-static PetscBool IsKnown(SamHistory h, PetscInt column)
-{
-  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
-    if (h->bulk[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS] == column) return PETSC_TRUE;
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    if (h->column[c] == column) return PETSC_TRUE;
-  return (column == h->time || column == h->friction) ? PETSC_TRUE : PETSC_FALSE;
-}
-
-/* Checks the names of the columns; in the rows, that times increase and normal force and friction are >= 0. */
+/* Checks that times increase, and that normal force and friction are >= 0. */
 static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
 {
   const SamTable *t        = &h->table;
   const PetscInt  least[2] = {SamTableFind(t, SamComponentNames[SAM_COMPONENT_N].load), h->friction};
 
   PetscFunctionBegin;
-  PetscCheck(h->time >= 0, comm, SAM_ERR_USER, "%s, line %" PetscInt_FMT ": no column named time", file,
-             t->header_line);
-  for (PetscInt c = 0; c < t->columns; c++)
-    PetscCheck(IsKnown(h, c), comm, SAM_ERR_USER,
-               "%s, line %" PetscInt_FMT
-               ": unknown column %s; expected time, the name of a load or displacement, load_n ... rot_z, " FRICTION
-               ", or a bulk stress, bulk1_stress_xx ... bulk2_stress_xy",
-               file, t->header_line, t->name[c]);
   for (PetscInt r = 0; r < t->rows; r++) {
     const double *row = t->value + r * t->columns, *before = row - t->columns;
 
@@ -139,7 +157,7 @@ PetscErrorCode SamHistoryDestroy(SamHistory *history)
 PetscErrorCode SamHistoryGetCount(SamHistory h, PetscInt *steps)
 {
   PetscFunctionBegin;
-  *steps = h->rows * h->increments;
+  *steps = h->start + (h->rows - 1) * h->increments;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -147,6 +165,13 @@ PetscErrorCode SamHistoryGetIncrements(SamHistory h, PetscInt *increments)
 {
   PetscFunctionBegin;
   *increments = h->increments;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryGetStart(SamHistory h, PetscInt *steps)
+{
+  PetscFunctionBegin;
+  *steps = h->start;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -184,7 +209,7 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
   const SamTable *t = &h->table;
 
   PetscFunctionBegin;
-  for (PetscInt r = 0; r < t->rows; r++) {
+  for (PetscInt r = h->start < h->increments ? 1 : 0; r < t->rows; r++) {
     const double now = TimeOfRow(h, r), before = TimeOfRow(h, r - 1), each = (now - before) / (double)h->increments;
 
     for (PetscInt c = 0; c < t->columns; c++)
@@ -201,10 +226,48 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history)
+/* A load, displacement or bulk stress that has a column, or is constant. */
+static double ValueOfRow(SamHistory h, PetscInt column, PetscReal constant, PetscInt r)
+{
+  if (r < 0) return 0;
+  return column >= 0 ? Entry(h, column, r) : (double)constant;
+}
+
+/* Whether nothing is prescribed in the first row that differs from the start. */
+static PetscBool IsAtRest(SamHistory h)
+{
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    if (ValueOfRow(h, h->column[c], h->constant.value[c], 0) != 0) return PETSC_FALSE;
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
+      if (ValueOfRow(h, h->bulk[body][k], h->constant.bulk_stress[body][k], 0) != 0) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* Reads the table. All names of columns that there may be are those of options, too, but for time and friction. */
+static PetscErrorCode ReadTable(SamHistory h, MPI_Comm comm, const char file[])
+{
+  const char *names[2 + 2 * SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS + 1] = {"time"};
+  PetscInt    n                                                           = 1;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].load;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].rigid;
+  names[n++] = FRICTION;
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
+    names[n++] = SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name;
+  PetscCall(SamTableRead(comm, "history", file, names, &h->table));
+  h->rows     = h->table.rows;
+  h->time     = SamTableFind(&h->table, "time");
+  h->friction = SamTableFind(&h->table, FRICTION);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArguments *arguments, SamHistory *history)
 {
   SamHistory h;
   char       file[PETSC_MAX_PATH_LEN] = "";
+  Reader     reader                   = {.from = from, .arguments = arguments, .file = file};
   PetscBool  has_file;
 
   PetscFunctionBegin;
@@ -212,34 +275,26 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *h
   *history      = h;
   h->rows       = 1;
   h->increments = 1;
+  h->time = h->friction = -1;
   PetscCall(SamControlInitialize(&h->constant));
   PetscCall(SamOptionsHeading(from, "Loads and displacements"));
   PetscCall(ReadFileName(from, file, sizeof(file), &has_file));
   PetscCall(
     SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, &h->increments, NULL));
-  if (has_file) {
-    PetscCall(SamTableRead(from->comm, "history", file, &h->table));
-    h->rows = h->table.rows;
-  }
-  h->time     = SamTableFind(&h->table, "time");
-  h->friction = SamTableFind(&h->table, FRICTION);
+  if (has_file) PetscCall(ReadTable(h, from->comm, file));
   PetscCheck(h->increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
              "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
              " rows is more steps than can be counted (%" PetscInt_FMT ")",
              SamOptionsPrefix(from), h->increments, h->rows, PETSC_MAX_INT);
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, from, file, c));
+  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) /* so that none is taken for another one misspelled */
+    SamOptionsKnow(from, k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
   for (PetscInt body = 0; body < 2; body++)
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) PetscCall(ReadBulkStress(h, from, file, body, k));
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) PetscCall(ReadBulkStress(h, &reader, body, k));
+  h->start = h->table.rows && IsAtRest(h) ? 1 : h->increments;
   if (has_file) PetscCall(CheckRows(h, from->comm, file));
   if (has_file) PetscCall(CheckChanges(h, from->comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A load, displacement or bulk stress that has a column, or is constant. */
-static double ValueOfRow(SamHistory h, PetscInt column, PetscReal constant, PetscInt r)
-{
-  if (r < 0) return 0;
-  return column >= 0 ? Entry(h, column, r) : (double)constant;
 }
 
 static double FrictionOfRow(SamHistory h, PetscInt r)
@@ -249,13 +304,14 @@ static double FrictionOfRow(SamHistory h, PetscInt r)
 
 PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
 {
-  const PetscInt r = k / h->increments, i = k % h->increments + 1;
-  const double   part = (double)i / (double)h->increments;
+  const PetscInt r = k < h->start ? 0 : 1 + (k - h->start) / h->increments, steps = r ? h->increments : h->start;
+  const PetscInt i    = (r ? (k - h->start) % h->increments : k) + 1;
+  const double   part = (double)i / (double)steps;
 
   PetscFunctionBegin;
   *control = h->constant;
 /* linear between the rows; at a row exactly its own value */
-#define BETWEEN(before, after) (i == h->increments ? (after) : (before) + part * ((after) - (before)))
+#define BETWEEN(before, after) (i == steps ? (after) : (before) + part * ((after) - (before)))
   control->time           = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   control->friction_scale = BETWEEN(FrictionOfRow(h, r - 1), FrictionOfRow(h, r));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++)

@@ -3,14 +3,16 @@
 #define PETSAM_APP_HISTORY_H
 
 #include <petsam/control.h>
+#include <petsam/private/arguments.h>
 
 /*
   SamHistory - a sequence of load steps: a time, and for each of the six components a load or a displacement, the same
   choice in all steps. It comes from a file with one row for each step, or, as a single row, from the options. The
-  change from row to row may be divided into equal increments, each a load step.
+  change from row to row may be divided into equal increments, each a load step. The first row's change is that from no
+  load; if there is none in it either, it is the start itself, and one step.
 
-  The file is text. Fields are separated by commas, # begins a comment, empty lines are ignored. The first line names
-  the columns: `time`, any of the names of loads and displacements (load_n ... rot_z), friction_scale, and bulk stresses
+  The file is text. Fields are separated by commas, semicolons or white space, # begins a comment, empty lines are
+  ignored. The first line names the columns: `time`, any of the names of loads and displacements (load_n ... rot_z), friction_scale, and bulk stresses
   (bulk1_stress_xx ... bulk2_stress_xy). The rows follow, with increasing times (s). A component or bulk stress without
   a column has the value of its option, or 0, in all rows.
 */
@@ -25,15 +27,20 @@ PETSC_INTERN PetscErrorCode SamHistoryClaimOption(void);
 
 /*
   SamHistoryCreateFromOptions - reads -history, -steps (increments), the twelve -load_, -disp_ and -rot_ options and the
-  six bulk stresses; reads and checks the whole file. Collective. Errors: SAM_ERR_USER naming the option, or the file
-  and line; SAM_ERR_FILE for a file that cannot be read.
+  six bulk stresses; reads and checks the whole file. `arguments`: to tell options that are given for this run, which
+  must not have a column as well, from those in an options file, whose columns count instead, with a line on stderr;
+  NULL: all are given for this run. Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
+  SAM_ERR_FILE for a file that cannot be read.
 */
-PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, SamHistory *history);
+PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArguments *arguments,
+                                                        SamHistory *history);
 /* SamHistoryDestroy - frees the history and sets the handle to NULL. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
 /* The number of load steps, and the number of increments for each row. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *steps);
 PETSC_INTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments);
+/* SamHistoryGetStart - the number of load steps up to the first row: the increments, or 1. Not collective. */
+PETSC_INTERN PetscErrorCode SamHistoryGetStart(SamHistory history, PetscInt *steps);
 /* SamHistoryHas - whether the file has a column friction_scale, and whether there is a bulk stress. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryHas(SamHistory history, PetscBool *friction_scale, PetscBool *bulk_stress);
 /*

@@ -19,9 +19,12 @@ typedef struct {
 
 /*
   SamTableRead - reads the table of an option (its name without dash) on rank 0 and gives it to all ranks. Collective.
+  `names`: those of the columns that there may be, NULL at the end; the first one is required. Commas, semicolons or
+  white space separate the fields, as they do in the first line, which names the columns; # begins a comment.
   Errors: SAM_ERR_FILE for a file that cannot be read, SAM_ERR_USER with file and line for wrong contents.
 */
-PETSC_INTERN PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[], SamTable *table);
+PETSC_INTERN PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[],
+                                         const char *const names[], SamTable *table);
 PETSC_INTERN PetscErrorCode SamTableDestroy(SamTable *table);
 /* The column of that name, or -1. */
 PETSC_INTERN PetscInt SamTableFind(const SamTable *table, const char name[]);

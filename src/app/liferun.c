@@ -13,7 +13,7 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
   PetscInt      start;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  PetscCall(SamHistoryGetStart(run->history, &start));
   PetscCall(SamHistoryGetStep(run->history, start + step, control));
   control->friction_scale *= SamWearingFriction(&run->wearing, cycles);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -26,7 +26,7 @@ static PetscErrorCode TimeOf(const SamRun *run, PetscReal cycles, PetscReal *tim
   PetscInt   start;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  PetscCall(SamHistoryGetStart(run->history, &start));
   PetscCall(SamHistoryGetStep(run->history, start - 1, &first));
   PetscCall(SamHistoryGetStep(run->history, run->needs.steps - 1, &last));
   *time += cycles * (last.time - first.time);
@@ -44,7 +44,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscBool       due;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  PetscCall(SamHistoryGetStart(run->history, &start));
   due = SamWearingIsOutput(&run->wearing, cycles) &&
             ((step + 1) % run->output_every == 0 || step + 1 == run->needs.steps - start)
           ? PETSC_TRUE
@@ -70,7 +70,7 @@ static PetscErrorCode Start(SamRun *run, PetscBool *ended)
   PetscInt start;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  PetscCall(SamHistoryGetStart(run->history, &start));
   for (PetscInt k = 0; k < start && !*ended; k++) {
     SamControl control;
     SamStep    step;
@@ -201,7 +201,7 @@ PetscErrorCode SamRunCreateWear(SamRun *run)
   if (run->wearing.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
   run->output_settings.with[SAM_OUTPUT_LIFE] = PETSC_TRUE;
   if (run->wearing.points) run->output_settings.with[SAM_OUTPUT_FRICTION_SCALE] = PETSC_TRUE;
-  PetscCall(SamHistoryGetIncrements(run->history, &start));
+  PetscCall(SamHistoryGetStart(run->history, &start));
   cycle.steps = run->needs.steps - start;
   PetscCall(SamLifeCreate(run->wear, &cycle, &run->wearing.life, &run->life));
   run->point.life   = run->life;

@@ -76,7 +76,7 @@ static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
+static PetscErrorCode ReadOptions(SamRun *run, const SamArguments *arguments, const SamOptions *from)
 {
   static const char *const sums[] = {"slip_path", "friction_energy"};
   SamElasticityTraits      traits;
@@ -89,7 +89,7 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamOptions *from)
   run->needs.coupled = traits.coupled;
   PetscCall(PetscOptionsGetString(NULL, from->prefix, "-edges", edges, sizeof(edges), NULL)); /* the contact's, later */
   run->needs.deferred = strcmp(edges, "deferred") ? PETSC_FALSE : PETSC_TRUE;
-  PetscCall(SamHistoryCreateFromOptions(from, &run->history));
+  PetscCall(SamHistoryCreateFromOptions(from, arguments, &run->history));
   PetscCall(SamHistoryGetCount(run->history, &run->needs.steps));
   run->point.history = run->history;
   PetscCall(ReadWear(run, from));
@@ -126,7 +126,7 @@ PetscErrorCode SamRunSetUp(SamRun *run, const SamArguments *arguments)
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
-  PetscCall(ReadOptions(run, &from));
+  PetscCall(ReadOptions(run, arguments, &from));
   PetscCall(SamRunCheckFiles(run, from.comm, arguments));
   PetscCall(SamRunRefuseTooLarge(run->setup.grid, &run->needs, &from));
   PetscCall(SamSetupCreateContact(&run->setup, &from));

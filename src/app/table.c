@@ -26,73 +26,132 @@ static PetscErrorCode Judge(Verdict *verdict, PetscErrorCode code, const char fo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A file that is being read. */
+typedef struct {
+  const char        *option, *file;
+  const char *const *names; /* of the columns that there may be */
+  SamTable          *t;
+  char               separator; /* comma, semicolon, or a space for any white space */
+  PetscInt           line, room;
+  Verdict            verdict;
+} Reader;
+
 /* Removes a comment, and white space at both ends. */
 static char *Trim(char *text)
 {
   char *end;
 
-  text[strcspn(text, "#\r\n")] = '\0';
+  text[strcspn(text, "#")] = '\0';
   while (isspace((unsigned char)*text)) text++;
   end = text + strlen(text);
   while (end > text && isspace((unsigned char)end[-1])) *--end = '\0';
   return text;
 }
 
-/* The next field of a line, its separating comma overwritten; NULL after the last. */
-static char *NextField(char **rest)
+/* The next field of a line, its separator overwritten; NULL after the last. */
+static char *NextField(char **rest, char separator)
 {
-  char *field = *rest, *comma;
+  char *field = *rest, *end;
 
   if (!field) return NULL;
-  comma = strchr(field, ',');
-  if (comma) *comma = '\0';
-  *rest = comma ? comma + 1 : NULL;
+  end   = separator == ' ' ? field + strcspn(field, " \t\v\f") : strchr(field, separator);
+  *rest = end && *end ? end + 1 : NULL;
+  if (end) *end = '\0';
+  while (separator == ' ' && *rest && isspace((unsigned char)**rest)) ++*rest;
   return Trim(field);
 }
 
-static PetscErrorCode ReadHeader(const char file[], PetscInt line, char *text, SamTable *t, Verdict *verdict)
+/* ---- names of columns ---- */
+
+/* The name that is meant by another: without its dash, quotes, capitals and unit; NULL: none. */
+static const char *FindMeant(const Reader *r, const char field[])
 {
-  char *rest = text, *field;
+  char   plain[SAM_TABLE_NAME] = "";
+  size_t count                 = 0;
+
+  while (*field && strchr("-\"' ", *field)) field++;
+  for (size_t k = 0; field[k] && !strchr(" \"'[(/", field[k]) && k + 1 < sizeof(plain); k++)
+    plain[k] = (char)tolower((unsigned char)field[k]);
+  while (r->names[count]) count++;
+  return SamNearestName(plain, count, r->names);
+}
+
+/* Lists all names, those of the bulk stresses in short. */
+static void ListNames(const Reader *r, char list[], size_t size)
+{
+  size_t used = 0;
+
+  list[0] = '\0';
+  for (size_t k = 0; r->names[k] && used < size; k++) {
+    const PetscBool bulk = strncmp(r->names[k], "bulk", 4) ? PETSC_FALSE : PETSC_TRUE;
+
+    if (bulk && r->names[k + 1] && !strncmp(r->names[k - 1], "bulk", 4)) continue;
+    used += (size_t)snprintf(list + used, size - used, "%s%s",
+                             k == 0                     ? ""
+                             : bulk && !r->names[k + 1] ? " ... "
+                                                        : ", ",
+                             r->names[k]);
+  }
+}
+
+/* Refuses a name that is none of a column's. A unit is a likely reason. */
+static PetscErrorCode RefuseName(Reader *r, const char field[])
+{
+  const char *meant = FindMeant(r, field), *why        = "";
+  char        list[400], suggested[2 * SAM_TABLE_NAME] = "", *end;
 
   PetscFunctionBegin;
-  t->header_line = line;
-  while (!verdict->code && (field = NextField(&rest))) {
+  (void)strtod(field, &end);
+  if (end != field && !*end) {
+    PetscCall(Judge(&r->verdict, SAM_ERR_USER,
+                    "%s, line %d: %s is no name of a column: the first line must name the columns, for example %s,%s",
+                    r->file, (int)r->line, field, r->names[0], r->names[1]));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  ListNames(r, list, sizeof(list));
+  if (strpbrk(field, "[(/")) why = " names have no unit, as all values are in SI units:";
+  if (meant) (void)snprintf(suggested, sizeof(suggested), " is %s meant?", meant);
+  PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: unknown column %.64s;%s%s expected %s", r->file,
+                  (int)r->line, field, why, suggested, list));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool IsName(const Reader *r, const char field[])
+{
+  for (size_t k = 0; r->names[k]; k++)
+    if (!strcmp(r->names[k], field)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* The names of the columns. What separates them separates the numbers as well. */
+static PetscErrorCode ReadHeader(Reader *r, char *text)
+{
+  SamTable *const t    = r->t;
+  const int       line = (int)r->line;
+  char           *rest = text, *field;
+
+  PetscFunctionBegin;
+  t->header_line = r->line;
+  r->separator   = strchr(text, ';') ? ';' : strchr(text, ',') ? ',' : ' ';
+  while (!r->verdict.code && (field = NextField(&rest, r->separator))) {
     if (!*field)
-      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: a column has no name", file, (int)line));
+      PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: a column has no name: is there a separator too many?",
+                      r->file, line));
     else if (SamTableFind(t, field) >= 0)
-      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: two columns are named %s", file, (int)line, field));
-    else if (t->columns == SAM_TABLE_COLUMNS)
-      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: more than %d columns", file, (int)line, SAM_TABLE_COLUMNS));
-    else {
-      strncpy(t->name[t->columns], field, SAM_TABLE_NAME - 1); /* a longer name will be refused as unknown */
-      t->columns++;
-    }
+      PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: two columns are named %s: leave one of them out",
+                      r->file, line, field));
+    else if (!IsName(r, field))
+      PetscCall(RefuseName(r, field));
+    else
+      PetscCall(PetscStrncpy(t->name[t->columns++], field, SAM_TABLE_NAME));
   }
+  if (!r->verdict.code && SamTableFind(t, r->names[0]) < 0)
+    PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: no column named %s: each row needs one", r->file, line,
+                    r->names[0]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadRow(const char file[], PetscInt line, char *text, const SamTable *t, double row[],
-                              Verdict *verdict)
-{
-  PetscInt fields = 0;
-  char    *rest   = text, *field;
-
-  PetscFunctionBegin;
-  while (!verdict->code && (field = NextField(&rest))) {
-    char  *end;
-    double value = strtod(field, &end);
-
-    if (fields < t->columns && (end == field || *end || !isfinite(value)))
-      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: column %s: \"%s\" is not a finite number", file, (int)line,
-                      t->name[fields], field));
-    if (fields < t->columns) row[fields] = value;
-    fields++;
-  }
-  if (!verdict->code && fields != t->columns)
-    PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: %d fields, expected %d as in line %d", file, (int)line,
-                    (int)fields, (int)t->columns, (int)t->header_line));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+/* ---- rows ---- */
 
 /* Makes room for one more row. */
 static PetscErrorCode Grow(SamTable *t, PetscInt *room)
@@ -105,64 +164,124 @@ static PetscErrorCode Grow(SamTable *t, PetscInt *room)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadFile(const char option[], const char file[], SamTable *t, Verdict *verdict)
+static PetscErrorCode ReadRow(Reader *r, char *text)
 {
-  struct stat status;
-  FILE       *stream;
-  char       *buffer = NULL;
-  size_t      size   = 0;
-  ssize_t     length;
-  PetscInt    line = 0, room = 0;
+  const SamTable *t      = r->t;
+  double *const   row    = t->value + t->rows * t->columns;
+  PetscInt        fields = 0;
+  char           *rest   = text, *field;
 
   PetscFunctionBegin;
-  errno  = 0; /* a pipe, or a device, could keep the run waiting */
-  stream = stat(file, &status) || !S_ISREG(status.st_mode) ? NULL : fopen(file, "r");
-  if (!stream) {
-    PetscCall(Judge(verdict, SAM_ERR_FILE, "-%s %s: cannot be read: %s", option, file,
-                    errno ? strerror(errno) : "it is not a file"));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  errno = 0;
-  while (!verdict->code && (length = getline(&buffer, &size, stream)) >= 0) {
-    char *text;
+  while (!r->verdict.code && (field = NextField(&rest, r->separator))) {
+    char  *end;
+    double value = strtod(field, &end);
 
-    line++;
-    if (strlen(buffer) != (size_t)length) {
-      PetscCall(Judge(verdict, SAM_ERR_USER, "%s, line %d: contains a zero byte: expected text", file, (int)line));
-      break;
-    }
-    text = Trim(buffer);
-    if (!*text) continue;
-    if (!t->columns) {
-      PetscCall(ReadHeader(file, line, text, t, verdict));
-      continue;
-    }
-    PetscCall(Grow(t, &room));
-    PetscCall(ReadRow(file, line, text, t, t->value + t->rows * t->columns, verdict));
-    t->line[t->rows++] = line;
+    if (fields < t->columns && (end == field || *end || !isfinite(value)))
+      PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: column %s: \"%s\" is not a finite number%s", r->file,
+                      (int)r->line, t->name[fields], field, SamExplainNumber(field)));
+    if (fields < t->columns) row[fields] = value;
+    fields++;
   }
-  if (!verdict->code && ferror(stream))
-    PetscCall(Judge(verdict, SAM_ERR_FILE, "-%s %s: cannot be read: %s", option, file, strerror(errno)));
-  if (!verdict->code && !t->rows) PetscCall(Judge(verdict, SAM_ERR_USER, "-%s %s: has no row", option, file));
-  free(buffer);
-  fclose(stream);
+  if (!r->verdict.code && fields != t->columns)
+    PetscCall(Judge(
+      &r->verdict, SAM_ERR_USER, "%s, line %d: %d fields, expected %d as in line %d%s", r->file, (int)r->line,
+      (int)fields, (int)t->columns, (int)t->header_line,
+      fields > t->columns && r->separator == ',' ? "; a comma separates columns, numbers have a decimal point" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[], SamTable *t)
+/* ---- files ---- */
+
+/* A line without its end. The first one may begin with the mark that some editors put before UTF-8. */
+static PetscErrorCode ReadLine(Reader *r, char *line)
 {
-  PetscMPIInt rank;
-  Verdict     verdict;
+  static const char mark[] = "\xef\xbb\xbf";
+
+  SamTable *const t = r->t;
+  char           *text;
 
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(&verdict, sizeof(verdict)));
+  r->line++;
+  if (r->line == 1 && !strncmp(line, mark, strlen(mark))) line += strlen(mark);
+  text = Trim(line);
+  if (!*text || r->verdict.code) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!t->columns) {
+    PetscCall(ReadHeader(r, text));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(Grow(t, &r->room));
+  PetscCall(ReadRow(r, text));
+  t->line[t->rows++] = r->line;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Lines end with LF, CR LF or, from old Macintosh programs, CR. */
+static PetscErrorCode ReadLines(Reader *r, FILE *stream)
+{
+  char   *buffer = NULL;
+  size_t  size   = 0;
+  ssize_t length;
+
+  PetscFunctionBegin;
+  errno = 0;
+  while (!r->verdict.code && (length = getline(&buffer, &size, stream)) >= 0) {
+    if (strlen(buffer) != (size_t)length) {
+      PetscCall(Judge(&r->verdict, SAM_ERR_USER,
+                      "%s, line %d: contains a zero byte: expected text in UTF-8, as spreadsheets export it as CSV",
+                      r->file, (int)r->line + 1));
+      break;
+    }
+    if (length && buffer[length - 1] == '\n') buffer[--length] = '\0';
+    if (length && buffer[length - 1] == '\r') buffer[--length] = '\0';
+    for (char *text = buffer, *end; text && !r->verdict.code; text = end) {
+      end = strchr(text, '\r');
+      if (end) *end++ = '\0';
+      PetscCall(ReadLine(r, text));
+    }
+  }
+  if (!r->verdict.code && ferror(stream))
+    PetscCall(Judge(&r->verdict, SAM_ERR_FILE, "-%s %s: cannot be read: %s", r->option, r->file, strerror(errno)));
+  if (!r->verdict.code && !r->t->rows)
+    PetscCall(Judge(&r->verdict, SAM_ERR_USER,
+                    "-%s %s: has no row: expected a line with the names of the columns, for example %s,%s, and below "
+                    "it a line of numbers for each step",
+                    r->option, r->file, r->names[0], r->names[1]));
+  free(buffer);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadFile(Reader *r)
+{
+  struct stat status;
+  FILE       *stream;
+
+  PetscFunctionBegin;
+  errno  = 0; /* a pipe, or a device, could keep the run waiting */
+  stream = stat(r->file, &status) || !S_ISREG(status.st_mode) ? NULL : fopen(r->file, "r");
+  if (!stream) {
+    PetscCall(Judge(&r->verdict, SAM_ERR_FILE, "-%s %s: cannot be read: %s", r->option, r->file,
+                    errno ? strerror(errno) : "it is not a file"));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(ReadLines(r, stream));
+  (void)fclose(stream);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[], const char *const names[],
+                            SamTable *t)
+{
+  PetscMPIInt rank;
+  Reader      r = {.option = option, .file = file, .names = names, .t = t};
+
+  PetscFunctionBegin;
   PetscCall(PetscMemzero(t, sizeof(*t)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) PetscCall(ReadFile(option, file, t, &verdict));
-  PetscCallMPI(MPI_Bcast(&verdict, sizeof(verdict), MPI_BYTE, 0, comm));
-  if (verdict.code) {
+  if (rank == 0) PetscCall(ReadFile(&r));
+  PetscCallMPI(MPI_Bcast(&r.verdict, sizeof(r.verdict), MPI_BYTE, 0, comm));
+  if (r.verdict.code) {
     PetscCall(SamTableDestroy(t));
-    SETERRQ(comm, verdict.code, "%s", verdict.message);
+    SETERRQ(comm, r.verdict.code, "%s", r.verdict.message);
   }
   PetscCallMPI(MPI_Bcast(&t->columns, 1, MPIU_INT, 0, comm));
   PetscCallMPI(MPI_Bcast(&t->rows, 1, MPIU_INT, 0, comm));

@@ -116,6 +116,8 @@ static PetscErrorCode CheckTable(const SamTable *t, const char file[], PetscInt 
 
 static PetscErrorCode ReadFriction(SamWearing *w, const SamOptions *from)
 {
+  static const char *const names[] = {"cycle", "friction", NULL};
+
   char      file[PETSC_MAX_PATH_LEN] = "";
   PetscBool set, other;
   SamTable  t;
@@ -130,7 +132,7 @@ static PetscErrorCode ReadFriction(SamWearing *w, const SamOptions *from)
     PetscCheck(!other, from->comm, SAM_ERR_USER, "-wear_friction and -friction%s are given: give one of them",
                k ? "_file" : "");
   }
-  PetscCall(SamTableRead(from->comm, "wear_friction", file, &t));
+  PetscCall(SamTableRead(from->comm, "wear_friction", file, names, &t));
   cycle    = SamTableFind(&t, "cycle");
   friction = SamTableFind(&t, "friction");
   PetscCall(CheckTable(&t, file, cycle, friction, from));
@@ -188,14 +190,15 @@ PetscErrorCode SamWearingCheckCycle(const SamWearing *w, SamHistory history, con
 {
   PetscReal  range[SAM_CONTROL_PARTS] = {0}; /* of each part, about its value in the first row */
   SamControl first, last;
-  PetscInt   count, start;
+  PetscInt   count, increments, start;
 
   PetscFunctionBegin;
   if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamHistoryGetCount(history, &count));
-  PetscCall(SamHistoryGetIncrements(history, &start));
+  PetscCall(SamHistoryGetIncrements(history, &increments));
+  PetscCall(SamHistoryGetStart(history, &start));
   PetscCheck(
-    count > 2 * start, from->comm, SAM_ERR_USER,
+    count > start + increments, from->comm, SAM_ERR_USER,
     "-wear_cycles: a cycle needs a -history of three rows or more: where it starts, and how it goes on back to "
     "there");
   PetscCall(SamHistoryGetStep(history, start - 1, &first));

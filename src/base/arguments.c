@@ -78,10 +78,24 @@ static void ExamineName(SamArguments *a, const char where[], const char option[]
     if (IsNamed(option, refused[k].name)) Complain(a, SAM_ERR_USER, "%s%s: %s", where, option, refused[k].reason);
 }
 
+/* An equals sign between an option and its value, as other programs have it. */
+static void RefuseEquals(SamArguments *a, const char where[], const char option[])
+{
+  const char *sign = strchr(option, '=');
+
+  if (sign && sign[1])
+    Complain(a, SAM_ERR_USER, "%s%s: a space separates an option from its value: expected %.*s %s", where, option,
+             (int)(sign - option), option, sign + 1);
+  else if (sign)
+    Complain(a, SAM_ERR_USER, "%s%s: a space separates an option from its value: expected %.*s and a value", where,
+             option, (int)(sign - option), option);
+}
+
 /* An option, and the word after it if that is its value, else NULL. */
 static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
 {
   ExamineName(a, where, option);
+  RefuseEquals(a, where, option);
   if (value && (IsNamed(option, "-info") || IsNamed(option, "-malloc_view")) && strspn(value, "01") != strlen(value))
     Complain(a, SAM_ERR_USER, "%s%s %s: expected no value: it would write a file for each rank", where, option, value);
   if (!IsNamed(option, "-options_file")) return;
@@ -112,16 +126,64 @@ static int Split(char text[], char *words[], int most)
   return count;
 }
 
+/* Whether a word begins with a dash that a text editor or a web page has made of the one on the keyboard. */
+static PetscBool IsTypographic(const char word[])
+{
+  static const char *const dashes[] = {"\xe2\x80\x90", "\xe2\x80\x91", "\xe2\x80\x92", "\xe2\x80\x93",
+                                       "\xe2\x80\x94", "\xe2\x80\x95", "\xe2\x88\x92"};
+
+  for (size_t k = 0; k < sizeof(dashes) / sizeof(dashes[0]); k++)
+    if (!strncmp(word, dashes[k], strlen(dashes[k]))) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* A word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
+static void RefuseWord(SamArguments *a, const char where[], const char word[], const char before[], const char value[])
+{
+  const char *text = "expected an option, that is a word that begins with a dash";
+  char       *end;
+
+  (void)strtod(word, &end);
+  if (IsTypographic(word))
+    Complain(a, SAM_ERR_USER, "%s%s: begins with a typographic dash: expected the minus of the keyboard, as in -%s",
+             where, word, word + 3);
+  else if (strstr(word, ".opts"))
+    Complain(a, SAM_ERR_USER, "%s%s: %s: -options_file %s", where, word, text, word);
+  else if (before && value && end != word && !*end)
+    Complain(a, SAM_ERR_USER, "%s%s: %s; two values of %s are joined by a comma: %s,%s", where, word, text, before,
+             value, word);
+  else if (before && value)
+    Complain(a, SAM_ERR_USER, "%s%s: %s; %s %s has its value already, without a unit", where, word, text, before,
+             value);
+  else
+    Complain(a, SAM_ERR_USER, "%s%s: %s", where, word, text);
+}
+
+/* Keeps the name of an option that is given for this run. */
+static void Keep(SamArguments *a, const char option[])
+{
+  char **more = (char **)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more));
+
+  if (!more) return;
+  a->given              = more;
+  a->given[a->givens++] = strdup(option + 1);
+}
+
 static void ExamineWords(SamArguments *a, const char where[], int count, char **words)
 {
+  const char *before = NULL, *value = NULL;
+
   for (int k = 0; k < count; k++) {
     const PetscBool valued = k + 1 < count && !IsOption(words[k + 1]) ? PETSC_TRUE : PETSC_FALSE;
 
     if (!IsOption(words[k]))
-      Complain(a, SAM_ERR_USER, "%s%s: expected an option, that is a word that begins with a dash", where, words[k]);
+      RefuseWord(a, where, words[k], before, value);
     else if (words[k][1] == '-')
       Complain(a, SAM_ERR_USER, "%s%s: options begin with one dash", where, words[k]);
-    ExamineOption(a, where, words[k], valued ? words[k + 1] : NULL, 0);
+    before = words[k];
+    value  = valued ? words[k + 1] : NULL;
+    Keep(a, before);
+    ExamineOption(a, where, before, value, 0);
     k += valued;
   }
 }
@@ -139,9 +201,10 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
     if (words[k][0] == '#') count = k; /* the rest is a comment */
   if (!count || strchr("!%", words[0][0]) || !strcmp(words[0], "alias")) return;
   if (!IsOption(words[0]))
-    Complain(a, SAM_ERR_USER, "%sexpected an option, that is a word that begins with a dash", where);
+    RefuseWord(a, where, words[0], NULL, NULL);
   else if (count > 2 && !quoted)
-    Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line", where);
+    Complain(a, SAM_ERR_USER, "%s%s: expected one option and its value on a line; a comment begins with #", where,
+             words[2]);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
@@ -308,10 +371,26 @@ void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
   *argv = none;
 }
 
+PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *a, const char name[], PetscBool *has)
+{
+  int rank, found = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  for (int k = 0; k < a->givens && rank == 0; k++)
+    if (!strcasecmp(a->given[k], name)) found = 1;
+  PetscCallMPI(MPI_Bcast(&found, 1, MPI_INT, 0, comm));
+  *has = found ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 void SamArgumentsFree(SamArguments *a)
 {
   for (int k = 0; k < a->count; k++) free(a->files[k]);
-  a->count = 0;
+  for (int k = 0; k < a->givens; k++) free(a->given[k]);
+  free(a->given);
+  a->given = NULL;
+  a->count = a->givens = 0;
 }
 
 PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
@@ -332,7 +411,8 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
                                      NULL};
   PetscInt                 count;
   char                   **names, **values;
-  char                     first[128] = "";
+  char                     first[128] = "", name[64] = "";
+  const char              *nearest;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; program && late[k]; k++) {
@@ -341,11 +421,16 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
     PetscCall(PetscOptionsHasName(NULL, NULL, late[k], &ignored));
   }
   PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
-  if (count)
+  if (count) {
     PetscCall(
       PetscSNPrintf(first, sizeof(first), "-%s%s%s", names[0], values[0] ? " " : "", values[0] ? values[0] : ""));
+    PetscCall(PetscStrncpy(name, names[0], sizeof(name)));
+  }
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
-  PetscCheck(!first[0], comm, SAM_ERR_USER, "%s: unknown option, or one that has no effect with the others given",
-             first);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (!first[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  nearest = SamOptionsNearest(name);
+  PetscCheck(!SamOptionsIsKnown(name), comm, SAM_ERR_USER,
+             "%s: has no effect with the other options given: leave it out, or see which it belongs to", first);
+  PetscCheck(!nearest, comm, SAM_ERR_USER, "%s: unknown option: is -%s meant?", first, nearest);
+  SETERRQ(comm, SAM_ERR_USER, "%s: unknown option, or one that has no effect with the others given", first);
 }

@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TEXT_SIZE PETSC_MAX_PATH_LEN
+#define TEXT_SIZE  PETSC_MAX_PATH_LEN
+#define MOST_RATIO 100 /* of two lengths */
 
 PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
 {
@@ -56,6 +57,7 @@ static PetscErrorCode PrintHelpLine(const SamOptions *from, const char name[], c
   char      option[128], shown[TEXT_SIZE + 4] = "";
 
   PetscFunctionBegin;
+  SamOptionsKnow(from, name);
   PetscCall(SamPrintHelp(&print));
   if (!print) PetscFunctionReturn(PETSC_SUCCESS);
   snprintf(option, sizeof(option), "-%s%s %s", SamOptionsPrefix(from), name, kind);
@@ -117,6 +119,31 @@ static PetscBool ReadReal(const char **text, double *value)
   return (*end == ',' && !*(end + 1)) ? PETSC_FALSE : PETSC_TRUE;
 }
 
+/*
+  Refuses two lengths that are likely to be one number with a decimal comma: 2,6e-3 has no point and no exponent before
+  the comma, and an exponent after it. Lengths that differ a hundredfold are refused however they are written.
+*/
+static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name[], const char text[],
+                                         const double v[2])
+{
+  const double    ratio   = v[0] > v[1] ? v[0] / v[1] : v[1] / v[0];
+  const PetscBool decimal = SamIsDecimalComma(text) && strpbrk(text, "eE") && !strchr(text, '.');
+  char            point[TEXT_SIZE], meant[TEXT_SIZE + 64] = "one number, with a decimal point";
+  char            numbers[64]; /* PetscSNPrintf() would write 2 as "2." */
+
+  PetscFunctionBegin;
+  if (!decimal && ratio <= MOST_RATIO) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamIsDecimalComma(text)) {
+    PetscCall(PetscStrncpy(point, text, sizeof(point)));
+    *strchr(point, ',') = '.';
+    (void)snprintf(meant, sizeof(meant), "%s, with a decimal point", point);
+  }
+  (void)snprintf(numbers, sizeof(numbers), "%g m by %g m", v[0], v[1]);
+  SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: the comma separates two lengths, %s: expected %s, or two %s",
+          SamOptionsPrefix(from), name, text, numbers, meant,
+          ratio > MOST_RATIO ? "that differ less than a hundredfold" : "that both have a decimal point");
+}
+
 /* Reads one or two numbers separated by a comma; one stands for both. */
 static PetscErrorCode GetReals(const SamOptions *from, const char name[], const char expected[], PetscInt most,
                                SamRange range, double value[], PetscBool *set)
@@ -135,8 +162,9 @@ static PetscErrorCode GetReals(const SamOptions *from, const char name[], const 
     good = (good && InRange(range, v[n])) ? PETSC_TRUE : PETSC_FALSE;
     n++;
   }
-  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name,
-             text, expected);
+  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name,
+             text, expected, SamExplainNumber(text));
+  if (n == 2 && range == SAM_RANGE_POSITIVE) PetscCall(RefuseDecimalComma(from, name, text, v));
   value[0] = v[0];
   if (most > 1) value[1] = n > 1 ? v[1] : v[0];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -198,8 +226,8 @@ static PetscErrorCode GetInts(const SamOptions *from, const char name[], const c
       rest   = *end ? end + 1 : end;
     }
   }
-  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name,
-             text, expected);
+  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name,
+             text, expected, SamExplainNumber(text));
   value[0] = v[0];
   if (most > 1) value[1] = n > 1 ? v[1] : v[0];
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -16,8 +16,8 @@ static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisso
       PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: expected a number > 0 or inf", prefix, b + 1,
                               (double)young[b]));
     else if (!(poisson[b] > -1 && poisson[b] <= 0.5))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_poisson %g: expected a number above -1 and at most 0.5", prefix,
-                              b + 1, (double)poisson[b]));
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_poisson %g: expected a number above -1 and at most 0.5%s",
+                              prefix, b + 1, (double)poisson[b], poisson[b] > 1 ? ": 0.3, not 30 percent" : ""));
     else if (!isfinite(inverse_shear) || (inverse_shear == 0 && !isinf(young[b])))
       PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: the elasticity is not a number in double precision",
                               prefix, b + 1, (double)young[b]));
@@ -53,6 +53,8 @@ PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscRe
 
 PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
 {
+  static const char *const names[] = {"body1_young", "body2_young", "body1_poisson", "body2_poisson"};
+
   PetscReal young[2] = {0, 0}, poisson[2] = {0, 0};
   PetscBool has_young, has_poisson, help;
   char      message[256], prefix[80];
@@ -60,19 +62,19 @@ PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(from, "Bodies"));
+  for (PetscInt k = 0; k < 4; k++) SamOptionsKnow(from, names[k]); /* one body's are no misspelling of the other's */
   for (PetscInt b = 0; b < 2; b++) {
-    char name[32];
+    const char *name = names[b];
 
-    PetscCall(PetscSNPrintf(name, sizeof(name), "body%d_young", (int)b + 1));
     PetscCall(SamOptionsReal(from, name, "Young's modulus (Pa), inf: rigid: required", SAM_RANGE_POSITIVE_INF,
                              &young[b], &has_young));
-    PetscCheck(has_young || help, from->comm, SAM_ERR_USER,
-               "-%s%s is missing: Young's modulus, Pa, or inf for a rigid body", SamOptionsPrefix(from), name);
-    PetscCall(PetscSNPrintf(name, sizeof(name), "body%d_poisson", (int)b + 1));
+    PetscCall(
+      SamOptionsRequire(from, has_young || help, name, "Young's modulus, Pa (210e9 for steel), or inf: a rigid body"));
+    name = names[2 + b];
     PetscCall(
       SamOptionsReal(from, name, "Poisson's ratio: required unless rigid", SAM_RANGE_ANY, &poisson[b], &has_poisson));
-    PetscCheck(has_poisson || isinf(young[b]) || help, from->comm, SAM_ERR_USER, "-%s%s is missing: Poisson's ratio",
-               SamOptionsPrefix(from), name);
+    PetscCall(SamOptionsRequire(from, has_poisson || isinf(young[b]) || help, name,
+                                "Poisson's ratio (0.3 for steel; not needed of a rigid body)"));
   }
   if (help) young[0] = young[1] = 1;
   PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "-%s", SamOptionsPrefix(from)));

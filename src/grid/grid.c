@@ -95,8 +95,9 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
   PetscCall(PetscSNPrintf(options[0], sizeof(options[0]), "-%sgrid_n", SamOptionsPrefix(from)));
   PetscCall(PetscSNPrintf(options[1], sizeof(options[1]), "-%sgrid_size", SamOptionsPrefix(from)));
   PetscCall(PetscSNPrintf(options[2], sizeof(options[2]), "-%sgrid_center", SamOptionsPrefix(from)));
-  PetscCheck(has_n, from->comm, SAM_ERR_USER, "%s is missing: the number of cells in x[,y]", names[0]);
-  PetscCheck(has_width, from->comm, SAM_ERR_USER, "%s is missing: the full width of the grid in x[,y], m", names[1]);
+  PetscCall(SamOptionsRequire(from, has_n, "grid_n", "the number of cells in x[,y], for example 256"));
+  PetscCall(SamOptionsRequire(from, has_width, "grid_size",
+                              "the full width of the grid in x[,y], m: about 1.5 times that of the contact"));
   PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
   PetscCall(SamGridCreate(from->comm, n, width, center, grid));

@@ -57,7 +57,7 @@ static inline SamHistory Read(const char *options)
   SamHistory h;
 
   SetOptions(options);
-  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &h));
+  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, &h));
   SetOptions("");
   return h;
 }
@@ -80,7 +80,7 @@ static inline SamControl StepOf(SamHistory h, PetscInt k)
 }
 
 /* The twelve names, without their dash. */
-static const char *NameOf(PetscInt component, PetscBool rigid)
+static inline const char *NameOf(PetscInt component, PetscBool rigid)
 {
   return rigid ? SamComponentNames[component].rigid : SamComponentNames[component].load;
 }
@@ -94,7 +94,7 @@ static inline void AssertRefused(const char *options, PetscErrorCode code, const
 
   SetOptions(options);
   BeginCatching();
-  ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &h);
+  ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, &h);
   EndCatching();
   SetOptions("");
   if (h) sam_call(SamHistoryDestroy(&h));

@@ -354,7 +354,7 @@ static void test_options_have_the_prefix(void **state)
   (void)state;
   Write("time,load_tx\n1,5\n2,6\n");
   SetOptions("-load_n 1 -steps 7 -a_load_n 2 -a_steps 3 -a_load_history test_history.csv");
-  sam_call(SamHistoryCreateFromOptions(&from, &h));
+  sam_call(SamHistoryCreateFromOptions(&from, NULL, &h));
   SetOptions("");
   sam_assert(CountOf(h) == 6 && StepOf(h, 5).value[SAM_COMPONENT_N] == 2 && StepOf(h, 5).value[SAM_COMPONENT_TX] == 6);
   sam_call(SamHistoryDestroy(&h));
@@ -410,7 +410,7 @@ static void test_history_on_one_rank_is_its_own(void **state)
   if (stream) (void)fclose(stream);
   sam_assert(good);
   SetOptions(options);
-  good = !SamHistoryCreateFromOptions(&myself, &h) && !SamHistoryGetCount(h, &steps) && steps == Rank() + 1 &&
+  good = !SamHistoryCreateFromOptions(&myself, NULL, &h) && !SamHistoryGetCount(h, &steps) && steps == Rank() + 1 &&
          !SamHistoryDestroy(&h);
   SetOptions("");
   (void)unlink(name);

@@ -10,8 +10,8 @@ static void test_unknown_columns_are_refused(void **state)
   (void)state;
   AssertMalformed("time,load_x\n1,2\n", 1, "load_x");
   AssertMalformed("# loads\n\ntime,load_tx,friction\n1,2,0.1\n", 3, "unknown column friction;");
-  sam_assert(strstr(CaughtMessage(), "friction_scale") &&
-             strstr(CaughtMessage(), "load_n ... rot_z")); /* what may stand there */
+  sam_assert(strstr(CaughtMessage(), "expected time, load_n, load_tx,") && strstr(CaughtMessage(), ", rot_z,") &&
+             strstr(CaughtMessage(), "friction_scale, bulk1_stress_xx ... bulk2_stress_xy")); /* what may stand there */
   AssertMalformed("time,Load_tx\n1,2\n", 1, "Load_tx");
   AssertMalformed("time,-load_tx\n1,2\n", 1, "-load_tx");
   AssertMalformed("time,\"load_tx\"\n1,2\n", 1, "load_tx");
@@ -45,14 +45,47 @@ static void test_file_without_times_is_refused(void **state)
   AssertMalformed("Time,load_tx\n1,2\n", 1, "time");
 }
 
-/* The message may name one line or the other, but it shows the column as it was read. */
-static void test_other_separators_are_refused(void **state)
+/* What is wrong with the names is said first, whatever else is wrong, with the name that is meant. */
+static void test_units_and_misspelled_names_are_said_first(void **state)
+{
+  static const struct {
+    const char *column, *meant;
+  } names[] = {{"load_n [N]", "no unit, as all values are in SI units: is load_n meant?"},
+               {"load_n (N)", "is load_n meant?"},
+               {"load_tx/N", "is load_tx meant?"},
+               {"\"load_n\"", "is load_n meant?"},
+               {"Load_N", "is load_n meant?"},
+               {"laod_n", "is load_n meant?"},
+               {"-disp_z", "is disp_z meant?"},
+               {"friction_skale", "is friction_scale meant?"}};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(names) / sizeof(names[0]); k++) {
+    char text[96];
+
+    (void)snprintf(text, sizeof(text), "time,%s\n1,abc\n0,2\n", names[k].column);
+    Write(text);
+    AssertRefused("-history test_history.csv", SAM_ERR_USER, "test_history.csv, line 1: unknown column",
+                  names[k].column);
+    sam_assert(strstr(CaughtMessage(), names[k].meant) && strstr(CaughtMessage(), "expected time, load_n,"));
+  }
+  Write("time load_n [N]\n1 2\n");
+  AssertRefused("-history test_history.csv", SAM_ERR_USER, "unknown column [N]", "no unit");
+  AssertMalformed("0,1\n1,2\n", 1, "the first line must name the columns");
+  AssertMalformed("time,depth\n1,2\n", 1, "unknown column depth; expected time");
+}
+
+/* Separators are those of the first line. */
+static void test_mixed_separators_are_refused(void **state)
 {
   (void)state;
-  Write("time;load_tx\n1;2\n");
-  AssertRefused("-history test_history.csv -load_n 1", SAM_ERR_USER, "test_history.csv, line ", "time;load_tx");
-  Write("time load_tx\n1 2\n");
-  AssertRefused("-history test_history.csv -load_n 1", SAM_ERR_USER, "test_history.csv, line ", "time load_tx");
+  AssertMalformed("time;load_tx\n1,2\n", 2, "decimal point, not a comma");
+  AssertMalformed("time;load_tx\n1;2,5\n", 2, "decimal point, not a comma");
+  AssertMalformed("time load_tx\n1 2,5\n", 2, "decimal point, not a comma");
+  AssertMalformed("time,load_tx\n1,2\n2,2,5\n", 3, "a comma separates columns, numbers have a decimal point");
+  AssertMalformed("time;load_tx\n1 2\n", 2, "\"1 2\"");
+  AssertMalformed("time;;load_tx\n1;2;3\n", 1, "column");
+  AssertMalformed("time\tload_tx\n1\t2\t3\n", 2, "3 fields");
 }
 
 static void test_too_many_columns_are_refused(void **state)
@@ -289,7 +322,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_columns_without_a_name_are_refused),
     cmocka_unit_test(test_columns_given_twice_are_refused),
     cmocka_unit_test(test_file_without_times_is_refused),
-    cmocka_unit_test(test_other_separators_are_refused),
+    cmocka_unit_test(test_units_and_misspelled_names_are_said_first),
+    cmocka_unit_test(test_mixed_separators_are_refused),
     cmocka_unit_test(test_too_many_columns_are_refused),
     cmocka_unit_test(test_ragged_rows_are_refused),
     cmocka_unit_test(test_text_for_a_number_is_refused),

@@ -45,7 +45,7 @@ static SamHistory NewHistory(const char *options)
   SamHistory h;
 
   SetOptions(options);
-  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &h));
+  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, &h));
   SetOptions("");
   return h;
 }

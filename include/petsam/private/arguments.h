@@ -12,6 +12,8 @@ typedef struct {
   char           message[512]; /* that says what it is */
   char          *files[SAM_ARGUMENTS_FILES];
   int            count; /* of the options files, which must not be overwritten; known to rank 0 */
+  char         **given; /* names of the options in no file: on the command line or in PETSC_OPTIONS; known to rank 0 */
+  int            givens;
 } SamArguments;
 
 /*
@@ -28,7 +30,13 @@ PETSC_EXTERN void SamArgumentsSeparate(char text[]);
   and -version are mistakes. Rank 0 looks and tells the others. Collective over `comm`.
 */
 PETSC_EXTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *arguments);
-PETSC_EXTERN void SamArgumentsFree(SamArguments *arguments);
+/*
+  SamArgumentsHas - whether an option (without dash) stands on the command line or in PETSC_OPTIONS, both of which are
+  for this run, and not only in an options file, which several runs may share. Collective over `comm`.
+*/
+PETSC_EXTERN PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *arguments, const char name[],
+                                            PetscBool *has);
+PETSC_EXTERN void           SamArgumentsFree(SamArguments *arguments);
 /*
   SamArgumentsRefuseUnknown - refuses options that the set-up has not read: they are misspelled, or have no effect.
   `program`: those that PETSc reads at its end are not among them.

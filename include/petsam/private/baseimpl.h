@@ -96,6 +96,28 @@ PETSC_EXTERN void SamReturnMemory(void);
 #define SAM_PREFIX 64
 PETSC_EXTERN PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[]);
 
+/* ---- mistakes in options and names (spelling.c); none is collective, but for SamOptionsRequire() ---- */
+/* SamIsNear - whether one name may be another one misspelled. */
+PETSC_EXTERN PetscBool SamIsNear(const char tried[], const char name[]);
+/* SamNearestName - the name out of these that may be meant; NULL: none. */
+PETSC_EXTERN const char *SamNearestName(const char tried[], size_t count, const char *const names[]);
+/* SamOptionsKnow - notes that there is an option of this name (without dash and prefix), for suggestions. */
+PETSC_EXTERN void SamOptionsKnow(const SamOptions *from, const char name[]);
+/* SamOptionsIsKnown - whether there is one; with the prefix, without dash. */
+PETSC_EXTERN PetscBool SamOptionsIsKnown(const char name[]);
+/* SamOptionsNearest - the option that may be meant by a name; NULL: none. */
+PETSC_EXTERN const char *SamOptionsNearest(const char tried[]);
+/*
+  SamOptionsRequire - refuses that an option is missing; says which of those given may have been meant for it.
+  Collective. Errors: SAM_ERR_USER unless it is given.
+*/
+PETSC_EXTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[],
+                                              const char text[]);
+/* SamIsDecimalComma - whether a text begins with digits, a comma, and a digit: 2,6e-3. */
+PETSC_EXTERN PetscBool SamIsDecimalComma(const char text[]);
+/* SamExplainNumber - what is wrong with a text that is no number, to be appended to a message; may be empty. */
+PETSC_EXTERN const char *SamExplainNumber(const char text[]);
+
 /* ---- checksums ---- */
 
 /* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects the whole result. */

@@ -107,12 +107,13 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
   for (PetscInt k = 0; k < gap->ops.count; k++) {
     const SamGapParameter *parameter = &gap->ops.parameters[k];
     PetscBool              set;
-    char                   text[160];
+    char                   text[256];
 
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required by %s", parameter->help, gap->type));
     PetscCall(SamOptionsReal(&from, parameter->name, text, parameter->range, &gap->values[k], &set));
-    PetscCheck(set || help, gap->comm, SAM_ERR_USER, "-%s%s is missing: %s, required by -%sgap_type %s", gap->prefix,
-               parameter->name, parameter->help, gap->prefix, gap->type);
+    PetscCall(
+      PetscSNPrintf(text, sizeof(text), "%s, required by -%sgap_type %s", parameter->help, gap->prefix, gap->type));
+    PetscCall(SamOptionsRequire(&from, set || help, parameter->name, text));
   }
   if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -135,6 +136,27 @@ static PetscErrorCode PrintTypes(SamGap gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Makes the options of all types known: one that is given with another type is not misspelled. */
+static PetscErrorCode KnowTypes(MPI_Comm comm, const SamOptions *from)
+{
+  const char **types;
+  int          count;
+  SamGap       gap;
+
+  PetscFunctionBegin;
+  PetscCall(SamGapCreate(comm, &gap));
+  PetscCall(SamTypesGet(SamGapList, &types, &count));
+  for (int t = 0; t < count; t++) {
+    PetscCall(SamGapSetType(gap, types[t]));
+    for (PetscInt k = 0; k < gap->ops.count; k++) SamOptionsKnow(from, gap->names[k]);
+  }
+  SamOptionsKnow(from, gap->source.file_option);
+  SamOptionsKnow(from, gap->source.dataset_option);
+  PetscCall(PetscFree(types));
+  PetscCall(SamGapDestroy(&gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamGapSetFromOptions(SamGap gap)
 {
   const SamOptions from = {gap->comm, gap->prefix};
@@ -151,8 +173,9 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   if (help) {
     PetscCall(PrintTypes(gap));
   } else {
-    PetscCheck(set || gap->type[0], gap->comm, SAM_ERR_USER, "-%sgap_type is missing: %s", gap->prefix, list);
+    PetscCall(SamOptionsRequire(&from, set || gap->type[0], "gap_type", list));
     PetscCall(SamTypesCheckOption(SamGapList, &from, "gap_type", type));
+    PetscCall(KnowTypes(gap->comm, &from));
     if (set) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
   }

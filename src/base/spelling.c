@@ -1,0 +1,207 @@
+/*
+  What a mistake in an option may have meant: the nearest name that there is, a decimal comma, a unit.
+
+  The names that there are: those that have been asked for so far, whether they were given or not.
+*/
+#include <petsam/private/baseimpl.h>
+#include <ctype.h>
+#include <stdlib.h>
+
+#define MOST   256 /* names that are kept */
+#define LENGTH 48  /* characters of a name that are compared */
+
+static char     known[MOST][LENGTH];
+static PetscInt knowns = 0;
+
+/* Options that PETSc reads, whose names count as well. */
+static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
+
+/* What users of other programs and textbooks write. */
+static const struct {
+  const char *tried, *name;
+} habits[] = {{"mu", "friction"},
+              {"cof", "friction"},
+              {"friction_coefficient", "friction"},
+              {"e1", "body1_young"},
+              {"e2", "body2_young"},
+              {"young1", "body1_young"},
+              {"young2", "body2_young"},
+              {"nu1", "body1_poisson"},
+              {"nu2", "body2_poisson"},
+              {"poisson1", "body1_poisson"},
+              {"poisson2", "body2_poisson"},
+              {"radius1", "gap_radius1"},
+              {"radius2", "gap_radius2"},
+              {"r1", "gap_radius1"},
+              {"r2", "gap_radius2"},
+              {"shape", "gap_type"},
+              {"normal_load", "load_n"},
+              {"normal_force", "load_n"},
+              {"force", "load_n"},
+              {"load", "load_n"},
+              {"load_z", "load_n"},
+              {"load_x", "load_tx"},
+              {"load_y", "load_ty"},
+              {"disp_n", "disp_z"},
+              {"n", "grid_n"},
+              {"cells", "grid_n"},
+              {"size", "grid_size"},
+              {"o", "output"},
+              {"out", "output"},
+              {"output_file", "output"},
+              {"i", "input"},
+              {"options", "options_file"},
+              {"file", "options_file"}};
+
+/* PETSc does not tell capitals from small letters in names; a dash within a name is a likely slip. */
+static char Plain(char c)
+{
+  return c == '-' ? '_' : (char)tolower((unsigned char)c);
+}
+
+static PetscBool IsSame(const char a[], const char b[])
+{
+  size_t k = 0;
+
+  for (; a[k] && Plain(a[k]) == Plain(b[k]); k++) continue;
+  return !a[k] && !b[k] ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/*
+  The number of slips between two names: letters left out, put in, changed, or swapped with the next (optimal string
+  alignment distance).
+*/
+static size_t CountSlips(const char a[], const char b[])
+{
+  const size_t n = strnlen(a, LENGTH), m = strnlen(b, LENGTH);
+  size_t       slips[LENGTH + 1][LENGTH + 1];
+
+  for (size_t i = 0; i <= n; i++) slips[i][0] = i;
+  for (size_t j = 0; j <= m; j++) slips[0][j] = j;
+  for (size_t i = 1; i <= n; i++)
+    for (size_t j = 1; j <= m; j++) {
+      const char   c = Plain(a[i - 1]), d = Plain(b[j - 1]);
+      const size_t change = slips[i - 1][j - 1] + (c == d ? 0 : 1), less = slips[i - 1][j] + 1,
+                   more = slips[i][j - 1] + 1;
+
+      slips[i][j] = change < less ? change : less;
+      if (more < slips[i][j]) slips[i][j] = more;
+      if (i > 1 && j > 1 && c == Plain(b[j - 2]) && d == Plain(a[i - 2]) && slips[i - 2][j - 2] + 1 < slips[i][j])
+        slips[i][j] = slips[i - 2][j - 2] + 1;
+    }
+  return slips[n][m];
+}
+
+PetscBool SamIsNear(const char tried[], const char name[])
+{
+  const size_t length = strlen(tried);
+
+  return CountSlips(tried, name) <= (length < 4 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+const char *SamNearestName(const char tried[], size_t count, const char *const names[])
+{
+  const char *nearest = NULL;
+  size_t      least   = LENGTH;
+
+  for (size_t k = 0; k < count; k++) {
+    const size_t slips = CountSlips(tried, names[k]);
+
+    if (slips >= least || !SamIsNear(tried, names[k])) continue;
+    least   = slips;
+    nearest = names[k];
+  }
+  return nearest;
+}
+
+/* ---- options ---- */
+
+void SamOptionsKnow(const SamOptions *from, const char name[])
+{
+  char option[LENGTH];
+
+  (void)snprintf(option, sizeof(option), "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
+  for (PetscInt k = 0; k < knowns; k++)
+    if (!strcmp(known[k], option)) return;
+  if (knowns < MOST) memcpy(known[knowns++], option, sizeof(option));
+}
+
+PetscBool SamOptionsIsKnown(const char name[])
+{
+  for (PetscInt k = 0; k < knowns; k++)
+    if (IsSame(known[k], name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+const char *SamOptionsNearest(const char tried[])
+{
+  const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])];
+  size_t      count = 0;
+
+  for (size_t k = 0; k < sizeof(habits) / sizeof(habits[0]); k++)
+    if (IsSame(tried, habits[k].tried)) return habits[k].name;
+  for (PetscInt k = 0; k < knowns; k++) names[count++] = known[k];
+  for (size_t k = 0; k < sizeof(petsc) / sizeof(petsc[0]); k++) names[count++] = petsc[k];
+  return SamNearestName(tried, count, names);
+}
+
+/* Finds among the options that nobody has asked for one whose name may have been meant to be this. */
+static PetscErrorCode FindMisspelled(const char name[], char found[], size_t size)
+{
+  PetscInt count;
+  char   **names, **values;
+
+  PetscFunctionBegin;
+  found[0] = '\0';
+  PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
+  for (PetscInt k = 0; k < count && !found[0]; k++) {
+    PetscBool habit = PETSC_FALSE;
+
+    for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
+      if (IsSame(names[k], habits[h].tried) && !strcmp(habits[h].name, name)) habit = PETSC_TRUE;
+    if (habit || (SamIsNear(names[k], name) && !SamOptionsIsKnown(names[k])))
+      (void)snprintf(found, size, "%s", names[k]);
+  }
+  PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[], const char text[])
+{
+  char option[LENGTH], meant[LENGTH];
+
+  PetscFunctionBegin;
+  if (given) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(option, sizeof(option), "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
+  PetscCall(FindMisspelled(option, meant, sizeof(meant)));
+  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s is missing: %s; is -%s meant for it?", option, text, meant);
+  SETERRQ(from->comm, SAM_ERR_USER, "-%s is missing: %s", option, text);
+}
+
+/* ---- values ---- */
+
+PetscBool SamIsDecimalComma(const char text[])
+{
+  const char  *comma = strchr(text, ',');
+  const size_t first = text[0] == '-' || text[0] == '+' ? 1 : 0;
+
+  if (!comma || !isdigit((unsigned char)comma[1]) || comma == text + first) return PETSC_FALSE;
+  return strspn(text + first, "0123456789") == (size_t)(comma - text) - first ? PETSC_TRUE : PETSC_FALSE;
+}
+
+const char *SamExplainNumber(const char text[])
+{
+  char       *end;
+  const char *rest;
+
+  for (rest = text; *rest; rest++) /* anywhere, as in 2.6e-3,2,6e-3 */
+    if ((rest == text || rest[-1] == ',') && SamIsDecimalComma(rest))
+      return "; numbers have a decimal point, not a comma";
+  (void)strtod(text, &end);
+  if (end == text) return "";
+  for (rest = end; isspace((unsigned char)*rest); rest++) continue;
+  if (*rest == '%') return "; a fraction is meant, not percent: 0.3, not 30";
+  if (isalpha((unsigned char)*rest))
+    return "; without a unit: all numbers are in SI units (m, N, Pa), 2.6e-3 for 2.6 mm";
+  return "";
+}
