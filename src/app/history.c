@@ -89,8 +89,8 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
   h->constant.value[c] = has_rigid ? rigid : has_load ? load : 0;
   if (c != SAM_COMPONENT_N) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsRequire(from, has_load || has_rigid || h->column[c] >= 0 || help, "load_n",
-                              "the normal force (N), or instead -disp_z, the approach (m)"));
+  PetscCall(SamOptionsRequire(from, has_load || has_rigid || h->column[c] >= 0 || help, "load_n or -disp_z",
+                              "the normal force (N) or the approach (m)"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -201,9 +201,10 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
     if (words[k][0] == '#') count = k; /* the rest is a comment */
   if (!count || strchr("!%", words[0][0]) || !strcmp(words[0], "alias")) return;
   if (!IsOption(words[0]))
-    RefuseWord(a, where, words[0], NULL, NULL);
+    Complain(a, SAM_ERR_USER, "%sexpected an option, that is a word that begins with a dash, as in -%s", where,
+             words[0] + (IsTypographic(words[0]) ? 3 : 0));
   else if (count > 2 && !quoted)
-    Complain(a, SAM_ERR_USER, "%s%s: expected one option and its value on a line; a comment begins with #", where,
+    Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line: %s is too much, unless after a #", where,
              words[2]);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }

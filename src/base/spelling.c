@@ -168,14 +168,16 @@ static PetscErrorCode FindMisspelled(const char name[], char found[], size_t siz
 
 PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[], const char text[])
 {
-  char option[LENGTH], meant[LENGTH];
+  const char *prefix = SamOptionsPrefix(from);
+  char        option[LENGTH], meant[LENGTH];
 
   PetscFunctionBegin;
   if (given) PetscFunctionReturn(PETSC_SUCCESS);
-  (void)snprintf(option, sizeof(option), "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
+  (void)snprintf(option, sizeof(option), "%.*s%.*s", LENGTH / 2, prefix, (int)strcspn(name, " "), name);
   PetscCall(FindMisspelled(option, meant, sizeof(meant)));
-  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s is missing: %s; is -%s meant for it?", option, text, meant);
-  SETERRQ(from->comm, SAM_ERR_USER, "-%s is missing: %s", option, text);
+  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s%s is missing: %s; is -%s meant for it?", prefix, name, text,
+             meant);
+  SETERRQ(from->comm, SAM_ERR_USER, "-%s%s is missing: %s", prefix, name, text);
 }
 
 /* ---- values ---- */

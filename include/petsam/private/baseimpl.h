@@ -108,7 +108,8 @@ PETSC_EXTERN PetscBool SamOptionsIsKnown(const char name[]);
 /* SamOptionsNearest - the option that may be meant by a name; NULL: none. */
 PETSC_EXTERN const char *SamOptionsNearest(const char tried[]);
 /*
-  SamOptionsRequire - refuses that an option is missing; says which of those given may have been meant for it.
+  SamOptionsRequire - refuses that an option is missing; says which of those given may have been meant for it. After a
+  blank the name may go on with what else would do.
   Collective. Errors: SAM_ERR_USER unless it is given.
 */
 PETSC_EXTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[],

@@ -1,0 +1,205 @@
+/*
+  Connected zones of cells, against a flood fill of the whole grid by every rank, and against shapes of known width.
+*/
+#include "fields.h"
+
+/* Square, odd, thin, and fewer rows than ranks. */
+static const PetscInt sizes[][2] = {{16, 16}, {23, 31}, {40, 2}, {7, 60}, {64, 50}, {5, 3}};
+enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]), MOST = 64 * 64 };
+
+/* A pattern of cells, the same on all ranks. */
+typedef struct {
+  PetscInt nx, ny;
+  char     in[MOST];
+} Pattern;
+
+static void Measure(const Pattern *p, double part, PetscInt *zones, PetscReal *across)
+{
+  SamGrid grid = NewGrid(p->nx, p->ny, 1, 1);
+  Vec     field;
+  double *a;
+
+  sam_call(SamGridCreateVec(grid, 1, &field));
+  sam_call(VecGetArray(field, &a));
+  for (PetscInt k = 0; k < grid->cells; k++) a[k] = p->in[grid->row_start * p->nx + k] ? 1e-3 : -1;
+  sam_call(VecRestoreArray(field, &a));
+  sam_call(SamGridMeasureZones(grid, field, part, zones, across));
+  sam_call(VecDestroy(&field));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* Takes the zone of cell (i, j) out of a pattern; returns its cells. */
+static PetscInt Fill(Pattern *p, PetscInt i, PetscInt j, PetscInt cells[][2])
+{
+  PetscInt count = 1;
+
+  cells[0][0]          = i;
+  cells[0][1]          = j;
+  p->in[j * p->nx + i] = 0;
+  for (PetscInt k = 0; k < count; k++)
+    for (PetscInt b = PetscMax(0, cells[k][1] - 1); b <= PetscMin(p->ny - 1, cells[k][1] + 1); b++)
+      for (PetscInt a = PetscMax(0, cells[k][0] - 1); a <= PetscMin(p->nx - 1, cells[k][0] + 1); a++) {
+        if (!p->in[b * p->nx + a]) continue;
+        p->in[b * p->nx + a] = 0;
+        cells[count][0]      = a;
+        cells[count++][1]    = b;
+      }
+  return count;
+}
+
+/* Its width: the least, over all directions, of the rms distance from the middle line, as of an ellipse; or its box. */
+static double WidthOf(PetscInt cells[][2], PetscInt count)
+{
+  double   mean[2] = {0, 0}, least = 1e300;
+  PetscInt low[2] = {MOST, MOST}, high[2] = {0, 0};
+
+  for (PetscInt k = 0; k < count; k++)
+    for (int d = 0; d < 2; d++) {
+      mean[d] += (double)cells[k][d] / (double)count;
+      low[d]  = PetscMin(low[d], cells[k][d]);
+      high[d] = PetscMax(high[d], cells[k][d]);
+    }
+  for (int t = 0; t < 3600; t++) {
+    const double angle = t * PETSC_PI / 3600;
+    double       sum   = 0;
+
+    for (PetscInt k = 0; k < count; k++) {
+      const double x = ((double)cells[k][0] - mean[0]) * cos(angle) + ((double)cells[k][1] - mean[1]) * sin(angle);
+
+      sum += x * x;
+    }
+    least = PetscMin(least, sum / (double)count);
+  }
+  return PetscMin(4 * sqrt(least + 1. / 12), (double)PetscMin(high[0] - low[0], high[1] - low[1]) + 1);
+}
+
+/* The answer by the definition: zones by width, the narrowest left out up to that part of all cells. */
+static void Expect(const Pattern *pattern, double part, PetscInt *zones, double *across)
+{
+  static PetscInt cells[MOST][2];
+  static double   width[MOST], size[MOST];
+  Pattern         p   = *pattern;
+  double          sum = 0, before;
+
+  *zones = 0;
+  for (PetscInt k = 0; k < p.nx * p.ny; k++) {
+    PetscInt count;
+
+    if (!p.in[k]) continue;
+    count         = Fill(&p, k % p.nx, k / p.nx, cells);
+    width[*zones] = WidthOf(cells, count);
+    size[*zones]  = (double)count;
+    sum += size[(*zones)++];
+  }
+  *across = *zones ? 1e300 : 0;
+  for (PetscInt z = 0; z < *zones; z++) {
+    before = 0; /* cells in zones as narrow, or narrower */
+    for (PetscInt y = 0; y < *zones; y++)
+      before += floor(10 * width[y] + .5) <= floor(10 * width[z] + .5) ? size[y] : 0;
+    if (before > part * sum) *across = PetscMin(*across, width[z]);
+  }
+}
+
+static void AssertRight(const Pattern *p, double part)
+{
+  PetscInt  zones, expected;
+  PetscReal across;
+  double    width;
+
+  Measure(p, part, &zones, &across);
+  Expect(p, part, &expected, &width);
+  sam_assert(zones == expected);
+  sam_assert_close(across, width, 0.0501); /* a tenth of a cell */
+}
+
+static void test_random_cells_give_the_zones_of_a_flood_fill(void **state)
+{
+  static Pattern p;
+  uint64_t       seed = 1;
+
+  (void)state;
+  for (int s = 0; s < NUM_SIZES; s++)
+    for (int share = 1; share < 10; share += 2)
+      for (int part = 0; part < 2; part++) {
+        p.nx = sizes[s][0];
+        p.ny = sizes[s][1];
+        for (PetscInt k = 0; k < p.nx * p.ny; k++) {
+          seed    = seed * UINT64_C(6364136223846793005) + 1442695040888963407;
+          p.in[k] = (int)(seed >> 60) < share;
+        }
+        AssertRight(&p, 0.1 * part);
+      }
+}
+
+/* Arms that only the last row joins; rings within rings; a spiral, which the rows meet again and again. */
+static void test_zones_that_meet_late_are_one(void **state)
+{
+  static Pattern p;
+
+  (void)state;
+  p.nx = 33;
+  p.ny = 30;
+  for (PetscInt k = 0; k < p.nx * p.ny; k++) p.in[k] = (k % p.nx) % 2 == 0 || k / p.nx == 29;
+  AssertRight(&p, 0);
+  for (PetscInt k = 0; k < p.nx * p.ny; k++)
+    p.in[k] = PetscMax(PetscAbs((int)(k % p.nx) - 16), PetscAbs((int)(k / p.nx) - 15)) % 3 == 0;
+  AssertRight(&p, 0);
+  for (PetscInt k = 0; k < p.nx * p.ny; k++) {
+    const double x = (double)(k % p.nx) - 16, y = (double)(k / p.nx) - 15;
+
+    p.in[k] = fmod(hypot(x, y) - 4 * atan2(y, x) / (2 * PETSC_PI) + 40, 4) < 1.5;
+  }
+  AssertRight(&p, 0);
+}
+
+/* A disc, and a strip that lies across the axes, whose bounding box says nothing. */
+static void test_widths_are_those_of_the_shapes(void **state)
+{
+  static Pattern p;
+  PetscInt       zones;
+  PetscReal      across;
+
+  (void)state;
+  p.nx = p.ny = 64;
+  for (PetscInt k = 0; k < 64 * 64; k++) p.in[k] = hypot((double)(k % 64) - 31.5, (double)(k / 64) - 30.2) < 12.5;
+  Measure(&p, 0, &zones, &across);
+  sam_assert(zones == 1);
+  sam_assert_close(across, 25, 1.01); /* the box counts whole cells */
+  for (PetscInt k = 0; k < 64 * 64; k++)
+    p.in[k] = fabs((double)(k % 64) - (double)(k / 64)) < 5 * sqrt(2.) && k % 64 + k / 64 > 20 && k % 64 + k / 64 < 106;
+  Measure(&p, 0, &zones, &across);
+  sam_assert(zones == 1);
+  sam_assert_close(across, 10 * 4 / sqrt(12.), 0.6); /* the ellipse of a strip's moments is a little wider */
+}
+
+static void test_small_zones_do_not_count_up_to_their_part(void **state)
+{
+  static Pattern p;
+  PetscInt       zones;
+  PetscReal      across;
+
+  (void)state;
+  p.nx = p.ny = 64;
+  memset(p.in, 0, sizeof(p.in));
+  Measure(&p, 0.1, &zones, &across);
+  sam_assert(zones == 0 && across == 0);
+  for (PetscInt k = 0; k < 64 * 64; k++) p.in[k] = k % 64 >= 20 && k % 64 < 50 && k / 64 >= 20 && k / 64 < 50;
+  for (PetscInt k = 0; k < 30; k++) p.in[2 * k] = p.in[63 * 64 + 2 * k] = 1; /* 60 of 960 cells */
+  Measure(&p, 0.1, &zones, &across);
+  sam_assert(zones == 61);
+  sam_assert_close(across, 30, 0.06);
+  Measure(&p, 0.05, &zones, &across);
+  sam_assert_close(across, 1, 0.06);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_random_cells_give_the_zones_of_a_flood_fill),
+    cmocka_unit_test(test_zones_that_meet_late_are_one),
+    cmocka_unit_test(test_widths_are_those_of_the_shapes),
+    cmocka_unit_test(test_small_zones_do_not_count_up_to_their_part),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
