@@ -54,5 +54,20 @@ PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
 */
 PETSC_EXTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count,
                                                 const char *const **names, const PetscReal **values);
+/*
+  SamGapEstimateContact - half widths (m) along x and y of the contact of the shape without friction, by a closed
+  solution (Hertz, Sneddon): under a central force over the composite modulus E* (m2), or, without `force`, at an
+  approach (m). Infinite where the shape is straight; `known`: false for types without such a solution, and with a
+  roughness. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],
+                                                  PetscBool *known);
+/*
+  SamGapGetSteepness - the largest ratio of a contact's half widths (m, along x and y) to a radius of curvature, and the
+  name of the option (without dash and prefix) that gives this radius; 0 and NULL for types without radii. Not
+  collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], PetscReal *ratio,
+                                               const char **option);
 
 #endif

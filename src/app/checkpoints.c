@@ -133,6 +133,22 @@ PetscBool SamCheckpointsChangeGap(SamCheckpoints cp)
   return cp->other_gap;
 }
 
+void SamCheckpointsDescribe(SamCheckpoints cp, char text[], size_t size)
+{
+  char every[96] = "", limit[96] = "";
+
+  text[0] = '\0';
+  if (!cp->filename[0]) return;
+  if (cp->every == 1)
+    (void)snprintf(every, sizeof(every), "after every step, ");
+  else if (cp->every)
+    (void)snprintf(every, sizeof(every), "after every %lld steps, ", (long long)cp->every);
+  if (cp->limit > 0) (void)snprintf(limit, sizeof(limit), ", before %g s have passed", cp->limit);
+  (void)snprintf(text, size, "%s: %s%sat the signals USR2 and USR1 (to stop)%s%s", cp->filename, every,
+                 every[0] || limit[0] ? "" : "only ", limit,
+                 every[0] ? "" : "; with -checkpoint_every k after every k steps too");
+}
+
 PetscErrorCode SamCheckpointsGetLast(SamCheckpoints cp, PetscInt *step)
 {
   PetscFunctionBegin;

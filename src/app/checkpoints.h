@@ -40,6 +40,8 @@ PETSC_INTERN PetscErrorCode SamCheckpointsGetNames(SamCheckpoints checkpoints, c
                                                    const char **restart);
 /* SamCheckpointsChangeGap - whether the gap may differ from that of the checkpoint. Not collective. */
 PETSC_INTERN PetscBool SamCheckpointsChangeGap(SamCheckpoints checkpoints);
+/* SamCheckpointsDescribe - says when the run writes checkpoints; empty without -checkpoint. Not collective. */
+PETSC_INTERN void SamCheckpointsDescribe(SamCheckpoints checkpoints, char text[], size_t size);
 /*
   SamCheckpointsRestart - gives the contact the state in the file of -restart, and sets steps and worst status in
   `progress`, whose history is given. Collective. Errors: those of SamCheckpointRead(); SAM_ERR_USER when up to there

@@ -91,6 +91,23 @@ static PetscErrorCode PrintTimes(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* How well the grid resolves the contact. */
+static PetscErrorCode PrintExtent(SamReport r)
+{
+  PetscFunctionBegin;
+  if (!r->extent_step) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!r->extent.zones)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  none", "contact"));
+  else if (r->extent.zones == 1)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %.1f cells across", "contact", (double)r->extent.across));
+  else
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " zones, the narrow ones %.1f cells across", "contact",
+                          r->extent.zones, (double)r->extent.across));
+  if (r->steps > 1) PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ", at the largest load)", r->extent_step));
+  PetscCall(PetscPrintf(r->comm, "\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintFiles(SamReport r)
 {
   PetscFunctionBegin;
@@ -155,6 +172,7 @@ PetscErrorCode SamReportClosing(SamReport r)
       PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ")", r->worst[k].step));
   }
   PetscCall(PetscPrintf(r->comm, "\n"));
+  PetscCall(PrintExtent(r));
   PetscCall(PrintFiles(r));
   PetscCall(PrintResources(r));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -58,6 +58,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   run->point.times = SamOutputAddTime(run->point.times, told.control.time);
   PetscCall(SamReportCountStep(run->report, run->point.steps, &told));
   PetscCall(SamRunWriteStep(run, &told, due || failed ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(SamRunExamine(run, start + step, &told));
   run->told = SamStepIsSolved(&told) ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -105,12 +106,14 @@ static PetscErrorCode WriteFailure(SamRun *run, const SamLifeReport *r)
 /* Says where a step failed, or reached the edge, and ends the life there. */
 static PetscErrorCode EndLife(SamRun *run, const SamLifeReport *r, const char where[])
 {
-  char text[96];
+  SamStep said = r->step;
+  char    text[96];
 
   PetscFunctionBegin;
+  PetscCall(SamRunAdviseEdge(run, &said));
   (void)snprintf(text, sizeof(text), "%s %.10g cycles, step %" PetscInt_FMT " of the cycle", where, (double)r->cycles,
                  r->at + 1);
-  PetscCall(SamReportMessage(run->report, text, &r->step));
+  PetscCall(SamReportMessage(run->report, text, &said));
   run->point.worst = r->step.status;
   if (!run->told) PetscCall(SamRunWriteLastFields(run));
   if (!run->told && !SamStepIsSolved(&r->step)) PetscCall(WriteFailure(run, r));

@@ -126,6 +126,13 @@ static PetscErrorCode PrintRestart(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamReportSetCheckpoints(SamReport r, const char when[])
+{
+  PetscFunctionBegin;
+  r->checkpoints = when;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt steps, const char output[],
                                const char size[])
 {
@@ -149,6 +156,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n", "steps", steps,
                         output ? "in " : "not kept (no -output)", output ? output : ""));
   if (output) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", size));
+  if (r->checkpoints) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "checkpoint", r->checkpoints));
   PetscCall(PrintRestart(r));
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -195,13 +203,32 @@ static void KeepWorst(SamReport r, const SamStep *step)
 /* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
 static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
-  char option[48] = "";
+  const PetscBool edge       = !step->status && step->check.edge > 0 ? PETSC_TRUE : PETSC_FALSE; /* and allowed */
+  char            option[48] = "";
 
+  if (edge && r->edge_told) return;
+  if (edge) r->edge_told = PETSC_TRUE;
   if (r->rank || !step->message[0]) return;
   fflush(stdout);
   if (step->setting[0]) snprintf(option, sizeof(option), " (-%s)", step->setting);
   fprintf(stderr, "petsam: %s%s%s%s%s\n", step->status ? "" : "warning: ", where, where[0] ? ": " : "", step->message,
           option);
+}
+
+void SamReportWarn(SamReport r, const char text[], const char option[])
+{
+  SamStep said = {.status = SAM_STATUS_CONVERGED};
+
+  (void)snprintf(said.message, sizeof(said.message), "%s", text);
+  (void)snprintf(said.setting, sizeof(said.setting), "%s", option);
+  SamProgressErase(r);
+  PrintMessage(r, "", &said);
+}
+
+void SamReportSetExtent(SamReport r, PetscInt step, const SamExtent *extent)
+{
+  r->extent      = *extent;
+  r->extent_step = step;
 }
 
 PetscErrorCode SamReportCountStep(SamReport r, PetscInt number, const SamStep *step)

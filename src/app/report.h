@@ -2,6 +2,7 @@
 #ifndef PETSAM_APP_REPORT_H
 #define PETSAM_APP_REPORT_H
 
+#include <petsam/advice.h>
 #include <petsam/life.h>
 #include "checkpoints.h"
 
@@ -40,6 +41,10 @@ PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
 PETSC_INTERN PetscErrorCode SamReportSetRestart(SamReport report, const char checkpoint[], const SamRunPoint *point);
 PETSC_INTERN PetscErrorCode SamReportSetBranch(SamReport report, const char results[], PetscBool gap);
 /*
+  SamReportSetCheckpoints - for the banner: when checkpoints are written. The text is not copied. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamReportSetCheckpoints(SamReport report, const char when[]);
+/*
   SamReportBanner - prints version, libraries, ranks, grid, memory (`bytes`: what this rank will need; the largest is
   printed), number of steps, and the results file (NULL: none) with its size in words. Collective.
 */
@@ -50,7 +55,10 @@ PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, doub
   to the contact's solvers. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportBeginStep(SamReport report, PetscInt number, SamContact contact);
-/* SamReportEndStep - prints the step's line and its message; the only step of a run in full. Collective. */
+/*
+  SamReportEndStep - prints the step's line and its message; the only step of a run in full. That the contact is at the
+  edge, where that is allowed, is said in the first such step only. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamReportEndStep(SamReport report, const SamStep *step);
 /*
   For a life: SamReportBeginCycle() before a cycle is computed, SamReportCountStep() for each of its steps (`number`
@@ -60,6 +68,10 @@ PETSC_INTERN PetscErrorCode SamReportEndStep(SamReport report, const SamStep *st
 PETSC_INTERN PetscErrorCode SamReportBeginCycle(SamReport report, SamContact contact);
 PETSC_INTERN PetscErrorCode SamReportCountStep(SamReport report, PetscInt number, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamReportEndCycle(SamReport report, const SamLifeReport *cycle, PetscReal cycles);
+/* SamReportWarn - prints a warning with the option (without dash; empty: none) that mends it. Not collective. */
+PETSC_INTERN void SamReportWarn(SamReport report, const char text[], const char option[]);
+/* SamReportSetExtent - for the closing table: the size of the contact in a step, from 1. Not collective. */
+PETSC_INTERN void SamReportSetExtent(SamReport report, PetscInt step, const SamExtent *extent);
 /* SamReportMessage - prints a step's message, if it has one, after words that say where it is. Collective. */
 PETSC_INTERN PetscErrorCode SamReportMessage(SamReport report, const char where[], const SamStep *step);
 /* SamReportAddFile - for the closing table: a file that was written, and what it holds. Not collective. */

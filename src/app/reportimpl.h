@@ -32,6 +32,7 @@ struct _n_SamReport {
   char        restart_at[64];               /* "step 7" or "1e5 cycles" */
   PetscBool   branch, gap;                  /* results begin there; with a gap that has changed */
   char        followed[PETSC_MAX_PATH_LEN]; /* file of the results before a branch; empty: none */
+  const char *checkpoints;                  /* when they are written; NULL: never */
   /* status */
   PetscMPIInt    rank;
   PetscBool      logging;                   /* whether PETSc's log has the times */
@@ -44,7 +45,10 @@ struct _n_SamReport {
   PetscBool      living;   /* the run is a life */
   SamReportWorst worst[3]; /* normal, tangential, equilibrium */
   SamProgress    progress;
-  SamContact     contact; /* whose monitors are set; borrowed */
+  SamContact     contact;     /* whose monitors are set; borrowed */
+  SamExtent      extent;      /* of the contact in step `extent_step`, */
+  PetscInt       extent_step; /* from 1; 0: not known */
+  PetscBool      edge_told;   /* that the contact is at the edge, which is allowed */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;

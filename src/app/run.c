@@ -172,8 +172,11 @@ static PetscErrorCode Begin(SamRun *run)
   if (run->output) PetscCall(SamOutputHasReplaced(run->output, &replaced));
   if (run->output) PetscCall(SamRunForecast(run, size, sizeof(size)));
   PetscCall(PetscSNPrintf(results, sizeof(results), "%s%s", run->filename, replaced ? ", replacing those there" : ""));
+  SamCheckpointsDescribe(run->checkpoints, run->checkpoint_text, sizeof(run->checkpoint_text));
+  if (checkpoint) PetscCall(SamReportSetCheckpoints(run->report, run->checkpoint_text));
   PetscCall(SamReportBanner(run->report, run->setup.grid, SamRunMemory(run->setup.grid, &run->needs), run->needs.steps,
                             run->has_output ? results : NULL, size));
+  PetscCall(SamRunPrepareAdvice(run, run->life ? 0 : PetscMin(run->point.steps, run->needs.steps - 1)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -273,10 +276,13 @@ PetscErrorCode SamRunComputeStiffness(SamRun *run, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves one load step; `ended`: it failed, so that no further step can be solved. */
+/*
+  Solves one load step; `ended`: it failed, so that no further step can be solved, or the contact is at the edge of the
+  grid, so that none should.
+*/
 static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
 {
-  const PetscInt k = run->point.steps;
+  const PetscInt k = run->point.steps, last = run->needs.steps - 1;
   SamControl     control;
   SamStep        step;
   PetscBool      due;
@@ -287,12 +293,12 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
   PetscCall(SamContactTry(run->setup.contact, &control, &step));
   PetscCall(SamRunComputeStiffness(run, &step));
   PetscCall(WearStep(run, &step));
-  due = ((k + 1) % run->output_every == 0 || k + 1 == run->needs.steps || step.status == SAM_STATUS_NOT_CONVERGED)
-          ? PETSC_TRUE
-          : PETSC_FALSE;
+  PetscCall(SamRunAdviseEdge(run, &step));
+  *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
+  due    = ((k + 1) % run->output_every == 0 || k == last || *ended) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(SamRunWriteStep(run, &step, due));
   PetscCall(SamReportEndStep(run->report, &step)); /* after writing: a reported step is in the file */
-  *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
+  PetscCall(SamRunExamine(run, k, &step));
   if (!*ended) PetscCall(SamContactCommit(run->setup.contact));
   if (!*ended && run->wear) PetscCall(SamWearMoveGap(run->wear));
   if (*ended || !run->point.worst) run->point.worst = step.status;

@@ -3,6 +3,7 @@
 #define PETSAM_RUNIMPL_H
 
 #include <petsam.h>
+#include <petsam/advice.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/arguments.h>
 #include "checkpoints.h"
@@ -38,6 +39,10 @@ typedef struct {
   PetscReal         last_time;   /* of the last step that was written, s; -infinity: none */
   PetscBool         writing;     /* a collective write is under way */
   char              filename[PETSC_MAX_PATH_LEN];
+  char              checkpoint_text[PETSC_MAX_PATH_LEN + 256]; /* when checkpoints are written */
+  SamLoadsMost      most;                                      /* the largest loads of the steps from here on */
+  PetscInt          largest;  /* step of the largest normal load or approach among them, from 0 */
+  PetscBool         examined; /* whether the size of the contact was looked at */
 } SamRun;
 
 /* SamRunSetUp - reads all options and input files and makes all objects; writes nothing. Collective. */
@@ -71,6 +76,15 @@ PETSC_INTERN PetscErrorCode SamRunComputeStiffness(SamRun *run, SamStep *step);
 PETSC_INTERN PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due);
 /* SamRunCheckpoint - after a step or jump: writes a checkpoint if one is due; may stop the run. Collective. */
 PETSC_INTERN PetscErrorCode SamRunCheckpoint(SamRun *run);
+/*
+  What a user should know besides (advice.c). SamRunPrepareAdvice - before the first step: finds the largest loads of
+  the steps from `first` on, and warns of options that are unlikely to be meant. SamRunAdviseEdge - appends to the
+  message of a step at the grid's edge a grid that is large enough. SamRunExamine - after step k: if it has the largest
+  load, warns of too few cells, of a contact too large for half-spaces, and of none, once in a run. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamRunPrepareAdvice(SamRun *run, PetscInt first);
+PETSC_INTERN PetscErrorCode SamRunAdviseEdge(const SamRun *run, SamStep *step);
+PETSC_INTERN PetscErrorCode SamRunExamine(SamRun *run, PetscInt k, const SamStep *step);
 /* SamRunTearDown - destroys all objects, also after an error. Collective. */
 PETSC_INTERN PetscErrorCode SamRunTearDown(SamRun *run);
 

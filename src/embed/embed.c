@@ -296,6 +296,21 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 
 /* ---- steps ---- */
 
+/* Appends to the message of a step at the grid's edge a grid that is large enough for it. */
+static PetscErrorCode AdviseEdge(petsam_contact *c)
+{
+  const size_t used = strlen(c->last.message);
+  SamLoadsMost most = {.open = c->wear || c->has_gap ? PETSC_TRUE : PETSC_FALSE};
+  char         text[400];
+
+  PetscFunctionBegin;
+  if (!SamStepIsSolved(&c->last) || !(c->last.check.edge > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  SamLoadsMostAdd(&most, &c->last.control);
+  PetscCall(SamAdviseEdge(&c->setup, &c->last, &most, text, sizeof(text)));
+  (void)snprintf(c->last.message + used, sizeof(c->last.message) - used, "; %s", text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
 {
   PetscReal depth[2];
@@ -306,6 +321,7 @@ static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
   c->has_last  = PETSC_TRUE;
   c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
   if (c->wear) PetscCall(SamWearGetVolumes(c->wear, c->last.wear_volume, depth));
+  PetscCall(AdviseEdge(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -4,6 +4,7 @@
 
 #include <petsam/embed.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/advice.h>
 #include <petsam/checkpoint.h>
 #include <petsam/setup.h>
 #include <petsam/stiffness.h>

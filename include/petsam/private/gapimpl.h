@@ -8,6 +8,15 @@
 
 #define SAM_GAP_PARAMETERS 4 /* most parameters of a shape */
 
+/*
+  The contact of a shape without friction, under a central force, by a closed solution: half widths along x and y (m,
+  infinite where it goes on without end), force over the composite modulus E* (m2), approach (m). All of them grow with
+  the half width that it is computed from.
+*/
+typedef struct {
+  PetscReal half[2], force, approach;
+} SamGapContact;
+
 /* A number that defines a shape, read from a required option. */
 typedef struct {
   const char *name; /* of the option, without dash and prefix */
@@ -32,6 +41,13 @@ struct _n_SamGap {
     PetscReal (*height)(const PetscReal values[], PetscReal x, PetscReal y);
     PetscErrorCode (*setfromoptions)(SamGap gap);
     PetscErrorCode (*fill)(SamGap gap, SamGrid grid, Vec h);
+    /*
+      Optional, for messages. contact(): the contact whose larger finite half width (m) is `half`. steepness(): the
+      largest ratio of the half widths of a contact (m, along x and y) to a radius of curvature, and which parameter is
+      that radius.
+    */
+    SamGapContact (*contact)(const PetscReal values[], PetscReal half);
+    PetscReal (*steepness)(const PetscReal values[], const PetscReal half[2], PetscInt *parameter);
   } ops;
   const char *names[SAM_GAP_PARAMETERS]; /* of the parameters */
 };

@@ -9,9 +9,18 @@ static PetscReal Height_Flat(const PetscReal values[], PetscReal x, PetscReal y)
   return 0;
 }
 
+/* The contact of two planes has no end. */
+static SamGapContact Contact_Flat(const PetscReal values[], PetscReal half)
+{
+  (void)values;
+  (void)half;
+  return (SamGapContact){{PETSC_INFINITY, PETSC_INFINITY}, PETSC_INFINITY, PETSC_INFINITY};
+}
+
 PetscErrorCode SamGapCreate_Flat(SamGap gap)
 {
   PetscFunctionBegin;
-  gap->ops.height = Height_Flat;
+  gap->ops.height  = Height_Flat;
+  gap->ops.contact = Contact_Flat;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -242,3 +242,51 @@ PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count
   if (values) *values = gap->values;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* ---- what a closed solution says of the contact ---- */
+
+#define HALVINGS 200 /* of an interval of half widths, more than doubles have digits and half of their exponents */
+
+/* What of a contact is compared with the prescribed value. */
+static PetscReal ValueOf(const SamGapContact *contact, PetscBool force)
+{
+  return force ? contact->force : contact->approach;
+}
+
+PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2], PetscBool *known)
+{
+  PetscReal     low = 0, high = 1;
+  SamGapContact contact;
+
+  PetscFunctionBegin;
+  half[0] = half[1] = 0;
+  *known            = gap->ops.contact && !gap->rough.file[0] ? PETSC_TRUE : PETSC_FALSE;
+  if (!*known || !(value > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  contact = gap->ops.contact(gap->values, high);
+  for (PetscInt k = 0; k < HALVINGS && ValueOf(&contact, force) < value; k++) {
+    low     = high;
+    contact = gap->ops.contact(gap->values, high *= 2);
+  }
+  for (PetscInt k = 0; k < HALVINGS && high - low > 1e-9 * high; k++) {
+    const PetscReal middle = 0.5 * (low + high);
+
+    contact = gap->ops.contact(gap->values, middle);
+    if (ValueOf(&contact, force) < value)
+      low = middle;
+    else
+      high = middle;
+  }
+  contact = gap->ops.contact(gap->values, high);
+  for (PetscInt k = 0; k < 2; k++) half[k] = contact.half[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], PetscReal *ratio, const char **option)
+{
+  PetscInt parameter = 0;
+
+  PetscFunctionBegin;
+  *ratio  = gap->ops.steepness ? gap->ops.steepness(gap->values, half, &parameter) : 0;
+  *option = gap->ops.steepness ? gap->names[parameter] : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -15,11 +15,34 @@ static PetscReal Height_Punch(const PetscReal values[], PetscReal x, PetscReal y
   return beyond > 0 ? 0.5 * beyond * beyond / values[1] : 0;
 }
 
+/*
+  Sneddon's solution for bodies of revolution (Int. J. Engng Sci. 3 (1965) 47-57): force over E* = 2 a^2 times the
+  integral of sin^2 t h'(a sin t), approach = a times that of h'(a sin t), t from 0 to pi/2; h' = 0 up to the flat edge.
+*/
+static SamGapContact Contact_Punch(const PetscReal values[], PetscReal half)
+{
+  const double c = values[0], a = half, R = values[1], t = a > c ? asin(c / a) : 0, rest = PETSC_PI / 2 - t;
+
+  if (a <= c) return (SamGapContact){{half, half}, 0, 0};
+  return (SamGapContact){{half, half},
+                         2 * a * a / R * (a * (cos(t) - pow(cos(t), 3) / 3) - c * (0.5 * rest + 0.25 * sin(2 * t))),
+                         a / R * (a * cos(t) - c * rest)};
+}
+
+/* The base is flat: its edge is what must not be steep. */
+static PetscReal Steepness_Punch(const PetscReal values[], const PetscReal half[2], PetscInt *parameter)
+{
+  *parameter = 1;
+  return PetscMax(PetscMax(half[0], half[1]) - values[0], 0) / values[1];
+}
+
 PetscErrorCode SamGapCreate_Punch(SamGap gap)
 {
   PetscFunctionBegin;
   gap->ops.count      = 2;
   gap->ops.parameters = parameters;
   gap->ops.height     = Height_Punch;
+  gap->ops.contact    = Contact_Punch;
+  gap->ops.steepness  = Steepness_Punch;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

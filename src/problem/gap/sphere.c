@@ -13,11 +13,28 @@ static PetscReal Height_Sphere(const PetscReal radius[], PetscReal x, PetscReal 
   return 0.5 * (x * x + y * y) * (1 / radius[0] + 1 / radius[1]);
 }
 
+/* Hertz: Johnson, eqs 4.22 to 4.24. */
+static SamGapContact Contact_Sphere(const PetscReal radius[], PetscReal half)
+{
+  const PetscReal curvature = 1 / radius[0] + 1 / radius[1];
+
+  if (curvature == 0) return (SamGapContact){{PETSC_INFINITY, PETSC_INFINITY}, PETSC_INFINITY, PETSC_INFINITY};
+  return (SamGapContact){{half, half}, 4. / 3 * half * half * half * curvature, half * half * curvature};
+}
+
+static PetscReal Steepness_Sphere(const PetscReal radius[], const PetscReal half[2], PetscInt *parameter)
+{
+  *parameter = radius[0] <= radius[1] ? 0 : 1;
+  return PetscMax(half[0], half[1]) / radius[*parameter];
+}
+
 PetscErrorCode SamGapCreate_Sphere(SamGap gap)
 {
   PetscFunctionBegin;
   gap->ops.count      = 2;
   gap->ops.parameters = parameters;
   gap->ops.height     = Height_Sphere;
+  gap->ops.contact    = Contact_Sphere;
+  gap->ops.steepness  = Steepness_Sphere;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

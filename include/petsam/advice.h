@@ -1,0 +1,49 @@
+/*
+  What a user should know of a solution that is right for its grid, but may not be what was meant: a grid that is too
+  coarse or too small, a contact too large for half-spaces. Each message says what would be better, by options.
+*/
+#ifndef PETSAM_ADVICE_H
+#define PETSAM_ADVICE_H
+
+#include <petsam/setup.h>
+
+/* A contact of fewer cells across than these is not resolved. */
+#define SAM_FEW_CELLS 20
+/* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature. */
+#define SAM_STEEPEST 0.1
+
+/* SamExtent - the size of a contact. */
+typedef struct {
+  PetscInt  zones;   /* that are connected; 0: the bodies do not touch */
+  PetscReal across;  /* cells, of the narrow zones: SamGridMeasureZones(), a tenth of the cells left out */
+  PetscReal half[2]; /* m: half widths of the rectangle that holds all of it */
+} SamExtent;
+/* SamSetupMeasure - the extent of the contact in the last solution that was found. Collective. */
+PETSC_EXTERN PetscErrorCode SamSetupMeasure(const SamSetup *setup, SamExtent *extent);
+
+/* SamLoadsMost - the largest loads of several steps. To be zero at first. */
+typedef struct {
+  PetscInt  steps;    /* that have been added */
+  PetscBool force;    /* the normal force is given; false: the approach */
+  PetscReal normal;   /* the largest of it, N or m */
+  PetscReal lever[2]; /* m: the farthest that moments bring the centre of pressure from the origin along x and y */
+  PetscBool open;     /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
+} SamLoadsMost;
+/* SamLoadsMostAdd - adds a step. Not collective. */
+PETSC_EXTERN void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control);
+
+/*
+  The messages, on one line and without option of theirs at the end; empty when there is nothing to say. None is
+  collective.
+  SamAdviseCells - the contact of a step is fewer than SAM_FEW_CELLS cells across; grids on which it is not.
+  SamAdviseCurvature - its half width is more than SAM_STEEPEST of a radius of curvature.
+  SamAdviseEdge - a grid on which these loads do not bring the contact to its edge, to which it came in a step.
+*/
+PETSC_EXTERN PetscErrorCode SamAdviseCells(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
+                                           char text[], size_t size);
+PETSC_EXTERN PetscErrorCode SamAdviseCurvature(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
+                                               char text[], size_t size);
+PETSC_EXTERN PetscErrorCode SamAdviseEdge(const SamSetup *setup, const SamStep *step, const SamLoadsMost *most,
+                                          char text[], size_t size);
+
+#endif

@@ -1,0 +1,262 @@
+/*
+  What a user should know of a solution that may not be what was meant.
+
+  Sizes of grids follow from closed solutions where there are any, which hold even where the grid resolves nothing or
+  ends within the contact; else from the contact that was found.
+*/
+#include <petsam/advice.h>
+#include <petsam/private/baseimpl.h>
+#include <math.h>
+
+#define NARROW    0.1   /* part of the contact's cells whose zones, the narrowest, do not count */
+#define ROOM      1.5   /* width of a good grid over that of the contact */
+#define MARGIN    1.1   /* width of a sufficient grid over that of the contact, */
+#define BORDER    4     /* and so many cells more */
+#define SAME      2     /* cells by which two widths may differ that are counted or computed */
+#define LARGEST   16384 /* cells in a row of a grid that is advised */
+#define BLIND     0.98  /* pressure at the edge over the largest, above which the pressure does not tell the size */
+#define AT_A_TIME 64    /* characters of numbers */
+
+/* ---- loads ---- */
+
+void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
+{
+  const PetscReal normal = control->value[SAM_COMPONENT_N];
+
+  most->force = control->force[SAM_COMPONENT_N];
+  if (!most->steps++ || normal > most->normal) most->normal = normal;
+  for (PetscInt k = 0; k < 2; k++) {
+    const SamComponent c = k ? SAM_COMPONENT_MX : SAM_COMPONENT_MY; /* My tips along x */
+
+    if (!control->force[c] && control->value[c] != 0) most->open = PETSC_TRUE;
+    if (!control->force[c] || control->value[c] == 0) continue;
+    if (most->force && normal > 0)
+      most->lever[k] = PetscMax(most->lever[k], fabs(control->value[c]) / normal);
+    else
+      most->open = PETSC_TRUE;
+  }
+}
+
+/* ---- numbers in messages ---- */
+
+/* Rounds up to two digits. */
+static double RoundUp(double x)
+{
+  const double unit = pow(10, floor(log10(x)) - 1);
+
+  return ceil(x / unit * (1 - 1e-9)) * unit;
+}
+
+/* Two numbers as an option takes them: one for both if they are the same. */
+static void WritePair(const char option[], const double x[2], char text[AT_A_TIME])
+{
+  if (x[0] == x[1])
+    (void)snprintf(text, AT_A_TIME, "-%s %.8g", option, x[0]);
+  else
+    (void)snprintf(text, AT_A_TIME, "-%s %.8g,%.8g", option, x[0], x[1]);
+}
+
+/* ---- the extent ---- */
+
+PetscErrorCode SamSetupMeasure(const SamSetup *s, SamExtent *extent)
+{
+  const PetscReal    cell[2] = {s->grid->dx, s->grid->dy};
+  const SamSolution *solution;
+  PetscInt           first[2], n[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(s->contact, &solution));
+  PetscCall(SamGridMeasureZones(s->grid, solution->pressure, NARROW, &extent->zones, &extent->across));
+  PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
+  for (int k = 0; k < 2; k++) extent->half[k] = 0.5 * (PetscReal)n[k] * cell[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  The half widths of the contact under these loads by a closed solution. `known`: there is one, and it ends within a
+  finite length.
+*/
+static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2], PetscBool *known)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGapEstimateContact(s->gap, force, force ? value / s->pair.modulus : value, half, known));
+  for (int k = 0; k < 2; k++)
+    if (!isfinite(half[k]) || half[k] <= 0) *known = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- few cells ---- */
+
+/* Grids that resolve a contact of these half widths: as large as now, and as many cells as now. Empty: none. */
+static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double factor, char cells[], char width[])
+{
+  const double n[2] = {(double)s->grid->nx, (double)s->grid->ny};
+  double       more[2], size[2];
+  PetscBool    smaller = PETSC_FALSE, enough = PETSC_TRUE;
+
+  cells[0] = width[0] = '\0';
+  for (int k = 0; k < 2; k++) {
+    more[k] = ceil(n[k] * factor);
+    size[k] = PetscMin((double)s->grid->width[k], RoundUp(2 * ROOM * (double)half[k]));
+    if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
+  }
+  if (s->grid->nx == s->grid->ny && s->grid->width[0] == s->grid->width[1])
+    size[0] = size[1] = PetscMax(size[0], size[1]);
+  /* the contact gets wider in cells as the grid gets smaller, more so along one axis */
+  if (PetscMin((double)s->grid->width[0] / size[0], (double)s->grid->width[1] / size[1]) < factor) enough = PETSC_FALSE;
+  if (PetscMax(more[0], more[1]) <= LARGEST) WritePair("grid_n", more, cells);
+  if (smaller && enough) WritePair("grid_size", size, width);
+}
+
+/*
+  Half widths and cells across: by the closed solution where it is of this contact, which it is not after wear for
+  example; else what was found.
+*/
+static PetscErrorCode GetWidths(const SamSetup *s, const SamStep *step, const SamExtent *extent, PetscReal half[2],
+                                PetscReal *across)
+{
+  const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
+  PetscBool       known;
+
+  PetscFunctionBegin;
+  PetscCall(Estimate(s, step->control.force[SAM_COMPONENT_N], step->control.value[SAM_COMPONENT_N], half, &known));
+  if (known) *across = 2 * PetscMin(half[0] / cell[0], half[1] / cell[1]);
+  if (known && fabs(*across - extent->across) <= SAME) PetscFunctionReturn(PETSC_SUCCESS);
+  *across = extent->across;
+  for (int k = 0; k < 2; k++) half[k] = extent->half[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAdviseCells(const SamSetup *s, const SamStep *step, const SamExtent *extent, char text[], size_t size)
+{
+  PetscReal half[2], across;
+  char      cells[AT_A_TIME], width[AT_A_TIME], found[160];
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (!extent->zones || extent->across >= SAM_FEW_CELLS) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(GetWidths(s, step, extent, half, &across));
+  AdviseGrids(s, half, (SAM_FEW_CELLS + SAME) / (double)across, cells, width);
+  if (extent->zones == 1)
+    (void)snprintf(found, sizeof(found), "the contact is %.3g cells across", (double)extent->across);
+  else
+    (void)snprintf(found, sizeof(found), "the contact is in %lld zones, the narrow ones %.3g cells across",
+                   (long long)extent->zones, (double)extent->across);
+  (void)snprintf(text, size, "%s (%.3g m by %.3g m on a grid of %.3g m by %.3g m): expected %d or more", found,
+                 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0], (double)s->grid->width[1],
+                 SAM_FEW_CELLS);
+  if (s->from_file[0] || s->from_file[1])
+    (void)snprintf(text + strlen(text), size - strlen(text), ": a file with %s",
+                   cells[0] ? "heights at smaller distances, and " : "heights at smaller distances");
+  else if (cells[0] || width[0])
+    (void)snprintf(text + strlen(text), size - strlen(text), ": %s%s%s", width, width[0] ? " (in m)" : "",
+                   width[0] && cells[0] ? " or " : "");
+  if (!width[0] || cells[0]) (void)snprintf(text + strlen(text), size - strlen(text), "%s", cells);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- curvature ---- */
+
+/* Says by how much a contact is too large for half-spaces; empty: it is not. */
+static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char text[], size_t size)
+{
+  const char *option, *const *names;
+  const PetscReal *values;
+  PetscReal        ratio, radius = 0;
+  PetscInt         count;
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  PetscCall(SamGapGetSteepness(s->gap, half, &ratio, &option));
+  if (!(ratio > SAM_STEEPEST)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
+  for (PetscInt k = 0; k < count; k++)
+    if (!strcmp(names[k], option)) radius = values[k];
+  (void)snprintf(text, size, "is %.2g of -%s %g, and half-space theory ends at about %g: check the units, N, m, Pa",
+                 (double)ratio, option, (double)radius, SAM_STEEPEST);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAdviseCurvature(const SamSetup *s, const SamStep *step, const SamExtent *extent, char text[],
+                                  size_t size)
+{
+  PetscReal half[2], across;
+  char      ratio[192];
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (!extent->zones) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(GetWidths(s, step, extent, half, &across));
+  PetscCall(Compare(s, half, ratio, sizeof(ratio)));
+  if (ratio[0]) (void)snprintf(text, size, "the contact is large for its radius: its half width %s", ratio);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the edge ---- */
+
+/*
+  The half widths where no closed solution is at hand. The pressure at the grid's edge tells how far it is to the
+  contact's, as for Hertz's pressure p0 sqrt(1 - r^2/a^2); widths grow at most like the root of the load.
+*/
+static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadsMost *most, PetscReal half[2])
+{
+  const double edge   = PetscMin(BLIND, (double)step->check.edge);
+  const double now    = (double)(most->force ? step->load[SAM_COMPONENT_N] : step->rigid[SAM_COMPONENT_N]);
+  const double growth = now > 0 && most->normal > now ? sqrt((double)most->normal / now) : 1;
+
+  for (int k = 0; k < 2; k++) half[k] = 0.5 * s->grid->width[k] / sqrt(1 - edge * edge) * growth;
+}
+
+/* The grid with the same cells that holds a contact of these half widths about the origin, or more. */
+static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], char text[], size_t size)
+{
+  const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
+  const double    n[2]    = {(double)s->grid->nx, (double)s->grid->ny};
+  double          width[2], cells[2];
+  char            one[AT_A_TIME], other[AT_A_TIME];
+
+  for (int k = 0; k < 2; k++) {
+    const double reach = (double)(half[k] + lever[k]) * MARGIN + fabs((double)s->grid->center[k]);
+
+    width[k] = PetscMax((double)s->grid->width[k], RoundUp(2 * reach + BORDER * (double)cell[k]));
+  }
+  if (n[0] == n[1] && s->grid->width[0] == s->grid->width[1]) width[0] = width[1] = PetscMax(width[0], width[1]);
+  for (int k = 0; k < 2; k++)
+    cells[k] = width[k] > (double)s->grid->width[k] ? 2 * ceil(0.5 * width[k] / (double)cell[k] - 1e-9) : n[k];
+  WritePair("grid_size", width, one);
+  WritePair("grid_n", cells, other);
+  if (PetscMax(cells[0], cells[1]) <= LARGEST)
+    (void)snprintf(text, size, "%s, with %s for cells as now", one, other);
+  else
+    (void)snprintf(text, size, "%s", one);
+}
+
+PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamStep *step, const SamLoadsMost *most, char text[], size_t size)
+{
+  PetscReal half[2];
+  PetscBool known, flat;
+  char      grid[3 * AT_A_TIME], ratio[192] = "";
+
+  PetscFunctionBegin;
+  PetscCall(Estimate(s, most->force, most->normal, half, &known));
+  flat = isinf(half[0]) || isinf(half[1]) ? PETSC_TRUE : PETSC_FALSE;
+  if (flat) {
+    (void)snprintf(text, size,
+                   "the bodies are straight along %s, and touch up to the edge of any grid: periodic bodies "
+                   "(-elasticity periodic) have none, or -allow_edge_contact",
+                   isinf(half[0]) && isinf(half[1]) ? "x and y"
+                   : isinf(half[0])                 ? "x"
+                                                    : "y");
+  } else if (s->from_file[0] || s->from_file[1]) {
+    (void)snprintf(text, size,
+                   "a surface from a file cannot be made larger by it: expected a file of a larger area, or less load");
+  } else {
+    known = known && !most->open ? PETSC_TRUE : PETSC_FALSE;
+    if (!known) Extrapolate(s, step, most, half);
+    AdviseGrid(s, half, most->lever, grid, sizeof(grid));
+    if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio)));
+    (void)snprintf(text, size, "%s %s%s%s", known ? "it needs" : "it needs about", grid,
+                   ratio[0] ? "; its half width " : "", ratio);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
