@@ -287,7 +287,7 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
              " rows is more steps than can be counted (%" PetscInt_FMT ")",
              SamOptionsPrefix(from), h->increments, h->rows, PETSC_MAX_INT);
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) /* so that none is taken for another one misspelled */
-    SamOptionsKnow(from, k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load);
+    SamOptionsKnow(from, k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load, NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) PetscCall(ReadBulkStress(h, &reader, body, k));

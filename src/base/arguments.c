@@ -413,7 +413,7 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
   PetscInt                 count;
   char                   **names, **values;
   char                     first[128] = "", name[64] = "";
-  const char              *nearest;
+  const char              *nearest, *with;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; program && late[k]; k++) {
@@ -430,8 +430,8 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   if (!first[0]) PetscFunctionReturn(PETSC_SUCCESS);
   nearest = SamOptionsNearest(name);
-  PetscCheck(!SamOptionsIsKnown(name), comm, SAM_ERR_USER,
-             "%s: has no effect with the other options given: leave it out, or see which it belongs to", first);
+  PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s: has no effect %s%s: leave it out", first,
+             with ? "without " : "with the other options given", with ? with : "");
   PetscCheck(!nearest, comm, SAM_ERR_USER, "%s: unknown option: is -%s meant?", first, nearest);
   SETERRQ(comm, SAM_ERR_USER, "%s: unknown option, or one that has no effect with the others given", first);
 }

@@ -57,7 +57,7 @@ static PetscErrorCode PrintHelpLine(const SamOptions *from, const char name[], c
   char      option[128], shown[TEXT_SIZE + 4] = "";
 
   PetscFunctionBegin;
-  SamOptionsKnow(from, name);
+  SamOptionsKnow(from, name, NULL);
   PetscCall(SamPrintHelp(&print));
   if (!print) PetscFunctionReturn(PETSC_SUCCESS);
   snprintf(option, sizeof(option), "-%s%s %s", SamOptionsPrefix(from), name, kind);

@@ -10,7 +10,7 @@
 #define MOST   256 /* names that are kept */
 #define LENGTH 48  /* characters of a name that are compared */
 
-static char     known[MOST][LENGTH];
+static char     known[MOST][LENGTH], belongs[MOST][LENGTH]; /* belongs: what an option has an effect with; or empty */
 static PetscInt knowns = 0;
 
 /* Options that PETSc reads, whose names count as well. */
@@ -44,6 +44,7 @@ static const struct {
               {"load_y", "load_ty"},
               {"disp_n", "disp_z"},
               {"n", "grid_n"},
+              {"grid", "grid_n"},
               {"cells", "grid_n"},
               {"size", "grid_size"},
               {"o", "output"},
@@ -116,21 +117,33 @@ const char *SamNearestName(const char tried[], size_t count, const char *const n
 
 /* ---- options ---- */
 
-void SamOptionsKnow(const SamOptions *from, const char name[])
+static PetscInt FindKnown(const char name[])
 {
-  char option[LENGTH];
-
-  (void)snprintf(option, sizeof(option), "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
   for (PetscInt k = 0; k < knowns; k++)
-    if (!strcmp(known[k], option)) return;
-  if (knowns < MOST) memcpy(known[knowns++], option, sizeof(option));
+    if (IsSame(known[k], name)) return k;
+  return -1;
 }
 
-PetscBool SamOptionsIsKnown(const char name[])
+void SamOptionsKnow(const SamOptions *from, const char name[], const char with[])
 {
-  for (PetscInt k = 0; k < knowns; k++)
-    if (IsSame(known[k], name)) return PETSC_TRUE;
-  return PETSC_FALSE;
+  char     option[LENGTH] = "";
+  PetscInt k;
+
+  (void)snprintf(option, sizeof(option), "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
+  k = FindKnown(option);
+  if (k < 0 && knowns < MOST) {
+    k = knowns++;
+    memcpy(known[k], option, sizeof(option));
+  }
+  if (k >= 0 && with) (void)snprintf(belongs[k], sizeof(belongs[k]), "%s", with);
+}
+
+PetscBool SamOptionsIsKnown(const char name[], const char **with)
+{
+  const PetscInt k = FindKnown(name);
+
+  if (with) *with = k >= 0 && belongs[k][0] ? belongs[k] : NULL;
+  return k >= 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 const char *SamOptionsNearest(const char tried[])
@@ -159,7 +172,7 @@ static PetscErrorCode FindMisspelled(const char name[], char found[], size_t siz
 
     for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
       if (IsSame(names[k], habits[h].tried) && !strcmp(habits[h].name, name)) habit = PETSC_TRUE;
-    if (habit || (SamIsNear(names[k], name) && !SamOptionsIsKnown(names[k])))
+    if (habit || (SamIsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)))
       (void)snprintf(found, size, "%s", names[k]);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));

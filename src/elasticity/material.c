@@ -62,7 +62,8 @@ PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(from, "Bodies"));
-  for (PetscInt k = 0; k < 4; k++) SamOptionsKnow(from, names[k]); /* one body's are no misspelling of the other's */
+  for (PetscInt k = 0; k < 4; k++)
+    SamOptionsKnow(from, names[k], NULL); /* one body's are no misspelling of the other's */
   for (PetscInt b = 0; b < 2; b++) {
     const char *name = names[b];
 

@@ -13,7 +13,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-enum { IN_USE = -1, FOREIGN = -2, REPLACED = -3, RESIZED = -4, IS_LINK = -5, NOT_A_FILE = -6 };
+enum { IN_USE = -1, FOREIGN = -2, REPLACED = -3, RESIZED = -4, IS_LINK = -5, NOT_A_FILE = -6, NO_FOLDER = -7 };
 
 static const char *Reason(int error)
 {
@@ -30,6 +30,10 @@ static const char *Reason(int error)
     return "it is a symbolic link";
   case NOT_A_FILE:
     return "it is not a file";
+  case NO_FOLDER:
+    return "its folder does not exist";
+  case EISDIR:
+    return "it is a folder, expected the name of a file";
   default:
     return strerror(error);
   }
@@ -37,7 +41,11 @@ static const char *Reason(int error)
 
 PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error)
 {
+  char folder[PETSC_MAX_PATH_LEN];
+
   PetscFunctionBegin;
+  SamGetFolder(filename, folder);
+  if (error == ENOENT && access(folder, F_OK)) error = NO_FOLDER;
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
   PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, Reason(error));
   PetscFunctionReturn(PETSC_SUCCESS);

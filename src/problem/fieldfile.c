@@ -203,6 +203,29 @@ static PetscErrorCode RaiseLengths(const SamFieldFile *source, SamGrid grid, con
   }
 }
 
+/* Names of datasets in the file's root, and of groups with a slash behind them, as many as there is room for. */
+static void ListNames(const SamFieldFile *source, char list[], size_t size)
+{
+  const hid_t file = H5Fopen(source->file, H5F_ACC_RDONLY, H5P_DEFAULT);
+  H5G_info_t  info;
+  size_t      used = 0;
+
+  list[0] = '\0';
+  if (file < 0) return;
+  if (H5Gget_info(file, &info) < 0) info.nlinks = 0;
+  for (hsize_t k = 0; k < info.nlinks && used + 8 < size; k++) {
+    const hid_t object = H5Oopen_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT);
+    const int   group  = object >= 0 && H5Iget_type(object) == H5I_GROUP;
+    char        name[64];
+
+    if (H5Lget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof(name), H5P_DEFAULT) > 0)
+      used += (size_t)snprintf(list + used, size - used, "%s/%s%s", used ? ", " : "", name, group ? "/..." : "");
+    if (object >= 0) (void)H5Oclose(object);
+  }
+  if (used + 8 >= size) (void)snprintf(list + size - 5, 5, " ...");
+  (void)H5Fclose(file);
+}
+
 static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verdict *verdict)
 {
   const char *const file = source->file, *const dataset = source->dataset;
@@ -219,10 +242,8 @@ static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verd
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: cannot be read: it is not a file", source->prefix, source->file_option,
             file);
   case NOT_HDF5:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: is not an HDF5 file", source->prefix, source->file_option, file);
-  case NO_DATASET:
-    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: has no dataset %s (-%s%s)", source->prefix, source->file_option, file,
-            dataset, source->prefix, source->dataset_option);
+    SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: is not an HDF5 file; petsam-surface makes one of other formats",
+            source->prefix, source->file_option, file);
   case WRONG_TYPE:
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s does not hold real or whole numbers", source->prefix,
             source->file_option, file, dataset);
@@ -232,8 +253,9 @@ static PetscErrorCode Raise(const SamFieldFile *source, SamGrid grid, const Verd
             source->file_option, file, dataset, detail[0], ny, nx);
   case WRONG_SHAPE:
     SETERRQ(grid->comm, SAM_ERR_FILE,
-            "-%s%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y", source->prefix,
-            source->file_option, file, dataset, detail[0], detail[1], ny, nx);
+            "-%s%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y: %s -grid_n %lld,%lld",
+            source->prefix, source->file_option, file, dataset, detail[0], detail[1], ny, nx,
+            detail[0] == nx && detail[1] == ny ? "transpose it, or give" : "it fits", detail[1], detail[0]);
   case NOT_FINITE:
     SETERRQ(grid->comm, SAM_ERR_FILE, "-%s%s %s: %s[%lld, %lld] is not a finite number", source->prefix,
             source->file_option, file, dataset, detail[0], detail[1]);
@@ -254,6 +276,7 @@ typedef struct {
   const SamFieldFile *source;
   SamGrid             grid;
   Verdict             verdict;
+  char                names[160]; /* of the datasets that there are, where the one that is wanted is not */
 } Case;
 
 static void JudgeCase(void *data)
@@ -261,18 +284,23 @@ static void JudgeCase(void *data)
   Case *c = (Case *)data;
 
   c->verdict = Judge(c->source, c->grid);
+  if (c->verdict.kind == NO_DATASET) ListNames(c->source, c->names, sizeof(c->names));
 }
 
 /* Raises an error for a file that is no good; otherwise returns what its values are to be multiplied with. */
 static PetscErrorCode CheckFile(const SamFieldFile *source, SamGrid grid, double *factor)
 {
-  Case        c = {.source = source, .grid = grid, .verdict = {.kind = GOOD}};
+  Case        c = {.source = source, .grid = grid, .verdict = {.kind = GOOD}, .names = ""};
   PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
   if (rank == 0 && !SamCallInChild(JudgeCase, &c, sizeof(c))) c.verdict.kind = DAMAGED;
   PetscCallMPI(MPI_Bcast(&c.verdict, (PetscMPIInt)sizeof(c.verdict), MPI_BYTE, 0, grid->comm));
+  PetscCallMPI(MPI_Bcast(c.names, (PetscMPIInt)sizeof(c.names), MPI_CHAR, 0, grid->comm));
+  PetscCheck(c.verdict.kind != NO_DATASET, grid->comm, SAM_ERR_FILE, "-%s%s %s: has no dataset %s (-%s%s); it has %s",
+             source->prefix, source->file_option, source->file, source->dataset, source->prefix, source->dataset_option,
+             c.names[0] ? c.names : "none");
   PetscCall(Raise(source, grid, &c.verdict));
   *factor = source->is_length ? c.verdict.lengths.factor : 1;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -101,10 +101,13 @@ PETSC_EXTERN PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[
 PETSC_EXTERN PetscBool SamIsNear(const char tried[], const char name[]);
 /* SamNearestName - the name out of these that may be meant; NULL: none. */
 PETSC_EXTERN const char *SamNearestName(const char tried[], size_t count, const char *const names[]);
-/* SamOptionsKnow - notes that there is an option of this name (without dash and prefix), for suggestions. */
-PETSC_EXTERN void SamOptionsKnow(const SamOptions *from, const char name[]);
-/* SamOptionsIsKnown - whether there is one; with the prefix, without dash. */
-PETSC_EXTERN PetscBool SamOptionsIsKnown(const char name[]);
+/*
+  SamOptionsKnow - notes that there is an option of this name (without dash and prefix), for suggestions. `with`: what
+  else must be given for it to have an effect, NULL: nothing, or not known.
+*/
+PETSC_EXTERN void SamOptionsKnow(const SamOptions *from, const char name[], const char with[]);
+/* SamOptionsIsKnown - whether there is one; with the prefix, without dash. `with` may be NULL. */
+PETSC_EXTERN PetscBool SamOptionsIsKnown(const char name[], const char **with);
 /* SamOptionsNearest - the option that may be meant by a name; NULL: none. */
 PETSC_EXTERN const char *SamOptionsNearest(const char tried[]);
 /*

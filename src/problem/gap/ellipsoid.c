@@ -57,7 +57,7 @@ static SamGapContact Contact_Ellipsoid(const PetscReal radius[], PetscReal half)
   const int     x     = radius[0] >= radius[1] ? 0 : 1; /* along the longer axis */
   const double  radii = radius[1 - x] / radius[x], ratio = radii > STRAIGHT ? RatioOfAxes(radii) : 0, b = ratio * half;
   double        K, E, pressure; /* over E* */
-  SamGapContact contact = {{PETSC_INFINITY, PETSC_INFINITY}, PETSC_INFINITY, PETSC_INFINITY};
+  SamGapContact contact = {{INFINITY, INFINITY}, INFINITY, INFINITY};
 
   if (ratio == 0) {
     if (isfinite(radius[1 - x])) contact.half[1 - x] = 0;

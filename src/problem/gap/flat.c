@@ -1,5 +1,6 @@
 /* Two planes: h = 0. Useful with a roughness. */
 #include <petsam/private/gapimpl.h>
+#include <math.h>
 
 static PetscReal Height_Flat(const PetscReal values[], PetscReal x, PetscReal y)
 {
@@ -14,7 +15,7 @@ static SamGapContact Contact_Flat(const PetscReal values[], PetscReal half)
 {
   (void)values;
   (void)half;
-  return (SamGapContact){{PETSC_INFINITY, PETSC_INFINITY}, PETSC_INFINITY, PETSC_INFINITY};
+  return (SamGapContact){{INFINITY, INFINITY}, INFINITY, INFINITY};
 }
 
 PetscErrorCode SamGapCreate_Flat(SamGap gap)

@@ -147,11 +147,14 @@ static PetscErrorCode KnowTypes(MPI_Comm comm, const SamOptions *from)
   PetscCall(SamGapCreate(comm, &gap));
   PetscCall(SamTypesGet(SamGapList, &types, &count));
   for (int t = 0; t < count; t++) {
+    char with[96];
+
+    (void)snprintf(with, sizeof(with), "-%sgap_type %s", SamOptionsPrefix(from), types[t]);
     PetscCall(SamGapSetType(gap, types[t]));
-    for (PetscInt k = 0; k < gap->ops.count; k++) SamOptionsKnow(from, gap->names[k]);
+    for (PetscInt k = 0; k < gap->ops.count; k++) SamOptionsKnow(from, gap->names[k], with);
+    if (gap->ops.setfromoptions) SamOptionsKnow(from, gap->source.file_option, with);
+    if (gap->ops.setfromoptions) SamOptionsKnow(from, gap->source.dataset_option, with);
   }
-  SamOptionsKnow(from, gap->source.file_option);
-  SamOptionsKnow(from, gap->source.dataset_option);
   PetscCall(PetscFree(types));
   PetscCall(SamGapDestroy(&gap));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -3,6 +3,7 @@
   K. L. Johnson, Contact Mechanics (Cambridge University Press, 1985), eq. 4.3 with equal radii of curvature.
 */
 #include <petsam/private/gapimpl.h>
+#include <math.h>
 
 static const SamGapParameter parameters[] = {{"gap_radius1", "radius of body 1 (m, inf: flat)", SAM_RANGE_POSITIVE_INF},
                                              {"gap_radius2", "radius of body 2 (m, inf: flat)",
@@ -18,7 +19,7 @@ static SamGapContact Contact_Sphere(const PetscReal radius[], PetscReal half)
 {
   const PetscReal curvature = 1 / radius[0] + 1 / radius[1];
 
-  if (curvature == 0) return (SamGapContact){{PETSC_INFINITY, PETSC_INFINITY}, PETSC_INFINITY, PETSC_INFINITY};
+  if (curvature == 0) return (SamGapContact){{INFINITY, INFINITY}, INFINITY, INFINITY};
   return (SamGapContact){{half, half}, 4. / 3 * half * half * half * curvature, half * half * curvature};
 }
 

@@ -1,0 +1,365 @@
+"""What a beginner gets wrong, and that each answer is enough to mend it without documentation.
+
+Every case is a run as a user would start it, the exit code, and what the line on stderr must say: which option, file or
+line is meant, and what to write instead. Where a run goes on with a warning, results are kept. What test_bad_input.py
+has is not here again: those are all wrong values; these are slips of units, names, files and habits.
+"""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+from conftest import PROGRAM, execute
+from support import SPHERE, hertz
+
+FLAT = dict(gap_type="flat", gap_radius1=None, gap_radius2=None)
+FILE = dict(gap_type="file", gap_radius1=None, gap_radius2=None, grid_n=(7, 6))
+HISTORY = dict(load_n=None, history="loads.csv")
+LOADS = "time,load_n\n1,500\n2,1000\n"
+
+
+def mistake(name, change, *words, says, code=2, files=None):
+    """Options of SPHERE that are changed, further words, texts of the first line, and files by name."""
+    return pytest.param(change, words, [says] if isinstance(says, str) else says, code, files or {}, id=name)
+
+
+def history(name, text, says, *words, code=2, **change):
+    """A history of that text instead of -load_n."""
+    return mistake(f"history: {name}", dict(HISTORY, **change), *words, says=says, code=code, files={"loads.csv": text})
+
+
+MISTAKES = [
+    # ---- numbers and units
+    mistake("decimal comma", dict(grid_size="2,6e-3"), says=["-grid_size 2,6e-3", "2.6e-3, with a decimal point"]),
+    mistake("decimal commas in both", dict(grid_size="2,6e-3,2,6e-3"), says=["-grid_size", "decimal point, not a comma"]),
+    mistake("one width a thousand times the other", dict(grid_size="2.6e-3,2.6"), says=["-grid_size", "hundredfold"]),
+    mistake("decimal comma of a load", dict(load_n="1000,5"), says=["-load_n 1000,5", "decimal point, not a comma"]),
+    mistake("unit behind a number", dict(load_n="1000N"), says=["-load_n 1000N", "without a unit", "SI units"]),
+    mistake("unit as a word", {}, "-load_tx", "60", "N", says=["N:", "-load_tx 60 has its value already", "without a unit"]),
+    mistake("GPa", dict(body1_young="210GPa"), says=["-body1_young 210GPa", "without a unit", "Pa"]),
+    mistake("mm", dict(gap_radius1="200mm"), says=["-gap_radius1 200mm", "2.6e-3 for 2.6 mm"]),
+    mistake("percent sign", dict(friction="30%"), says=["-friction 30%", "0.3, not 30"]),
+    mistake("Poisson's ratio in percent", dict(body1_poisson=30.0), says=["-body1_poisson 30", "at most 0.5", "0.3"]),
+    mistake("negative friction", dict(friction=-0.3), says=["-friction -0.3", ">= 0"]),
+    mistake("load that pulls", dict(load_n=-1000.0), says=["-load_n -1000", ">= 0"]),
+    mistake("thousands", dict(grid_n="1e3"), says=["-grid_n 1e3", "whole number"]),
+    mistake("cells with an x", dict(grid_n="64x64"), says=["-grid_n 64x64", "separated by a comma"]),
+    mistake("cells as two words", {}, "-grid_n", "64", "64", says=["64:", "-grid_n are joined by a comma: 64,64"]),
+    mistake("one cell", dict(grid_n=1), says=["-grid_n 1", "from 2"]),
+    mistake("no steps", {}, "-steps", "0", says=["-steps 0", "from 1"]),
+    mistake("half a step", {}, "-steps", "2.5", says=["-steps 2.5", "whole number"]),
+    # ---- the command line
+    mistake("equals sign", dict(load_n=None), "-load_n=1000", says=["-load_n=1000", "expected -load_n 1000"]),
+    mistake("equals sign in the environment's style", {}, "-output=a.h5", says=["-output=a.h5", "-output a.h5"]),
+    mistake("two dashes", {}, "--load_tx", "60", says=["--load_tx", "one dash"]),
+    mistake("typographic dash", {}, "\u2013load_tx", "60", says=["typographic dash", "-load_tx"]),
+    mistake("options file without its option", {}, "study.opts", says=["study.opts", "-options_file study.opts"]),
+    mistake("misspelled", {}, "-frictoin", "0.3", says=["-frictoin 0.3", "is -friction meant?"]),
+    mistake("another program's name", {}, "-mu", "0.3", says=["-mu 0.3", "is -friction meant?"]),
+    mistake("dash for an underscore", {}, "-load-tx", "6", says=["-load-tx 6", "is -load_tx meant?"]),
+    mistake("another letter", {}, "-load_x", "60", says=["-load_x", "is -load_tx meant?"]),
+    mistake("required, misspelled", dict(body1_young=None), "-body1_yuong", "210e9",
+            says=["-body1_young is missing", "is -body1_yuong meant"]),
+    mistake("required, by another name", dict(load_n=None), "-force", "1000",
+            says=["-load_n or -disp_z is missing", "is -force meant"]),
+    mistake("grid of another name", dict(grid_n=None), "-grid", "64", says=["-grid_n is missing", "is -grid meant"]),
+    # ---- what is missing, or contradicts
+    mistake("no grid", dict(grid_n=None), says=["-grid_n is missing", "cells"]),
+    mistake("no size", dict(grid_size=None), says=["-grid_size is missing", "m:", "1.5 times"]),
+    mistake("no modulus", dict(body2_young=None), says=["-body2_young is missing", "Pa", "210e9", "inf"]),
+    mistake("no shape", dict(gap_type=None), says=["-gap_type is missing", "ellipsoid, file, flat, punch or sphere"]),
+    mistake("unknown shape", dict(gap_type="ball"), says=["-gap_type ball", "ellipsoid, file, flat, punch or sphere"]),
+    mistake("no second radius", dict(gap_radius2=None), says=["-gap_radius2 is missing", "inf: flat"]),
+    mistake("no load", dict(load_n=None), says=["-load_n or -disp_z is missing", "(N)", "(m)"]),
+    mistake("load and displacement", dict(disp_z=1e-6), says=["-load_n", "-disp_z", "give one of them"]),
+    mistake("radius of another shape", dict(gap_radius_x=0.2), says=["-gap_radius_x 0.2", "without -gap_type ellipsoid"]),
+    mistake("file of another shape", dict(gap_file="h.h5"), says=["-gap_file h.h5", "without -gap_type file"]),
+    mistake("shape of a file without it", dict(FILE), says=["-gap_file is missing", "-gap_type file"]),
+    mistake("both rigid", dict(body1_young="inf", body2_young="inf"), says=["-body1_young", "at least one"]),
+    mistake("unknown coupling", dict(coupling="half"), says=["-coupling half", "none or full"]),
+    mistake("unknown solver", dict(normal_type="cg"), says=["-normal_type cg", "activeset"]),
+    mistake("limit of time without a checkpoint", dict(max_walltime=60), says=["-max_walltime", "-checkpoint"]),
+    mistake("checkpoints without a file", dict(checkpoint_every=5), says=["-checkpoint_every", "-checkpoint"]),
+    mistake("wear without friction", dict(friction=None, wear_coefficient1=1e-14), says=["-wear_coefficient", "-friction"]),
+    mistake("life without a cycle", dict(wear_coefficient1=1e-14, wear_cycles=10), says=["-wear_cycles", "-history"]),
+    mistake("stiffness without results", {}, "-stiffness", says=["-stiffness", "-output"]),
+    mistake("correction with friction", dict(edges="deferred"), says=["-edges deferred", "-friction 0"]),
+    mistake("bulk stress of a rigid body", dict(body2_young="inf", bulk2_stress_xx=1e6), says=["-bulk2_stress_xx", "rigid"]),
+    # ---- files
+    mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
+    mistake("options file without dashes", {}, "-options_file", "s.opts", files={"s.opts": "load_tx 60\n"},
+            says=["s.opts, line 1", "as in -load_tx"]),
+    mistake("options file with equals signs", {}, "-options_file", "s.opts", files={"s.opts": "\n-load_tx=60\n"},
+            says=["s.opts, line 2", "expected -load_tx 60"]),
+    mistake("options file with units", {}, "-options_file", "s.opts", files={"s.opts": "-load_tx 60 N\n"},
+            says=["s.opts, line 1", "N is too much", "#"]),
+    mistake("results into a folder that is not there", {}, "-output", "new/a.h5", code=3,
+            says=["-output new/a.h5", "folder does not exist"]),
+    mistake("folder as results", {}, "-output", ".", says=["-output .", "it is a folder"], code=3),
+    mistake("results over the surface", FILE, "-gap_file", "wide.h5", "-output", "wide.h5",
+            says=["-output wide.h5", "-gap_file"]),
+    mistake("results over something else", {}, "-output", "s.txt", files={"s.txt": "notes"}, code=3,
+            says=["-output s.txt", "not replaced"]),
+    mistake("no surface", FILE, "-gap_file", "none.h5", says=["-gap_file none.h5", "No such file"], code=3),
+    mistake("surface as text", FILE, "-gap_file", "s.txt", files={"s.txt": "0 0 1\n"}, code=3,
+            says=["-gap_file s.txt", "not an HDF5 file", "petsam-surface"]),
+    mistake("wrong dataset", FILE, "-gap_file", "wide.h5", "-gap_dataset", "/depth", code=3,
+            says=["wide.h5", "no dataset /depth", "-gap_dataset", "it has /height, /measured/..., /notes"]),
+    mistake("surface of another size", dict(FILE, grid_n=64), "-gap_file", "wide.h5", code=3,
+            says=["wide.h5", "(6, 7)", "(64, 64)", "-grid_n 7,6"]),
+    mistake("transposed surface", dict(FILE, grid_n=(6, 7)), "-gap_file", "wide.h5", code=3,
+            says=["wide.h5", "transpose it, or give -grid_n 7,6"]),
+    mistake("no checkpoint", {}, "-restart", "state.h5", says=["-restart state.h5", "No such file"], code=3),
+    # ---- histories
+    mistake("no history", dict(HISTORY), says=["-history loads.csv", "No such file"], code=3),
+    history("empty", "", ["-history loads.csv", "has no row", "time,load_n"]),
+    history("only names", "time,load_n\n", ["-history loads.csv", "has no row", "a line of numbers"]),
+    history("no names", "0,0\n1,1000\n", ["loads.csv, line 1", "first line must name the columns", "time,load_n"]),
+    history("units", "time [s],load_n [N]\n1,x\n", ["loads.csv, line 1", "time [s]", "no unit", "is time meant?"]),
+    history("unit of a load", "time,load_n (N)\n1,x\n", ["loads.csv, line 1", "load_n (N)", "is load_n meant?"]),
+    history("misspelled", "time,laod_n\n1,x\n", ["line 1", "unknown column laod_n", "is load_n meant?", "load_tx"]),
+    history("unknown", "time,depth\n1,1\n", ["line 1", "unknown column depth", "expected time, load_n"]),
+    history("without times", "load_n\n1000\n", ["loads.csv, line 1", "no column named time"]),
+    history("twice a column", "time,load_n,load_n\n1,2,3\n", ["loads.csv, line 1", "two columns are named load_n"]),
+    history("load and displacement", "time,load_n,disp_z\n1,2,3\n", ["loads.csv, line 1", "load_n and disp_z"]),
+    history("decimal commas", "time;load_n\n1;1000,5\n", ["loads.csv, line 2", "1000,5", "decimal point, not a comma"]),
+    history("decimal commas between commas", "time,load_n\n1,1000,5\n", ["line 2", "3 fields", "decimal point"]),
+    history("units of numbers", "time,load_n\n1,1000 N\n", ["loads.csv, line 2", "load_n", "without a unit"]),
+    history("gap in a row", "time,load_n\n1,\n", ["loads.csv, line 2", "load_n", "not a finite number"]),
+    history("times that fall", "time,load_n\n1,2\n0.5,3\n", ["loads.csv, line 3", "time 0.5", "more than 1"]),
+    history("load that pulls", "time,load_n\n1,2\n2,-3\n", ["loads.csv, line 3", "load_n -3", ">= 0"]),
+    history("a workbook", "PK\3\4\0\0", ["loads.csv, line 1", "expected text", "CSV"]),
+    history("value given twice", LOADS, ["-load_n", "loads.csv", "give one of them"], "-load_n", "1000"),
+    history("no normal load", "time,load_tx\n1,2\n", ["-load_n or -disp_z is missing"]),
+    # ---- loads that cannot be carried
+    mistake("force without friction", dict(friction=None, load_tx=60.0), code=11, says=["load_tx = 60 N", "friction"]),
+    mistake("force beyond friction", dict(load_tx=600.0), code=11, says=["gross slip", "load_tx = 600 N (limit 100"]),
+    mistake("moment in N mm", dict(load_my=200.0), code=11, says=["load_my", "limits"]),
+    # ---- grids and units that only the solution shows
+    mistake("modulus in GPa", dict(body1_young=210.0, body2_young=210.0), code=12,
+            says=["-gap_radius1 0.2", "check the units, N, m, Pa"]),
+    mistake("modulus in MPa", dict(body1_young=210e3, body2_young=210e3), code=12,
+            says=["-gap_radius1 0.2", "check the units, N, m, Pa"]),
+    mistake("radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["edge of the grid", "-grid_size 0.02"]),
+    mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
+    mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),
+    mistake("grid beside the contact", dict(grid_center="2e-3,0"), code=12, says=["edge of the grid", "-grid_size"]),
+    mistake("two planes", FLAT, code=12, says=["straight along x and y", "-elasticity periodic", "-allow_edge_contact"]),
+]  # fmt: skip
+
+WARNINGS = [
+    mistake("grid in mm", dict(grid_size=2.6), code=0, says=["2 cells across", "20 or more", "-grid_size 0.0026 (in m)"]),
+    mistake("load in kN", dict(load_n=1.0), code=0, says=["cells across", "20 or more", "-grid_size 0.00026"]),
+    mistake("few cells", dict(grid_n=16), code=0, says=["cells across", "20 or more", "-grid_n "]),
+    mistake("friction in percent", dict(friction=30.0), code=0, says=["friction is 30", "0.3 for 30 percent"]),
+    mistake("displacement that pulls", dict(load_n=None, disp_z=-1e-6), code=0, says=["do not touch", "larger than 0"]),
+    mistake("ball that sinks in", dict(load_n=4e8, grid_size=0.2), code=0,
+            says=["large for its radius", "-gap_radius1 0.2", "0.1"]),
+    mistake("value of an options file in the history too", HISTORY, "-options_file", "s.opts", code=0,
+            says=["-load_n of the options file is not used", "loads.csv has the column load_n"],
+            files={"s.opts": "-load_n 7\n", "loads.csv": LOADS}),
+]  # fmt: skip
+
+
+def test_there_are_fifty():
+    assert len({case.id for case in MISTAKES + WARNINGS}) == len(MISTAKES) + len(WARNINGS) >= 50
+
+
+@pytest.fixture
+def folder(tmp_path):
+    with h5py.File(tmp_path / "wide.h5", "w") as f:
+        f["height"], f["notes"] = np.zeros((6, 7)), np.arange(3.0)
+        f.create_group("measured")
+    return tmp_path
+
+
+def prepare(folder, change, words, files):
+    for name, text in files.items():
+        (folder / name).write_bytes(text.encode("latin-1"))
+    options = {**SPHERE, **change}
+    if "-output" not in words and not any(word.startswith("-output=") for word in words) and "-stiffness" not in words:
+        options["output"] = "results.h5"
+    else:
+        options["output_fields"] = None
+    return options
+
+
+def assert_helps(done, says):
+    assert done.complaint, done.stderr
+    assert all(text in done.complaint[0] for text in says), (says, done.complaint)
+    assert len(done.complaint[0]) <= 480 and "PETSC ERROR" not in done.stderr and "HDF5-DIAG" not in done.stderr
+
+
+@pytest.mark.parametrize("change, words, says, code, files", MISTAKES)
+def test_mistake_is_explained(petsam, folder, change, words, says, code, files):
+    done = petsam(prepare(folder, change, words, files), *words, check=code)
+    assert_helps(done, says)
+    assert len(done.complaint) == (2 if code == 2 else 1), done.stderr
+    assert (folder / "results.h5").exists() == (code > 3)
+
+
+@pytest.mark.parametrize("change, words, says, code, files", WARNINGS)
+def test_doubt_is_told_once(petsam, folder, change, words, says, code, files):
+    done = petsam(prepare(folder, change, words, files), *words, check=code)
+    assert_helps(done, ["warning: ", *says])
+    assert len(done.complaint) == 1 and (folder / "results.h5").exists(), done.stderr
+
+
+# ---------------------------------------------------------------- advice that is followed helps
+
+
+def advised(line, *names):
+    """The words of the options that a message names, for which it would be well."""
+    found = {name: re.search(rf"-{name} ([-\d.e,]+\d)", line) for name in names}
+    assert all(found.values()), line
+    return [word for name in names for word in ("-" + name, found[name].group(1))]
+
+
+@pytest.mark.parametrize(
+    "change", [dict(grid_size=2.6), dict(grid_size=9e-3), dict(grid_size=0.3, grid_n=(50, 64))], ids=str
+)
+@pytest.mark.parametrize("name", ["grid_size", "grid_n"])
+def test_advised_grid_has_enough_cells(petsam, change, name):
+    done = petsam(SPHERE, change)
+    if name == "grid_n" and "-grid_n" not in done.complaint[0]:
+        pytest.skip("the grid would be too large to be advised")
+    assert petsam(SPHERE, change, *advised(done.complaint[0], name)).stderr == ""
+
+
+ELLIPSOID = dict(gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=0.4, gap_radius_y=0.06)
+PUNCH = dict(
+    gap_type="punch", gap_radius1=None, gap_radius2=None, gap_flat_radius=2e-3, gap_edge_radius=0.05, load_n=9e3
+)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        dict(grid_size=1.1e-3),
+        dict(grid_size=1e-3, grid_n=(40, 33)),
+        dict(grid_size=(1e-3, 4e-3), grid_n=(20, 80), grid_center=(2e-4, 0)),
+        dict(ELLIPSOID, grid_size=1.2e-3),
+        dict(PUNCH, grid_size=4e-3),
+        dict(load_n=None, disp_z=2e-5, grid_size=1.3e-3),
+        dict(load_my=0.4, load_mx=-0.3, grid_size=1.6e-3),
+        dict(body2_young=60e9, body2_poisson=0.1, load_tx=80.0, grid_size=1.2e-3),
+        dict(load_n=None, disp_z=1e-5, rot_y=1e-3, grid_size=2.3e-3),
+    ],
+    ids=str,
+)  # fmt: skip
+def test_advised_grid_holds_the_contact(petsam, change):
+    done = petsam(SPHERE, change, check=12)
+    petsam(SPHERE, change, *advised(done.complaint[0], "grid_size", "grid_n"))
+
+
+def test_advised_grid_holds_the_whole_history(petsam, folder):
+    """The contact comes to the edge in an early step; what is advised is for the largest load, and keeps the cells."""
+    (folder / "loads.csv").write_text("time,load_n,load_my\n1,100,0\n2,900,0\n3,5000,0.5\n4,50,0\n")
+    case = dict(SPHERE, **HISTORY, grid_size=1.4e-3, output="out.h5")
+    done = petsam(case, check=12)
+    words = advised(done.complaint[0], "grid_size", "grid_n")
+    assert float(words[1]) / int(words[3]) <= 1.4e-3 / 64
+    assert float(words[1]) >= 2 * hertz(dict(SPHERE, load_n=5000.0)).radius
+    petsam(case, *words)
+    with h5py.File(folder / "out.h5") as f:
+        assert f["history/status"][:].tolist() == [0, 0, 0, 0]
+
+
+# ---------------------------------------------------------------- once a run
+
+
+def test_run_ends_at_the_edge_with_that_step(petsam, folder):
+    (folder / "loads.csv").write_text("time,load_n\n1,100\n2,900\n3,5000\n4,50\n")
+    case = dict(SPHERE, **HISTORY, grid_size=1.4e-3, output="out.h5", output_every=10)
+    done = petsam(case, check=12)
+    assert len(done.complaint) == 1 and "step 2" in done.complaint[0]
+    with h5py.File(folder / "out.h5") as f:
+        assert f["history/status"][:].tolist() == [0, 12]
+        assert f["time"][:].tolist() == [2.0] and f["pressure"][-1].max() > 0
+    done = petsam(case, "-allow_edge_contact")
+    assert len(done.complaint) == 1 and "warning: step 2" in done.complaint[0]
+    with h5py.File(folder / "out.h5") as f:
+        assert f["history/status"][:].tolist() == [0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_cells_across_are_those_of_the_largest_load(petsam, folder, ranks):
+    """Small contacts on the way to the load are no reason to warn, and one warning is enough for a history."""
+    (folder / "loads.csv").write_text("time,load_n\n0,0\n1,1000\n2,20\n3,1000\n")
+    done = petsam(SPHERE, HISTORY, dict(steps=4), ranks=ranks)
+    assert not done.complaint
+    across = float(re.search(r"contact +([\d.]+) cells across \(step 5, at the largest load\)", done.stdout).group(1))
+    assert abs(across - 64 / 1.5) <= 1
+    done = petsam(SPHERE, HISTORY, dict(steps=4, grid_n=24), ranks=ranks)
+    assert len(done.complaint) == 1 and "16 cells across" in done.complaint[0]
+
+
+def test_rough_surface_is_warned_of_once(petsam, folder):
+    """Many small spots: one line that says so, and what would help."""
+    rng = np.random.default_rng(3)
+    with h5py.File(folder / "rough.h5", "w") as f:
+        f["height"] = 1e-6 * rng.random((64, 64))
+    done = petsam(SPHERE, dict(load_n=30.0), "-gap_rough_file", "rough.h5")
+    assert len(done.complaint) == 1
+    assert re.search(r"the contact is in \d+ zones, the narrow ones [\d.]+ cells across", done.complaint[0])
+    assert "a file with heights at smaller distances" in done.complaint[0]
+
+
+def test_checkpoint_says_when_it_is_written(petsam, folder):
+    line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5")).stdout).group(1)
+    assert "s.h5: only at the signals USR2 and USR1" in line and "-checkpoint_every k" in line
+    line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5", checkpoint_every=7)).stdout).group(1)
+    assert "after every 7 steps" in line and "-checkpoint_every k" not in line
+    line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5", max_walltime="1:40")).stdout).group(1)
+    assert "before 100 s have passed" in line
+
+
+@pytest.mark.parametrize("environment", [None, dict(PETSC_OPTIONS="-load_n 3")], ids=["command line", "PETSC_OPTIONS"])
+def test_what_is_given_for_this_run_is_not_overridden(petsam, folder, environment):
+    """A value for this run contradicts the history; one of a shared options file does not."""
+    (folder / "loads.csv").write_text(LOADS)
+    (folder / "s.opts").write_text("-load_n 7\n-load_tx 1\n")
+    words = [] if environment else ["-load_n", "3"]
+    done = petsam(SPHERE, HISTORY, "-options_file", "s.opts", *words, check=2, environment=environment)
+    assert "-load_n: loads.csv has the column load_n" in done.complaint[0]
+
+
+@pytest.mark.parametrize("change", [dict(body1_young=200e9), dict(friction=0.2), dict(grid_n=32)], ids=str)
+def test_restart_with_another_option_names_it(petsam, folder, change):
+    (folder / "loads.csv").write_text(LOADS)
+    petsam(SPHERE, HISTORY, dict(checkpoint="s.h5", checkpoint_every=1))
+    done = petsam(SPHERE, HISTORY, dict(restart="s.h5"), change, check=2)
+    assert "-restart s.h5" in done.complaint[0] and "-" + next(iter(change)) in done.complaint[0]
+
+
+# ---------------------------------------------------------------- petsam-stress
+
+
+@pytest.mark.parametrize(
+    "words, code, says",
+    [
+        ([], 2, ["-input is missing", "results of petsam"]),
+        (["-input", "none.h5"], 3, ["none.h5", "No such file"]),
+        (["-input", "r.h5", "-output", "r.h5"], 2, ["-output r.h5", "-input"]),
+        (["-inptu", "r.h5"], 2, ["-input is missing", "is -inptu meant"]),
+        (["-input", "r.h5", "-body", "3"], 2, ["-body 3", "1 or 2"]),
+        (["-input", "r.h5", "-depth", "1e-5"], 2, ["-depth 1e-5", "is -depths meant?"]),
+        (["-input", "r.h5", "-depths", "-1e-5"], 2, ["-depths -1e-5"]),
+        (["-input", "r.h5", "-depths", "10um"], 2, ["-depths 10um", "first:last:number"]),
+        (["-input", "r.h5", "-section", "z=0"], 2, ["-section z=0", "x=", "y="]),
+        (["-input", "r.h5", "-steps", "3"], 2, ["-steps", "no step 3", "the last is 1"]),
+        (["-input", "r.h5", "-quantities", "von_mises"], 2, ["-quantities von_mises", "mises"]),
+        (["-input", "r.h5", "-fatigue", "findley"], 2, ["-fatigue_findley_k is missing", "required by findley"]),
+        (["-input", "wide.h5"], 3, ["wide.h5", "results of petsam"]),
+    ],
+)
+def test_mistake_with_stresses_is_explained(launcher, petsam, folder, words, code, says):
+    if "r.h5" in words:
+        petsam(SPHERE, dict(output="r.h5"))
+    output = [] if "-output" in words else ["-output", "new.h5"]
+    done = execute(launcher, folder, [*words, *output], 1, code, program=PROGRAM.with_name("petsam-stress"))
+    complaint = [line for line in done.stderr.splitlines() if line.startswith("petsam-stress: ")]
+    assert all(text in complaint[0] for text in says), (says, complaint)
+    assert not (folder / "new.h5").exists()
