@@ -6,6 +6,7 @@
 #include <petsam/private/baseimpl.h>
 #include <ctype.h>
 #include <stdlib.h>
+#include <strings.h>
 
 #define MOST   256 /* names that are kept */
 #define LENGTH 48  /* characters of a name that are compared */
@@ -120,7 +121,7 @@ const char *SamNearestName(const char tried[], size_t count, const char *const n
 static PetscInt FindKnown(const char name[])
 {
   for (PetscInt k = 0; k < knowns; k++)
-    if (IsSame(known[k], name)) return k;
+    if (!strcasecmp(known[k], name)) return k;
   return -1;
 }
 

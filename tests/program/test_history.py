@@ -355,9 +355,13 @@ def test_summary_has_a_line_a_step(drive):
     assert numbers == ["1", "2", "3"]
 
 
-def test_edge_contact_in_one_step_is_the_exit_code_and_the_run_goes_on(drive):
-    s = drive(dict(ball(40, half_width=1.1), load_n=None), ("load_n",), [60.0, 400.0, 60.0], check=12)
-    assert s["status"].tolist() == [0, 12, 0]
+def test_edge_contact_in_one_step_is_the_exit_code_and_ends_the_run(drive):
+    case = dict(ball(40, half_width=1.1), load_n=None)
+    s = drive(case, ("load_n",), [60.0, 400.0, 60.0], check=12)
+    assert s["status"].tolist() == [0, 12]
+    assert len(s.run.complaint) == 1 and "step 2" in s.run.complaint[0]
+    s = drive(dict(case, allow_edge_contact=True), ("load_n",), [60.0, 400.0, 400.0, 60.0])
+    assert s["status"].tolist() == [0, 0, 0, 0]
     assert len(s.run.complaint) == 1 and "step 2" in s.run.complaint[0]
 
 

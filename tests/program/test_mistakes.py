@@ -17,6 +17,7 @@ from support import SPHERE, hertz
 FLAT = dict(gap_type="flat", gap_radius1=None, gap_radius2=None)
 FILE = dict(gap_type="file", gap_radius1=None, gap_radius2=None, grid_n=(7, 6))
 HISTORY = dict(load_n=None, history="loads.csv")
+DRIVEN = {**SPHERE, **HISTORY}
 LOADS = "time,load_n\n1,500\n2,1000\n"
 
 
@@ -75,7 +76,7 @@ MISTAKES = [
     mistake("no load", dict(load_n=None), says=["-load_n or -disp_z is missing", "(N)", "(m)"]),
     mistake("load and displacement", dict(disp_z=1e-6), says=["-load_n", "-disp_z", "give one of them"]),
     mistake("radius of another shape", dict(gap_radius_x=0.2), says=["-gap_radius_x 0.2", "without -gap_type ellipsoid"]),
-    mistake("file of another shape", dict(gap_file="h.h5"), says=["-gap_file h.h5", "without -gap_type file"]),
+    mistake("file of another shape", dict(gap_file="h.h5"), says=["-gap_file", "-gap_type file", "-gap_rough_file"]),
     mistake("shape of a file without it", dict(FILE), says=["-gap_file is missing", "-gap_type file"]),
     mistake("both rigid", dict(body1_young="inf", body2_young="inf"), says=["-body1_young", "at least one"]),
     mistake("unknown coupling", dict(coupling="half"), says=["-coupling half", "none or full"]),
@@ -145,7 +146,7 @@ MISTAKES = [
     mistake("radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),
-    mistake("grid beside the contact", dict(grid_center="2e-3,0"), code=12, says=["edge of the grid", "-grid_size"]),
+    mistake("grid beside the contact", dict(grid_center="2e-3,0"), code=11, says=["lies at x = 0", "grid's cells from 0.0007"]),
     mistake("two planes", FLAT, code=12, says=["straight along x and y", "-elasticity periodic", "-allow_edge_contact"]),
 ]  # fmt: skip
 
@@ -223,8 +224,9 @@ def advised(line, *names):
 @pytest.mark.parametrize("name", ["grid_size", "grid_n"])
 def test_advised_grid_has_enough_cells(petsam, change, name):
     done = petsam(SPHERE, change)
-    if name == "grid_n" and "-grid_n" not in done.complaint[0]:
-        pytest.skip("the grid would be too large to be advised")
+    if name == "grid_n" and change["grid_size"] == 2.6:  # it would have more cells than anybody has memory for
+        assert "-grid_n" not in done.complaint[0]
+        return
     assert petsam(SPHERE, change, *advised(done.complaint[0], name)).stderr == ""
 
 
@@ -245,19 +247,19 @@ PUNCH = dict(
         dict(load_n=None, disp_z=2e-5, grid_size=1.3e-3),
         dict(load_my=0.4, load_mx=-0.3, grid_size=1.6e-3),
         dict(body2_young=60e9, body2_poisson=0.1, load_tx=80.0, grid_size=1.2e-3),
-        dict(load_n=None, disp_z=1e-5, rot_y=1e-3, grid_size=2.3e-3),
+        dict(load_n=None, disp_z=1e-5, rot_y=5e-3, grid_size=2.3e-3),
     ],
     ids=str,
 )  # fmt: skip
 def test_advised_grid_holds_the_contact(petsam, change):
-    done = petsam(SPHERE, change, check=12)
-    petsam(SPHERE, change, *advised(done.complaint[0], "grid_size", "grid_n"))
+    done = petsam({**SPHERE, **change}, check=12)
+    petsam({**SPHERE, **change}, *advised(done.complaint[0], "grid_size", "grid_n"))
 
 
 def test_advised_grid_holds_the_whole_history(petsam, folder):
     """The contact comes to the edge in an early step; what is advised is for the largest load, and keeps the cells."""
     (folder / "loads.csv").write_text("time,load_n,load_my\n1,100,0\n2,900,0\n3,5000,0.5\n4,50,0\n")
-    case = dict(SPHERE, **HISTORY, grid_size=1.4e-3, output="out.h5")
+    case = dict(DRIVEN, grid_size=1.4e-3, output="out.h5")
     done = petsam(case, check=12)
     words = advised(done.complaint[0], "grid_size", "grid_n")
     assert float(words[1]) / int(words[3]) <= 1.4e-3 / 64
@@ -272,7 +274,7 @@ def test_advised_grid_holds_the_whole_history(petsam, folder):
 
 def test_run_ends_at_the_edge_with_that_step(petsam, folder):
     (folder / "loads.csv").write_text("time,load_n\n1,100\n2,900\n3,5000\n4,50\n")
-    case = dict(SPHERE, **HISTORY, grid_size=1.4e-3, output="out.h5", output_every=10)
+    case = dict(DRIVEN, grid_size=1.4e-3, output="out.h5", output_every=10)
     done = petsam(case, check=12)
     assert len(done.complaint) == 1 and "step 2" in done.complaint[0]
     with h5py.File(folder / "out.h5") as f:
@@ -288,11 +290,11 @@ def test_run_ends_at_the_edge_with_that_step(petsam, folder):
 def test_cells_across_are_those_of_the_largest_load(petsam, folder, ranks):
     """Small contacts on the way to the load are no reason to warn, and one warning is enough for a history."""
     (folder / "loads.csv").write_text("time,load_n\n0,0\n1,1000\n2,20\n3,1000\n")
-    done = petsam(SPHERE, HISTORY, dict(steps=4), ranks=ranks)
+    done = petsam(DRIVEN, dict(steps=4), ranks=ranks)
     assert not done.complaint
     across = float(re.search(r"contact +([\d.]+) cells across \(step 5, at the largest load\)", done.stdout).group(1))
     assert abs(across - 64 / 1.5) <= 1
-    done = petsam(SPHERE, HISTORY, dict(steps=4, grid_n=24), ranks=ranks)
+    done = petsam(DRIVEN, dict(steps=4, grid_n=24), ranks=ranks)
     assert len(done.complaint) == 1 and "16 cells across" in done.complaint[0]
 
 
@@ -322,15 +324,15 @@ def test_what_is_given_for_this_run_is_not_overridden(petsam, folder, environmen
     (folder / "loads.csv").write_text(LOADS)
     (folder / "s.opts").write_text("-load_n 7\n-load_tx 1\n")
     words = [] if environment else ["-load_n", "3"]
-    done = petsam(SPHERE, HISTORY, "-options_file", "s.opts", *words, check=2, environment=environment)
+    done = petsam(DRIVEN, "-options_file", "s.opts", *words, check=2, environment=environment)
     assert "-load_n: loads.csv has the column load_n" in done.complaint[0]
 
 
 @pytest.mark.parametrize("change", [dict(body1_young=200e9), dict(friction=0.2), dict(grid_n=32)], ids=str)
 def test_restart_with_another_option_names_it(petsam, folder, change):
     (folder / "loads.csv").write_text(LOADS)
-    petsam(SPHERE, HISTORY, dict(checkpoint="s.h5", checkpoint_every=1))
-    done = petsam(SPHERE, HISTORY, dict(restart="s.h5"), change, check=2)
+    petsam(DRIVEN, dict(checkpoint="s.h5", checkpoint_every=1))
+    done = petsam(DRIVEN, dict(restart="s.h5"), change, check=2)
     assert "-restart s.h5" in done.complaint[0] and "-" + next(iter(change)) in done.complaint[0]
 
 
@@ -352,7 +354,7 @@ def test_restart_with_another_option_names_it(petsam, folder, change):
         (["-input", "r.h5", "-steps", "3"], 2, ["-steps", "no step 3", "the last is 1"]),
         (["-input", "r.h5", "-quantities", "von_mises"], 2, ["-quantities von_mises", "mises"]),
         (["-input", "r.h5", "-fatigue", "findley"], 2, ["-fatigue_findley_k is missing", "required by findley"]),
-        (["-input", "wide.h5"], 3, ["wide.h5", "results of petsam"]),
+        (["-input", "wide.h5"], 3, ["wide.h5", "results file of petsam"]),
     ],
 )
 def test_mistake_with_stresses_is_explained(launcher, petsam, folder, words, code, says):

@@ -199,7 +199,7 @@ static PetscErrorCode ReadConstants(const SamOptions *from, SamStressRequest *r)
   for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) {
     if (!r->wants[all[k].quantity] && !print) continue;
     PetscCall(SamOptionsReal(from, all[k].name, all[k].help, all[k].range, all[k].value, &set));
-    PetscCheck(set || print, from->comm, SAM_ERR_USER, "-%s is missing: %s", all[k].name, all[k].help);
+    PetscCall(SamOptionsRequire(from, set || print, all[k].name, all[k].help));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -229,9 +229,9 @@ PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
   PetscCall(SamPrintHelp(&print));
   PetscCall(SamOptionsHeading(from, "Files"));
   PetscCall(SamOptionsString(from, "input", "results of petsam", r->input, sizeof(r->input), &set));
-  PetscCheck(set || print, from->comm, SAM_ERR_USER, "-input is missing: the results of petsam");
+  PetscCall(SamOptionsRequire(from, set || print, "input", "the results of petsam"));
   PetscCall(SamOptionsString(from, "output", "the new file", r->output, sizeof(r->output), &set));
-  PetscCheck(set || print, from->comm, SAM_ERR_USER, "-output is missing: the file to be written");
+  PetscCall(SamOptionsRequire(from, set || print, "output", "the file to be written"));
   PetscCall(SamOptionsHeading(from, "Where and when"));
   r->body = 2;
   PetscCall(SamOptionsInt(from, "body", "1 or 2; z points into it", 1, &r->body, NULL));

@@ -98,6 +98,22 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Refuses a file for a type that reads none: the surface in it would silently not count. */
+static PetscErrorCode RefuseFile(SamGap gap)
+{
+  char      option[64];
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", gap->source.file_option));
+  PetscCall(PetscOptionsHasName(NULL, gap->prefix, option, &set));
+  PetscCheck(!set, gap->comm, SAM_ERR_USER,
+             "-%s%s: has no effect with -%sgap_type %s: expected -%sgap_type file, or -%s%s for a roughness on it",
+             gap->prefix, gap->source.file_option, gap->prefix, gap->type, gap->prefix, gap->prefix,
+             gap->rough.file_option);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Reads the options of the type, all of which are required, except while the help is printed. */
 static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
 {
@@ -116,6 +132,7 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
     PetscCall(SamOptionsRequire(&from, set || help, parameter->name, text));
   }
   if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));
+  if (!gap->ops.setfromoptions && !help) PetscCall(RefuseFile(gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
