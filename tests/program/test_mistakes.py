@@ -34,11 +34,15 @@ def history(name, text, says, *words, code=2, **change):
 MISTAKES = [
     # ---- numbers and units
     mistake("decimal comma", dict(grid_size="2,6e-3"), says=["-grid_size 2,6e-3", "2.6e-3, with a decimal point"]),
-    mistake("decimal commas in both", dict(grid_size="2,6e-3,2,6e-3"), says=["-grid_size", "decimal point, not a comma"]),
+    mistake(
+        "decimal commas in both", dict(grid_size="2,6e-3,2,6e-3"), says=["-grid_size", "decimal point, not a comma"]
+    ),
     mistake("one width a thousand times the other", dict(grid_size="2.6e-3,2.6"), says=["-grid_size", "hundredfold"]),
     mistake("decimal comma of a load", dict(load_n="1000,5"), says=["-load_n 1000,5", "decimal point, not a comma"]),
     mistake("unit behind a number", dict(load_n="1000N"), says=["-load_n 1000N", "without a unit", "SI units"]),
-    mistake("unit as a word", {}, "-load_tx", "60", "N", says=["N:", "-load_tx 60 has its value already", "without a unit"]),
+    mistake(
+        "unit as a word", {}, "-load_tx", "60", "N", says=["N:", "-load_tx 60 has its value already", "without a unit"]
+    ),
     mistake("GPa", dict(body1_young="210GPa"), says=["-body1_young 210GPa", "without a unit", "Pa"]),
     mistake("mm", dict(gap_radius1="200mm"), says=["-gap_radius1 200mm", "2.6e-3 for 2.6 mm"]),
     mistake("percent sign", dict(friction="30%"), says=["-friction 30%", "0.3, not 30"]),
@@ -61,10 +65,20 @@ MISTAKES = [
     mistake("another program's name", {}, "-mu", "0.3", says=["-mu 0.3", "is -friction meant?"]),
     mistake("dash for an underscore", {}, "-load-tx", "6", says=["-load-tx 6", "is -load_tx meant?"]),
     mistake("another letter", {}, "-load_x", "60", says=["-load_x", "is -load_tx meant?"]),
-    mistake("required, misspelled", dict(body1_young=None), "-body1_yuong", "210e9",
-            says=["-body1_young is missing", "is -body1_yuong meant"]),
-    mistake("required, by another name", dict(load_n=None), "-force", "1000",
-            says=["-load_n or -disp_z is missing", "is -force meant"]),
+    mistake(
+        "required, misspelled",
+        dict(body1_young=None),
+        "-body1_yuong",
+        "210e9",
+        says=["-body1_young is missing", "is -body1_yuong meant"],
+    ),
+    mistake(
+        "required, by another name",
+        dict(load_n=None),
+        "-force",
+        "1000",
+        says=["-load_n or -disp_z is missing", "is -force meant"],
+    ),
     mistake("grid of another name", dict(grid_n=None), "-grid", "64", says=["-grid_n is missing", "is -grid meant"]),
     # ---- what is missing, or contradicts
     mistake("no grid", dict(grid_n=None), says=["-grid_n is missing", "cells"]),
@@ -75,7 +89,9 @@ MISTAKES = [
     mistake("no second radius", dict(gap_radius2=None), says=["-gap_radius2 is missing", "inf: flat"]),
     mistake("no load", dict(load_n=None), says=["-load_n or -disp_z is missing", "(N)", "(m)"]),
     mistake("load and displacement", dict(disp_z=1e-6), says=["-load_n", "-disp_z", "give one of them"]),
-    mistake("radius of another shape", dict(gap_radius_x=0.2), says=["-gap_radius_x 0.2", "without -gap_type ellipsoid"]),
+    mistake(
+        "radius of another shape", dict(gap_radius_x=0.2), says=["-gap_radius_x 0.2", "without -gap_type ellipsoid"]
+    ),
     mistake("file of another shape", dict(gap_file="h.h5"), says=["-gap_file", "-gap_type file", "-gap_rough_file"]),
     mistake("shape of a file without it", dict(FILE), says=["-gap_file is missing", "-gap_type file"]),
     mistake("both rigid", dict(body1_young="inf", body2_young="inf"), says=["-body1_young", "at least one"]),
@@ -83,35 +99,104 @@ MISTAKES = [
     mistake("unknown solver", dict(normal_type="cg"), says=["-normal_type cg", "activeset"]),
     mistake("limit of time without a checkpoint", dict(max_walltime=60), says=["-max_walltime", "-checkpoint"]),
     mistake("checkpoints without a file", dict(checkpoint_every=5), says=["-checkpoint_every", "-checkpoint"]),
-    mistake("wear without friction", dict(friction=None, wear_coefficient1=1e-14), says=["-wear_coefficient", "-friction"]),
+    mistake(
+        "wear without friction", dict(friction=None, wear_coefficient1=1e-14), says=["-wear_coefficient", "-friction"]
+    ),
     mistake("life without a cycle", dict(wear_coefficient1=1e-14, wear_cycles=10), says=["-wear_cycles", "-history"]),
     mistake("stiffness without results", {}, "-stiffness", says=["-stiffness", "-output"]),
     mistake("correction with friction", dict(edges="deferred"), says=["-edges deferred", "-friction 0"]),
-    mistake("bulk stress of a rigid body", dict(body2_young="inf", bulk2_stress_xx=1e6), says=["-bulk2_stress_xx", "rigid"]),
+    mistake(
+        "bulk stress of a rigid body", dict(body2_young="inf", bulk2_stress_xx=1e6), says=["-bulk2_stress_xx", "rigid"]
+    ),
     # ---- files
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
-    mistake("options file without dashes", {}, "-options_file", "s.opts", files={"s.opts": "load_tx 60\n"},
-            says=["s.opts, line 1", "as in -load_tx"]),
-    mistake("options file with equals signs", {}, "-options_file", "s.opts", files={"s.opts": "\n-load_tx=60\n"},
-            says=["s.opts, line 2", "expected -load_tx 60"]),
-    mistake("options file with units", {}, "-options_file", "s.opts", files={"s.opts": "-load_tx 60 N\n"},
-            says=["s.opts, line 1", "N is too much", "#"]),
-    mistake("results into a folder that is not there", {}, "-output", "new/a.h5", code=3,
-            says=["-output new/a.h5", "folder does not exist"]),
+    mistake(
+        "options file without dashes",
+        {},
+        "-options_file",
+        "s.opts",
+        files={"s.opts": "load_tx 60\n"},
+        says=["s.opts, line 1", "as in -load_tx"],
+    ),
+    mistake(
+        "options file with equals signs",
+        {},
+        "-options_file",
+        "s.opts",
+        files={"s.opts": "\n-load_tx=60\n"},
+        says=["s.opts, line 2", "expected -load_tx 60"],
+    ),
+    mistake(
+        "options file with units",
+        {},
+        "-options_file",
+        "s.opts",
+        files={"s.opts": "-load_tx 60 N\n"},
+        says=["s.opts, line 1", "N is too much", "#"],
+    ),
+    mistake(
+        "results into a folder that is not there",
+        {},
+        "-output",
+        "new/a.h5",
+        code=3,
+        says=["-output new/a.h5", "folder does not exist"],
+    ),
     mistake("folder as results", {}, "-output", ".", says=["-output .", "it is a folder"], code=3),
-    mistake("results over the surface", FILE, "-gap_file", "wide.h5", "-output", "wide.h5",
-            says=["-output wide.h5", "-gap_file"]),
-    mistake("results over something else", {}, "-output", "s.txt", files={"s.txt": "notes"}, code=3,
-            says=["-output s.txt", "not replaced"]),
+    mistake(
+        "results over the surface",
+        FILE,
+        "-gap_file",
+        "wide.h5",
+        "-output",
+        "wide.h5",
+        says=["-output wide.h5", "-gap_file"],
+    ),
+    mistake(
+        "results over something else",
+        {},
+        "-output",
+        "s.txt",
+        files={"s.txt": "notes"},
+        code=3,
+        says=["-output s.txt", "not replaced"],
+    ),
     mistake("no surface", FILE, "-gap_file", "none.h5", says=["-gap_file none.h5", "No such file"], code=3),
-    mistake("surface as text", FILE, "-gap_file", "s.txt", files={"s.txt": "0 0 1\n"}, code=3,
-            says=["-gap_file s.txt", "not an HDF5 file", "petsam-surface"]),
-    mistake("wrong dataset", FILE, "-gap_file", "wide.h5", "-gap_dataset", "/depth", code=3,
-            says=["wide.h5", "no dataset /depth", "-gap_dataset", "it has /height, /measured/..., /notes"]),
-    mistake("surface of another size", dict(FILE, grid_n=64), "-gap_file", "wide.h5", code=3,
-            says=["wide.h5", "(6, 7)", "(64, 64)", "-grid_n 7,6"]),
-    mistake("transposed surface", dict(FILE, grid_n=(6, 7)), "-gap_file", "wide.h5", code=3,
-            says=["wide.h5", "transpose it, or give -grid_n 7,6"]),
+    mistake(
+        "surface as text",
+        FILE,
+        "-gap_file",
+        "s.txt",
+        files={"s.txt": "0 0 1\n"},
+        code=3,
+        says=["-gap_file s.txt", "not an HDF5 file", "petsam-surface"],
+    ),
+    mistake(
+        "wrong dataset",
+        FILE,
+        "-gap_file",
+        "wide.h5",
+        "-gap_dataset",
+        "/depth",
+        code=3,
+        says=["wide.h5", "no dataset /depth", "-gap_dataset", "it has /height, /measured/..., /notes"],
+    ),
+    mistake(
+        "surface of another size",
+        dict(FILE, grid_n=64),
+        "-gap_file",
+        "wide.h5",
+        code=3,
+        says=["wide.h5", "(6, 7)", "(64, 64)", "-grid_n 7,6"],
+    ),
+    mistake(
+        "transposed surface",
+        dict(FILE, grid_n=(6, 7)),
+        "-gap_file",
+        "wide.h5",
+        code=3,
+        says=["wide.h5", "transpose it, or give -grid_n 7,6"],
+    ),
     mistake("no checkpoint", {}, "-restart", "state.h5", says=["-restart state.h5", "No such file"], code=3),
     # ---- histories
     mistake("no history", dict(HISTORY), says=["-history loads.csv", "No such file"], code=3),
@@ -139,29 +224,58 @@ MISTAKES = [
     mistake("force beyond friction", dict(load_tx=600.0), code=11, says=["gross slip", "load_tx = 600 N (limit 100"]),
     mistake("moment in N mm", dict(load_my=200.0), code=11, says=["load_my", "limits"]),
     # ---- grids and units that only the solution shows
-    mistake("modulus in GPa", dict(body1_young=210.0, body2_young=210.0), code=12,
-            says=["-gap_radius1 0.2", "check the units, N, m, Pa"]),
-    mistake("modulus in MPa", dict(body1_young=210e3, body2_young=210e3), code=12,
-            says=["-gap_radius1 0.2", "check the units, N, m, Pa"]),
-    mistake("radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["edge of the grid", "-grid_size 0.02"]),
+    mistake(
+        "modulus in GPa",
+        dict(body1_young=210.0, body2_young=210.0),
+        code=12,
+        says=["-gap_radius1 0.2", "check the units, N, m, Pa"],
+    ),
+    mistake(
+        "modulus in MPa",
+        dict(body1_young=210e3, body2_young=210e3),
+        code=12,
+        says=["-gap_radius1 0.2", "check the units, N, m, Pa"],
+    ),
+    mistake(
+        "radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["edge of the grid", "-grid_size 0.02"]
+    ),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),
-    mistake("grid beside the contact", dict(grid_center="2e-3,0"), code=11, says=["lies at x = 0", "grid's cells from 0.0007"]),
-    mistake("two planes", FLAT, code=12, says=["straight along x and y", "-elasticity periodic", "-allow_edge_contact"]),
-]  # fmt: skip
+    mistake(
+        "grid beside the contact",
+        dict(grid_center="2e-3,0"),
+        code=11,
+        says=["lies at x = 0", "grid's cells from 0.0007"],
+    ),
+    mistake(
+        "two planes", FLAT, code=12, says=["straight along x and y", "-elasticity periodic", "-allow_edge_contact"]
+    ),
+]
 
 WARNINGS = [
-    mistake("grid in mm", dict(grid_size=2.6), code=0, says=["2 cells across", "20 or more", "-grid_size 0.0026 (in m)"]),
+    mistake(
+        "grid in mm", dict(grid_size=2.6), code=0, says=["2 cells across", "20 or more", "-grid_size 0.0026 (in m)"]
+    ),
     mistake("load in kN", dict(load_n=1.0), code=0, says=["cells across", "20 or more", "-grid_size 0.00026"]),
     mistake("few cells", dict(grid_n=16), code=0, says=["cells across", "20 or more", "-grid_n "]),
     mistake("friction in percent", dict(friction=30.0), code=0, says=["friction is 30", "0.3 for 30 percent"]),
     mistake("displacement that pulls", dict(load_n=None, disp_z=-1e-6), code=0, says=["do not touch", "larger than 0"]),
-    mistake("ball that sinks in", dict(load_n=4e8, grid_size=0.2), code=0,
-            says=["large for its radius", "-gap_radius1 0.2", "0.1"]),
-    mistake("value of an options file in the history too", HISTORY, "-options_file", "s.opts", code=0,
-            says=["-load_n of the options file is not used", "loads.csv has the column load_n"],
-            files={"s.opts": "-load_n 7\n", "loads.csv": LOADS}),
-]  # fmt: skip
+    mistake(
+        "ball that sinks in",
+        dict(load_n=4e8, grid_size=0.2),
+        code=0,
+        says=["large for its radius", "-gap_radius1 0.2", "0.1"],
+    ),
+    mistake(
+        "value of an options file in the history too",
+        HISTORY,
+        "-options_file",
+        "s.opts",
+        code=0,
+        says=["-load_n of the options file is not used", "loads.csv has the column load_n"],
+        files={"s.opts": "-load_n 7\n", "loads.csv": LOADS},
+    ),
+]
 
 
 def test_there_are_fifty():
@@ -250,7 +364,7 @@ PUNCH = dict(
         dict(load_n=None, disp_z=1e-5, rot_y=5e-3, grid_size=2.3e-3),
     ],
     ids=str,
-)  # fmt: skip
+)
 def test_advised_grid_holds_the_contact(petsam, change):
     done = petsam({**SPHERE, **change}, check=12)
     petsam({**SPHERE, **change}, *advised(done.complaint[0], "grid_size", "grid_n"))

@@ -3,6 +3,8 @@
  */
 #include "fields.h"
 
+#include <petsam/private/baseimpl.h>
+
 static const char *const words[] = {"none", "some", "all", NULL};
 
 typedef enum { REAL, REAL_PAIR, INT, INT_PAIR, BOOL, STRING, ENUM, VIEWER } Getter;
@@ -302,6 +304,92 @@ static void test_prefix_that_does_not_fit_is_refused(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+/* ---- what a mistake may have meant ---- */
+
+/* Two lengths of which one is likely to be the decimals of the other. */
+static void test_decimal_commas_are_refused(void **state)
+{
+  static const char *const wrong[] = {"2,6e-3", "2,6E-1", "1,3e0", "0.5,60", "60,0.5", "2.6e-3,2.5e-5", "1,100.5"},
+                           *const right[] = {"2,6",           "2.0,6e-1",  "1,100", "100,1",
+                                             "2.6e-3,2.6e-3", "1e-3,9e-2", "3,7.5"};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++) AssertRefused(REAL_PAIR, SAM_RANGE_POSITIVE, wrong[k]);
+  for (size_t k = 0; k < sizeof(right) / sizeof(right[0]); k++) {
+    const Value v = Read(REAL_PAIR, SAM_RANGE_POSITIVE, right[k]);
+
+    sam_assert(v.real[0] == strtod(right[k], NULL) && v.real[1] == strtod(strchr(right[k], ',') + 1, NULL));
+  }
+  AssertRefused(REAL_PAIR, SAM_RANGE_POSITIVE, "2,6e-3");
+  sam_assert(strstr(message, "2 m by 0.006 m: expected 2.6e-3, with a decimal point"));
+  AssertRefused(REAL, SAM_RANGE_ANY, "1000,5");
+  sam_assert(strstr(message, "a decimal point, not a comma"));
+  sam_assert(Read(REAL_PAIR, SAM_RANGE_ANY, "0,1e-4").real[1] == 1e-4); /* a place is no length */
+}
+
+static void test_units_of_numbers_are_explained(void **state)
+{
+  (void)state;
+  AssertRefused(REAL, SAM_RANGE_POSITIVE, "210GPa");
+  sam_assert(strstr(message, "SI units"));
+  AssertRefused(REAL, SAM_RANGE_POSITIVE, "2.6 mm");
+  sam_assert(strstr(message, "SI units"));
+  AssertRefused(REAL, SAM_RANGE_NONNEGATIVE, "30 %");
+  sam_assert(strstr(message, "percent"));
+  AssertRefused(REAL, SAM_RANGE_NONNEGATIVE, "abc");
+  sam_assert(!strstr(message, "SI units"));
+}
+
+static void test_nearest_name_is_found(void **state)
+{
+  static const char *const names[] = {"load_n", "load_tx", "disp_z", "friction_scale", "x"};
+  static const struct {
+    const char *tried, *name;
+  } cases[] = {{"laod_n", "load_n"},
+               {"load_t", "load_n"}, /* of two as near the first */
+               {"loadtx", "load_tx"},
+               {"LOAD-TX", "load_tx"},
+               {"dispz", "disp_z"},
+               {"friction_skale", "friction_scale"},
+               {"frictoin_scael", "friction_scale"},
+               {"pressure", NULL},
+               {"y", NULL},
+               {"", NULL}};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
+    const char *found = SamNearestName(cases[k].tried, sizeof(names) / sizeof(names[0]), names);
+
+    if (!found != !cases[k].name || (found && strcmp(found, cases[k].name)))
+      print_error("%s: %s, expected %s\n", cases[k].tried, found, cases[k].name);
+    sam_assert(!found == !cases[k].name && (!found || !strcmp(found, cases[k].name)));
+  }
+}
+
+/* One that is given and near, but not one that has a meaning of its own. */
+static void test_missing_option_is_looked_for_among_those_given(void **state)
+{
+  const SamOptions from = {PETSC_COMM_WORLD, "pre_"};
+
+  (void)state;
+  SamOptionsKnow(&from, "body1", NULL);
+  SamOptionsKnow(&from, "body2", NULL);
+  for (int k = 0; k < 2; k++) {
+    PetscErrorCode ierr;
+
+    sam_call(PetscOptionsClear(NULL));
+    sam_call(PetscOptionsSetValue(NULL, k ? "-pre_bdoy1" : "-pre_body2", "3"));
+    message[0] = '\0';
+    sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+    ierr = SamOptionsRequire(&from, PETSC_FALSE, "body1", "a body");
+    sam_call(PetscPopErrorHandler());
+    sam_assert(ierr == SAM_ERR_USER && strstr(message, "-pre_body1 is missing: a body"));
+    sam_assert(k ? strstr(message, "is -pre_bdoy1 meant") != NULL : !strstr(message, "meant"));
+  }
+  SetText(NULL);
+  sam_call(SamOptionsRequire(&from, PETSC_TRUE, "body1", "a body"));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -317,6 +405,10 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_strings),
     cmocka_unit_test(test_viewers_other_than_ascii_are_refused),
     cmocka_unit_test(test_read_options_are_used),
+    cmocka_unit_test(test_decimal_commas_are_refused),
+    cmocka_unit_test(test_units_of_numbers_are_explained),
+    cmocka_unit_test(test_nearest_name_is_found),
+    cmocka_unit_test(test_missing_option_is_looked_for_among_those_given),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
