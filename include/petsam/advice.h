@@ -27,6 +27,8 @@ typedef struct {
   PetscBool force;    /* the normal force is given; false: the approach */
   PetscReal normal;   /* the largest of it, N or m */
   PetscReal lever[2]; /* m: the farthest that moments bring the centre of pressure from the origin along x and y */
+  PetscReal slide;    /* m: the farthest that displacements move the surfaces along them */
+  PetscReal rotation; /* rad: the largest that is prescribed */
   PetscBool open;     /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
 } SamLoadsMost;
 /* SamLoadsMostAdd - adds a step. Not collective. */
@@ -37,12 +39,15 @@ PETSC_EXTERN void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
   collective.
   SamAdviseCells - the contact of a step is fewer than SAM_FEW_CELLS cells across; grids on which it is not.
   SamAdviseCurvature - its half width is more than SAM_STEEPEST of a radius of curvature.
+  SamAdviseMotion - displacements and rotations that are not small, as the theory has them.
   SamAdviseEdge - a grid on which these loads do not bring the contact to its edge, to which it came in a step.
 */
 PETSC_EXTERN PetscErrorCode SamAdviseCells(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
                                            char text[], size_t size);
 PETSC_EXTERN PetscErrorCode SamAdviseCurvature(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
                                                char text[], size_t size);
+PETSC_EXTERN PetscErrorCode SamAdviseMotion(const SamExtent *extent, const SamLoadsMost *most, char text[],
+                                            size_t size);
 PETSC_EXTERN PetscErrorCode SamAdviseEdge(const SamSetup *setup, const SamStep *step, const SamLoadsMost *most,
                                           char text[], size_t size);
 

@@ -54,16 +54,18 @@ PetscErrorCode SamRunExamine(SamRun *run, PetscInt k, const SamStep *step)
   run->examined = PETSC_TRUE;
   PetscCall(SamSetupMeasure(&run->setup, &extent));
   SamReportSetExtent(run->report, k + 1, &extent);
+  PetscCall(SamAdviseMotion(&extent, &run->most, text, sizeof(text)));
+  if (text[0]) SamReportWarn(run->report, text, "");
+  if (step->check.edge > 0) PetscFunctionReturn(PETSC_SUCCESS); /* and the grid decides the size of the contact */
   PetscCall(SamAdviseCells(&run->setup, step, &extent, text, sizeof(text)));
   if (text[0]) SamReportWarn(run->report, text, "");
   PetscCall(SamAdviseCurvature(&run->setup, step, &extent, text, sizeof(text)));
   if (text[0]) SamReportWarn(run->report, text, "");
-  if (!extent.zones && !force) {
-    (void)snprintf(text, sizeof(text),
-                   "the bodies do not touch: the approach is %g m at most, and has to be larger than 0, or than the "
-                   "smallest separation",
-                   (double)step->control.value[SAM_COMPONENT_N]);
-    SamReportWarn(run->report, text, "disp_z");
-  }
+  if (extent.zones) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(text, sizeof(text),
+                 "the bodies do not touch in any step: the %s is %g %s at most, and has to be larger than %s",
+                 force ? "normal force" : "approach", (double)step->control.value[SAM_COMPONENT_N], force ? "N" : "m",
+                 force ? "0" : "0, or than the smallest separation");
+  SamReportWarn(run->report, text, force ? "load_n" : "disp_z");
   PetscFunctionReturn(PETSC_SUCCESS);
 }

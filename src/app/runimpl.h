@@ -80,7 +80,8 @@ PETSC_INTERN PetscErrorCode SamRunCheckpoint(SamRun *run);
   What a user should know besides (advice.c). SamRunPrepareAdvice - before the first step: finds the largest loads of
   the steps from `first` on, and warns of options that are unlikely to be meant. SamRunAdviseEdge - appends to the
   message of a step at the grid's edge a grid that is large enough. SamRunExamine - after step k: if it has the largest
-  load, warns of too few cells, of a contact too large for half-spaces, and of none, once in a run. Collective.
+  load, warns of too few cells, of a contact too large for half-spaces, of none, and of
+  motions that are not small, once in a run. Collective.
 */
 PETSC_INTERN PetscErrorCode SamRunPrepareAdvice(SamRun *run, PetscInt first);
 PETSC_INTERN PetscErrorCode SamRunAdviseEdge(const SamRun *run, SamStep *step);

@@ -23,7 +23,15 @@ void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
 {
   const PetscReal normal = control->value[SAM_COMPONENT_N];
 
-  most->force = control->force[SAM_COMPONENT_N];
+  const PetscReal *v     = control->value;
+  const PetscBool *force = control->force;
+  const PetscReal  x     = force[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
+  const PetscReal  y     = force[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
+
+  most->force = force[SAM_COMPONENT_N];
+  most->slide = PetscMax(most->slide, hypot(x, y));
+  for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
+    if (!force[c]) most->rotation = PetscMax(most->rotation, fabs(v[c]));
   if (!most->steps++ || normal > most->normal) most->normal = normal;
   for (PetscInt k = 0; k < 2; k++) {
     const SamComponent c = k ? SAM_COMPONENT_MX : SAM_COMPONENT_MY; /* My tips along x */
@@ -189,6 +197,27 @@ PetscErrorCode SamAdviseCurvature(const SamSetup *s, const SamStep *step, const 
   PetscCall(GetWidths(s, step, extent, half, &across));
   PetscCall(Compare(s, half, ratio, sizeof(ratio)));
   if (ratio[0]) (void)snprintf(text, size, "the contact is large for its radius: its half width %s", ratio);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- motion ---- */
+
+PetscErrorCode SamAdviseMotion(const SamExtent *extent, const SamLoadsMost *most, char text[], size_t size)
+{
+  const double half = (double)PetscMax(extent->half[0], extent->half[1]);
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (most->rotation > SAM_STEEPEST)
+    (void)snprintf(text, size,
+                   "a rotation of %g is prescribed: they are in rad, and small, up to about %g (a degree is 0.0175)",
+                   (double)most->rotation, SAM_STEEPEST);
+  else if (extent->zones && (double)most->slide > 2 * half)
+    (void)snprintf(
+      text, size,
+      "a displacement of %g m along the surfaces is prescribed, more than the width of the contact, %.3g m: "
+      "bodies keep their places, so they must be small; check the unit, m",
+      (double)most->slide, 2 * half);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

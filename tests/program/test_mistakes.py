@@ -62,6 +62,7 @@ MISTAKES = [
     mistake("typographic dash", {}, "\u2013load_tx", "60", says=["typographic dash", "-load_tx"]),
     mistake("options file without its option", {}, "study.opts", says=["study.opts", "-options_file study.opts"]),
     mistake("misspelled", {}, "-frictoin", "0.3", says=["-frictoin 0.3", "is -friction meant?"]),
+    mistake("one modulus for both", {}, "-young", "210e9", says=["-young 210e9", "is -body1_young meant?"]),
     mistake("another program's name", {}, "-mu", "0.3", says=["-mu 0.3", "is -friction meant?"]),
     mistake("dash for an underscore", {}, "-load-tx", "6", says=["-load-tx 6", "is -load_tx meant?"]),
     mistake("another letter", {}, "-load_x", "60", says=["-load_x", "is -load_tx meant?"]),
@@ -259,6 +260,13 @@ WARNINGS = [
     mistake("load in kN", dict(load_n=1.0), code=0, says=["cells across", "20 or more", "-grid_size 0.00026"]),
     mistake("few cells", dict(grid_n=16), code=0, says=["cells across", "20 or more", "-grid_n "]),
     mistake("friction in percent", dict(friction=30.0), code=0, says=["friction is 30", "0.3 for 30 percent"]),
+    mistake(
+        "angle in degrees", dict(load_n=1000.0, rot_z=1.0), code=0, says=["a rotation of 1 is", "in rad", "0.0175"]
+    ),
+    mistake(
+        "displacement in um", dict(disp_x=5.0), code=0, says=["displacement of 5 m", "width of the contact", "unit, m"]
+    ),
+    mistake("no force", dict(load_n=0.0), code=0, says=["do not touch", "normal force is 0 N", "-load_n"]),
     mistake("displacement that pulls", dict(load_n=None, disp_z=-1e-6), code=0, says=["do not touch", "larger than 0"]),
     mistake(
         "ball that sinks in",
