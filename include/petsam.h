@@ -23,6 +23,7 @@
 #include <petsam/output.h>
 #include <petsam/checkpoint.h>
 #include <petsam/setup.h>
+#include <petsam/advice.h>
 #include <petsam/results.h>
 #include <petsam/stress.h>
 #include <petsam/fatigue.h>

@@ -12,9 +12,9 @@
   load; if there is none in it either, it is the start itself, and one step.
 
   The file is text. Fields are separated by commas, semicolons or white space, # begins a comment, empty lines are
-  ignored. The first line names the columns: `time`, any of the names of loads and displacements (load_n ... rot_z), friction_scale, and bulk stresses
-  (bulk1_stress_xx ... bulk2_stress_xy). The rows follow, with increasing times (s). A component or bulk stress without
-  a column has the value of its option, or 0, in all rows.
+  ignored. The first line names the columns: `time`, any of the names of loads and displacements (load_n ... rot_z),
+  friction_scale, and bulk stresses (bulk1_stress_xx ... bulk2_stress_xy). The rows follow, with increasing times (s). A
+  component or bulk stress without a column has the value of its option, or 0, in all rows.
 */
 typedef struct _n_SamHistory *SamHistory;
 

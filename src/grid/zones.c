@@ -204,7 +204,7 @@ static PetscErrorCode ReadRows(SamGrid grid, Vec field, Forest *f, Row edge[2])
 */
 enum { RUN = 3, PIECE = sizeof(Piece) / sizeof(int64_t), HEAD = 3 };
 
-/* Packs that into `told`: numbers of runs in both rows and of pieces, runs, pieces; takes these pieces from the rank. */
+/* Packs that into `told`: numbers of runs in both rows and of pieces, runs, pieces. The rank loses these pieces. */
 static PetscErrorCode Pack(Forest *f, const Row edge[2], int64_t **told, PetscMPIInt *count)
 {
   const PetscInt runs = edge[0].count + edge[1].count;

@@ -143,6 +143,8 @@ PetscErrorCode SamAdviseCells(const SamSetup *s, const SamStep *step, const SamE
   PetscFunctionBegin;
   text[0] = '\0';
   if (!extent->zones || extent->across >= SAM_FEW_CELLS) PetscFunctionReturn(PETSC_SUCCESS);
+  /* of periodic bodies all cells may be in contact, and have no width */
+  if (extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(GetWidths(s, step, extent, half, &across));
   AdviseGrids(s, half, (SAM_FEW_CELLS + SAME) / (double)across, cells, width);
   if (extent->zones == 1)

@@ -213,6 +213,7 @@ told(petsam.ContactError, contact.load, "nowhere.h5")
 with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     assert contact.try_step(load_n=1e5).status == 12 and "edge" in str(caught[0].message)
+    assert "it needs -grid_size 0.0" in str(caught[0].message) and len(caught) == 1
 contact.friction, contact.gap = 0.2, 0.0
 assert contact.try_step(load_n=1, disp_x=0).status == 12
 contact.close()

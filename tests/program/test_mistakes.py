@@ -487,3 +487,10 @@ def test_mistake_with_stresses_is_explained(launcher, petsam, folder, words, cod
     complaint = [line for line in done.stderr.splitlines() if line.startswith("petsam-stress: ")]
     assert all(text in complaint[0] for text in says), (says, complaint)
     assert not (folder / "new.h5").exists()
+
+
+def test_full_contact_of_periodic_bodies_has_no_width(petsam):
+    """A few cells are all there are: nothing ends within them."""
+    flat = {**SPHERE, **FLAT}
+    flat.update(grid_n=16, elasticity="periodic")
+    assert petsam(flat).stderr == ""
