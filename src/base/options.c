@@ -11,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TEXT_SIZE  PETSC_MAX_PATH_LEN
-#define MOST_RATIO 100 /* of two lengths */
+#define TEXT_SIZE PETSC_MAX_PATH_LEN
 
 PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
 {
@@ -121,27 +120,22 @@ static PetscBool ReadReal(const char **text, double *value)
 
 /*
   Refuses two lengths that are likely to be one number with a decimal comma: 2,6e-3 has no point and no exponent before
-  the comma, and an exponent after it. Lengths that differ a hundredfold are refused however they are written.
+  the comma, and an exponent after it.
 */
 static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name[], const char text[],
                                          const double v[2])
 {
-  const double    ratio   = v[0] > v[1] ? v[0] / v[1] : v[1] / v[0];
-  const PetscBool decimal = SamIsDecimalComma(text) && strpbrk(text, "eE") && !strchr(text, '.');
-  char            point[TEXT_SIZE], meant[TEXT_SIZE + 64] = "one number, with a decimal point";
-  char            numbers[64]; /* PetscSNPrintf() would write 2 as "2." */
+  char point[TEXT_SIZE], numbers[64]; /* PetscSNPrintf() would write 2 as "2." */
 
   PetscFunctionBegin;
-  if (!decimal && ratio <= MOST_RATIO) PetscFunctionReturn(PETSC_SUCCESS);
-  if (SamIsDecimalComma(text)) {
-    PetscCall(PetscStrncpy(point, text, sizeof(point)));
-    *strchr(point, ',') = '.';
-    (void)snprintf(meant, sizeof(meant), "%s, with a decimal point", point);
-  }
+  if (!SamIsDecimalComma(text) || !strpbrk(text, "eE") || strchr(text, '.')) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrncpy(point, text, sizeof(point)));
+  *strchr(point, ',') = '.';
   (void)snprintf(numbers, sizeof(numbers), "%g m by %g m", v[0], v[1]);
-  SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: the comma separates two lengths, %s: expected %s, or two %s",
-          SamOptionsPrefix(from), name, text, numbers, meant,
-          ratio > MOST_RATIO ? "that differ less than a hundredfold" : "that both have a decimal point");
+  SETERRQ(from->comm, SAM_ERR_USER,
+          "-%s%s %s: the comma separates two lengths, %s: expected %s, with a decimal point, or two lengths that both "
+          "have one",
+          SamOptionsPrefix(from), name, text, numbers, point);
 }
 
 /* Reads one or two numbers separated by a comma; one stands for both. */

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#define MOST_RATIO (100 * (1 + 1e-12)) /* of the sides of a grid, and of its cells, but for rounding */
+
 /*
   What no grid can be made of: a message, empty when all is well. The names stand for the arguments of SamGridCreate(),
   or for options.
@@ -71,6 +73,24 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Refuses widths that differ more than a hundredfold, unless the numbers of cells do so, too: -grid_size 2,600 is likely
+  to be one number with a comma in it.
+*/
+static PetscErrorCode RefuseThin(const SamOptions *from, const PetscInt n[2], const PetscReal width[2])
+{
+  const double ratio = (double)(width[0] / width[1]), cells = ratio * (double)n[1] / (double)n[0];
+  char         numbers[64];
+
+  PetscFunctionBegin;
+  if (fabs(log(ratio)) <= log(MOST_RATIO) || fabs(log(cells)) <= log(MOST_RATIO)) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(numbers, sizeof(numbers), "%g,%g", (double)width[0], (double)width[1]);
+  SETERRQ(from->comm, SAM_ERR_USER,
+          "-%sgrid_size %s: the comma separates two lengths, which differ more than a hundredfold, as do the sides of "
+          "the cells: expected one number, with a decimal point, or -%sgrid_n to match",
+          SamOptionsPrefix(from), numbers, SamOptionsPrefix(from));
+}
+
 PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
 {
   PetscInt          n[2]      = {0, 0};
@@ -100,6 +120,7 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
                               "the full width of the grid in x[,y], m: about 1.5 times that of the contact"));
   PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
+  PetscCall(RefuseThin(from, n, width));
   PetscCall(SamGridCreate(from->comm, n, width, center, grid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -74,12 +74,12 @@ def test_run_repeats(solve, petsam, tmp_path, ranks):
 
 def test_rank_that_nobody_launched_needs_no_environment(tmp_path):
     """Neither Open MPI's daemon nor its ssh, nor the leave to run as root."""
-    done = subprocess.run([str(PROGRAM), *flatten([ball(16)])], env={}, cwd=tmp_path, capture_output=True, text=True)
+    done = subprocess.run([str(PROGRAM), *flatten([ball(32)])], env={}, cwd=tmp_path, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_runs_at_the_same_time_do_not_meet(petsam, tmp_path):
     """As the cases of a study do: no file or folder of the launcher's is shared; one in 100 failed when it was."""
     with concurrent.futures.ThreadPoolExecutor(8) as pool:
-        runs = list(pool.map(lambda k: petsam(ball(16), dict(output=f"{k}.h5")), range(96)))
+        runs = list(pool.map(lambda k: petsam(ball(32), dict(output=f"{k}.h5")), range(96)))
     assert {run.stderr for run in runs} == {""}

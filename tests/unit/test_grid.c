@@ -141,7 +141,13 @@ static void test_grid_from_options(void **state)
                                "-grid_n 8 -grid_size 0",
                                "-grid_n 8,8,8 -grid_size 1",
                                "-grid_n 8.5 -grid_size 1",
-                               "-grid_n 8 -grid_size 1 -grid_center nan"};
+                               "-grid_n 8 -grid_size 1 -grid_center nan",
+                               "-grid_n 8 -grid_size 2,6e-3",
+                               "-grid_n 8 -grid_size 0.5,60",
+                               "-grid_n 8,9 -grid_size 60,0.5",
+                               "-grid_n 9,4000 -grid_size 60,0.5"};
+  const char *const thin[]  = {"-grid_n 5,1000 -grid_size 0.0005,0.1", "-grid_n 8 -grid_size 1,100",
+                               "-grid_n 8 -grid_size 100,1", "-grid_n 500,4 -grid_size 60,0.5"};
   SamGrid           grid;
 
   (void)state;
@@ -149,6 +155,12 @@ static void test_grid_from_options(void **state)
     sam_call(PetscOptionsClear(NULL));
     sam_call(PetscOptionsInsertString(NULL, wrong[k]));
     sam_fails(SamGridCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &grid), SAM_ERR_USER);
+  }
+  for (size_t k = 0; k < sizeof(thin) / sizeof(thin[0]); k++) {
+    sam_call(PetscOptionsClear(NULL));
+    sam_call(PetscOptionsInsertString(NULL, thin[k]));
+    sam_call(SamGridCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &grid));
+    sam_call(SamGridDestroy(&grid));
   }
   sam_call(PetscOptionsClear(NULL));
   sam_call(PetscOptionsInsertString(NULL, "-grid_n 8,5 -grid_size 2 -grid_center 1,-1"));
