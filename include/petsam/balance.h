@@ -40,6 +40,13 @@ PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *bala
                                             PetscBool *possible);
 
 /*
+  SamBalanceCapacity - whether pressures of at most `limit` (Pa) on this grid can carry the normal load under force
+  control, and with it each of the moments for itself. When not, `message` (of that size) says which and the limit.
+*/
+PETSC_EXTERN PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, PetscReal limit, char message[],
+                                               size_t size, PetscBool *possible);
+
+/*
   SamBalanceSlideLimit - the factor by which the force-controlled tangential loads can be multiplied until the whole
   contact slides, given the bound mu p (Pa) of the shear: the least of sum b |v| dA over rigid velocities v of power 1
   (the kinematic limit theorem). Infinite without a load. When not NULL, `shear` (Pa, two components) becomes that of

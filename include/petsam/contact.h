@@ -38,8 +38,8 @@ typedef struct {
 /*
   SamSolution - the solution of a load step: tractions, rigid displacements and relative elastic displacements u.
   A field has one component, or two: on each rank all of x, then all of y. With the separation h of the undeformed
-  bodies, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid; SamContactComputeGap() and
-  SamContactComputeSlip() compute them.
+  bodies, and the plastic depth w, the gap is g = u_z + h + w - rigid and the slip is s = u_t + stretch - rigid;
+  SamContactComputeGap() and SamContactComputeSlip() compute them.
 */
 typedef struct {
   SamControl         control;               /* what was prescribed */
@@ -50,6 +50,7 @@ typedef struct {
   Vec                shear;                 /* Pa, two components: acts on body 2 */
   Vec                displacement_z;        /* m: relative elastic displacement u_z */
   Vec                displacement_t;        /* m, two components: relative elastic displacement u_t */
+  Vec                plastic;    /* m: depth by which the surfaces have yielded, this step included; NULL: nowhere */
   PetscInt           passes;     /* of the correction for the contact's edge; 0: none, and the next two are unused */
   Vec                correction; /* m: part of u_z by what the pressure does within cells */
   Vec                rim;        /* Pa: pressure of cells that the edge cuts and whose centre is not in contact */
@@ -61,7 +62,8 @@ typedef struct {
   recomputes the elastic displacements, and trusts no solver. All errors are relative, and zero for the exact
   solution of the discrete problem.
     normal       error of p >= 0, g >= 0, p g = 0: the largest of |g| where p > 0, of -g where p = 0, and of -p u/p_max,
-                 over the largest displacement u. Of cells on the rim only -g counts
+                 over the largest displacement u. Of cells on the rim only -g counts; of cells at the limit of the
+                 pressure, which may overlap before they yield, only g; and what p exceeds the limit by, relative to it
     tangential   error of the law of friction: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the
                  2-norm. D projects each cell's shear onto its disc |q| <= mu p, ds is the slip of the step, c the
                  self-influence of a cell. One number for stick, direction of slip, and the limit mu p
@@ -76,7 +78,7 @@ typedef struct {
 
 /*
   SamCheckSolution - checks a solution. Input: its control, rigid displacements, pressure and shear, and `before`, the
-  solution of the previous step (NULL: no slip so far). Output: the errors, and the solution's elastic displacements,
+  solution of the previous step (NULL: no slip and no plastic depth so far). Output: the errors, and the solution's elastic displacements,
   for which it must have the vectors. `coupling`: pressure and shear of dissimilar bodies act on each other.
   `u_z_known`: displacement_z is already right and used as it is. Collective.
 */
@@ -110,8 +112,12 @@ typedef struct {
   PetscInt   normal_iterations, normal_applies, normal_preconditions;
   PetscInt   tangential_iterations, tangential_applies, tangential_preconditions;
   PetscInt   coupling_iterations;
-  PetscReal  cycle;          /* cycles of a life before this one; the caller's (life.h), as the next */
-  PetscReal  wear_volume[2]; /* m3, removed of body 1 and 2 so far (wear.h) */
+  PetscInt   plastic_cells;     /* whose pressure is at its limit; this and the next three are 0 without a limit */
+  PetscReal  plastic_area;      /* m2, of these cells */
+  PetscReal  plastic_depth_max; /* m: the largest depth by which the surfaces have yielded so far */
+  PetscReal  plastic_energy;    /* J, work of the pressure on what the surfaces yield in the step */
+  PetscReal  cycle;             /* cycles of a life before this one; the caller's (life.h), as the next */
+  PetscReal  wear_volume[2];    /* m3, removed of body 1 and 2 so far (wear.h) */
   PetscReal  stiffness[2][SAM_COMPONENTS][SAM_COMPONENTS]; /* by direction (stiffness.h); NaN unless computed */
   SamStatus  status;
   char       message[512]; /* why the status is not CONVERGED, or a warning; else empty */
@@ -143,6 +149,8 @@ PETSC_EXTERN PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *li
     SamContactTry()     solves a step from the committed state; may be repeated, each try replaces the one before
     SamContactCommit()  makes the tried state the committed one, from which the next step starts
     SamContactReject()  discards the tried state: later steps are the same, to the last bit, as if it had not been tried
+  With a limit of the pressure (problem.h), the surfaces yield where it is reached: a committed step leaves its overlap
+  as plastic depth, which later steps find added to the separation.
   The gap and the friction of the problem may change between steps. Slip belongs to a place on the grid and is kept;
   the pressure is solved again when the gap has changed.
 */
@@ -234,7 +242,11 @@ PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamS
   SamContactComputeGap - the gap between the deformed surfaces (m), with the separation that the problem has now.
   SamContactComputeSlip - the slip since the start (m), along x for component 0 and along y for component 1.
   SamContactComputeState - the state of each cell, a SamState as a real number.
+  SamContactComputePlasticDepth - the depth by which both surfaces together have yielded (m).
+  SamContactComputeOverlap - the part of it that the tried step has added. Errors: PETSC_ERR_ORDER without a tried step.
 */
+PETSC_EXTERN PetscErrorCode SamContactComputePlasticDepth(SamContact contact, Vec depth);
+PETSC_EXTERN PetscErrorCode SamContactComputeOverlap(SamContact contact, Vec overlap);
 PETSC_EXTERN PetscErrorCode SamContactComputeGap(SamContact contact, Vec gap);
 PETSC_EXTERN PetscErrorCode SamContactComputeSlip(SamContact contact, PetscInt component, Vec slip);
 PETSC_EXTERN PetscErrorCode SamContactComputeState(SamContact contact, Vec state);

@@ -8,7 +8,8 @@
   SamNormal - the kind of SamSolver for the normal problem: find the pressure p with, in every cell,
       p >= 0,  g >= 0,  p g = 0,      g = S p + h - (d_z - y r_x + x r_y)
   where g is the gap, S the normal influence operator and h the separation of the undeformed bodies; the balance gives
-  the loads or rigid displacements. All functions of SamSolver apply to it.
+  the loads or rigid displacements. With a pressure limit H (SamNormalSetPressureLimit()) p <= H, and where p = H the
+  bodies may overlap, g <= 0: by that much they yield. All functions of SamSolver apply to it.
 */
 typedef SamSolver SamNormal;
 
@@ -28,11 +29,23 @@ PETSC_EXTERN PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal 
 PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver));
 
 /*
+  A pressure that counts as the limit, relative to it: equilibrium may have shifted cells that bear it by rounding. That
+  displaces them by far less than the tolerance of the gap.
+*/
+#define SAM_SATURATED (1 - 1e-9)
+/*
+  SamNormalSetPressureLimit - the largest admissible pressure (Pa), of the next solves; infinite (default): none. Not
+  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0.
+*/
+PETSC_EXTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
+
+/*
   SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,
   and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and rigid
   displacements. The relative error is the largest |g| where p > 0 and the largest -g elsewhere, over the largest
-  |S p|. Where displacements count from the mean surface (SamElasticityTraits), a given approach must lie below the mean
-  separation, else NO_EQUILIBRIUM. Collective. Not converging is a reason, not an error, unless that was asked for.
+  |S p|; where p is at the limit, only g > 0 counts. Where displacements count from the mean surface
+  (SamElasticityTraits), a given approach must lie below the mean separation unless there is a limit, else
+  NO_EQUILIBRIUM; so is a load beyond the limit on all of the grid. Collective. Not converging is a reason, not an error, unless that was asked for.
   Errors: SAM_ERR_USER for a normal load below zero.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);

@@ -46,6 +46,7 @@ typedef enum {
   SAM_OUTPUT_LIFE,           /* cycle; the group /wear */
   SAM_OUTPUT_STIFFNESS,      /* stiffness, stiffness_reversal */
   SAM_OUTPUT_SPOTS,          /* contact_spots, gap_mean */
+  SAM_OUTPUT_PLASTIC,        /* plastic_cells ... plastic_energy; the field plastic_depth */
   SAM_OUTPUT_OPTIONS
 } SamOutputOption;
 
@@ -64,7 +65,7 @@ typedef struct {
   SamContact contact; /* that keeps the sums over the steps among the fields; borrowed; NULL: not known */
 } SamOutputSettings;
 /*
-  SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state and depths of wear, no compression,
+  SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state, depths of wear and yielding, no compression,
   chunks of 1024 x 256 cells, double precision, with XDMF file, each step written at once, no optional columns), then
   reads -output_fields, -output_compress, -output_chunk, -output_single and -output_xdmf. Collective. Errors:
   SAM_ERR_USER.

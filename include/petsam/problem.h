@@ -6,7 +6,8 @@
 
 /*
   SamProblem - what a contact is given besides the control of each step: an elasticity, the gap (the separation of the
-  undeformed bodies, m) and the coefficient of friction, a number or a field.
+  undeformed bodies, m), the coefficient of friction, a number or a field, and the largest pressure that the surfaces
+  bear.
 
   Gap and friction may change between steps. The gap has a revision, a number that grows with every change. What is
   computed from the gap keeps the revision it came from, so that no values need to be compared.
@@ -52,6 +53,16 @@ PETSC_EXTERN PetscErrorCode SamProblemSetFrictionFromOptions(SamProblem problem,
 PETSC_EXTERN PetscErrorCode SamProblemGetFriction(SamProblem problem, PetscReal *friction, Vec *field);
 /* SamProblemHasFriction - whether the coefficient is positive anywhere. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemHasFriction(SamProblem problem, PetscBool *has);
+/*
+  SamProblemSetPressureLimit - the hardness (Pa): the largest pressure, at which the surfaces yield; infinite (default):
+  none. Another limit counts as a change of the gap. Not collective, the same on all ranks. Errors:
+  PETSC_ERR_ARG_OUTOFRANGE unless it is > 0.
+  SamProblemSetPressureLimitFromOptions - reads -pressure_limit. Collective. Errors: SAM_ERR_USER.
+  SamProblemGetPressureLimit - the limit. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamProblemSetPressureLimit(SamProblem problem, PetscReal limit);
+PETSC_EXTERN PetscErrorCode SamProblemSetPressureLimitFromOptions(SamProblem problem, const SamOptions *from);
+PETSC_EXTERN PetscErrorCode SamProblemGetPressureLimit(SamProblem problem, PetscReal *limit);
 /*
   SamProblemComputeBound - the largest shear that each cell bears, scale * friction * pressure (Pa, one component).
   `pressure` and `bound` may be the same vector. Collective.

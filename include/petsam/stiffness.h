@@ -12,8 +12,8 @@
                             Not symmetric: where cells slip, tangential loads depend on the approach, and not the
                             reverse. Across a step's own direction it counts that slip turns within the step: for a
                             path of small steps it tends to the stiffness of stick there.
-    SAM_STIFFNESS_REVERSAL  the motion reverses at the end of the step: all cells in contact stick. Symmetric; also
-                            right where only the normal force grows.
+    SAM_STIFFNESS_REVERSAL  the motion reverses at the end of the step: all cells in contact stick, and none yields.
+                            Symmetric; also right where only the normal force grows, without a limit of the pressure.
 */
 typedef enum { SAM_STIFFNESS_FORWARD, SAM_STIFFNESS_REVERSAL } SamStiffnessDirection;
 #define SAM_STIFFNESS_DIRECTIONS 2
@@ -30,7 +30,7 @@ typedef struct {
   SamStiffnessCompute - the tangent stiffness of the tried step. Displacements are relative to infinity, as everywhere.
   The boundaries of contact, stick and slip do not move to first order: pressure vanishes at the edge of contact, and
   where stick meets slip both |q| = mu p and ds = 0 hold. So the sets of cells are frozen, and a column solves
-    normal      S dp + B' dq = n on cells in contact,
+    normal      S dp + B' dq = n on cells in contact; dp = 0 on those that yield, if the motion goes on,
     tangential  C dq + B dp - t = d(ds), which is 0 on cells that stick; on cells that slip
                 dq = mu e dp - mu p/|ds| (I - e e') d(ds),  e = q/|q|,
   n and t being the unit motion of the column, and B the coupling of dissimilar bodies. Leaves the contact unchanged.

@@ -62,6 +62,7 @@ static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
 {
   SamWearing *const w = &run->wearing;
   PetscBool         help;
+  PetscReal         limit;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
@@ -73,6 +74,10 @@ static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
              "-wear_coefficient or -wear_energy is given without -friction: surfaces wear where friction acts");
   run->needs.wear = w->laws.on;
   run->needs.life = w->cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(SamProblemGetPressureLimit(run->setup.problem, &limit));
+  PetscCheck(isinf(limit) || !run->needs.life || help, from->comm, SAM_ERR_USER,
+             "-wear_cycles with -pressure_limit: cycles are jumped over by their wear, and do not know how much the "
+             "surfaces yield in those between: repeat the rows in -history instead, or leave one of the two away");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,6 +86,7 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamArguments *arguments, co
   static const char *const sums[] = {"slip_path", "friction_energy"};
   SamElasticityTraits      traits;
   PetscBool                help;
+  PetscReal                limit;
   char                     edges[16] = "";
 
   PetscFunctionBegin;
@@ -111,6 +117,8 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamArguments *arguments, co
                            SAM_RANGE_NONNEGATIVE, &run->output_settings.flush, NULL));
   run->output_settings.with[SAM_OUTPUT_STIFFNESS] = run->needs.stiffness;
   for (size_t k = 0; k < 2; k++) run->needs.sums += SamOutputSettingsHas(&run->output_settings, sums[k]);
+  PetscCall(SamProblemGetPressureLimit(run->setup.problem, &limit));
+  run->output_settings.with[SAM_OUTPUT_PLASTIC] = isfinite(limit) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(SamPrintHelp(&help));
   PetscCheck(!run->needs.stiffness || run->has_output || help, from->comm, SAM_ERR_USER,
              "-stiffness is given without -output, the file that it goes to");

@@ -57,16 +57,18 @@ enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
 
 /*
   Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. Cells on the rim bear
-  pressure but need not touch at their centres.
+  pressure but need not touch at their centres. Cells at the limit of the pressure may overlap: they yield.
 */
 SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict rim,
-                                     const double *restrict g, const double *restrict u, double max[COUNT])
+                                     const double *restrict g, const double *restrict u, double saturated,
+                                     double max[COUNT])
 {
   double gap = 0, tension = 0, displacement = 0, pressure = 0, opening = 0, nan = 0;
 
 #pragma omp simd reduction(max : gap, tension, displacement, pressure, opening) reduction(+ : nan)
   for (PetscInt i = 0; i < n; i++) {
-    const double size = fabs(u[i]), wrong = p[i] > rim[i] ? fabs(g[i]) : -g[i];
+    const double size = fabs(u[i]), pressed = p[i] < saturated ? fabs(g[i]) : g[i],
+                 wrong = p[i] > rim[i] ? pressed : -g[i];
 
     gap          = wrong > gap ? wrong : gap;
     opening      = g[i] > opening ? g[i] : opening;
@@ -93,10 +95,27 @@ static double EdgeOfRow(SamGrid grid, PetscInt j, const double p[])
   return most;
 }
 
-static PetscErrorCode CheckNormal(SamProblem problem, const SamSolution *s, SamCheck *check)
+/* The errors that the maxima are, under a limit of the pressure. */
+static void SetNormal(const double max[COUNT], double limit, SamCheck *check)
 {
-  double        max[COUNT] = {0}, *gap, *zeros;
-  const double *p, *u, *h, *rim = NULL;
+  check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
+  check->normal = max[TENSION] > 0 ? max[TENSION] / PetscMax(max[PRESSURE], max[TENSION]) : 0;
+  check->normal = PetscMax(check->normal, max[PRESSURE] > limit ? max[PRESSURE] / limit - 1 : 0);
+  /* without contact there is no displacement: the largest opening is the scale then */
+  if (max[GAP] > 0) {
+    const double scale = max[DISPLACEMENT] > 0 ? max[DISPLACEMENT] : max[OPENING];
+
+    check->normal = PetscMax(check->normal, scale > 0 ? max[GAP] / scale : INFINITY);
+  }
+}
+
+/* `before`: the previous solution; the gap is that of the surfaces as they were after it. */
+static PetscErrorCode CheckNormal(SamProblem problem, const SamSolution *before, const SamSolution *s, SamCheck *check)
+{
+  const Vec     plastic    = before ? before->plastic : NULL;
+  double        max[COUNT] = {0}, *gap, *zeros, *row;
+  const double *p, *u, *h, *rim = NULL, *w = NULL;
+  PetscReal     limit;
   SamMotion     motion;
   SamGrid       grid;
   Vec           separation;
@@ -105,34 +124,30 @@ static PetscErrorCode CheckNormal(SamProblem problem, const SamSolution *s, SamC
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamProblemGetGap(problem, &separation));
   PetscCall(SamMotionSet(&motion, problem, s));
-  PetscCall(PetscMalloc1(grid->nx, &gap));
+  PetscCall(SamProblemGetPressureLimit(problem, &limit));
+  PetscCall(PetscMalloc2(grid->nx, &gap, grid->nx, &row));
   PetscCall(PetscCalloc1(grid->nx, &zeros));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
   if (s->passes) PetscCall(VecGetArrayRead(s->rim, &rim));
+  if (plastic) PetscCall(VecGetArrayRead(plastic, &w));
   PetscCall(VecGetArrayRead(separation, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
-    NormalRow(grid->nx, p + k, rim ? rim + k : zeros, gap, u + k, max);
+    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, SamSeparationOfRow(grid, h, w, j, row), gap);
+    NormalRow(grid->nx, p + k, rim ? rim + k : zeros, gap, u + k, SAM_SATURATED * (double)limit, max);
     max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, j, p + k));
   }
   PetscCall(VecRestoreArrayRead(separation, &h));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
   if (rim) PetscCall(VecRestoreArrayRead(s->rim, &rim));
+  if (plastic) PetscCall(VecRestoreArrayRead(plastic, &w));
   PetscCall(PetscFree(zeros));
-  PetscCall(PetscFree(gap));
+  PetscCall(PetscFree2(gap, row));
   PetscCall(SamMax(grid->comm, COUNT, max));
-  check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
-  check->normal = max[TENSION] > 0 ? max[TENSION] / PetscMax(max[PRESSURE], max[TENSION]) : 0;
-  /* without contact there is no displacement: the largest opening is the scale then */
-  if (max[GAP] > 0) {
-    const double scale = max[DISPLACEMENT] > 0 ? max[DISPLACEMENT] : max[OPENING];
-
-    check->normal = PetscMax(check->normal, scale > 0 ? max[GAP] / scale : INFINITY);
-  }
+  SetNormal(max, (double)limit, check);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -280,7 +295,7 @@ PetscErrorCode SamCheckSolution(SamProblem problem, PetscBool coupling, PetscBoo
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(ComputeDisplacements(problem, coupling, u_z_known, solution));
-  PetscCall(CheckNormal(problem, solution, check));
+  PetscCall(CheckNormal(problem, before, solution, check));
   if (!traits.edge) check->edge = 0;
   PetscCall(CheckTangential(problem, before, solution, check));
   given[0] = SamControlGetBalance(&solution->control, SAM_BALANCE_NORMAL);

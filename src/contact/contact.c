@@ -296,7 +296,7 @@ static PetscErrorCode RestoreWindow(SamContact c)
 
 /*
   Whether the next step has the committed pressure: same normal control, same gap, corrected for the edge in the same
-  way, and no shear that acts on it.
+  way, and no shear that acts on it. That the surfaces yielded under it does not matter (plastic.c).
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
@@ -325,6 +325,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscCall(SamSolutionCreateDisplacements(c->grid, s));
   if (known) PetscCall(SamVecCopyNonzero(c->committed.solution.displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->coupling, known, before, s, &step->check));
+  PetscCall(SamContactYield(c, same_pressure, step));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
   PetscCall(SamContactComputeScalars(c, step));
@@ -341,6 +342,7 @@ static void SetUnknown(SamStep *step)
   }
   step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = step->edge_accepted = NAN;
   step->pressure_max = step->shear_max = step->slip_max = step->contact_fraction = NAN;
+  step->plastic_area = step->plastic_depth_max = step->plastic_energy = NAN;
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
@@ -349,6 +351,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   SamControl   given = *control;
   SamStepStart start;
   PetscBool    same_pressure = PETSC_FALSE, friction;
+  PetscReal    limit;
 
   PetscFunctionBegin;
   PetscCall(SamContactReject(c));
@@ -356,6 +359,10 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamProblemHasFriction(c->problem, &friction));
   PetscCheck(!friction || !SamContactIsCoupled(c) || c->edges != SAM_CONTACT_EDGES_DEFERRED, c->grid->comm,
              PETSC_ERR_SUP, "Pressure and shear that act on each other are not corrected for their edges");
+  PetscCall(SamProblemGetPressureLimit(c->problem, &limit));
+  PetscCheck(isinf(limit) || c->edges != SAM_CONTACT_EDGES_DEFERRED, c->grid->comm, PETSC_ERR_SUP,
+             "The pressure is corrected for its edge without a limit only: yielded surfaces are not those it is for");
+  PetscCall(SamNormalSetPressureLimit(c->normal, limit));
   PetscCall(PetscMemzero(step, sizeof(*step)));
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS * SAM_COMPONENTS; k++) (&step->stiffness[0][0][0])[k] = NAN;
   step->spots = step->gap_mean = NAN;
@@ -387,17 +394,18 @@ PetscErrorCode SamContactCommit(SamContact c)
   c->before.displacement_z = c->before.displacement_t = NULL;
   recycled.displacement_z                             = c->committed.solution.displacement_z;
   recycled.displacement_t                             = c->committed.solution.displacement_t;
-  c->before.correction = c->before.rim = NULL;
-  c->before.passes                     = 0;
-  recycled.correction                  = c->committed.solution.correction;
-  recycled.rim                         = c->committed.solution.rim;
-  recycled.sheared                     = c->committed.solution.sheared;
-  plain                                = c->committed.plain;
-  c->before.sheared                    = (SamShearCorrection){.has = PETSC_FALSE};
-  c->committed                         = c->tried;
-  c->tried.solution                    = recycled;
-  c->tried.plain                       = plain;
-  c->has_tried                         = PETSC_FALSE;
+  c->before.correction = c->before.rim = c->before.plastic = NULL;
+  c->before.passes                                         = 0;
+  recycled.correction                                      = c->committed.solution.correction;
+  recycled.rim                                             = c->committed.solution.rim;
+  recycled.sheared                                         = c->committed.solution.sheared;
+  plain                                                    = c->committed.plain;
+  c->before.sheared                                        = (SamShearCorrection){.has = PETSC_FALSE};
+  recycled.plastic                                         = c->committed.solution.plastic;
+  c->committed                                             = c->tried;
+  c->tried.solution                                        = recycled;
+  c->tried.plain                                           = plain;
+  c->has_tried                                             = PETSC_FALSE;
   c->steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

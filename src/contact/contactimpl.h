@@ -65,6 +65,8 @@ PETSC_INTERN PetscErrorCode SamShearCorrectionCopy(SamGrid grid, const SamShearC
 /* SamSolutionFindSlips - 1 in cells that slip, else 0 (one component). Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionFindSlips(const SamSolution *solution, Vec slips);
 PETSC_INTERN PetscErrorCode SamSolutionDestroy(SamSolution *solution);
+/* SamSolutionAddPlastic - adds the plastic depth of a solution (NULL: none) to a separation. Collective. */
+PETSC_INTERN PetscErrorCode SamSolutionAddPlastic(const SamSolution *solution, Vec separation);
 /* SamContactIsGapCurrent - whether the committed pressure was solved with the problem's gap of now. Collective. */
 PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
 
@@ -101,6 +103,16 @@ PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, c
 /* value = u + h - a - b xi. */
 PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
                                double value[]);
+/* The separation h + w of row j, w being the plastic depth (NULL: none); in `row` where it has to be computed. */
+static inline const double *SamSeparationOfRow(SamGrid grid, const double h[], const double w[], PetscInt j,
+                                               double row[])
+{
+  const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
+
+  if (!w) return h + k;
+  for (PetscInt i = 0; i < grid->nx; i++) row[i] = h[k + i] + w[k + i];
+  return row;
+}
 /* SamSolutionComputeSlip - a component of the slip (m) of this rank's cells. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *solution, PetscInt component,
                                                    double slip[]);
@@ -182,6 +194,11 @@ PETSC_INTERN PetscErrorCode SamContactComputeScalars(SamContact contact, SamStep
   SamContactAddEnergyWithin - adds to a corrected step's elastic energy what cells vary within (within.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamContactAddEnergyWithin(SamContact contact, SamStep *step);
+/*
+  SamContactYield - the plastic depth of the tried solution, whose displacements are known, and the step's numbers of it
+  (plastic.c). `same_pressure`: the pressure is the committed one, so nothing yields. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamContactYield(SamContact contact, PetscBool same_pressure, SamStep *step);
 /* SamStepFail - sets status and message unless the step has failed already: later failures follow from the first. */
 PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
 

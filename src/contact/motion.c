@@ -1,5 +1,5 @@
 /*
-  Fields that follow from a solution: the gap u_z + h - rigid, the slip u_t + stretch - rigid, the state of each cell.
+  Fields that follow from a solution: the gap u_z + h + w - rigid, the slip u_t + stretch - rigid, the state of each cell.
 
   They are not stored, but computed row by row where they are needed, always by these functions: so they are the same to
   the last bit in the check, in the next step and in the results.
@@ -173,8 +173,8 @@ PetscErrorCode SamContactComputeGap(SamContact c, Vec gap)
 {
   const SamSolution *s;
   SamMotion          motion;
-  const double      *u, *h;
-  double            *g;
+  const double      *u, *h, *w = NULL;
+  double            *g, *row;
   Vec                separation;
 
   PetscFunctionBegin;
@@ -185,11 +185,15 @@ PetscErrorCode SamContactComputeGap(SamContact c, Vec gap)
   PetscCall(VecGetArrayRead(separation, &h));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
   PetscCall(VecGetArrayWrite(gap, &g));
+  if (s->plastic) PetscCall(VecGetArrayRead(s->plastic, &w));
+  PetscCall(PetscMalloc1(c->grid->nx, &row));
   for (PetscInt j = 0; j < c->grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * c->grid->nx;
 
-    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, g + k);
+    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, SamSeparationOfRow(c->grid, h, w, j, row), g + k);
   }
+  PetscCall(PetscFree(row));
+  if (s->plastic) PetscCall(VecRestoreArrayRead(s->plastic, &w));
   PetscCall(VecRestoreArrayWrite(gap, &g));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(separation, &h));

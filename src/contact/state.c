@@ -117,12 +117,23 @@ PetscErrorCode SamShearCorrectionDestroy(SamShearCorrection *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Copies the plastic depth, where there is one. */
+static PetscErrorCode CopyPlastic(SamGrid grid, const SamSolution *from, SamSolution *to)
+{
+  PetscFunctionBegin;
+  if (!from->plastic) PetscCall(VecDestroy(&to->plastic));
+  if (from->plastic && !to->plastic) PetscCall(SamGridCreateVec(grid, 1, &to->plastic));
+  if (from->plastic) PetscCall(VecCopy(from->plastic, to->plastic));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolutionDestroy(SamSolution *s)
 {
   PetscFunctionBegin;
   PetscCall(SamShearCorrectionDestroy(&s->sheared));
   PetscCall(VecDestroy(&s->correction));
   PetscCall(VecDestroy(&s->rim));
+  PetscCall(VecDestroy(&s->plastic));
   PetscCall(VecDestroy(&s->pressure));
   PetscCall(VecDestroy(&s->bound));
   PetscCall(VecDestroy(&s->shear));
@@ -189,6 +200,8 @@ static PetscErrorCode CopySolution(SamGrid grid, const SamSolution *from, SamSol
   to->sheared        = own.sheared;
   PetscCall(SamSolutionCopyCorrection(grid, from, to));
   PetscCall(SamShearCorrectionCopy(grid, &from->sheared, &to->sheared));
+  to->plastic = own.plastic;
+  PetscCall(CopyPlastic(grid, from, to));
   PetscCall(SamVecCopyNonzero(from->pressure, to->pressure));
   PetscCall(SamVecCopyNonzero(from->bound, to->bound));
   PetscCall(SamVecCopyNonzero(from->shear, to->shear));
@@ -221,6 +234,7 @@ PetscErrorCode SamContactSetState(SamContact c, const SamContactState *s)
   if (s->now.sheared.has) PetscCall(CheckTractions(c->grid, &s->plain));
   PetscCall(SamGridCheckVec(c->grid, 1, s->now.displacement_z, "The state's normal displacement"));
   PetscCall(SamGridCheckVec(c->grid, 2, s->now.displacement_t, "The state's tangential displacement"));
+  if (s->now.plastic) PetscCall(SamGridCheckVec(c->grid, 1, s->now.plastic, "The state's plastic depth"));
   PetscCall(SamContactReject(c));
   PetscCall(SamSolutionCreateDisplacements(c->grid, &c->committed.solution));
   PetscCall(CopySolution(c->grid, &s->now, &c->committed.solution));

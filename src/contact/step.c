@@ -18,9 +18,9 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
   w->normal         = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential     = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
+  if (w->coupled || (w->before && w->before->plastic)) PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
   if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 1, &w->lift));
-  PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->pressure_product.field));
   PetscCall(SamGridCreateVec(c->grid, 2, &w->shear_product.field));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->previous_pressure));
@@ -67,14 +67,17 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
 {
   const SamGrid grid = w->c->grid;
   PetscBool     possible;
-  PetscReal     sum;
+  PetscReal     sum, limit;
   Vec           h;
 
   PetscFunctionBegin;
+  PetscCall(SamProblemGetPressureLimit(w->c->problem, &limit));
   PetscCall(SamBalanceLever(grid, &w->normal, message, size, &possible));
+  if (possible) PetscCall(SamBalanceCapacity(grid, &w->normal, limit, message, size, &possible));
   if (!possible) PetscFunctionReturn(PETSC_SUCCESS);
   if (w->normal.force[0] || w->c->traits.mean) {
     PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", size));
+    if (isfinite(limit)) PetscCall(PetscStrlcat(message, " within pressure_limit", size));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamProblemGetGap(w->c->problem, &h));
@@ -128,13 +131,17 @@ static PetscErrorCode TakePressure(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The separation for the normal problem: the gap, plus the lift, which w->h holds. */
+/* The separation for the normal problem: the gap, plus the lift, which w->h holds, and the plastic depth so far. */
 static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
   PetscCall(SamProblemGetGap(w->c->problem, h));
-  if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecAXPY(w->h, 1, *h));
+  if (!w->h) PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->coupled)
+    PetscCall(VecAXPY(w->h, 1, *h));
+  else
+    PetscCall(VecCopy(*h, w->h));
+  PetscCall(SamSolutionAddPlastic(w->before, w->h));
   *h = w->h;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -15,9 +15,9 @@ typedef struct {
   PetscBool          coupled, same_pressure;
   SamBalance         normal, tangential; /* as prescribed */
   double             rigid[3];           /* guess of the tangential rigid displacements */
+  Vec                h;                  /* separation plus lift and plastic depth; NULL where it is the gap */
   /* coupled only */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
-  Vec        h;                                 /* separation plus lift */
   SamProduct pressure_product, shear_product;   /* S p and C q of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
 } SamSolve;

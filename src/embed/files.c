@@ -72,6 +72,7 @@ static PetscErrorCode KnowState(petsam_contact *c)
   step->check        = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
   step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = step->edge_accepted = NAN;
   step->pressure_max = step->shear_max = NAN;
+  step->plastic_area = step->plastic_depth_max = step->plastic_energy = NAN;
   PetscCall(PetscArraycpy(step->load, state.now.load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, state.now.rigid, SAM_COMPONENTS));
   if (c->wear) PetscCall(SamWearGetVolumes(c->wear, step->wear_volume, depth));

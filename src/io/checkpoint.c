@@ -13,8 +13,8 @@
 #define NUMBERS 37 /* numbers of a solution: control, loads, rigid displacements, passes of the corrections */
 
 /* The fields and their names in the file, and which states have them. */
-/* SECOND: from the second step on; SUM: if it is kept */
-typedef enum { ALWAYS, CORRECTED, SHEARED, PLAIN, SECOND, SUM } Condition;
+/* SECOND: from the second step on; YIELDING, SUM: if it is kept */
+typedef enum { ALWAYS, CORRECTED, SHEARED, PLAIN, YIELDING, SECOND, SUM } Condition;
 static const struct {
   const char *name;
   PetscInt    components;
@@ -38,6 +38,7 @@ static const struct {
             {"plain_bound", 1, offsetof(SamContactState, plain.bound), PLAIN},
             {"plain_shear", 2, offsetof(SamContactState, plain.shear), PLAIN},
             {"plain_displacement_t", 2, offsetof(SamContactState, plain.displacement_t), PLAIN},
+            {"plastic_depth", 1, offsetof(SamContactState, now.plastic), YIELDING},
             {"before_pressure", 1, offsetof(SamContactState, before.pressure), SECOND},
             {"before_bound", 1, offsetof(SamContactState, before.bound), SECOND},
             {"before_shear", 2, offsetof(SamContactState, before.shear), SECOND},
@@ -57,6 +58,7 @@ static PetscBool IsKept(SamContactState *state, PetscInt k)
   if (kept[k].when == PLAIN) return state->now.sheared.has;
   if (kept[k].when == SHEARED)
     return state->now.sheared.has || state->now.sheared.within.refers ? PETSC_TRUE : PETSC_FALSE;
+  if (kept[k].when == YIELDING) return state->now.plastic ? PETSC_TRUE : PETSC_FALSE;
   return kept[k].when == ALWAYS || state->steps > 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
@@ -381,8 +383,9 @@ static PetscErrorCode ReadFields(SamFile f, SamContactState *state)
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KEPT; k++) {
-    const PetscBool has =
-      kept[k].when == SUM ? SamFileNote(f, H5Lexists(f->id, kept[k].name, H5P_DEFAULT)) > 0 : IsKept(state, k);
+    const PetscBool has = kept[k].when == SUM || kept[k].when == YIELDING
+                            ? SamFileNote(f, H5Lexists(f->id, kept[k].name, H5P_DEFAULT)) > 0
+                            : IsKept(state, k);
 
     if (has) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
   }

@@ -5,6 +5,7 @@
   Of the numbers there are two series: one of all steps, and one of the computed cycles of a life.
 */
 #include "ioimpl.h"
+#include <math.h>
 #include <string.h>
 
 /* ---- fields ---- */
@@ -68,6 +69,15 @@ static PetscErrorCode ComputeDepth(SamContact contact, SamWear wear, PetscInt bo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ComputePlasticDepth(SamContact contact, SamWear wear, PetscInt component, Vec field)
+{
+  PetscFunctionBegin;
+  (void)wear;
+  (void)component;
+  PetscCall(SamContactComputePlasticDepth(contact, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 #define STORED(name, units, text, usual, member, component) \
   { \
     {name, units, text}, SAM_FIELD_REAL, NULL, offsetof(SamSolution, member), component, SAM_OUTPUT_OPTIONS, usual \
@@ -76,9 +86,9 @@ static PetscErrorCode ComputeDepth(SamContact contact, SamWear wear, PetscInt bo
   { \
     {name, units, text}, kind, function, 0, component, SAM_OUTPUT_OPTIONS, usual \
   }
-#define DEPTH(name, text, body) \
+#define DEPTH(name, text, function, body, option) \
   { \
-    {name, "m", text}, SAM_FIELD_REAL, ComputeDepth, 0, body, SAM_OUTPUT_WEAR, PETSC_TRUE \
+    {name, "m", text}, SAM_FIELD_REAL, function, 0, body, option, PETSC_TRUE \
   }
 #define POINTS(name, text, edge) \
   { \
@@ -112,8 +122,9 @@ const SamOutputField SamOutputFields[] = {
            SAM_CONTACT_FRICTION_ENERGY),
   POINTS("contact_edge", "points of the edge of contact, x and y", SAM_CONTACT_EDGE_CONTACT),
   POINTS("stick_edge", "points of the edge of the stick zone, x and y", SAM_CONTACT_EDGE_STICK),
-  DEPTH("wear_depth1", "depth removed of body 1", 0),
-  DEPTH("wear_depth2", "depth removed of body 2", 1)};
+  DEPTH("wear_depth1", "depth removed of body 1", ComputeDepth, 0, SAM_OUTPUT_WEAR),
+  DEPTH("wear_depth2", "depth removed of body 2", ComputeDepth, 1, SAM_OUTPUT_WEAR),
+  DEPTH("plastic_depth", "depth by which both surfaces have yielded", ComputePlasticDepth, 0, SAM_OUTPUT_PLASTIC)};
 const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputFields[0]);
 
 /* ---- numbers ---- */
@@ -133,6 +144,10 @@ const PetscInt SamOutputFieldCount = sizeof(SamOutputFields) / sizeof(SamOutputF
 #define OPTIONAL(option, name, units, text, member) \
   { \
     {name, units, text}, SAM_COLUMN_REAL, offsetof(SamStep, member), option \
+  }
+#define COUNT(option, name, text, member) \
+  { \
+    {name, "1", text}, SAM_COLUMN_INT, offsetof(SamStep, member), option \
   }
 #define MATRIX(name, text, member) \
   { \
@@ -191,6 +206,12 @@ static const SamOutputColumn history[] = {
   OPTIONAL(SAM_OUTPUT_LIFE, "cycle", "1", "cycles before this one", cycle),
   OPTIONAL(SAM_OUTPUT_WEAR, "wear_volume1", "m3", "volume removed of body 1", wear_volume[0]),
   OPTIONAL(SAM_OUTPUT_WEAR, "wear_volume2", "m3", "volume removed of body 2", wear_volume[1]),
+  COUNT(SAM_OUTPUT_PLASTIC, "plastic_cells", "cells at the limit of the pressure", plastic_cells),
+  OPTIONAL(SAM_OUTPUT_PLASTIC, "plastic_area", "m2", "area at the limit of the pressure", plastic_area),
+  OPTIONAL(SAM_OUTPUT_PLASTIC, "plastic_depth_max", "m", "largest depth by which the surfaces have yielded",
+           plastic_depth_max),
+  OPTIONAL(SAM_OUTPUT_PLASTIC, "plastic_energy", "J", "work of the pressure on what yields in the load step",
+           plastic_energy),
   REAL("dissipated_energy", "J", "frictional work of the load step", dissipated_energy),
   REAL("stored_energy", "J", "elastic energy of both bodies", stored_energy),
   MATRIX("stiffness", "d(loads)/d(rigid displacements) if the motion of the step goes on", stiffness[0]),
@@ -250,8 +271,8 @@ PetscErrorCode SamOutputSettingsCheck(const SamOutputSettings *set, const SamOpt
   PetscFunctionBegin;
   for (PetscInt f = 0; f < SamOutputFieldCount && set->named; f++)
     PetscCheck(!set->fields[f] || SamOutputWants(set, SamOutputFields[f].option), from->comm, SAM_ERR_USER,
-               "-%soutput_fields: there is no %s, as nothing wears", SamOptionsPrefix(from),
-               SamOutputFields[f].label.name);
+               "-%soutput_fields: there is no %s, as nothing %s", SamOptionsPrefix(from), SamOutputFields[f].label.name,
+               SamOutputFields[f].option == SAM_OUTPUT_PLASTIC ? "yields without -pressure_limit" : "wears");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -333,10 +354,15 @@ PetscErrorCode SamFieldGet(SamContact contact, SamWear worn, const char name[], 
   double       *to;
   Vec           holder;
   PetscInt      f = Find(name), component, cells;
+  PetscReal     limit;
+  SamProblem    problem;
 
   PetscFunctionBegin;
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamProblemGetPressureLimit(problem, &limit));
   *found = f < SamOutputFieldCount && SamOutputFields[f].kind != SAM_FIELD_POINTS &&
-               (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR)
+               (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR) &&
+               (isfinite(limit) || SamOutputFields[f].option != SAM_OUTPUT_PLASTIC)
              ? PETSC_TRUE
              : PETSC_FALSE;
   PetscCall(CheckSum(contact, f, found));

@@ -12,6 +12,7 @@ struct _n_SamProblem {
   Vec           gap;  /* its revision is PETSc's object state, which grows with every change */
   PetscReal     friction;
   Vec           field; /* coefficients of friction by cell; NULL: the number counts */
+  PetscReal     limit; /* of the pressure, Pa; infinite: none */
 };
 
 PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
@@ -21,6 +22,7 @@ PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
   PetscFunctionBegin;
   PetscCall(PetscNew(&p));
   p->references = 1;
+  p->limit      = PETSC_INFINITY;
   PetscCall(SamElasticityReference(elasticity));
   p->elasticity = elasticity;
   PetscCall(SamElasticityGetGrid(elasticity, &p->grid));
@@ -155,6 +157,35 @@ PetscErrorCode SamProblemHasFriction(SamProblem p, PetscBool *has)
   PetscFunctionBegin;
   if (p->field) PetscCall(VecMax(p->field, NULL, &most));
   *has = most > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemSetPressureLimit(SamProblem p, PetscReal limit)
+{
+  PetscFunctionBegin;
+  PetscCheck(limit > 0, p->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "pressure limit %g: expected a number > 0, or inf",
+             (double)limit);
+  if (limit != p->limit) PetscCall(PetscObjectStateIncrease((PetscObject)p->gap));
+  p->limit = limit;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemSetPressureLimitFromOptions(SamProblem p, const SamOptions *from)
+{
+  PetscReal limit = p->limit;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHeading(from, "Plastic deformation"));
+  PetscCall(SamOptionsReal(from, "pressure_limit", "hardness: the largest pressure, where the surfaces yield (Pa)",
+                           SAM_RANGE_POSITIVE_INF, &limit, NULL));
+  PetscCall(SamProblemSetPressureLimit(p, limit));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetPressureLimit(SamProblem p, PetscReal *limit)
+{
+  PetscFunctionBegin;
+  *limit = p->limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -2,6 +2,7 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/checkpoint.h>
 #include <petsam/setup.h>
+#include <math.h>
 
 /* Options of files that the gap may come from. */
 static const char *const files[] = {"-gap_file", "-gap_rough_file"};
@@ -16,6 +17,7 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
   PetscCall(SamElasticitySetFromOptions(s->elasticity));
   PetscCall(SamProblemCreate(s->elasticity, &s->problem));
   PetscCall(SamProblemSetFrictionFromOptions(s->problem, from));
+  PetscCall(SamProblemSetPressureLimitFromOptions(s->problem, from));
   PetscCall(SamGapCreate(from->comm, &s->gap));
   PetscCall(SamGapSetOptionsPrefix(s->gap, from->prefix));
   PetscCall(SamGapSetFromOptions(s->gap));
@@ -28,6 +30,7 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   SamElasticityTraits traits;
   SamContactEdges     edges;
   PetscBool           help, friction, coupling;
+  PetscReal           limit;
   Vec                 gap;
 
   PetscFunctionBegin;
@@ -45,6 +48,10 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
              SAM_ERR_USER,
              "-edges deferred with friction and dissimilar bodies, whose pressure and shear act on each other: "
              "expected reconstruct or none, or -friction 0, or -coupling none");
+  PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
+  PetscCheck(isinf(limit) || edges != SAM_CONTACT_EDGES_DEFERRED || help, from->comm, SAM_ERR_USER,
+             "-edges deferred with -pressure_limit: where surfaces yield, the pressure does not end as the correction "
+             "takes it to: expected reconstruct or none");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,6 +155,7 @@ PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
 {
   SamElasticityType type;
   PetscBool         full;
+  PetscReal         limit;
 
   PetscFunctionBegin;
   PetscCall(AddGrid(p, s->grid));
@@ -155,6 +163,8 @@ PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
   PetscCall(SamElasticityGetType(s->elasticity, &type));
   PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, type));
   PetscCall(AddFriction(s, p));
+  PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
+  PetscCall(SamParametersAddReals(p, "pressure_limit", PETSC_TRUE, 1, &limit));
   PetscCall(AddGap(s, p));
   PetscCall(SamContactGetCoupling(s->contact, &full));
   PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, full ? "full" : "none"));

@@ -87,6 +87,8 @@ PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, Sa
   s->comm       = grid->comm;
   s->elasticity = elasticity;
   s->rtol       = kind->rtol;
+
+  s->pressure_limit = PETSC_INFINITY;
   PetscCall(SamSolverSetType(s, kind->default_type));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,7 +5,7 @@
   a cell sticks, the one along its circle where it slips. There the shear also follows the pressure, by mu e p. With P,
   which takes off what lies along e, and L = |ds|/(mu p),
       S p + B'(y + mu e p) = n,      P(C (y + mu e p) + B p) + L y = P t.
-  Without coupling, B = 0, the first is a system of its own. Approximate inverses are the spectral ones of S and C; that
+  The pressure of cells that yield stays, p = 0, so the first holds on the others only. Without coupling, B = 0, the first is a system of its own. Approximate inverses are the spectral ones of S and C; that
   of C with the weights of the tangential solver's Newton step (newton.c), in which a cell that slips counts with
   h = c/(c + L), c being its influence on itself.
 */
@@ -14,7 +14,7 @@
 
 /*
   Slip in a step that is less than this part of what the largest bound moves a cell by is the solver's error, and the
-  cell sticks.
+  cell sticks. Likewise an overlap that is less than this part of what the largest pressure moves a cell by is none.
 */
 #define STILL 1e-5
 
@@ -22,7 +22,7 @@
 
 /* A contact's fields, or the part of them in a window. */
 typedef struct {
-  Vec pressure, bound, shear, path;
+  Vec pressure, bound, shear, path, overlap;
 } Fields;
 
 static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec *field)
@@ -60,7 +60,7 @@ static PetscErrorCode LeaveRim(SamWindow window, SamGrid grid, Vec whole, Vec pr
 static PetscErrorCode CreateFields(SamContact contact, SamWindow window, SamGrid grid, Fields *f)
 {
   const SamSolution *s;
-  Vec                path;
+  Vec                path, overlap;
   SamGrid            whole;
 
   PetscFunctionBegin;
@@ -68,13 +68,17 @@ static PetscErrorCode CreateFields(SamContact contact, SamWindow window, SamGrid
   PetscCall(SamContactGetGrid(contact, &whole));
   PetscCall(SamGridCreateVec(whole, 1, &path));
   PetscCall(SamContactComputeFriction(contact, path, NULL, NULL));
-  *f = (Fields){s->pressure, s->bound, s->shear, path};
+  PetscCall(SamGridCreateVec(whole, 1, &overlap));
+  PetscCall(SamContactComputeOverlap(contact, overlap));
+  *f = (Fields){s->pressure, s->bound, s->shear, path, overlap};
   PetscCall(TakeField(window, grid, 1, &f->pressure));
   PetscCall(TakeField(window, grid, 1, &f->bound));
   PetscCall(TakeField(window, grid, 2, &f->shear));
   if (s->passes) PetscCall(LeaveRim(window, grid, s->rim, f->pressure));
   PetscCall(TakeField(window, grid, 1, &f->path));
+  PetscCall(TakeField(window, grid, 1, &f->overlap));
   PetscCall(VecDestroy(&path));
+  PetscCall(VecDestroy(&overlap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,6 +89,7 @@ static PetscErrorCode DestroyFields(Fields *f)
   PetscCall(VecDestroy(&f->bound));
   PetscCall(VecDestroy(&f->shear));
   PetscCall(VecDestroy(&f->path));
+  PetscCall(VecDestroy(&f->overlap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,23 +134,32 @@ static void SetCells(SamFrozen *f, double still, const double p[], const double 
   }
 }
 
+/* Which cells do not yield in the step; an overlap is more than `still` (m). */
+static void SetYielding(SamFrozen *f, double still, const double overlap[])
+{
+  for (PetscInt m = 0; m < f->count; m++) f->bears[m] = overlap[f->cell[m]] > still ? 0 : 1;
+}
+
 static PetscErrorCode PackCells(SamFrozen *f, SamStiffnessDirection direction, const Fields *from)
 {
-  const double *p, *b, *q, *path;
-  double        still;
-  PetscReal     most;
+  const PetscBool forward = direction == SAM_STIFFNESS_FORWARD ? PETSC_TRUE : PETSC_FALSE;
+  const double   *p, *b, *q, *path, *overlap;
+  PetscReal       most[2];
 
   PetscFunctionBegin;
-  PetscCall(VecMax(from->bound, NULL, &most));
-  still = direction == SAM_STIFFNESS_FORWARD ? STILL * f->self[1] * (double)most : INFINITY;
+  PetscCall(VecMax(from->pressure, NULL, &most[0]));
+  PetscCall(VecMax(from->bound, NULL, &most[1]));
   PetscCall(VecGetArrayRead(from->pressure, &p));
   PetscCall(VecGetArrayRead(from->bound, &b));
   PetscCall(VecGetArrayRead(from->shear, &q));
   PetscCall(VecGetArrayRead(from->path, &path));
+  PetscCall(VecGetArrayRead(from->overlap, &overlap));
   PetscCall(FindCells(f, p));
-  PetscCall(PetscMalloc5(f->count, &f->e[0], f->count, &f->e[1], f->count, &f->follow, f->count, &f->stiff, f->count,
-                         &f->free));
-  SetCells(f, still, p, b, q, path);
+  PetscCall(PetscMalloc6(f->count, &f->e[0], f->count, &f->e[1], f->count, &f->follow, f->count, &f->stiff, f->count,
+                         &f->free, f->count, &f->bears));
+  SetCells(f, forward ? STILL * f->self[1] * (double)most[1] : INFINITY, p, b, q, path);
+  SetYielding(f, forward ? STILL * f->self[0] * (double)most[0] : INFINITY, overlap);
+  PetscCall(VecRestoreArrayRead(from->overlap, &overlap));
   PetscCall(VecRestoreArrayRead(from->path, &path));
   PetscCall(VecRestoreArrayRead(from->shear, &q));
   PetscCall(VecRestoreArrayRead(from->bound, &b));
@@ -222,7 +236,7 @@ PetscErrorCode SamFrozenDestroy(SamFrozen *f)
   PetscFunctionBegin;
   PetscCall(PetscFree(f->start));
   PetscCall(PetscFree(f->cell));
-  PetscCall(PetscFree5(f->e[0], f->e[1], f->follow, f->stiff, f->free));
+  PetscCall(PetscFree6(f->e[0], f->e[1], f->follow, f->stiff, f->free, f->bears));
   PetscCall(VecDestroy(&f->p));
   PetscCall(VecDestroy(&f->q));
   PetscCall(VecDestroy(&f->u_z));
@@ -269,6 +283,12 @@ static void Project(const SamFrozen *f, double y[])
   }
 }
 
+/* Takes off a packed pressure what lies on cells that yield. */
+static void Bear(const SamFrozen *f, double p[])
+{
+  for (PetscInt m = 0; m < f->count; m++) p[m] *= f->bears[m];
+}
+
 void SamFrozenMotion(const SamFrozen *f, PetscInt k, double values[])
 {
   const SamGrid   grid  = f->grid;
@@ -299,7 +319,10 @@ void SamFrozenColumn(const SamFrozen *f, PetscInt k, double column[])
   for (PetscInt m = 0; m < SamFrozenSize(f); m++) column[m] = 0;
   if (at < 0) return;
   SamFrozenMotion(f, k, column + at);
-  if (k >= 3) Project(f, column + at);
+  if (k >= 3)
+    Project(f, column + at);
+  else
+    Bear(f, column + at);
 }
 
 void SamFrozenFollow(const SamFrozen *f, const double p[], double q[])
@@ -401,6 +424,7 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
   }
   PetscCall(ComputeDisplacements(f));
   if (p >= 0) PetscCall(Pack(f, 1, f->u_z, Ax + p));
+  if (p >= 0) Bear(f, Ax + p);
   if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Pack(f, 2, f->u_t, Ax + y));
   Project(f, Ax + y);
@@ -417,6 +441,7 @@ static PetscErrorCode PreconditionNormal(SamFrozen *f, const double r[], double 
   for (PetscInt m = 0; m < f->count; m++) f->r[f->cell[m]] = (float)r[m];
   PetscCall(SamElasticityPreconditionNormalSingle(f->elasticity, f->self[0], f->r, f->z));
   for (PetscInt m = 0; m < f->count; m++) z[m] = (double)f->z[f->cell[m]] / f->self[0];
+  Bear(f, z);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

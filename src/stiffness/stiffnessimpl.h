@@ -26,6 +26,7 @@ typedef struct {
   double       *follow;             /* mu where a cell slips, 0 where it sticks */
   double       *stiff;              /* |ds|/(mu p), m/Pa: what resists a turn of the slip; 0 where a cell sticks */
   double       *free;               /* 1; 0 where there is no friction and thus no shear */
+  double       *bears;              /* 1; 0 where the surfaces yield, so that the pressure stays */
   double        self[2];            /* influence of a cell on itself, normal and tangential, m/Pa */
   Vec           p, q, u_z, u_t, w_z, w_t;
   float        *r, *z; /* of two components */

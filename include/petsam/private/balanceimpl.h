@@ -23,13 +23,17 @@ typedef struct {
   double         lower[3][3];  /* the components as combinations of the phi = lower * basis */
   double         target[3];    /* what sum phi traction must be along the basis: loads/(dx dy) in the basis */
   double         fixed[3];     /* the given rigid displacement as a combination of the phi */
+  double         most;         /* normal: the largest admissible pressure, Pa; infinite: there is none */
   double         xi0;          /* xi of the first column */
   double         dxi, deta;    /* steps of xi and eta from cell to cell */
 } SamFrame;
 
 /* SamFrameGetComponent - the rigid displacement of component k of a kind (1 m or rad) as a combination of the phi. */
 PETSC_EXTERN void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3]);
-/* SamFrameSet - the frame of a grid (borrowed) for what a balance controls. Not collective. */
+/*
+  SamFrameSet - the frame of a grid (borrowed) for what a balance controls. Its pressures have no upper bound until the
+  caller sets `most`. Not collective.
+*/
 PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* SamFrameSetGiven - the same with all rigid displacements given as they stand in the balance. */
 PETSC_EXTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
@@ -199,9 +203,10 @@ PETSC_EXTERN double SamFrameSolveSeen(const SamFrame *frame, const double gram[S
                                       double a[3], double unseen[3]);
 
 /*
-  SamFrameProjectNormal - p := max(0, p + phi a) on the cells where mask is 1 (mask NULL: all), 0 on those where it is
-  0, with the a for which the force-controlled loads are exact: the nearest admissible pressure. `found` is false when
-  there is none; p is then as it was. Collective.
+  SamFrameProjectNormal - p := p + phi a, cut off at 0 and at the frame's `most`, on the cells where mask is 1 (mask
+  NULL: all), with the a for which the force-controlled loads are exact: the nearest admissible pressure. Where the mask
+  is 0 p becomes the nearer one of its bounds: 0 without an upper one. `found` is false when there is none; p is then as
+  it was. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[],
                                                   PetscBool *found);
@@ -215,7 +220,7 @@ typedef struct {
   PetscBool    nearest; /* the nearest admissible pressure is wanted, even if that takes longer */
   float       *made;    /* result: `scale` times the change of the pressure */
   double       scale;
-  double       motion[3]; /* result: the combination of the phi that was added before cells were cut off at 0 */
+  double       motion[3]; /* result: the combination of the phi that was added before cells were cut off */
 } SamPressureStep;
 
 /*
@@ -231,6 +236,11 @@ PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, Sam
   (The nearest pressure on all cells would be positive, though small, over much of the grid.) Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame, double p[], PetscBool *found);
+/*
+  SamFrameProjectNormalBetween - the same on the cells whose pressure lies between its bounds, if those can carry what
+  is missing; so cells at a bound stay there exactly. Else as above. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamFrameProjectNormalBetween(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
   SamFrameClear - whether some free rigid displacement a leaves no cell with field + phi a > 0, to rounding of the

@@ -1,7 +1,8 @@
 /*
   The inside of SamNormal, for methods of the normal problem; see solverimpl.h for how to write one.
 
-  A method starts from a pressure in level->traction that is admissible: p >= 0, and in equilibrium.
+  A method starts from a pressure in level->traction that is admissible: 0 <= p <= level->frame.most, and in
+  equilibrium.
 */
 #ifndef PETSAM_NORMALIMPL_H
 #define PETSAM_NORMALIMPL_H

@@ -111,6 +111,7 @@ struct _n_SamSolver {
   /* what the user set; 0 stands for the type's default */
   char             type[64], prefix[SAM_PREFIX];
   PetscReal        rtol;
+  PetscReal        pressure_limit; /* normal: Pa; infinite: none */
   PetscInt         max_it, levels;
   PetscBool        monitor_error, error_if_not_converged;
   PetscInt         monitors;

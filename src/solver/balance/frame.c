@@ -54,6 +54,7 @@ PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
   PetscCall(PetscMemzero(f, sizeof(*f)));
   f->grid = grid;
   f->kind = balance->kind;
+  f->most = INFINITY;
   f->dxi  = grid->dx / grid->length;
   f->deta = grid->dy / grid->length;
   f->xi0  = (0.5 - 0.5 * (double)grid->nx) * f->dxi;

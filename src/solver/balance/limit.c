@@ -16,6 +16,8 @@
 */
 #define SMOOTHINGS         10
 #define SMOOTHING_OF_SHEAR 6
+/* Rounding of a load or a lever that all pressures at their limit just bear, relative. */
+#define FULL 1e-12
 /* The part of the power that a step must promise for the power to tell its worth. */
 #define FLAT 1e-10
 
@@ -94,6 +96,59 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
                             name, (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever,
                             (double)first, (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
                             (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  The largest moment about the grid's first or last row or column of centres that a load (Pa, a sum over the cells) has
+  under a pressure limit: the outermost lines of cells bear all of it. Returns the place of its resultant (m), along y
+  for k = 1, along x for 2; `last`: at the last line.
+*/
+static double OutermostPlace(SamGrid grid, PetscInt k, PetscBool last, double load, double limit)
+{
+  const PetscInt n    = k == 1 ? grid->ny : grid->nx;
+  const double   most = limit * (double)(k == 1 ? grid->nx : grid->ny);
+  double         left = load, moment = 0;
+
+  for (PetscInt i = 0; i < n && left > 0; i++) {
+    const PetscInt line  = last ? n - 1 - i : i;
+    const double   borne = PetscMin(left, most);
+
+    moment += borne * (double)(k == 1 ? SamGridY(grid, line) : SamGridX(grid, line));
+    left -= borne;
+  }
+  return moment / load;
+}
+
+PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, PetscReal limit, char message[], size_t size,
+                                  PetscBool *possible)
+{
+  const double cell = grid->dx * grid->dy, most = (double)limit * cell * (double)grid->nx * (double)grid->ny,
+               load = (double)balance->load[0];
+
+  PetscFunctionBegin;
+  *possible  = PETSC_TRUE;
+  message[0] = '\0';
+  if (!isfinite(limit) || !balance->force[0] || load == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  *possible = load <= most * (1 + FULL) ? PETSC_TRUE : PETSC_FALSE;
+  if (!*possible)
+    PetscCall(PetscSNPrintf(message, size,
+                            "load_n = %.8g N is more than pressure_limit = %g Pa on the whole grid bears (limit %.8g N)",
+                            load, (double)limit, most));
+  for (PetscInt k = 1; k < 3 && *possible; k++) {
+    const double sign  = k == 1 ? -1 : 1, /* lever of Mx along -y, of My along x */
+                 place = sign * (double)balance->load[k] / load, first = OutermostPlace(grid, k, PETSC_FALSE, load / cell, (double)limit),
+                 last = OutermostPlace(grid, k, PETSC_TRUE, load / cell, (double)limit),
+                 room = FULL * (double)(k == 1 ? grid->width[1] : grid->width[0]);
+
+    if (!balance->force[k] || (place >= first - room && place <= last + room)) continue;
+    *possible = PETSC_FALSE;
+    PetscCall(PetscSNPrintf(message, size,
+                            "%s = %g N m under load_n = %g N: pressures up to pressure_limit = %g Pa on this grid do "
+                            "not balance it (limits %.6g and %.6g N m)",
+                            SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load, (double)balance->load[k],
+                            load, (double)limit, (k == 1 ? -last : first) * load, (k == 1 ? -first : last) * load));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

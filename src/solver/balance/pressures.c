@@ -7,11 +7,14 @@
 /* An error of equilibrium from which one step of Newton's method is likely to reach the solution. */
 #define CLOSE 1e-3
 
+/* The cells that take part, where there is no mask: all, those with pressure, those with one between its bounds. */
+typedef enum { ALL, PRESSED, BETWEEN } Which;
+
 /* What a pass over the cells needs to know. */
 typedef struct {
   const double *field;     /* what is projected */
-  const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: all, or those with pressure */
-  PetscBool     contact;   /* which of the two */
+  const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: */
+  Which         which;     /* these take part */
   float        *row;       /* then: a row of ones, or scratch for the mask of a row */
   const char   *busy;      /* stretches with cells that take part, or with pressure; NULL: all */
   const float  *step;      /* added to the field with the factor `by`; one row of zeros where that is 0 */
@@ -21,12 +24,13 @@ typedef struct {
   double       *motion; /* what has been added along the phi; NULL: not wanted */
 } Cells;
 
-static const float *MaskOfRow(const Cells *c, PetscInt nx, PetscInt j)
+static const float *MaskOfRow(const Cells *c, const SamFrame *f, PetscInt j)
 {
-  const double *field = c->field + (ptrdiff_t)j * nx;
+  const PetscInt nx    = f->grid->nx;
+  const double  *field = c->field + (ptrdiff_t)j * nx, below = c->which == BETWEEN ? f->most : INFINITY;
 
   if (c->mask) return c->mask + (ptrdiff_t)j * nx;
-  for (PetscInt i = 0; c->contact && i < nx; i++) c->row[i] = field[i] > 0 ? 1.0f : 0.0f;
+  for (PetscInt i = 0; c->which != ALL && i < nx; i++) c->row[i] = field[i] > 0 && field[i] < below ? 1.0f : 0.0f;
   return c->row;
 }
 
@@ -35,19 +39,28 @@ static const char *BusyOfRow(const Cells *c, SamGrid grid, PetscInt j)
   return c->busy ? c->busy + (ptrdiff_t)j * SamStretches(grid) : NULL;
 }
 
-/* The pressures x = max(0, field + by step + phi a) of some cells. */
-SAM_VECTORIZED static void AddPressures(SamRow row, const double *restrict field, const float *restrict step, double by,
-                                        const float *restrict mask, const double a[3], SamDual *sums)
+/* Arrays of some cells; `most` bounds their pressures. */
+typedef struct {
+  const double *field;
+  const float  *step, *mask;
+  double        by, most;
+} Fields;
+
+/* Adds the pressures x = field + by step + phi a of some cells, within their bounds. */
+SAM_VECTORIZED static void AddPressures(SamRow row, Fields cells, const double a[3], SamDual *sums)
 {
-  const double ax = a[0] - a[1] * row.eta, a2 = a[2];
+  const double *restrict field = cells.field;
+  const float *restrict step = cells.step, *restrict mask = cells.mask;
+  const double by = cells.by, most = cells.most, half = 0.5 * most, ax = a[0] - a[1] * row.eta, a2 = a[2];
   double       value = 0, x = 0, turn = 0, count = 0, sum_xi = 0, xi2 = 0;
 
 #pragma omp simd reduction(+ : value, x, turn, count, sum_xi, xi2)
   for (int i = 0; i < row.count; i++) {
     const double xi = row.xi0 + (double)i * row.dxi, v = field[i] + by * (double)step[i] + (ax + a2 * xi),
-                 in = v > 0 ? (double)mask[i] : 0, p = in * v;
+                 cut = v > 0 ? (v < most ? v : most) : 0, out = field[i] > half ? most : 0,
+                 in = v > 0 && v < most ? (double)mask[i] : 0, p = mask[i] > 0 ? cut : out;
 
-    value += 0.5 * p * p;
+    value += p * (v - 0.5 * p);
     x += p;
     turn += xi * p;
     count += in;
@@ -68,14 +81,14 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
   const PetscInt nx = f->grid->nx;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const float *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? (ptrdiff_t)j * nx : 0);
+    const float *mask = MaskOfRow(c, f, j), *step = c->step + (c->by != 0 ? (ptrdiff_t)j * nx : 0);
     const char  *busy = BusyOfRow(c, f->grid, j);
     SamDual      sums = {0};
 
     for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) {
       const SamRow row = SamFrameRow(f, j, i, end);
 
-      AddPressures(row, c->field + row.first, step + i, c->by, mask + i, a, &sums);
+      AddPressures(row, (Fields){c->field + row.first, step + i, mask + i, c->by, f->most}, a, &sums);
     }
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
   }
@@ -86,22 +99,23 @@ typedef struct {
   double      *p;
   const float *step, *mask;
   float       *made;
+  double       by, most, scale;
 } Pressures;
 
-/* p = mask max(0, p + by step + phi a); `scale` times the change is added to made. */
-SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, double by, double scale, const double a[3],
-                                       SamDual *sums)
+/* p = p + by step + phi a within its bounds, on the mask; `scale` times the change is added to made. */
+SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, const double a[3], SamDual *sums)
 {
   double *restrict p         = cells.p;
   const float *restrict step = cells.step, *restrict mask = cells.mask;
   float *restrict made = cells.made;
-  const double ax = a[0] - a[1] * row.eta, a2 = a[2];
+  const double by = cells.by, most = cells.most, scale = cells.scale, half = 0.5 * most, ax = a[0] - a[1] * row.eta,
+               a2 = a[2];
   double       sum = 0, turn = 0;
 
 #pragma omp simd reduction(+ : sum, turn)
   for (int i = 0; i < row.count; i++) {
     const double xi = row.xi0 + (double)i * row.dxi, v = p[i] + by * (double)step[i] + (ax + a2 * xi),
-                 x = v > 0 ? (double)mask[i] * v : 0;
+                 cut = v > 0 ? (v < most ? v : most) : 0, out = p[i] > half ? most : 0, x = mask[i] > 0 ? cut : out;
 
     made[i] += (float)(scale * (x - p[i]));
     p[i] = x;
@@ -122,14 +136,14 @@ static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], doub
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const ptrdiff_t k    = (ptrdiff_t)j * nx;
-    const float    *mask = MaskOfRow(c, nx, j), *step = c->step + (c->by != 0 ? k : 0);
+    const float    *mask = MaskOfRow(c, f, j), *step = c->step + (c->by != 0 ? k : 0);
     const char     *busy = BusyOfRow(c, f->grid, j);
     float          *made = c->made ? c->made + k : scratch;
     SamDual         sums = {0};
 
     for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);)
-      ApplyNormal(SamFrameRow(f, j, i, end), (Pressures){p + k + i, step + i, mask + i, made + i}, c->by, c->scale, a,
-                  &sums);
+      ApplyNormal(SamFrameRow(f, j, i, end),
+                  (Pressures){p + k + i, step + i, mask + i, made + i, c->by, f->most, c->scale}, a, &sums);
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
   }
 }
@@ -137,7 +151,8 @@ static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], doub
 /* p as it was before the changes in `made`. */
 static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
 {
-  for (PetscInt k = 0; k < f->grid->cells; k++) p[k] = PetscMax(0, p[k] - (double)cells->made[k] / cells->scale);
+  for (PetscInt k = 0; k < f->grid->cells; k++)
+    p[k] = PetscMin(PetscMax(0, p[k] - (double)cells->made[k] / cells->scale), f->most);
 }
 
 /* Makes the rows that cells without a mask or a step of their own stand on: of ones, and of zeros. */
@@ -191,9 +206,10 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
     if (near) ApplyRows(f, &cells, a, p, scratch, totals);
     for (PetscInt i = 0; cells.motion && i < 3; i++) cells.motion[i] += a[i];
     if (once && near && !*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_ENOUGH, found));
-    cells.by      = 0;
-    cells.step    = zeros;
-    cells.contact = PETSC_TRUE; /* what is left is small, and cells without pressure would all share in it */
+    cells.by   = 0;
+    cells.step = zeros;
+    /* what is left is small, and cells without pressure would all share in it */
+    cells.which = cells.which == ALL ? PRESSED : cells.which;
   }
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
   if (!*found && cells.made) TakeBack(f, &cells, p);
@@ -231,8 +247,17 @@ PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, SamPressureStep *s, 
 PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *f, double p[], PetscBool *found)
 {
   PetscFunctionBegin;
-  PetscCall(ProjectNormal(f, (Cells){.contact = PETSC_TRUE}, p, found));
+  PetscCall(ProjectNormal(f, (Cells){.which = PRESSED}, p, found));
   if (!*found) PetscCall(SamFrameProjectNormal(f, NULL, p, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrameProjectNormalBetween(const SamFrame *f, double p[], PetscBool *found)
+{
+  PetscFunctionBegin;
+  *found = PETSC_FALSE;
+  if (isfinite(f->most)) PetscCall(ProjectNormal(f, (Cells){.which = BETWEEN}, p, found));
+  if (!*found) PetscCall(SamFrameProjectNormalOnContact(f, p, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,28 +1,31 @@
 /*
   Projected preconditioned conjugate gradients on a changing active set.
 
-  Problem: minimise p.S p/2 + h.p over the admissible p: p >= 0, in equilibrium (or with given rigid displacements). Its
-  gradient is the gap g.
+  Problem: minimise p.S p/2 + h.p over the admissible p: 0 <= p <= H, in equilibrium (or with given rigid displacements).
+  Its gradient is the gap g. H is the hardness, infinite for bodies that do not yield.
 
   Algorithm; an iteration takes one product:
-    1. A: the cells where pressure is, or is to be. Cells without pressure that penetrate are in A; cells with little
-       pressure that are about to part are not. The rigid displacements (the multipliers of equilibrium) make the gap g
-       on A smallest. The residual is -g on A.
+    1. A: the cells where pressure is, or is to be, between its bounds. Cells without pressure that penetrate are in A;
+       cells with little pressure that are about to part are not. Likewise with H: cells under H whose gap is open are
+       in A, cells a little below H that penetrate are not. A cell outside of A goes to the nearer bound. The rigid
+       displacements (the multipliers of equilibrium) make the gap g on A smallest. The residual is -g on A.
     2. Direction: the preconditioned residual, plus the part of the last step that makes the two conjugate. Both stay
        meaningful when A changes, as the last step is the difference of two pressures, whose product is known.
-    3. Trial: the pressure that is nearest to p + alpha times the direction, among those that are zero outside of A and
-       admissible. alpha is the length that was best in the last iterations.
-    4. The product of trial - p gives the best point between p and the trial, or beyond it as far as p >= 0. When no
-       cell meets its bound, that is the step of linear conjugate gradients. So p is admissible and the energy falls
-       throughout; cells enter and leave by the thousand without a product of their own; and conjugacy is kept.
-  A step that ends before the trial, by t < 1 of it, leaves the part 1 - t of their pressure on cells that are to part.
-  So they come nearer to their bound and never reach it, while all of their gap counts as error. The energy converges
-  and the error does not. Therefore, when the error has not fallen for some iterations, a pressure left there that is no
-  more than rounding of the step is taken off, and the gap is computed anew.
+    3. Trial: the pressure that is nearest to p + alpha times the direction, among those that are admissible and at
+       their bounds outside of A. alpha is the length that was best in the last iterations.
+    4. The product of trial - p gives the best point between p and the trial, or beyond it as far as the bounds allow.
+       When no cell meets a bound, that is the step of linear conjugate gradients. So p is admissible and the energy
+       falls throughout; cells enter and leave by the thousand without a product of their own; and conjugacy is kept.
+  A step that ends before the trial, by t < 1 of it, leaves cells that are to reach a bound the part 1 - t of their way
+  to it. So they come nearer to their bound and never reach it, while all of their gap counts as error. The energy
+  converges and the error does not. Therefore, when the error has not fallen for some iterations, cells that are no
+  farther from it than rounding of the step are taken there, and the gap is computed anew.
 
   If the trial is uphill, or the error has not fallen for several iterations, the direction is the residual itself:
-  projected gradient steps with the best length converge whatever is between them. Stops when |g| under pressure and -g
-  elsewhere are below the tolerance, relative to the largest displacement.
+  projected gradient steps with the best length converge whatever is between them, with one bound as with two. Where no
+  cell at a bound has a gap of 0, they find the right cells at the right bounds after finitely many of them, and what is
+  left is a linear system, for conjugate gradients (Dostal, ch. 5). Stops when |g| under pressure below H, -g where
+  there is none, and g under H are below the tolerance, relative to the largest displacement.
 
   Preconditioner: |k| on A, less half its loss. |k| = |k|' + loss on A, where |k|' is what the differences of a field
   within A cost, and loss = |k| 1_A what it costs that the field ends at the edge of A. The inverse of S on A lies
@@ -73,6 +76,7 @@ static PetscErrorCode CreateWork(SamSolver solver, SamLevel *level, Work *w)
   w->nx     = level->grid->nx;
   w->rows   = level->grid->rows;
   w->cells  = level->grid->cells;
+  w->most   = w->frame->most;
   w->alpha  = 1;
   PetscCall(SamElasticityGetSelfInfluence(level->elasticity, &w->self, NULL));
   PetscCall(SamGridCreateVec(level->grid, 1, &w->vg));
@@ -260,7 +264,7 @@ static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From the trial to where the step has the length t instead of 1; the totals over the cells with pressure there. */
+/* From the trial to where the step has the length t instead of 1; the totals over the cells between bounds there. */
 static void SetLength(Work *w, double t, SamTotal contact[])
 {
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -293,7 +297,7 @@ static PetscErrorCode ComputeCurvature(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes cells part that a step of the length t would leave with a pressure of no more than rounding. */
+/* Takes cells to their bounds that a step of the length t would leave before them by no more than rounding. */
 static PetscErrorCode Part(Work *w, double t)
 {
   SamRow row;
@@ -306,8 +310,8 @@ static PetscErrorCode Part(Work *w, double t)
 }
 
 /*
-  Step 4: the least energy between where the step begins and where a pressure vanishes. `best`: the length of the step
-  without that bound.
+  Step 4: the least energy between where the step begins and where a pressure meets a bound. `best`: the length of the
+  step without that bound.
 */
 static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {
@@ -431,7 +435,7 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
   }
   if (isfinite(w.error)) PetscCall(SamActiveSetKeepProduct(&w));
   /* the steps keep equilibrium to the rounding of single precision only */
-  if (found) PetscCall(SamFrameProjectNormalOnContact(w.frame, w.p, &found));
+  if (found) PetscCall(SamFrameProjectNormalBetween(w.frame, w.p, &found));
   solver->reason = reason;
   solver->error  = w.error / w.displacement;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = w.motion[c];

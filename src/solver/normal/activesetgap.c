@@ -6,8 +6,9 @@
 #include <math.h>
 
 /*
-  A cell with pressure leaves A when its gap is more than PATCH times what its own pressure displaces it. PATCH stands
-  for the cell's neighbours, which have about the same pressure.
+  A cell with pressure leaves A when its gap is more than PATCH times what its own pressure displaces it; so does one
+  that penetrates by more than that much of what it may still bear. PATCH stands for the cell's neighbours, which have
+  about the same pressure.
 */
 #define PATCH 6.0
 /* The part of the tolerance that rounding of g may be at the end. */
@@ -186,7 +187,7 @@ PetscErrorCode SamActiveSetRefresh(Work *w)
     PetscCall(ApplySingle(w));
   } else {
     /* the steps so far have kept equilibrium to the rounding of single precision only */
-    PetscCall(SamFrameProjectNormalOnContact(w->frame, w->p, &found));
+    PetscCall(SamFrameProjectNormalBetween(w->frame, w->p, &found));
     PetscCall(Apply(w));
   }
   PetscCall(FinishGap(w));

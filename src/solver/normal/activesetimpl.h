@@ -20,18 +20,19 @@ typedef struct {
   double         *open;           /* of other stretches: the least gap after the last step; not known: -infinity */
   double          unit;           /* m, of the iteration */
   double          self;           /* influence of a cell on itself, m/Pa */
+  double          most;           /* largest admissible pressure, Pa; infinite: none */
   double          gram[SAM_GRAM]; /* of A */
   double          motion[3];      /* rigid displacement in g, fixed part included */
   double          displacement;   /* largest |S p|, m */
   double          error;          /* largest complementarity error, m */
   SamRounding     rounding;       /* of g, m */
   double          slope;          /* of the energy along the step: s.g */
-  double          shrink;         /* largest part of its pressure that a cell loses in the step */
+  double          shrink;         /* largest part of its distance from a bound that a cell loses in the step */
   double          largest;        /* largest pressure of the trial, Pa */
   double          curvature;      /* s.u; 0: no step yet */
   double          alpha;          /* length of the trial */
   PetscBool       stagnates;      /* the error has not fallen for some iterations */
-  double          lost;           /* the largest pressure that was taken off in the step without a product, Pa */
+  double          lost;           /* the largest change of a pressure in the step without a product, Pa */
 } SamActiveSet;
 
 /* Sums over the cells of a row that take part: their number, xi, xi^2, g and xi g. */
@@ -57,8 +58,8 @@ static inline SamRow SamActiveSetRow(const SamActiveSet *w, PetscInt j)
 /* Adds the sums of a row to the totals. */
 PETSC_INTERN void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals[]);
 /*
-  Step 1: chooses A by the gap that fits the cells with pressure best, moves g to fit A, and measures the error.
-  `contact`: the totals over the cells with pressure; NULL: not known yet. Collective.
+  Step 1: chooses A by the gap that fits the cells between their bounds best, moves g to fit A, and measures the error.
+  `contact`: the totals over the cells between their bounds; NULL: not known yet. Collective.
 */
 PETSC_INTERN PetscErrorCode SamActiveSetChoose(SamActiveSet *w, SamTotal contact[]);
 /* The first step 1: by the product that the level has, or by a new one. Collective. */
@@ -80,12 +81,15 @@ PETSC_INTERN PetscErrorCode SamActiveSetIsSolved(SamActiveSet *w, PetscBool *sol
 /* g becomes g + h - motion; returns the largest |g| before. */
 PETSC_INTERN double SamActiveSetGapRow(SamActiveSet *w, SamRow row);
 /*
-  Chooses A among some cells: those with p > ease times the gap, which `motion` moves back first; adds to their sums.
-  Whether any is in A, or has pressure.
+  Chooses A among some cells: those that are farther from their bounds than ease times the gap, which `motion` moves
+  back first, lets them be; adds to their sums. Whether any is in A, or has pressure.
 */
 PETSC_INTERN PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, double ease, const double motion[3],
                                              SamGapSums *sums);
-/* Moves the gap by -motion; returns the largest complementarity error: |g| under pressure, -g elsewhere. */
+/*
+  Moves the gap by -motion; returns the largest complementarity error: |g| between the bounds of the pressure, -g where
+  there is none, g where it is the largest admissible one.
+*/
 PETSC_INTERN double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const double motion[3]);
 /* How many cells have a loss and are not in A, or the other way round. */
 PETSC_INTERN double SamActiveSetCountChanged(const SamActiveSet *w, SamRow row);
@@ -102,11 +106,11 @@ PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
 /* s.u of at most SAM_STRETCH cells. */
 PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
 /*
-  Where the trial has no pressure, and t times the step would leave one of no more than rounding, takes that off, so
-  that the step will end at 0; returns the largest.
+  Where the trial is at a bound, and t times the step would end before it by no more than rounding, moves the pressure
+  by that, so that the step will end at the bound; returns the largest.
 */
 PETSC_INTERN double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t);
-/* From the trial, where p has gone by s, to t times that; adds to the sums over the cells with pressure. */
+/* From the trial, where p has gone by s, to t times that; adds to the sums over the cells between their bounds. */
 PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);
 /* The same where there is neither pressure nor a step: returns the least gap. */
 PETSC_INTERN double SamActiveSetOpenRow(SamActiveSet *w, SamRow row, double t);

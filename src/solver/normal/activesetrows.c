@@ -30,12 +30,15 @@ SAM_VECTORIZED PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, doub
 {
   const double *restrict p = w->p + row.first, *restrict g = w->g + row.first;
   float *restrict active = w->active + row.first;
-  const double a = motion[0] - motion[1] * row.eta, b = motion[2];
+  const double a = motion[0] - motion[1] * row.eta, b = motion[2], most = w->most, half = 0.5 * most;
   double       count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0, pressure = 0;
 
 #pragma omp simd reduction(+ : count, xi, xi2, sum, turn, pressure)
   for (int i = 0; i < row.count; i++) {
-    const double x = row.xi0 + (double)i * row.dxi, v = g[i] - (a + b * x), in = p[i] > ease * v ? 1 : 0;
+    /* at most half the limit: a cell that is not in A goes to the nearer bound */
+    const double x = row.xi0 + (double)i * row.dxi, v = g[i] - (a + b * x), off = ease * v,
+                 lower = off < half ? off : half, upper = -off < half ? -off : half,
+                 in = p[i] > lower && most - p[i] > upper ? 1 : 0;
 
     active[i] = (float)in;
     count += in;
@@ -57,12 +60,13 @@ SAM_VECTORIZED double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const dou
 {
   const double *restrict p = w->p + row.first;
   double *restrict g       = w->g + row.first;
-  const double a = motion[0] - motion[1] * row.eta, b = motion[2];
+  const double a = motion[0] - motion[1] * row.eta, b = motion[2], saturated = SAM_SATURATED * w->most;
   double       sum = 0, error = 0;
 
 #pragma omp simd reduction(+ : sum) reduction(max : error)
   for (int i = 0; i < row.count; i++) {
-    const double v = g[i] - (a + b * (row.xi0 + (double)i * row.dxi)), wrong = p[i] > 0 ? fabs(v) : -v;
+    const double v = g[i] - (a + b * (row.xi0 + (double)i * row.dxi)), under = p[i] < saturated ? fabs(v) : v,
+                 wrong = p[i] > 0 ? under : -v;
 
     g[i] = v;
     sum += v;
@@ -151,18 +155,19 @@ SAM_VECTORIZED double SamActiveSetTrialRow(SamActiveSet *w, SamRow row)
 {
   const double *restrict p = w->p + row.first, *restrict g = w->g + row.first;
   const float *restrict s = w->s + row.first;
-  const double pressure   = w->unit / w->self;
-  double       slope = 0, most = 0, largest = 0;
+  const double pressure = w->unit / w->self, most = w->most;
+  double       slope = 0, shrink = 0, largest = 0;
 
-#pragma omp simd reduction(+ : slope) reduction(max : most, largest)
+#pragma omp simd reduction(+ : slope) reduction(max : shrink, largest)
   for (int i = 0; i < row.count; i++) {
-    const double less = s[i] < 0 ? -pressure * (double)s[i] : 0, part = less > 0 ? less / (p[i] + less) : 0;
+    const double way = pressure * fabs((double)s[i]), left = s[i] < 0 ? p[i] : most - p[i],
+                 part = way > 0 ? way / (left + way) : 0;
 
     slope += (double)s[i] * g[i];
-    most    = part > most ? part : most;
+    shrink  = part > shrink ? part : shrink;
     largest = p[i] > largest ? p[i] : largest;
   }
-  w->shrink  = PetscMax(w->shrink, most);
+  w->shrink  = PetscMax(w->shrink, shrink);
   w->largest = PetscMax(w->largest, largest);
   return slope;
 }
@@ -182,34 +187,36 @@ SAM_VECTORIZED double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t)
 {
   const float *restrict s = w->s + row.first;
   double *restrict p      = w->p + row.first;
-  const double by = (1 - t) * w->unit / w->self, least = SAM_SINGLE_ROUNDING * w->unit / w->self;
-  double       most = 0;
+  const double by = (1 - t) * w->unit / w->self, least = SAM_SINGLE_ROUNDING * w->unit / w->self, most = w->most;
+  double       largest = 0;
 
-#pragma omp simd reduction(max : most)
+#pragma omp simd reduction(max : largest)
   for (int i = 0; i < row.count; i++) {
-    const double left = by * -(double)s[i], none = p[i] == 0 && left > 0 && left <= least ? left : 0;
+    const double left = by * -(double)s[i], size = fabs(left), ends = left > 0 ? p[i] : most - p[i],
+                 none = ends == 0 && size > 0 && size <= least ? left : 0;
 
     p[i] -= none;
-    most = none > most ? none : most;
+    largest = fabs(none) > largest ? fabs(none) : largest;
   }
-  return most;
+  return largest;
 }
 
-/* A pressure that is no more than the step's rounding is none. */
+/* A pressure that is no farther from a bound than the step's rounding is there. */
 SAM_VECTORIZED void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums)
 {
   const float *restrict s = w->s + row.first, *restrict u = w->u + row.first;
   double *restrict p = w->p + row.first, *restrict g = w->g + row.first;
   const double pressure = w->unit / w->self, rounding = SAM_SINGLE_ROUNDING * pressure, by_s = (t - 1) * pressure,
-               by_u = t * w->unit;
+               by_u = t * w->unit, most = w->most;
   double count = 0, xi = 0, xi2 = 0, sum = 0, turn = 0;
 
 #pragma omp simd reduction(+ : count, xi, xi2, sum, turn)
   for (int i = 0; i < row.count; i++) {
     const double v = p[i] + by_s * (double)s[i], gap = g[i] + by_u * (double)u[i], x = row.xi0 + (double)i * row.dxi;
-    const double in = v > rounding * fabs((double)s[i]) ? 1 : 0;
+    const double near = rounding * fabs((double)s[i]), below = v < most - near ? v : most,
+                 in = v > near && v < most - near ? 1 : 0;
 
-    p[i] = in * v;
+    p[i] = v > near ? below : 0;
     g[i] = gap;
     count += in;
     xi += in * x;

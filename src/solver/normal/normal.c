@@ -38,7 +38,7 @@ static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A start from the pressure that the level has: makes it admissible, p >= 0 and in equilibrium. */
+/* A start from the pressure that the level has: makes it admissible, within its bounds and in equilibrium. */
 static PetscErrorCode StartFromPressure(SamLevel *level, PetscBool *found)
 {
   double *p;
@@ -93,6 +93,7 @@ static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscErrorCode (*s
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&level->frame, level->grid, level->balance));
+  level->frame.most = (double)s->pressure_limit;
   PetscCall(start(level, &found));
   if (found)
     PetscCall(s->ops.solve(s, level));
@@ -272,7 +273,7 @@ static PetscErrorCode SetSeparated(SamSolver s, SamLevel *level, const PetscReal
 /*
   Whether a given approach can be held at all. Where a uniform pressure displaces nothing, displacements have no mean:
   an approach beyond the mean separation leaves a gap below 0 somewhere under any pressure, and the mean itself is
-  reached by every pressure that is high enough.
+  reached by every pressure that is high enough. Where pressures have a limit, surfaces yield instead.
 */
 static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can)
 {
@@ -285,7 +286,7 @@ static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can
   PetscFunctionBegin;
   *can = PETSC_TRUE;
   PetscCall(SamElasticityGetTraits(s->elasticity, &traits));
-  if (traits.mean || level->balance->force[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (traits.mean || level->balance->force[0] || isfinite(s->pressure_limit)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
   for (PetscInt k = 0; k < grid->cells; k++) SamAdd(&total, h[k]);
   PetscCall(VecRestoreArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
@@ -305,6 +306,9 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
   PetscFunctionBegin;
   PetscCall(IsSeparated(level, rigid, &separated));
   PetscCall(SamBalanceLever(level->grid, level->balance, message, sizeof(message), &possible));
+  if (possible)
+    PetscCall(
+      SamBalanceCapacity(level->grid, level->balance, s->pressure_limit, message, sizeof(message), &possible));
   PetscCall(CanHold(s, level, &can));
   if (!possible || !can) {
     PetscCall(VecSet(level->traction, 0));
@@ -359,6 +363,15 @@ PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
 {
   PetscFunctionBegin;
   PetscCall(SamSolverCreate(&kind, elasticity, normal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit)
+{
+  PetscFunctionBegin;
+  PetscCheck(limit > 0, normal->comm, PETSC_ERR_ARG_OUTOFRANGE, "pressure limit %g: expected a number > 0, or inf",
+             (double)limit);
+  normal->pressure_limit = limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
