@@ -35,9 +35,11 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
 #define SAM_SATURATED (1 - 1e-9)
 /*
   SamNormalSetPressureLimit - the largest admissible pressure (Pa), of the next solves; infinite (default): none. Not
-  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0.
+  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0. A method that has no such bound refuses to solve with
+  it, PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the present one has it.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
+PETSC_EXTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits);
 
 /*
   SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,

@@ -29,8 +29,9 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
 {
   SamElasticityTraits traits;
   SamContactEdges     edges;
-  PetscBool           help, friction, coupling;
+  PetscBool           help, friction, coupling, limits;
   PetscReal           limit;
+  SamNormal           normal;
   Vec                 gap;
 
   PetscFunctionBegin;
@@ -52,6 +53,11 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   PetscCheck(isinf(limit) || edges != SAM_CONTACT_EDGES_DEFERRED || help, from->comm, SAM_ERR_USER,
              "-edges deferred with -pressure_limit: where surfaces yield, the pressure does not end as the correction "
              "takes it to: expected reconstruct or none");
+  PetscCall(SamContactGetNormal(s->contact, &normal));
+  PetscCall(SamNormalLimitsPressure(normal, &limits));
+  PetscCheck(isinf(limit) || limits || help, from->comm, SAM_ERR_USER,
+             "-pressure_limit: the method of -normal_type has no upper bound of the pressure: expected %s",
+             SAM_NORMAL_ACTIVESET);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -65,10 +65,10 @@ static PetscErrorCode DestroyType(SamSolver s)
   PetscFunctionBegin;
   if (s->ops.destroy) PetscCall(s->ops.destroy(s));
   PetscCall(PetscMemzero(&s->ops, sizeof(s->ops)));
-  s->data           = NULL;
-  s->keeps_product  = PETSC_FALSE;
-  s->default_levels = 1;
-  s->default_max_it = 1000;
+  s->data          = NULL;
+  s->keeps_product = s->limits_pressure = PETSC_FALSE;
+  s->default_levels                     = 1;
+  s->default_max_it                     = 1000;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -108,6 +108,7 @@ struct _n_SamSolver {
   void     *data; /* the type's own */
   PetscInt  default_levels, default_max_it;
   PetscBool keeps_product;
+  PetscBool limits_pressure; /* normal: knows frame.most */
   /* what the user set; 0 stands for the type's default */
   char             type[64], prefix[SAM_PREFIX];
   PetscReal        rtol;

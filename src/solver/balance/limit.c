@@ -133,14 +133,15 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   if (!isfinite(limit) || !balance->force[0] || load == 0) PetscFunctionReturn(PETSC_SUCCESS);
   *possible = load <= most * (1 + FULL) ? PETSC_TRUE : PETSC_FALSE;
   if (!*possible)
-    PetscCall(PetscSNPrintf(message, size,
-                            "load_n = %.8g N is more than pressure_limit = %g Pa on the whole grid bears (limit %.8g N)",
-                            load, (double)limit, most));
+    PetscCall(PetscSNPrintf(
+      message, size, "load_n = %.8g N is more than pressure_limit = %g Pa on the whole grid bears (limit %.8g N)", load,
+      (double)limit, most));
   for (PetscInt k = 1; k < 3 && *possible; k++) {
     const double sign  = k == 1 ? -1 : 1, /* lever of Mx along -y, of My along x */
-                 place = sign * (double)balance->load[k] / load, first = OutermostPlace(grid, k, PETSC_FALSE, load / cell, (double)limit),
-                 last = OutermostPlace(grid, k, PETSC_TRUE, load / cell, (double)limit),
-                 room = FULL * (double)(k == 1 ? grid->width[1] : grid->width[0]);
+      place            = sign * (double)balance->load[k] / load,
+                 first = OutermostPlace(grid, k, PETSC_FALSE, load / cell, (double)limit),
+                 last  = OutermostPlace(grid, k, PETSC_TRUE, load / cell, (double)limit),
+                 room  = FULL * (double)(k == 1 ? grid->width[1] : grid->width[0]);
 
     if (!balance->force[k] || (place >= first - room && place <= last + room)) continue;
     *possible = PETSC_FALSE;

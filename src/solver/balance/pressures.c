@@ -110,7 +110,7 @@ SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, const double
   float *restrict made = cells.made;
   const double by = cells.by, most = cells.most, scale = cells.scale, half = 0.5 * most, ax = a[0] - a[1] * row.eta,
                a2 = a[2];
-  double       sum = 0, turn = 0;
+  double sum = 0, turn = 0;
 
 #pragma omp simd reduction(+ : sum, turn)
   for (int i = 0; i < row.count; i++) {

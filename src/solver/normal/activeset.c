@@ -446,9 +446,10 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
 PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver)
 {
   PetscFunctionBegin;
-  solver->ops.solve      = SamNormalSolve_ActiveSet;
-  solver->keeps_product  = PETSC_TRUE;
-  solver->default_levels = PETSC_MAX_INT;
-  solver->default_max_it = 1000;
+  solver->ops.solve       = SamNormalSolve_ActiveSet;
+  solver->keeps_product   = PETSC_TRUE;
+  solver->limits_pressure = PETSC_TRUE;
+  solver->default_levels  = PETSC_MAX_INT;
+  solver->default_max_it  = 1000;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

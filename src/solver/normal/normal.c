@@ -307,8 +307,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
   PetscCall(IsSeparated(level, rigid, &separated));
   PetscCall(SamBalanceLever(level->grid, level->balance, message, sizeof(message), &possible));
   if (possible)
-    PetscCall(
-      SamBalanceCapacity(level->grid, level->balance, s->pressure_limit, message, sizeof(message), &possible));
+    PetscCall(SamBalanceCapacity(level->grid, level->balance, s->pressure_limit, message, sizeof(message), &possible));
   PetscCall(CanHold(s, level, &can));
   if (!possible || !can) {
     PetscCall(VecSet(level->traction, 0));
@@ -375,11 +374,20 @@ PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits)
+{
+  PetscFunctionBegin;
+  *limits = normal->limits_pressure;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SolveProblem(SamNormal normal, SamBalance *balance, const SamLevel *problem, PetscBool guess)
 {
   PetscFunctionBegin;
   PetscCheck(!balance->force[0] || balance->load[0] >= 0, normal->comm, SAM_ERR_USER,
              "load_n %g: expected a number >= 0", (double)balance->load[0]);
+  PetscCheck(isinf(normal->pressure_limit) || normal->limits_pressure, normal->comm, PETSC_ERR_SUP,
+             "The method %s has no limit of the pressure", normal->type);
   PetscCall(SamSolverSolve(normal, &kind, problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

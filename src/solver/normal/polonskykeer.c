@@ -1,15 +1,14 @@
 /*
   The classical projected conjugate gradients of Polonsky and Keer, for comparison.
 
-  Problem: p >= 0, g >= 0, p g = 0 in every cell, in equilibrium or with given rigid displacements. With a pressure limit
-  H also p <= H, and g <= 0 where p = H.
+  Problem: p >= 0, g >= 0, p g = 0 in every cell, in equilibrium or with given rigid displacements. Without a limit of the
+  pressure: with cells at two bounds these steps may go round in circles, and where none is between them there is none.
 
   Algorithm:
-    1. g = S p + h less the rigid displacement that fits it best on the free cells {0 < p < H}.
+    1. g = S p + h less the rigid displacement that fits it best on the contact cells {p > 0}.
     2. A direction on these cells from g, conjugate to the last one.
     3. The exact step along it.
-    4. p < 0 is set to 0; cells without pressure that penetrate get some, and then the directions start anew. Likewise
-       p > H is set to H, and cells under H whose gap is open lose some.
+    4. p < 0 is set to 0; cells without pressure that penetrate get some, and then the directions start anew.
     5. p is brought back into equilibrium.
   An iteration takes two products; there is one grid and no preconditioner, so the number of iterations grows with the
   grid. The original scales p to keep N; here p goes to the nearest admissible pressure, which keeps moments as well.
@@ -27,13 +26,7 @@ typedef struct {
   double    norm; /* |g|^2 on the contact */
 } Work;
 
-/* Whether a cell is free: its pressure lies between the bounds. */
-static PetscBool IsFree(const Work *w, double p)
-{
-  return p > 0 && p < SAM_SATURATED * w->level->frame.most ? PETSC_TRUE : PETSC_FALSE;
-}
-
-/* The rigid displacement that fits x best on the free cells, of the free ones. */
+/* The rigid displacement that fits x best on the contact, of the free ones. */
 static PetscErrorCode FitOnContact(const Work *w, const double p[], const double x[], double a[3])
 {
   const SamFrame *f                    = &w->level->frame;
@@ -50,7 +43,7 @@ static PetscErrorCode FitOnContact(const Work *w, const double p[], const double
       const PetscInt k  = j * nx + i;
       const double   xi = f->xi0 + (double)i * f->dxi;
 
-      if (!IsFree(w, p[k])) continue;
+      if (p[k] <= 0) continue;
       row[0] += x[k];
       row[1] -= eta * x[k];
       row[2] += xi * x[k];
@@ -63,7 +56,7 @@ static PetscErrorCode FitOnContact(const Work *w, const double p[], const double
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 1: g, the motion that fits it on the free cells as far as it is free, and the error. */
+/* Step 1: g, the motion that fits it on {p > 0} as far as it is free, and the error. */
 static PetscErrorCode ComputeGap(Work *w)
 {
   const SamFrame *f     = &w->level->frame;
@@ -97,8 +90,8 @@ static PetscErrorCode ComputeGap(Work *w)
       const PetscInt k = j * nx + i;
 
       g[k] -= SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta);
-      max[1] = SamLarger(max[1], IsFree(w, p[k]) ? fabs(g[k]) : p[k] > 0 ? g[k] : -g[k]);
-      if (IsFree(w, p[k])) row += g[k] * g[k];
+      max[1] = SamLarger(max[1], p[k] > 0 ? fabs(g[k]) : -g[k]);
+      if (p[k] > 0) row += g[k] * g[k];
     }
     SamAdd(&total, row);
   }
@@ -131,7 +124,7 @@ static PetscErrorCode StepLength(const Work *w, const double p[], const double g
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k = j * nx + i;
 
-      if (!IsFree(w, p[k])) continue;
+      if (p[k] <= 0) continue;
       row[0] += g[k] * d[k];
       row[1] += (s[k] - SamFrameNormal(a, f->xi0 + (double)i * f->dxi, eta)) * d[k];
     }
@@ -146,7 +139,6 @@ static PetscErrorCode StepLength(const Work *w, const double p[], const double g
 static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, PetscBool *found)
 {
   const PetscInt cells = w->level->grid->cells;
-  const double   most  = w->level->frame.most;
   const double   beta  = *conjugate && norm_old > 0 ? w->norm / norm_old : 0;
   double         tau = 0, entered = 0;
   double        *p, *g, *d, *s;
@@ -155,23 +147,23 @@ static PetscErrorCode Step(Work *w, double norm_old, PetscBool *conjugate, Petsc
   PetscCall(VecGetArray(w->level->traction, &p));
   PetscCall(VecGetArray(w->g, &g));
   PetscCall(VecGetArray(w->d, &d));
-  for (PetscInt k = 0; k < cells; k++) d[k] = IsFree(w, p[k]) ? g[k] + beta * d[k] : 0;
+  for (PetscInt k = 0; k < cells; k++) d[k] = p[k] > 0 ? g[k] + beta * d[k] : 0;
   PetscCall(VecRestoreArray(w->d, &d));
   PetscCall(SamLevelApply(w->solver, w->level, w->d, w->s));
   PetscCall(VecGetArray(w->d, &d));
   PetscCall(VecGetArray(w->s, &s));
   PetscCall(StepLength(w, p, g, d, s, &tau));
   for (PetscInt k = 0; k < cells; k++) {
-    if (IsFree(w, p[k])) {
-      p[k] = PetscMin(PetscMax(0, p[k] - tau * d[k]), most);
-    } else if (p[k] > 0 ? g[k] > 0 : g[k] < 0) {
-      p[k] = PetscMin(PetscMax(0, p[k] - tau * g[k]), most);
+    if (p[k] > 0)
+      p[k] = PetscMax(0, p[k] - tau * d[k]);
+    else if (g[k] < 0) {
+      p[k] = -tau * g[k];
       entered += 1;
     }
   }
   PetscCall(SamSum(w->level->grid->comm, 1, &entered));
   *conjugate = entered > 0 ? PETSC_FALSE : PETSC_TRUE;
-  PetscCall(SamFrameProjectNormalBetween(&w->level->frame, p, found));
+  PetscCall(SamFrameProjectNormalOnContact(&w->level->frame, p, found));
   PetscCall(VecRestoreArray(w->s, &s));
   PetscCall(VecRestoreArray(w->d, &d));
   PetscCall(VecRestoreArray(w->g, &g));
