@@ -22,7 +22,7 @@ PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
   PetscFunctionBegin;
   PetscCall(PetscNew(&p));
   p->references = 1;
-  p->limit      = PETSC_INFINITY;
+  p->limit      = INFINITY; /* PETSC_INFINITY is a finite number */
   PetscCall(SamElasticityReference(elasticity));
   p->elasticity = elasticity;
   PetscCall(SamElasticityGetGrid(elasticity, &p->grid));

@@ -1,5 +1,6 @@
 /* The base of all solvers: creation, the registries of types, settings, and the frame of a solve. */
 #include <petsam/private/solverimpl.h>
+#include <math.h>
 
 #define BRIEF 10 /* iterations of a solve that is to be brief */
 
@@ -88,7 +89,7 @@ PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, Sa
   s->elasticity = elasticity;
   s->rtol       = kind->rtol;
 
-  s->pressure_limit = PETSC_INFINITY;
+  s->pressure_limit = INFINITY;
   PetscCall(SamSolverSetType(s, kind->default_type));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);

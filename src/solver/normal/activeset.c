@@ -311,7 +311,8 @@ static PetscErrorCode Part(Work *w, double t)
 
 /*
   Step 4: the least energy between where the step begins and where a pressure meets a bound. `best`: the length of the
-  step without that bound.
+  step without that bound. A step that displaces nothing (periodic bodies under one more uniform pressure) goes as far as
+  the bounds allow.
 */
 static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {
@@ -321,7 +322,8 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
   PetscCall(SamLevelApplySingle(w->solver, w->level, 1 / w->self, w->s, w->u));
   PetscCall(ComputeCurvature(w));
   *best = w->curvature > 0 ? PetscMax(-w->slope / w->curvature, 0) : 0;
-  t     = *best * w->shrink > 1 ? 1 / w->shrink : *best;
+  if (*best == 0 && isfinite(w->most) && w->slope < 0) *best = 1 / w->shrink;
+  t = *best * w->shrink > 1 ? 1 / w->shrink : *best;
   if (w->stagnates && t > 0 && t < 1) PetscCall(Part(w, t));
   SetLength(w, t, contact);
   PetscFunctionReturn(PETSC_SUCCESS);
