@@ -1,4 +1,4 @@
-"""-pressure_limit: p <= H, and a plastic depth where it is reached, against conditions and solutions in numpy and scipy."""
+"""-pressure_limit: p <= H, and a plastic depth where it is reached, against numpy and scipy."""
 
 import h5py
 import numpy as np
