@@ -574,14 +574,14 @@ static void test_embedded_contact_yields_when_committed(void **state)
   most = Number(c, "plastic_depth_max");
   sam_assert(most > 0 && Number(c, "plastic_cells") > 100);
   sam_assert(petsam_reject(c) == 0);
-  Press(c, 500);
+  Press(c, 100);
   sam_assert(Number(c, "plastic_depth_max") == 0);
   Press(c, 2000);
   sam_assert(petsam_commit(c) == 0);
-  Press(c, 500);
+  Press(c, 100);
   sam_assert(Number(c, "plastic_depth_max") == most && Number(c, "plastic_energy") == 0);
   sam_assert(petsam_get_field(c, "plastic_depth", depth) == 0);
-  Press(plain, 500);
+  Press(plain, 100);
   sam_assert(petsam_get_field(plain, "plastic_depth", depth) != 0);
   free(depth);
   petsam_destroy(&c);
