@@ -13,10 +13,11 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
 
 /*
-  Of the correction for edges, [several steps][friction], of wear, a life and the tangent stiffness, bytes per cell; all
+  Of the correction for edges, [several steps][friction], of plastic depth, wear, a life and the tangent stiffness, bytes per cell; all
   but wear and life measured.
 */
 static const double deferred_bytes[2][2] = {{135, 480}, {135, 950}};
+#define PLASTIC_BYTES   40
 #define WEAR_BYTES      (6 * 8)
 #define LIFE_BYTES      (15 * 8)
 #define STIFFNESS_BYTES 215
@@ -25,8 +26,8 @@ static const double deferred_bytes[2][2] = {{135, 480}, {135, 950}};
 double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
 {
   const double more = (needs->deferred ? deferred_bytes[needs->steps > 1][needs->friction] : 0) +
-                      (needs->wear ? WEAR_BYTES : 0) + (needs->life ? LIFE_BYTES : 0) +
-                      (needs->stiffness ? STIFFNESS_BYTES : 0) +
+                      (needs->plastic ? PLASTIC_BYTES : 0) + (needs->wear ? WEAR_BYTES : 0) +
+                      (needs->life ? LIFE_BYTES : 0) + (needs->stiffness ? STIFFNESS_BYTES : 0) +
                       (double)needs->sums * (needs->life ? 2 : 1) * SUM_BYTES;
 
   return SAM_MEMORY_PROGRAM +

@@ -118,7 +118,8 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamArguments *arguments, co
   run->output_settings.with[SAM_OUTPUT_STIFFNESS] = run->needs.stiffness;
   for (size_t k = 0; k < 2; k++) run->needs.sums += SamOutputSettingsHas(&run->output_settings, sums[k]);
   PetscCall(SamProblemGetPressureLimit(run->setup.problem, &limit));
-  run->output_settings.with[SAM_OUTPUT_PLASTIC] = isfinite(limit) ? PETSC_TRUE : PETSC_FALSE;
+  run->needs.plastic                            = isfinite(limit) ? PETSC_TRUE : PETSC_FALSE;
+  run->output_settings.with[SAM_OUTPUT_PLASTIC] = run->needs.plastic;
   PetscCall(SamPrintHelp(&help));
   PetscCheck(!run->needs.stiffness || run->has_output || help, from->comm, SAM_ERR_USER,
              "-stiffness is given without -output, the file that it goes to");

@@ -12,7 +12,7 @@
 
 /* What the memory of a run depends on besides the grid. */
 typedef struct {
-  PetscBool friction, coupled, deferred, wear, life, stiffness;
+  PetscBool friction, coupled, deferred, plastic, wear, life, stiffness;
   PetscInt  steps;
   PetscInt  sums; /* fields that are sums over the steps */
 } SamRunNeeds;

@@ -29,6 +29,10 @@ PetscErrorCode SamStepView(const SamStep *s, PetscViewer viewer)
       PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n",
                                        "spots", (double)s->spots, 100 * (double)s->contact_fraction,
                                        (double)s->gap_mean));
+    if (s->plastic_depth_max > 0)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g m2 at the limit, depth up to %.6g m, work %.6g J\n",
+                                       "plastic", (double)s->plastic_area, (double)s->plastic_depth_max,
+                                       (double)s->plastic_energy));
     PetscCall(PetscViewerASCIIPrintf(viewer,
                                      "  %-10s  normal %" PetscInt_FMT " (%" PetscInt_FMT
                                      " products), tangential %" PetscInt_FMT " (%" PetscInt_FMT " products)",

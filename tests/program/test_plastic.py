@@ -376,7 +376,7 @@ def test_same_bits_on_any_number_of_ranks_and_after_a_restart(petsam, tmp_path):
 
 def test_depth_is_saved_with_a_limit_only(petsam, tmp_path):
     default = dict(SOFT, output_fields=None, load_n=100.0, output="o.h5")
-    petsam(default)
+    line = next(line for line in petsam(default).stdout.splitlines() if line.startswith("  plastic "))
     petsam({**default, "pressure_limit": None, "output": "e.h5"})
     petsam({**default, "pressure_limit": "inf", "output": "i.h5"})
     with h5py.File(tmp_path / "o.h5") as f, h5py.File(tmp_path / "e.h5") as e, h5py.File(tmp_path / "i.h5") as i:
@@ -388,6 +388,7 @@ def test_depth_is_saved_with_a_limit_only(petsam, tmp_path):
             "plastic_energy",
         }
         assert f["history/plastic_depth_max"][0] == f["plastic_depth"][0].max()
+        assert f"depth up to {f['history/plastic_depth_max'][0]:.6g} m" in line
         for plain in (e, i):
             assert "plastic_depth" not in plain and not [name for name in plain["history"] if "plastic" in name]
 
