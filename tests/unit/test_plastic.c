@@ -502,6 +502,26 @@ static void test_contact_with_the_state_of_a_yielded_one_goes_on_as_it_would(voi
     }
 }
 
+static void test_state_without_a_depth_takes_it_away(void **state)
+{
+  Case             one = NewCase(Steel(), 48, 1.5, MU, ""), other = NewYielding(Steel(), PART, "");
+  const SamControl control = Loads(&one, 1, 0, 0, 0);
+  SamContactState  held;
+  Vec              depth;
+
+  (void)state;
+  (void)Solve(&one, &control);
+  sam_assert(Solve(&other, &control).plastic_depth_max > 0);
+  sam_call(SamContactGetState(one.contact, &held));
+  sam_assert(!held.now.plastic);
+  sam_call(SamContactSetState(other.contact, &held));
+  depth = NewDepth(&other);
+  sam_assert(Norm(depth, NORM_INFINITY) == 0);
+  sam_call(VecDestroy(&depth));
+  DestroyCase(&one);
+  DestroyCase(&other);
+}
+
 static void test_depth_stays_without_the_limit(void **state)
 {
   Case          c    = NewYielding(Steel(), PART, "");
@@ -604,6 +624,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_verdict_refuses_a_pressure_beyond_the_limit),
     cmocka_unit_test(test_overlap_of_a_rejected_try_is_forgotten),
     cmocka_unit_test(test_contact_with_the_state_of_a_yielded_one_goes_on_as_it_would),
+    cmocka_unit_test(test_state_without_a_depth_takes_it_away),
     cmocka_unit_test(test_depth_stays_without_the_limit),
     cmocka_unit_test(test_edges_cannot_be_corrected_with_a_limit),
     cmocka_unit_test(test_embedded_contact_yields_when_committed),
