@@ -78,9 +78,9 @@ typedef struct {
 
 /*
   SamCheckSolution - checks a solution. Input: its control, rigid displacements, pressure and shear, and `before`, the
-  solution of the previous step (NULL: no slip and no plastic depth so far). Output: the errors, and the solution's elastic displacements,
-  for which it must have the vectors. `coupling`: pressure and shear of dissimilar bodies act on each other.
-  `u_z_known`: displacement_z is already right and used as it is. Collective.
+  solution of the previous step (NULL: no slip and no plastic depth so far). Output: the errors, and the solution's
+  elastic displacements, for which it must have the vectors. `coupling`: pressure and shear of dissimilar bodies act on
+  each other. `u_z_known`: displacement_z is already right and used as it is. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamCheckSolution(SamProblem problem, PetscBool coupling, PetscBool u_z_known,
                                              const SamSolution *before, SamSolution *solution, SamCheck *check);

@@ -44,11 +44,11 @@ PETSC_EXTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool 
 /*
   SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,
   and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and rigid
-  displacements. The relative error is the largest |g| where p > 0 and the largest -g elsewhere, over the largest
-  |S p|; where p is at the limit, only g > 0 counts. Where displacements count from the mean surface
-  (SamElasticityTraits), a given approach must lie below the mean separation unless there is a limit, else
-  NO_EQUILIBRIUM; so is a load beyond the limit on all of the grid. Collective. Not converging is a reason, not an error, unless that was asked for.
-  Errors: SAM_ERR_USER for a normal load below zero.
+  displacements. The relative error is the largest |g| where p > 0 and the largest -g elsewhere, over the largest |S p|;
+  where p is at the limit, only g > 0 counts. Where displacements count from the mean surface (SamElasticityTraits), a
+  given approach must lie below the mean separation unless there is a limit, else NO_EQUILIBRIUM; so is a load beyond
+  the limit on all of the grid. Collective. Not converging is a reason, not an error, unless that was asked for. Errors:
+  SAM_ERR_USER for a normal load below zero.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
 /*

@@ -65,10 +65,10 @@ typedef struct {
   SamContact contact; /* that keeps the sums over the steps among the fields; borrowed; NULL: not known */
 } SamOutputSettings;
 /*
-  SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state, depths of wear and yielding, no compression,
-  chunks of 1024 x 256 cells, double precision, with XDMF file, each step written at once, no optional columns), then
-  reads -output_fields, -output_compress, -output_chunk, -output_single and -output_xdmf. Collective. Errors:
-  SAM_ERR_USER.
+  SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state, depths of wear and plastic depth,
+  no compression, chunks of 1024 x 256 cells, double precision, with XDMF file, each step written at once, no optional
+  columns), then reads -output_fields, -output_compress, -output_chunk, -output_single and -output_xdmf. Collective.
+  Errors: SAM_ERR_USER.
   SamOutputSettingsSetFields - chooses `count` fields by their names in the results; "all" stands for all of them, a
   single "none" for none; count < 0: the default. `unknown`: a name that there is not, or NULL. Not collective.
   SamOutputSettingsCheck - refuses fields that are named and that these results do not have. Collective. Errors:

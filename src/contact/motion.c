@@ -1,5 +1,6 @@
 /*
-  Fields that follow from a solution: the gap u_z + h + w - rigid, the slip u_t + stretch - rigid, the state of each cell.
+  Fields that follow from a solution: the gap u_z + h + w - rigid, the slip u_t + stretch - rigid, the state of each
+  cell.
 
   They are not stored, but computed row by row where they are needed, always by these functions: so they are the same to
   the last bit in the check, in the next step and in the results.

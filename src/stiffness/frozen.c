@@ -5,9 +5,10 @@
   a cell sticks, the one along its circle where it slips. There the shear also follows the pressure, by mu e p. With P,
   which takes off what lies along e, and L = |ds|/(mu p),
       S p + B'(y + mu e p) = n,      P(C (y + mu e p) + B p) + L y = P t.
-  The pressure of cells that yield stays, p = 0, so the first holds on the others only. Without coupling, B = 0, the first is a system of its own. Approximate inverses are the spectral ones of S and C; that
-  of C with the weights of the tangential solver's Newton step (newton.c), in which a cell that slips counts with
-  h = c/(c + L), c being its influence on itself.
+  The pressure of cells that yield stays, p = 0, so the first holds on the others only. Without coupling, B = 0, the
+  first is a system of its own. Approximate inverses are the spectral ones of S and C; that of C with the weights of the
+  tangential solver's Newton step (newton.c), in which a cell that slips counts with h = c/(c + L), c being its
+  influence on itself.
 */
 #include "stiffnessimpl.h"
 #include <math.h>

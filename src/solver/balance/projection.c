@@ -7,9 +7,9 @@
   Algorithm: the solution is x = P(v + phi a), where P projects each cell by itself, and the at most three numbers a
   minimise the dual, a convex function:
       sum psi_b(|v + phi a|) - a.F,     psi_b(n) = n^2/2 up to the bound b, b n - b^2/2 beyond
-  (for pressures: half the square of the positive part, and H v - H^2/2 beyond H). Its gradient is sum phi'P(v + phi a) - F, the error of
-  equilibrium. Newton's method with a line search on the dual takes a few passes over the cells and no transform. When
-  no admissible traction carries F, the dual has no minimum and a grows without bound.
+  (for pressures: half the square of the positive part, and H v - H^2/2 beyond H). Its gradient is sum phi'P(v + phi a)
+  - F, the error of equilibrium. Newton's method with a line search on the dual takes a few passes over the cells and no
+  transform. When no admissible traction carries F, the dual has no minimum and a grows without bound.
 */
 #include "projectionimpl.h"
 #include <math.h>

@@ -1,8 +1,8 @@
 /*
   Projected preconditioned conjugate gradients on a changing active set.
 
-  Problem: minimise p.S p/2 + h.p over the admissible p: 0 <= p <= H, in equilibrium (or with given rigid displacements).
-  Its gradient is the gap g. H is the hardness, infinite for bodies that do not yield.
+  Problem: minimise p.S p/2 + h.p over the admissible p: 0 <= p <= H, in equilibrium (or with given rigid
+  displacements). Its gradient is the gap g. H is the hardness, infinite for bodies that do not yield.
 
   Algorithm; an iteration takes one product:
     1. A: the cells where pressure is, or is to be, between its bounds. Cells without pressure that penetrate are in A;
@@ -311,8 +311,8 @@ static PetscErrorCode Part(Work *w, double t)
 
 /*
   Step 4: the least energy between where the step begins and where a pressure meets a bound. `best`: the length of the
-  step without that bound. A step that displaces nothing (periodic bodies under one more uniform pressure) goes as far as
-  the bounds allow.
+  step without that bound. A step that displaces nothing (periodic bodies under one more uniform pressure) goes as far
+  as the bounds allow.
 */
 static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {

@@ -1,8 +1,9 @@
 /*
   The classical projected conjugate gradients of Polonsky and Keer, for comparison.
 
-  Problem: p >= 0, g >= 0, p g = 0 in every cell, in equilibrium or with given rigid displacements. Without a limit of the
-  pressure: with cells at two bounds these steps may go round in circles, and where none is between them there is none.
+  Problem: p >= 0, g >= 0, p g = 0 in every cell, in equilibrium or with given rigid displacements. Without a limit of
+  the pressure: with cells at two bounds these steps may go round in circles, and where none is between them there is
+  none.
 
   Algorithm:
     1. g = S p + h less the rigid displacement that fits it best on the contact cells {p > 0}.
