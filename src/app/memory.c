@@ -13,8 +13,8 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
 
 /*
-  Of the correction for edges, [several steps][friction], of plastic depth, wear, a life and the tangent stiffness, bytes per cell; all
-  but wear and life measured.
+  Of the correction for edges, [several steps][friction], of plastic depth, wear, a life and the tangent stiffness,
+  bytes per cell; all but wear and life measured.
 */
 static const double deferred_bytes[2][2] = {{135, 480}, {135, 950}};
 #define PLASTIC_BYTES   40

@@ -379,4 +379,11 @@ PETSC_INTERN PetscErrorCode SamXdmfMakeName(const char results[], char **name);
 PETSC_INTERN const char    *SamXdmfGetName(SamXdmf xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfDestroy(SamXdmf *xdmf);
 
+/*
+  SamFileWriteState, SamFileReadState - the numbers of a state as attributes of the root group (statenumbers.c). Errors
+  are noted in the file. Not collective.
+*/
+PETSC_INTERN void SamFileWriteState(SamFile file, const SamContactState *state);
+PETSC_INTERN void SamFileReadState(SamFile file, SamContactState *state);
+
 #endif
