@@ -138,7 +138,7 @@ PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold,
 PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
 PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
 
-#define SAM_CHECKPOINT_FORMAT 5   /* version of a checkpoint's contents */
+#define SAM_CHECKPOINT_FORMAT 6   /* version of a checkpoint's contents */
 #define SAM_SEAL              512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
 /*
   SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
