@@ -20,6 +20,8 @@ typedef struct {
   PetscInt   count;
   PetscReal *x, *y; /* m */
   PetscInt  *cell;  /* index of the cell in this rank's part of the grid */
+  /* what vanishes at the edge, about each point's cell: its terms 1, x, y, x^2, x y, y^2, in cells from the centre */
+  PetscReal (*fit)[6];
 } SamEdge;
 
 /*

@@ -2,6 +2,7 @@
 #ifndef PETSAM_STRESS_H
 #define PETSAM_STRESS_H
 
+#include <petsam/edges.h>
 #include <petsam/fourier.h>
 
 /* The components of the stress, tension positive, and the tractions that cause it, in the order used everywhere. */
@@ -56,6 +57,15 @@ PETSC_EXTERN PetscErrorCode SamStressSetDepth(SamStress stress, PetscReal depth)
   not in it. Collective. Errors: PETSC_ERR_ORDER before the depth is set.
 */
 PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
+
+/*
+  SamStressAtEdge - the stresses xx, yy and xy (Pa, three a point) on the surface at the points of the contact's edge,
+  of a reconstruction of the pressure's square: the largest tension lies there, and the values of the map approach it
+  only like the root of the cell (src/stress/edge.c). `field`: the map of SamStressApply() at depth 0. NaN within six
+  cells of the grid's border. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamStressAtEdge(SamGrid grid, PetscReal poisson, Vec field, const SamEdge *edge,
+                                            double stress[]);
 
 /*
   SamSection - the stresses on a plane across the surface, through a row or a column of cells, at many depths: much

@@ -105,6 +105,7 @@ void SamEdgeAddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, 
   edge->x[n]    = SamGridX(grid, i) + x * grid->dx;
   edge->y[n]    = SamGridY(grid, j) + y * grid->dy;
   edge->cell[n] = (j - grid->row_start) * grid->nx + i;
+  for (int k = 0; k < SAM_FIT_TERMS; k++) edge->fit[n][k] = fit[k];
   edge->count++;
 }
 
@@ -156,7 +157,7 @@ static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS],
 PetscErrorCode SamEdgeDestroy(SamEdge *edge)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(edge->x, edge->y, edge->cell));
+  PetscCall(PetscFree4(edge->x, edge->y, edge->cell, edge->fit));
   edge->count = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -209,7 +210,7 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge)
   PetscCall(SamZoneCreate(grid, w, HALO, BAND, &band.zone));
   PetscCall(Examine(&band));
   edge->count = 0;
-  PetscCall(PetscMalloc3(band.band, &edge->x, band.band, &edge->y, band.band, &edge->cell));
+  PetscCall(PetscMalloc4(band.band, &edge->x, band.band, &edge->y, band.band, &edge->cell, band.band, &edge->fit));
   if (point) PetscCall(VecGetArray(point, &points));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row[SUMS] = {0};

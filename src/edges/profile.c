@@ -477,7 +477,7 @@ PetscErrorCode SamProfileGetEdge(SamProfile s, Vec point, SamEdge *edge)
 
   PetscFunctionBegin;
   *edge = (SamEdge){.faces = 1, .good = 1, .smooth = 1};
-  PetscCall(PetscMalloc3(s->band, &edge->x, s->band, &edge->y, s->band, &edge->cell));
+  PetscCall(PetscMalloc4(s->band, &edge->x, s->band, &edge->y, s->band, &edge->cell, s->band, &edge->fit));
   PetscCall(VecGetArrayRead(s->mean, &own));
   PetscCall(SamRowsFetch(&s->zone.rows, s->grid->nx, own, &mean));
   if (point) PetscCall(VecGetArrayWrite(point, &squares));

@@ -70,6 +70,35 @@ def test_results_do_not_depend_on_the_ranks(stress, contact, ranks):
         assert set(one) == set(many) and all(np.array_equal(one[k], many[k]) for k in one)
 
 
+@pytest.mark.parametrize("body", [1, 2])
+def test_largest_tension_of_sliding_is_found_at_the_edge(launcher, tmp_path, body):
+    """(1 - 2 nu)/3 + mu pi (4 + nu)/8 of p0 at the trailing edge, and the bulk stress; the map is 10 % off."""
+    bulk, mu, nu, h = 5e7, 0.3, 0.3, hertz(SPHERE)
+    case = dict(SPHERE, grid_n=80, grid_size=3 * h.radius, friction=mu, load_tx=None, disp_x=1e-3, output="c.h5")
+    case.update(bulk1_stress_xx=bulk, bulk2_stress_xx=bulk)
+    conftest.execute(launcher, tmp_path, [case], 1, 0)
+    found = []
+    for ranks in (1, 3):
+        options = dict(input="c.h5", output="s.h5", depths=0.0, body=body)
+        conftest.execute(launcher, tmp_path, [options], ranks, 0, program=PROGRAM)
+        found.append(read(tmp_path / "s.h5"))
+    exact = ((1 - 2 * nu) / 3 + mu * np.pi * (4 + nu) / 8) * h.pressure + bulk
+    s = found[0]
+    assert s["history/edge_stress_xx_max"][0] == pytest.approx(exact, rel=5e-3)
+    assert s["history/edge_principal_1_max"][0] == pytest.approx(exact, rel=5e-3)
+    assert s["history/edge_stress_xx_max_x"][0] == pytest.approx((1 if body == 1 else -1) * h.radius, rel=2e-3)
+    assert s["stress_xx"].max() < 0.95 * exact
+    for name in ("edge_stress_xx_max", "edge_stress_xx_max_x", "edge_stress_xx_max_y", "edge_principal_1_max"):
+        assert np.array_equal(found[0]["history/" + name], found[1]["history/" + name])
+
+
+def test_edge_that_is_not_resolved_has_no_stress(launcher, tmp_path):
+    case = dict(SPHERE, grid_n=20, output="c.h5")
+    conftest.execute(launcher, tmp_path, [case], 1, 0)
+    conftest.execute(launcher, tmp_path, [dict(input="c.h5", output="s.h5", depths=0.0)], 1, 0, program=PROGRAM)
+    assert np.isnan(read(tmp_path / "s.h5")["history/edge_stress_xx_max"][0])
+
+
 def test_sections_are_rows_and_columns_of_the_maps(stress, contact):
     common = dict(input="c.h5", depths="0,3e-5,4e-4", steps="2:6:4", quantities=QUANTITIES)
     stress(dict(common, output="map.h5"))

@@ -41,6 +41,7 @@ static PetscErrorCode ComputeStep(SamStressRun *run, SamStress stress, PetscInt 
   PetscFunctionBegin;
   PetscCall(ReadTractions(run, step, field));
   PetscCall(SamStressApply(stress, field));
+  if (run->request.depth[p->depth] == 0) PetscCall(SamEdgeStressCompute(run, step, field));
   PetscCall(VecGetArray(field, &a));
   SamStressAddBulk(run, step, p->count, a);
   PetscCall(SamQuantitiesWrite(run, step, p, a));

@@ -70,12 +70,14 @@ static PetscErrorCode ReadSteps(SamStressRun *run)
   PetscCall(SamStressRequestSteps(&run->request, run->results, &run->steps, &run->saved));
   PetscCall(PetscMalloc1(run->steps, &run->times));
   PetscCall(PetscMalloc3(run->steps, &run->mises, run->steps, &run->principal, run->steps, &run->bulk));
+  PetscCall(PetscMalloc2(run->steps, &run->edge_xx, run->steps, &run->edge_principal));
   for (PetscInt k = 0; k < run->steps; k++) {
     PetscInt step;
 
     PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, &run->times[k]));
     PetscCall(SamResultsReadBulkStress(run->results, step, run->request.body - 1, run->bulk[k]));
     run->mises[k] = run->principal[k] = (SamLargest){-INFINITY, 0};
+    run->edge_xx[k] = run->edge_principal[k] = (SamEdgeLargest){-INFINITY, 0, 0};
   }
   for (PetscInt q = 0; q < SAM_QUANTITIES; q++) run->fatigue[q] = (SamLargest){-INFINITY, 0};
   PetscCheck(run->steps > 1 || !SamCycleWanted(run), run->grid->comm, SAM_ERR_USER,
@@ -142,6 +144,7 @@ PetscErrorCode SamStressRunTearDown(SamStressRun *run)
   PetscCall(PetscFree(run->saved));
   PetscCall(PetscFree(run->times));
   PetscCall(PetscFree3(run->mises, run->principal, run->bulk));
+  PetscCall(PetscFree2(run->edge_xx, run->edge_principal));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,6 +366,7 @@ PetscErrorCode SamStressRunCompute(SamStressRun *run)
   PetscCall(WriteStepNumbers(run));
   PetscCall(WriteLargest(run, "mises", "largest von Mises stress", run->mises));
   PetscCall(WriteLargest(run, "principal_1", "largest principal stress", run->principal));
+  PetscCall(SamEdgeStressWrite(run));
   PetscCall(WriteLargestOfCycle(run));
   PetscCall(SamStressFileFinish(run->file));
   run->writing = PETSC_FALSE;

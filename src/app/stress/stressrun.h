@@ -11,6 +11,11 @@ typedef struct {
   double value, point;
 } SamLargest;
 
+/* The same at the contact's edge, with its place, m. */
+typedef struct {
+  double value, x, y;
+} SamEdgeLargest;
+
 typedef struct {
   SamStressRequest request;
   SamResults       results;
@@ -20,11 +25,12 @@ typedef struct {
   PetscInt         index; /* of the section's line of cells */
   PetscInt         steps, *saved;
   PetscReal       *times;
-  double (*bulk)[SAM_BULK_COMPONENTS];    /* bulk stress of the body in each step, Pa */
-  SamLargest    *mises, *principal;       /* of each step */
-  SamLargest     fatigue[SAM_QUANTITIES]; /* of the cycle */
-  PetscBool      quiet, writing;
-  PetscLogDouble start, told; /* when the computation began, and the last line was printed, s */
+  double (*bulk)[SAM_BULK_COMPONENTS];      /* bulk stress of the body in each step, Pa */
+  SamLargest     *mises, *principal;        /* of each step */
+  SamEdgeLargest *edge_xx, *edge_principal; /* likewise */
+  SamLargest      fatigue[SAM_QUANTITIES];  /* of the cycle */
+  PetscBool       quiet, writing;
+  PetscLogDouble  start, told; /* when the computation began, and the last line was printed, s */
 
   SamFourierSettings transforms;
 } SamStressRun;
@@ -64,6 +70,13 @@ PETSC_INTERN void SamStressAddBulk(const SamStressRun *run, PetscInt step, Petsc
 /* SamQuantitiesWrite - computes what is wanted of a step's stresses and writes it (quantities.c). Collective. */
 PETSC_INTERN PetscErrorCode SamQuantitiesWrite(SamStressRun *run, PetscInt step, const SamPoints *points,
                                                const double stress[]);
+/*
+  SamEdgeStressCompute - keeps the largest stresses at the contact's edge of a step, whose map at depth 0, without bulk
+  stress, is in `field`. SamEdgeStressWrite - writes those of all steps, where there are maps of the surface
+  (edgestress.c). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamEdgeStressCompute(SamStressRun *run, PetscInt step, Vec field);
+PETSC_INTERN PetscErrorCode SamEdgeStressWrite(SamStressRun *run);
 /* SamLargestKeep - keeps a value if it is the largest so far. Not collective. */
 PETSC_INTERN void SamLargestKeep(SamLargest *largest, double value, double point);
 
