@@ -473,7 +473,7 @@ def test_without_the_library_its_name_is_said(surface, tmp_path, monkeypatch):
     (["--first-row", "top", "--mirror", "y"], lambda z: z), (["--transpose"], lambda z: z.T),
     (["--transpose", "--first-row", "top", "--mirror", "x"], lambda z: z.T[::-1, ::-1]),
     (["--depths"], lambda z: -z),
-], ids=str)  # fmt: skip
+], ids=lambda value: "" if callable(value) else str(value))  # fmt: skip
 def test_rows_and_columns_lie_where_the_options_say(surface, tmp_path, words, change):
     np.save(tmp_path / "z.npy", TABLE)
     out = surface("z.npy", "--body", 2, "--units", "nm", "--pixel", "2um,1um", *words)

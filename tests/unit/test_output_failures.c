@@ -28,7 +28,7 @@ static void test_names_that_cannot_be_written_are_errors_on_all_ranks(void **sta
 {
   (void)state;
   AssertNotCreated("test_output_none/f.h5", SAM_ERR_FILE, "test_output_none/f.h5");
-  AssertNotCreated(".", SAM_ERR_FILE, "directory");
+  AssertNotCreated(".", SAM_ERR_FILE, "folder");
   AssertNotCreated("/dev/null", SAM_ERR_FILE, "/dev/null");
   sam_assert(access("test_output_none", F_OK));
 }
