@@ -19,6 +19,7 @@ typedef struct {
 /* These parts do not overlap; with set-up and the rest they make up the whole run. */
 static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
                              {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
+                             {"edges", {SAM_EVENT_EDGES}, 1},
                              {"check", {SAM_EVENT_CHECK}, 1},
                              {"results", {SAM_EVENT_OUTPUT}, 1},
                              {"tangent stiffness", {SAM_EVENT_STIFFNESS}, 1},

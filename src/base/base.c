@@ -23,11 +23,10 @@ static void MPIAPI AddTotals(void *in, void *inout, int *n, MPI_Datatype *type)
 
 PetscErrorCode SamInitialize(void)
 {
-  static const char *const names[SAM_EVENT_COUNT] = {"SamInfluence",    "SamFFTRows",   "SamFFTColumns",
-                                                     "SamFFTTranspose", "SamApplyN",    "SamApplyT",
-                                                     "SamApplyNT",      "SamPrecondN",  "SamPrecondT",
-                                                     "SamNormalSolve",  "SamTangSolve", "SamCheck",
-                                                     "SamStiffness",    "SamOutput",    "SamCheckpoint"};
+  static const char *const names[SAM_EVENT_COUNT] = {
+    "SamInfluence", "SamFFTRows",   "SamFFTColumns", "SamFFTTranspose", "SamApplyN",    "SamApplyT",
+    "SamApplyNT",   "SamPrecondN",  "SamPrecondT",   "SamNormalSolve",  "SamTangSolve", "SamCheck",
+    "SamEdges",     "SamStiffness", "SamOutput",     "SamCheckpoint"};
 
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(PETSC_SUCCESS);

@@ -124,13 +124,15 @@ static PetscErrorCode Pass(Deferred *d, PetscInt pass, char why[], size_t size)
   SamSolverReason reason;
 
   PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   if (pass > 1) PetscCall(SamProfileMatch(d->profile, s->s->pressure, s->s->rim, &found));
   if (found) PetscCall(SamProfileMove(d->profile, &found));
+  if (found) PetscCall(Prepare(d));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   if (!found) {
     PetscCall(PetscStrncpy(why, "there are too few cells along it", size));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(Prepare(d));
   PetscCall(SolveAgain(d));
   PetscCall(SamSolverGetReason(s->c->normal, &reason));
   if (reason < 0)

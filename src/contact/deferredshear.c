@@ -296,6 +296,18 @@ static PetscErrorCode Again(Deferred *d, char why[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the shear does within cells, and its displacement. */
+static PetscErrorCode FindDisplacement(Deferred *d)
+{
+  SamShearCorrection         *now    = &d->s->s->sheared;
+  const SamShearBefore *const before = d->before.shear ? &d->before : NULL;
+
+  PetscFunctionBegin;
+  PetscCall(SamShearProfileFind(d->profile, d->pressure, now->slack, before, &now->within));
+  PetscCall(SamShearProfileComputeDisplacement(d->profile, &now->within, now->displacement));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* One pass; `why` is empty while all is well. */
 static PetscErrorCode Pass(Deferred *d, PetscInt pass, char why[], size_t size)
 {
@@ -304,13 +316,13 @@ static PetscErrorCode Pass(Deferred *d, PetscInt pass, char why[], size_t size)
   const SamShearFields fields = {s->s->pressure, s->s->bound, s->s->shear, d->slips, now->rim};
 
   PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   PetscCall(FindSlips(d));
   PetscCall(SamShearProfileSet(d->profile, &fields));
   PetscCall(FindStickEdge(d, pass, why, size));
+  if (!why[0]) PetscCall(FindDisplacement(d));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   if (why[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(
-    SamShearProfileFind(d->profile, d->pressure, now->slack, d->before.shear ? &d->before : NULL, &now->within));
-  PetscCall(SamShearProfileComputeDisplacement(d->profile, &now->within, now->displacement));
   PetscCall(Again(d, why, size));
   now->passes = now->slack != SAM_SLACK_NONE ? pass : 0;
   PetscFunctionReturn(PETSC_SUCCESS);

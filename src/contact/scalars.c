@@ -195,8 +195,10 @@ PetscErrorCode SamContactComputeScalars(SamContact c, SamStep *step)
     PetscCall(SumPlainEnergies(c, step));
   else if (c->tried.solution.passes)
     PetscCall(SamContactAddEnergyWithin(c, step));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   step->edge_accepted = 0;
   if (c->edges != SAM_CONTACT_EDGES_NONE) PetscCall(FindEdges(c, step));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   step->contact_fraction = step->contact_area / (c->grid->width[0] * c->grid->width[1]);
   if (c->spots) PetscCall(SamContactCountSpots(c, &step->spots));
   if (c->spots) PetscCall(SamContactMeanGap(c, &step->gap_mean));

@@ -41,6 +41,14 @@ static void AddCell(SamShearProfile s, const double terms[SAM_SHEAR_TERMS], Pets
   SamNearAdd(near, sub, SAM_ELASTICITY_YY, s->grid, &y, u[1]);
 }
 
+/* Whether a cell has a term: most have none. */
+static PetscBool HasTerms(const SamSeen *terms, ptrdiff_t k)
+{
+  for (int t = 0; t < SAM_TERM_KINDS; t++)
+    if (terms->at[t * SAM_TERM][k] != 0 || terms->at[t * SAM_TERM + 1][k] != 0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 static PetscErrorCode AddNear(SamShearProfile s, Vec terms, Vec u_t)
 {
   SamSeen seen;
@@ -54,9 +62,11 @@ static PetscErrorCode AddNear(SamShearProfile s, Vec terms, Vec u_t)
   PetscCall(VecGetArray(u_t, &u));
   for (PetscInt j = 0; j < seen.rows.count; j++)
     for (PetscInt i = 0; i < s->grid->nx; i++) {
-      double cell[SAM_SHEAR_TERMS];
+      const ptrdiff_t k = (ptrdiff_t)j * s->grid->nx + i;
+      double          cell[SAM_SHEAR_TERMS];
 
-      for (int c = 0; c < SAM_SHEAR_TERMS; c++) cell[c] = seen.at[c][(ptrdiff_t)j * s->grid->nx + i];
+      if (!HasTerms(&seen, k)) continue;
+      for (int c = 0; c < SAM_SHEAR_TERMS; c++) cell[c] = seen.at[c][k];
       AddCell(s, cell, i, seen.rows.first + j, (double *[]){u, u + s->grid->cells});
     }
   PetscCall(VecRestoreArray(u_t, &u));
