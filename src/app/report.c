@@ -200,6 +200,25 @@ static void KeepWorst(SamReport r, const SamStep *step)
   }
 }
 
+/*
+  Whether a warning of an edge that is not corrected is left out: of many steps it is printed once for each edge. The
+  kind of a warning is what it says before the reason.
+*/
+static PetscBool IsRepeated(SamReport r, const SamStep *step)
+{
+  const size_t length = strcspn(step->message, ":");
+  PetscInt     k      = 0;
+
+  if (step->status || strcmp(step->setting, "edges")) return PETSC_FALSE;
+  while (k < r->edges_told &&
+         (strlen(r->edge_told_of[k]) != length || strncmp(r->edge_told_of[k], step->message, length)))
+    k++;
+  if (k < r->edges_told) return PETSC_TRUE;
+  if (k < SAM_REPORT_EDGES && length < sizeof(r->edge_told_of[0]))
+    (void)snprintf(r->edge_told_of[r->edges_told++], sizeof(r->edge_told_of[0]), "%.*s", (int)length, step->message);
+  return PETSC_FALSE;
+}
+
 /* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
 static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
@@ -208,7 +227,7 @@ static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 
   if (edge && r->edge_told) return;
   if (edge) r->edge_told = PETSC_TRUE;
-  if (r->rank || !step->message[0]) return;
+  if (r->rank || !step->message[0] || IsRepeated(r, step)) return;
   fflush(stdout);
   if (step->setting[0]) snprintf(option, sizeof(option), " (-%s)", step->setting);
   fprintf(stderr, "petsam: %s%s%s%s%s\n", step->status ? "" : "warning: ", where, where[0] ? ": " : "", step->message,

@@ -24,6 +24,8 @@ typedef struct {
   PetscInt  step;
 } SamReportWorst;
 
+enum { SAM_REPORT_EDGES = 2 };
+
 struct _n_SamReport {
   /* what the user set */
   MPI_Comm    comm;
@@ -45,10 +47,12 @@ struct _n_SamReport {
   PetscBool      living;   /* the run is a life */
   SamReportWorst worst[3]; /* normal, tangential, equilibrium */
   SamProgress    progress;
-  SamContact     contact;     /* whose monitors are set; borrowed */
-  SamExtent      extent;      /* of the contact in step `extent_step`, */
-  PetscInt       extent_step; /* from 1; 0: not known */
-  PetscBool      edge_told;   /* that the contact is at the edge, which is allowed */
+  SamContact     contact;                      /* whose monitors are set; borrowed */
+  SamExtent      extent;                       /* of the contact in step `extent_step`, */
+  PetscInt       extent_step;                  /* from 1; 0: not known */
+  PetscBool      edge_told;                    /* that the contact is at the edge, which is allowed */
+  char     edge_told_of[SAM_REPORT_EDGES][64]; /* edges that are not corrected, whose warnings have been printed */
+  PetscInt edges_told;
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;

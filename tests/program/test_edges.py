@@ -67,7 +67,7 @@ def test_run_goes_on_with_the_fields_of_its_file(petsam, tmp_path):
 
 def test_file_without_fields_is_drawn_as_far_as_it_goes(petsam, draw, tmp_path):
     (tmp_path / "h.csv").write_text("time, load_tx\n1, 50\n2, -50\n3, 20\n")
-    case = dict(SPHERE, grid_n=24, history="h.csv", output="out.h5", output_fields="pressure,contact_edge")
+    case = dict(SPHERE, grid_n=24, history="h.csv", output="out.h5", output_fields="contact_edge")
     petsam(case)
     assert draw("out.h5") == (0, [])
     assert {path.name for path in tmp_path.glob("*.png")} == {"out_loop.png", "out_history.png"}
@@ -162,6 +162,17 @@ def test_edge_that_is_not_smooth_is_left_and_said(petsam, solve):
     assert "not corrected" in said and "-edges" in said
     plain, left = solve(case), solve(dict(case, edges="deferred"))
     assert left["edge_passes"] == 0 and np.array_equal(plain.pressure, left.pressure)
+
+
+def test_steps_whose_edge_is_left_are_told_once(petsam, tmp_path):
+    limit = SLIP["friction"] * SLIP["load_n"]
+    loads = "".join(f"{k + 1}, {0.5 * limit * np.cos(2 * k)}, {0.5 * limit * np.sin(2 * k)}\n" for k in range(6))
+    (tmp_path / "h.csv").write_text("time, load_tx, load_ty\n" + loads)
+    case = dict(SLIP, load_tx=None, history="h.csv", edges="deferred", grid_n=40, output="out.h5")
+    said = petsam(case).stderr
+    with package.open(tmp_path / "out.h5") as results:
+        assert (results.history["stick_passes"] == 0).sum() > 1
+    assert said.count("the edge of stick is not corrected") == 1
 
 
 def test_bodies_whose_tractions_act_on_each_other_are_refused_with_the_reason(petsam, tmp_path):
