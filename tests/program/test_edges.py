@@ -165,10 +165,13 @@ def test_edge_that_is_not_smooth_is_left_and_said(petsam, solve):
 
 
 def test_steps_whose_edge_is_left_are_told_once(petsam, tmp_path):
-    limit = SLIP["friction"] * SLIP["load_n"]
-    loads = "".join(f"{k + 1}, {0.5 * limit * np.cos(2 * k)}, {0.5 * limit * np.sin(2 * k)}\n" for k in range(6))
+    limit, way = (
+        SLIP["friction"] * SLIP["load_n"],
+        ((0.5, 0.1), (-0.2, 0.2), (0.4, 0.3), (0.1, -0.2), (-0.3, 0.1), (0, 0)),
+    )
+    loads = "".join(f"{k + 1}, {x * limit}, {y * limit}\n" for k, (x, y) in enumerate(way))
     (tmp_path / "h.csv").write_text("time, load_tx, load_ty\n" + loads)
-    case = dict(SLIP, load_tx=None, history="h.csv", edges="deferred", grid_n=40, output="out.h5")
+    case = dict(SLIP, load_tx=None, history="h.csv", edges="deferred", grid_n=44, output="out.h5")
     said = petsam(case).stderr
     with package.open(tmp_path / "out.h5") as results:
         assert (results.history["stick_passes"] == 0).sum() > 1
