@@ -71,6 +71,17 @@ PETSC_EXTERN PetscErrorCode SamOptionsBool(const SamOptions *from, const char na
 /* SamOptionsString - a text of fewer than `size` characters. */
 PETSC_EXTERN PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[],
                                              size_t size, PetscBool *set);
+/*
+  SamOptionsFile - the name of a file; SamOptionsWord, SamOptionsWords - one word or several with commas between them,
+  out of `words` (with commas likewise), which the help and the completion list and the caller checks. All are texts of
+  fewer than `size` characters.
+*/
+PETSC_EXTERN PetscErrorCode SamOptionsFile(const SamOptions *from, const char name[], const char help[], char value[],
+                                           size_t size, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsWord(const SamOptions *from, const char name[], const char help[],
+                                           const char words[], char value[], size_t size, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsWords(const SamOptions *from, const char name[], const char help[],
+                                            const char words[], char value[], size_t size, PetscBool *set);
 /* SamOptionsEnum - one of the words of a NULL-terminated list; `value` is its index. */
 PETSC_EXTERN PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[],
                                            const char *const words[], PetscInt *value, PetscBool *set);

@@ -92,13 +92,13 @@ PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckp
   cp->start = cp->step_start = MPI_Wtime();
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(from, "Checkpoints"));
-  PetscCall(SamOptionsString(from, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
-                             cp->filename, sizeof(cp->filename), &has_file));
+  PetscCall(SamOptionsFile(from, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
+                           cp->filename, sizeof(cp->filename), &has_file));
   PetscCall(SamOptionsInt(from, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
                           0, &cp->every, &has_every));
   PetscCall(ReadLimit(cp, from, &has_limit));
-  PetscCall(SamOptionsString(from, "restart", "go on from this checkpoint; with a new -output, in a file of its own",
-                             cp->restart, sizeof(cp->restart), NULL));
+  PetscCall(SamOptionsFile(from, "restart", "go on from this checkpoint; with a new -output, in a file of its own",
+                           cp->restart, sizeof(cp->restart), NULL));
   PetscCall(SamOptionsBool(from, "restart_gap", "with another gap than that of the checkpoint; the slip is kept",
                            &cp->other_gap, &has_gap));
   PetscCheck(cp->restart[0] || !has_gap || help, from->comm, SAM_ERR_USER, "-restart_gap is given without -restart");

@@ -1,5 +1,6 @@
 /* The load program: made of options and a file, asked for its steps. */
 #include "historyimpl.h"
+#include <petsam/private/help.h>
 #include <float.h>
 #include <math.h>
 
@@ -133,15 +134,17 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The options database has the name -load_history (SamHistoryClaimOption()); messages say -history. */
+/* The options database has the name -load_history (SamHistoryClaimOption()); the help and messages say -history. */
 static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t size, PetscBool *set)
 {
+  const SamOptionHelp option = {"history", "<file>", "text file with one row for each load step: see -help history", "",
+                                ""};
+
   PetscFunctionBegin;
+  PetscCall(SamOptionsDescribe(from, &option));
+  SamOptionsKnow(from, "load_history", NULL);
   PetscCall(PetscOptionsGetString(NULL, from->prefix, "-load_history", file, size, set));
   PetscCheck(!*set || file[0], from->comm, SAM_ERR_USER, "-history has no value: expected the name of a file");
-  PetscCall(SamOptionsString(from, "load_history",
-                             "text file with one row for each load step (README, Histories); or -history", file, size,
-                             set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -15,7 +15,7 @@ static const char usage[] =
   "  mpirun -n 4 petsam-stress -input sphere.h5 -output section.h5 -section y=0 -depths 0:1e-3:64 -steps all\n"
   "\n"
   "All quantities in SI units, tension positive, z into the body; defaults in parentheses. Required: -input, -output.\n"
-  "-help prints this, -version the version. Exit codes: 0 done, 2 bad usage, 3 a file cannot be used.\n";
+  "Exit codes: 0 done, 2 bad usage, 3 a file cannot be used.\n";
 
 static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 {
@@ -78,6 +78,7 @@ int main(int argc, char **argv)
 {
   const SamProgram program = {.name     = "petsam-stress",
                               .usage    = usage,
+                              .topics   = SamStressTopics,
                               .setup    = SetUp,
                               .run      = Compute,
                               .teardown = TearDown,

@@ -26,7 +26,6 @@ static const char usage[] =
   "\\\n"
   "    -output sphere.h5\n"
   "\n"
-  "-help prints this, -version the version. PETSc's options work too (-options_file, -log_view, ...).\n"
   "Exit codes: 0 converged, 2 bad usage, 3 a file cannot be used, 10 not converged, 11 no equilibrium,\n"
   "12 contact at the grid's edge, 75 stopped with a checkpoint.\n";
 
@@ -74,6 +73,7 @@ int main(int argc, char **argv)
   static SamRun    run;
   const SamProgram petsam = {.name     = "petsam",
                              .usage    = usage,
+                             .topics   = SamPetsamTopics,
                              .prepare  = SamHistoryClaimOption,
                              .setup    = SetUp,
                              .run      = Solve,

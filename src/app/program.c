@@ -5,6 +5,7 @@
   trace.
 */
 #include "program.h"
+#include "help.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/contact.h>
 #include <hdf5.h>
@@ -139,10 +140,7 @@ static PetscErrorCode Run(const SamArguments *arguments)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (arguments->help) {
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", program->usage));
-    PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
-    PetscCall(program->setup(program->context, arguments));
-    PetscCall(PetscOptionsClearValue(NULL, "-help")); /* else PetscFinalize() would print PETSc's help */
+    PetscCall(SamProgramHelp(program, arguments));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(program->setup(program->context, arguments));

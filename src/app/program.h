@@ -3,10 +3,12 @@
 #define PETSAM_APP_PROGRAM_H
 
 #include <petsam/private/arguments.h>
+#include "topics.h"
 
-/* A program, and its functions, which are called with its context; all but the last three may raise errors. */
+/* A program, its help, and its functions, which are called with its context; all but the last three may raise errors. */
 typedef struct {
-  const char *name, *usage;        /* usage: what -help prints before the options */
+  const char     *name, *usage;    /* usage: what -help prints before the options */
+  const SamTopic *topics;          /* of -help; every group of options belongs to one */
   PetscErrorCode (*prepare)(void); /* before PETSc starts; NULL: nothing */
   PetscErrorCode (*setup)(void *context, const SamArguments *arguments); /* reads all options; writes nothing */
   PetscErrorCode (*run)(void *context);

@@ -104,8 +104,8 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamArguments *arguments, co
   PetscCall(SamCheckpointsCreateFromOptions(from, &run->checkpoints));
   run->restart_gap = SamCheckpointsChangeGap(run->checkpoints);
   PetscCall(SamOptionsHeading(from, "Results and resources"));
-  PetscCall(SamOptionsString(from, "output", "HDF5 file of the results", run->filename, sizeof(run->filename),
-                             &run->has_output));
+  PetscCall(
+    SamOptionsFile(from, "output", "HDF5 file of the results", run->filename, sizeof(run->filename), &run->has_output));
   run->output_every = 1;
   PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &run->output_every, NULL));

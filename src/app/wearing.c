@@ -124,8 +124,8 @@ static PetscErrorCode ReadFriction(SamWearing *w, const SamOptions *from)
   PetscInt  cycle, friction;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "wear_friction", "text file, columns cycle,friction: friction over the life", file,
-                             sizeof(file), &set));
+  PetscCall(SamOptionsFile(from, "wear_friction", "text file, columns cycle,friction: friction over the life", file,
+                           sizeof(file), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   for (int k = 0; k < 2; k++) {
     PetscCall(PetscOptionsHasName(NULL, from->prefix, k ? "-friction_file" : "-friction", &other));

@@ -316,15 +316,29 @@ static void ExamineText(SamArguments *a, const char where[], const char text[])
 
 /* ---- the whole ---- */
 
+/* Takes the words from the first one up to the next option as the topic of the help; returns their number. */
+static int TakeTopic(int argc, char **argv, char topic[], size_t size)
+{
+  int count = 0;
+
+  while (count < argc && !IsOption(argv[count])) {
+    const size_t length = strlen(topic);
+
+    (void)snprintf(topic + length, size - length, "%s%s", length ? " " : "", argv[count++]);
+  }
+  return count;
+}
+
 /* -help, --help, -h, --version, -version: PETSc would print its own text and go on. */
 static void TakeHelpAndVersion(int *argc, char **argv, SamArguments *a)
 {
   int kept = 1;
 
   for (int i = 1; i < *argc; i++) {
-    if (!strcmp(argv[i], "-help") || !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h"))
+    if (!strcmp(argv[i], "-help") || !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
       a->help = PETSC_TRUE;
-    else if (!strcmp(argv[i], "--version") || !strcmp(argv[i], "-version"))
+      i += TakeTopic(*argc - i - 1, argv + i + 1, a->topic, sizeof(a->topic));
+    } else if (!strcmp(argv[i], "--version") || !strcmp(argv[i], "-version"))
       a->version = PETSC_TRUE;
     else
       argv[kept++] = argv[i];

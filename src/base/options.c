@@ -6,6 +6,7 @@
   expected.
 */
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/help.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -27,44 +28,14 @@ const char *SamOptionsPrefix(const SamOptions *from)
   return from->prefix ? from->prefix : "";
 }
 
-PetscErrorCode SamPrintHelp(PetscBool *print)
+/* A line of the help for an option with this default. */
+static PetscErrorCode Describe(const SamOptions *from, const char name[], const char help[], const char argument[],
+                               const char value[])
 {
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsHasHelp(NULL, print));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[])
-{
-  PetscBool help;
+  const SamOptionHelp option = {name, argument, help, value, ""};
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
-  if (help) PetscCall(PetscPrintf(from->comm, "\n%s\n", title));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  A line of the help: name, kind of value, description, and the default unless the option is required. A name that is
-  too long for its column gets a line of its own.
-*/
-#define HELP_COLUMN 40
-static PetscErrorCode PrintHelpLine(const SamOptions *from, const char name[], const char help[], const char kind[],
-                                    const char value[])
-{
-  PetscBool print;
-  char      option[128], shown[TEXT_SIZE + 4] = "";
-
-  PetscFunctionBegin;
-  SamOptionsKnow(from, name, NULL);
-  PetscCall(SamPrintHelp(&print));
-  if (!print) PetscFunctionReturn(PETSC_SUCCESS);
-  snprintf(option, sizeof(option), "-%s%s %s", SamOptionsPrefix(from), name, kind);
-  if (value[0] && !strstr(help, "required")) snprintf(shown, sizeof(shown), " (%s)", value);
-  if (strlen(option) >= HELP_COLUMN)
-    PetscCall(PetscPrintf(from->comm, "  %s\n  %*s%s%s\n", option, HELP_COLUMN, "", help, shown));
-  else
-    PetscCall(PetscPrintf(from->comm, "  %-*s%s%s\n", HELP_COLUMN, option, help, shown));
+  PetscCall(SamOptionsDescribe(from, &option));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -172,7 +143,7 @@ PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const c
 
   PetscFunctionBegin;
   snprintf(shown, sizeof(shown), "%g", (double)*value);
-  PetscCall(PrintHelpLine(from, name, help, "<number>", shown));
+  PetscCall(Describe(from, name, help, "<number>", shown));
   PetscCall(GetReals(from, name, DescribeRange(range), 1, range, value, &found));
   if (set) *set = found;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -186,7 +157,7 @@ PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], con
 
   PetscFunctionBegin;
   snprintf(shown, sizeof(shown), "%g,%g", (double)value[0], (double)value[1]);
-  PetscCall(PrintHelpLine(from, name, help, "<number>[,<number>]", shown));
+  PetscCall(Describe(from, name, help, "<number>[,<number>]", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected), "%s, or two separated by a comma", DescribeRange(range)));
   PetscCall(GetReals(from, name, expected, 2, range, value, &found));
   if (set) *set = found;
@@ -235,7 +206,7 @@ PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const ch
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT, *value));
-  PetscCall(PrintHelpLine(from, name, help, "<whole>", shown));
+  PetscCall(Describe(from, name, help, "<whole>", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT, least));
   PetscCall(GetInts(from, name, expected, 1, least, value, &found));
   if (set) *set = found;
@@ -250,7 +221,7 @@ PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], cons
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT ",%" PetscInt_FMT, value[0], value[1]));
-  PetscCall(PrintHelpLine(from, name, help, "<whole>[,<whole>]", shown));
+  PetscCall(Describe(from, name, help, "<whole>[,<whole>]", shown));
   PetscCall(PetscSNPrintf(expected, sizeof(expected),
                           "a whole number from %" PetscInt_FMT ", or two separated by a comma", least));
   PetscCall(GetInts(from, name, expected, 2, least, value, &found));
@@ -262,13 +233,14 @@ PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const c
                               PetscBool *set)
 {
   static const char *const yes[] = {"1", "true", "yes", "on", NULL}, *const no[] = {"0", "false", "no", "off", NULL};
-  char      option[128], text[TEXT_SIZE]                                         = "";
-  PetscBool found, good;
+  const SamOptionHelp option = {name, "[<bool>]", help, *value ? "true" : "false", "true,false"};
+  char                dashed[128], text[TEXT_SIZE] = "";
+  PetscBool           found, good;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(from, name, help, "[<bool>]", *value ? "true" : "false"));
-  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
-  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), &found));
+  PetscCall(SamOptionsDescribe(from, &option));
+  PetscCall(PetscSNPrintf(dashed, sizeof(dashed), "-%s", name));
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, dashed, text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
   good = text[0] ? PETSC_FALSE : PETSC_TRUE; /* the bare option means yes */
@@ -285,36 +257,90 @@ PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
-                                PetscBool *set)
+/* What is expected of a text, for messages. */
+static void DescribeText(const SamOptionHelp *option, char text[], size_t size)
 {
-  char      text[TEXT_SIZE];
+  if (option->words[0])
+    (void)snprintf(text, size, "%s of %s", strchr(option->argument, ',') ? "some" : "one", option->words);
+  else
+    (void)snprintf(text, size, "%s", strstr(option->argument, "file") ? "the name of a file" : "a text");
+}
+
+/* Reads a text of fewer than `size` characters, which is described by `option`. */
+static PetscErrorCode ReadText(const SamOptions *from, const SamOptionHelp *option, char value[], size_t size,
+                               PetscBool *set)
+{
+  char      text[TEXT_SIZE], expected[640];
   PetscBool found;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(from, name, help, "<text>", value));
-  PetscCall(GetText(from, name, "a text", text, sizeof(text), &found));
+  DescribeText(option, expected, sizeof(expected));
+  PetscCall(SamOptionsDescribe(from, option));
+  PetscCall(GetText(from, option->name, expected, text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(strlen(text) < size, from->comm, SAM_ERR_USER, "-%s%s: expected at most %d characters",
-             SamOptionsPrefix(from), name, (int)size - 1);
+             SamOptionsPrefix(from), option->name, (int)size - 1);
   PetscCall(PetscStrncpy(value, text, size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
+                                PetscBool *set)
+{
+  const SamOptionHelp option = {name, "<text>", help, value, ""};
+
+  PetscFunctionBegin;
+  PetscCall(ReadText(from, &option, value, size, set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsFile(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
+                              PetscBool *set)
+{
+  const SamOptionHelp option = {name, "<file>", help, value, ""};
+
+  PetscFunctionBegin;
+  PetscCall(ReadText(from, &option, value, size, set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsWord(const SamOptions *from, const char name[], const char help[], const char words[],
+                              char value[], size_t size, PetscBool *set)
+{
+  const SamOptionHelp option = {name, "<word>", help, value, words};
+
+  PetscFunctionBegin;
+  PetscCall(ReadText(from, &option, value, size, set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsWords(const SamOptions *from, const char name[], const char help[], const char words[],
+                               char value[], size_t size, PetscBool *set)
+{
+  const SamOptionHelp option = {name, "<word>[,...]", help, value, words};
+
+  PetscFunctionBegin;
+  PetscCall(ReadText(from, &option, value, size, set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[], const char *const words[],
                               PetscInt *value, PetscBool *set)
 {
-  char      text[TEXT_SIZE], list[TEXT_SIZE] = "";
-  PetscInt  chosen = -1;
-  PetscBool found;
+  char                text[TEXT_SIZE], list[TEXT_SIZE] = "", commas[TEXT_SIZE] = "";
+  const SamOptionHelp option = {name, "<word>", help, words[*value], commas};
+  PetscInt            chosen = -1;
+  PetscBool           found;
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(from, name, help, "<word>", words[*value]));
   for (PetscInt w = 0; words[w]; w++) {
     if (w) PetscCall(PetscStrlcat(list, words[w + 1] ? ", " : " or ", sizeof(list)));
+    if (w) PetscCall(PetscStrlcat(commas, ",", sizeof(commas)));
     PetscCall(PetscStrlcat(list, words[w], sizeof(list)));
+    PetscCall(PetscStrlcat(commas, words[w], sizeof(commas)));
   }
+  PetscCall(SamOptionsDescribe(from, &option));
   PetscCall(GetText(from, name, list, text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
@@ -330,7 +356,7 @@ PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], co
   char option[128], text[TEXT_SIZE] = "";
 
   PetscFunctionBegin;
-  PetscCall(PrintHelpLine(from, name, help, "[<viewer>]", ""));
+  PetscCall(Describe(from, name, help, "[<viewer>]", ""));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
   PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), set));
   PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', from->comm, SAM_ERR_USER,

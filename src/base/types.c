@@ -33,6 +33,24 @@ PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[], const char help[],
+                              char type[], size_t size, PetscBool *set)
+{
+  const char **types;
+  int          count;
+  char         words[512] = "";
+
+  PetscFunctionBegin;
+  PetscCall(SamTypesGet(list, &types, &count));
+  for (int t = 0; t < count; t++) {
+    if (t) PetscCall(PetscStrlcat(words, ",", sizeof(words)));
+    PetscCall(PetscStrlcat(words, types[t], sizeof(words)));
+  }
+  PetscCall(PetscFree(types));
+  PetscCall(SamOptionsWord(from, name, help, words, type, size, set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
                                    const char type[])
 {

@@ -117,7 +117,7 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCall(SamOptionsHeading(&from, "Elasticity"));
   PetscCall(PetscStrncpy(type, e->type, sizeof(type)));
-  PetscCall(SamOptionsString(&from, "elasticity", types, type, sizeof(type), NULL));
+  PetscCall(SamTypesOption(SamElasticityList, &from, "elasticity", types, type, sizeof(type), NULL));
   PetscCall(SamTypesCheckOption(SamElasticityList, &from, "elasticity", type));
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
   if (strcmp(type, e->type) || e->is_set_up) PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */

@@ -11,14 +11,18 @@
 /* -output_fields: names between commas, and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
 {
-  char        text[512] = "", names[512], **list;
+  char        text[512] = "", names[512], words[512] = "all,none", **list;
   const char *unknown;
   PetscBool   given;
   int         count;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "output_fields", "fields to be saved by their names, all, or none", text,
-                             sizeof(text), &given));
+  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+    PetscCall(PetscStrlcat(words, ",", sizeof(words)));
+    PetscCall(PetscStrlcat(words, SamOutputFields[f].label.name, sizeof(words)));
+  }
+  PetscCall(SamOptionsWords(from, "output_fields", "fields to be saved by their names, all, or none", words, text,
+                            sizeof(text), &given));
   for (char *c = text; *c; c++) *c = *c == ' ' ? ',' : *c;
   PetscCall(PetscStrToArray(text, ',', &count, &list));
   PetscCall(SamOutputSettingsSetFields(set, given ? count : -1, (const char *const *)list, &unknown));

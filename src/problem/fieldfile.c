@@ -70,7 +70,7 @@ PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions
   PetscCall(SamSetPrefix(source->prefix, prefix));
   PetscCall(PetscStrncpy(source->dataset, source->default_dataset, sizeof(source->dataset)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "dataset in it: (ny, nx), %s", source->unit));
-  PetscCall(SamOptionsString(from, source->file_option, help, source->file, sizeof(source->file), NULL));
+  PetscCall(SamOptionsFile(from, source->file_option, help, source->file, sizeof(source->file), NULL));
   PetscCall(SamOptionsString(from, source->dataset_option, text, source->dataset, sizeof(source->dataset), &set));
   PetscCall(SamPrintHelp(&print));
   PetscCheck(!set || source->file[0] || print, from->comm, SAM_ERR_USER, "-%s%s is given without -%s%s", prefix,

@@ -19,7 +19,7 @@ static PetscErrorCode SetTypeFromOptions(SamSolver s, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(type, s->type, sizeof(type)));
   PetscCall(SamTypesList(s->kind->types, types, sizeof(types)));
-  PetscCall(SamOptionsString(from, "type", types, type, sizeof(type), &set));
+  PetscCall(SamTypesOption(s->kind->types, from, "type", types, type, sizeof(type), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamTypesCheckOption(s->kind->types, from, "type", type));
   PetscCall(SamSolverSetType(s, type));

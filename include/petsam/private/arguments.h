@@ -8,6 +8,7 @@
 
 typedef struct {
   PetscBool      help, version;
+  char           topic[64];    /* words after -help, "": none */
   PetscErrorCode code;         /* of the first mistake, 0: none */
   char           message[512]; /* that says what it is */
   char          *files[SAM_ARGUMENTS_FILES];
@@ -17,7 +18,7 @@ typedef struct {
 } SamArguments;
 
 /*
-  SamArgumentsExamine - takes -help and -version from the command line, and looks through the rest, the options files,
+  SamArgumentsExamine - takes -help, with the words after it, and -version from the command line, and looks through the rest, the options files,
   PETSC_OPTIONS and .petscrc, for mistakes at which PETSc would end the program with a trace, or wait for ever, and for
   options that load code or start programs. After a mistake nothing is left for PETSc to read. To be called between
   MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.

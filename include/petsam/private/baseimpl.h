@@ -218,6 +218,9 @@ PETSC_EXTERN PetscBool SamCallInChild(void (*function)(void *data), void *data, 
 PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
+/* SamTypesOption - SamOptionsWord() for a type out of the registry, which SamTypesCheckOption() checks. */
+PETSC_EXTERN PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[],
+                                           const char help[], char type[], size_t size, PetscBool *set);
 /* SamTypesCheckOption - raises SAM_ERR_USER, with the names, for an option whose value is no name in the registry. */
 PETSC_EXTERN PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
                                                 const char type[]);

@@ -8,7 +8,8 @@
 #define MOST_DEPTHS 100000
 
 #define NAMES      256 /* characters of a list of names */
-#define QUANTITIES "stress,mises,principal,shear_max,strain, or none"
+#define NAMED      "stress,mises,principal,shear_max,strain"
+#define QUANTITIES NAMED ", or none"
 #define FATIGUE    "crossland,dang_van,findley,swt,fatemi_socie,ruiz"
 
 /* ---- numbers ---- */
@@ -165,7 +166,7 @@ static PetscErrorCode ReadQuantities(const SamOptions *from, SamStressRequest *r
   char                     text[NAMES] = "stress,mises";
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "quantities", "some of " QUANTITIES, text, sizeof(text), NULL));
+  PetscCall(SamOptionsWords(from, "quantities", "some of " QUANTITIES, NAMED ",none", text, sizeof(text), NULL));
   if (strcmp(text, "none"))
     PetscCall(ReadNames(from, "quantities", QUANTITIES, names, SAM_QUANTITY_STRESS, 5, text, r));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -211,8 +212,8 @@ static PetscErrorCode ReadFatigue(const SamOptions *from, SamStressRequest *r)
   PetscBool                set;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "fatigue", "over the steps as one closed cycle: some of " FATIGUE, text,
-                             sizeof(text), &set));
+  PetscCall(SamOptionsWords(from, "fatigue", "over the steps as one closed cycle: some of " FATIGUE, FATIGUE, text,
+                            sizeof(text), &set));
   if (set) PetscCall(ReadNames(from, "fatigue", FATIGUE, names, SAM_QUANTITY_CROSSLAND, 6, text, r));
   PetscCheck(!r->wants[SAM_QUANTITY_RUIZ] || r->depth[0] == 0, from->comm, SAM_ERR_USER,
              "-fatigue ruiz: is defined on the surface: 0 must be one of -depths");
@@ -228,9 +229,9 @@ PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
   PetscCall(PetscMemzero(r, sizeof(*r)));
   PetscCall(SamPrintHelp(&print));
   PetscCall(SamOptionsHeading(from, "Files"));
-  PetscCall(SamOptionsString(from, "input", "results of petsam", r->input, sizeof(r->input), &set));
+  PetscCall(SamOptionsFile(from, "input", "results of petsam", r->input, sizeof(r->input), &set));
   PetscCall(SamOptionsRequire(from, set || print, "input", "the results of petsam"));
-  PetscCall(SamOptionsString(from, "output", "the new file", r->output, sizeof(r->output), &set));
+  PetscCall(SamOptionsFile(from, "output", "the new file", r->output, sizeof(r->output), &set));
   PetscCall(SamOptionsRequire(from, set || print, "output", "the file to be written"));
   PetscCall(SamOptionsHeading(from, "Where and when"));
   r->body = 2;

@@ -189,7 +189,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
   PetscCall(PetscStrncpy(type, gap->type, sizeof(type)));
-  PetscCall(SamOptionsString(&from, "gap_type", text, type, sizeof(type), &set));
+  PetscCall(SamTypesOption(SamGapList, &from, "gap_type", text, type, sizeof(type), &set));
   if (help) {
     PetscCall(PrintTypes(gap));
   } else {
