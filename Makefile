@@ -44,7 +44,7 @@ UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants check-fuzz format check-format lint install clean
+.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants check-fuzz format check-format lint install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -157,7 +157,7 @@ lint: ## cppcheck over the sources
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
 
-install: all ## install program, library, headers, petsam.pc, scripts, examples: prefix=, DESTDIR=
+install: all pages ## install program, library, headers, petsam.pc, scripts, examples, man pages, completions: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
 	install -m 755 $(PROGRAMS:%=$(B)/bin/%) $(DESTDIR)$(prefix)/bin
 	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
@@ -167,6 +167,24 @@ install: all ## install program, library, headers, petsam.pc, scripts, examples:
 	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done
 	for f in $(notdir $(wildcard scripts/petsam-*)); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
 	install -m 644 README.md LICENSE CITATION.cff $(share)
+	for f in $(PAGES); do install -D -m 644 $(B)/share/$$f $(DESTDIR)$(prefix)/share/$$f || exit 1; done
+	for f in $(notdir $(wildcard scripts/petsam-*)); do \
+	  install -D -m 644 scripts/maintain/tools.bash $(DESTDIR)$(prefix)/share/bash-completion/completions/$$f || exit 1; done
+
+# man pages and bash's completions, from what the programs say of themselves; `make install PAGES=` where they cannot run
+PAGES := $(foreach p,$(PROGRAMS),man/man1/$p.1 bash-completion/completions/$p)
+
+pages: $(PAGES:%=$(B)/share/%) ## make the man pages and the completions of options
+
+$(B)/share/man/man1/%.1: $(B)/bin/% scripts/maintain/manpage.py scripts/maintain/options.py
+	@mkdir -p $(@D)
+	$(say) MAN $@
+	$(Q)$(PYTHON) scripts/maintain/manpage.py $< > $@
+
+$(B)/share/bash-completion/completions/%: $(B)/bin/% scripts/maintain/completion.py scripts/maintain/options.py
+	@mkdir -p $(@D)
+	$(say) COMPLETION $@
+	$(Q)$(PYTHON) scripts/maintain/completion.py $< > $@
 
 clean: ## remove what was built
 	rm -rf $(B)

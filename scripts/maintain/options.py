@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import sys
 from dataclasses import dataclass
 
 
@@ -48,3 +49,15 @@ def groups_of(described):
 def read_options(binary):
     """Groups of options in the order of -help."""
     return groups_of(read_help(binary))
+
+
+def read_or_end(binary):
+    """For commands of `make install`: ends the program where the binary cannot run."""
+    try:
+        return read_help(binary)
+    except (OSError, subprocess.CalledProcessError, ValueError) as error:
+        said = (getattr(error, "stderr", None) or "").strip()
+        sys.exit(
+            f"{binary} -help json: {error}{': ' if said else ''}{said}\n"
+            "Without it there is no man page and no completion; make install PAGES= installs the rest."
+        )

@@ -28,6 +28,7 @@ class Petsam(MakefilePackage):
     depends_on("c", type="build")
     depends_on("gmake", type="build")
     depends_on("pkgconfig", type="build")
+    depends_on("python@3.9:", type="build")  # man pages and completions
     depends_on("mpi")
     depends_on("petsc@3.18: +mpi+double~complex")
     depends_on("fftw@3.3: +mpi precision=double")

@@ -5,7 +5,9 @@
 #include <petsam/private/arguments.h>
 #include "topics.h"
 
-/* A program, its help, and its functions, which are called with its context; all but the last three may raise errors. */
+/*
+  A program, its help, and its functions, which are called with its context; all but the last three may raise errors.
+*/
 typedef struct {
   const char     *name, *usage;    /* usage: what -help prints before the options */
   const SamTopic *topics;          /* of -help; every group of options belongs to one */

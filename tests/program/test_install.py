@@ -35,6 +35,10 @@ def test_all_that_users_need_is_installed(prefix):
         "include/petsam.h",
         "share/petsam/README.md",
         "share/petsam/LICENSE",
+        "share/man/man1/petsam.1",
+        "share/man/man1/petsam-stress.1",
+        "share/bash-completion/completions/petsam",
+        "share/bash-completion/completions/petsam-plot",
     } <= installed
     for folder, place in (("include", "include"), ("examples", "share/petsam/examples")):
         wanted = {f"{place}/{name}" for name in files(ROOT / folder) if "__pycache__" not in name}

@@ -180,7 +180,7 @@ def test_spack_recipe_asks_for_what_makefile_and_scripts_need(monkeypatch):
     exec((ROOT / "scripts/packaging/package.py").read_text(), names)  # pylint: disable=exec-used
     assert VERSION in versions
     packages = {re.match(r"[\w-]+", spec).group(0) for spec in depends}
-    assert {"mpi", "petsc", "fftw", "hdf5", "pkgconfig", "cmocka"} <= packages
+    assert {"mpi", "petsc", "fftw", "hdf5", "pkgconfig", "cmocka", "python"} <= packages
     libraries = {
         re.match(r"\w+", line).group(0).lower() for line in (ROOT / "scripts/requirements.txt").read_text().splitlines()
     }

@@ -4,10 +4,11 @@
 #include "fields.h"
 
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/help.h>
 
 static const char *const words[] = {"none", "some", "all", NULL};
 
-typedef enum { REAL, REAL_PAIR, INT, INT_PAIR, BOOL, STRING, ENUM, VIEWER } Getter;
+typedef enum { REAL, REAL_PAIR, INT, INT_PAIR, BOOL, STRING, FILE_NAME, WORD, WORDS, ENUM, VIEWER } Getter;
 
 typedef struct {
   PetscReal real[2];
@@ -34,6 +35,12 @@ static PetscErrorCode Get(Getter getter, int range, Value *v, PetscBool *set)
     return SamOptionsBool(&from, "opt", "", &v->truth, set);
   case STRING:
     return SamOptionsString(&from, "opt", "", v->text, sizeof(v->text), set);
+  case FILE_NAME:
+    return SamOptionsFile(&from, "opt", "", v->text, sizeof(v->text), set);
+  case WORD:
+    return SamOptionsWord(&from, "opt", "", "one,two", v->text, sizeof(v->text), set);
+  case WORDS:
+    return SamOptionsWords(&from, "opt", "", "one,two", v->text, sizeof(v->text), set);
   case ENUM:
     return SamOptionsEnum(&from, "opt", "", words, v->whole, set);
   default:
@@ -249,11 +256,64 @@ static void test_enums(void **state)
 
 static void test_strings(void **state)
 {
+  static const char *const expected[] = {"a text", "the name of a file", "one of one,two", "some of one,two"};
+
   (void)state;
-  sam_assert(!strcmp(Read(STRING, 0, "seven77").text, "seven77"));
-  sam_assert(!strcmp(Read(STRING, 0, NULL).text, "old"));
-  AssertRefused(STRING, 0, "");
-  AssertRefused(STRING, 0, "eight888"); /* longer than there is room for */
+  for (int getter = STRING; getter <= WORDS; getter++) {
+    sam_assert(!strcmp(Read((Getter)getter, 0, "seven77").text, "seven77"));
+    sam_assert(!strcmp(Read((Getter)getter, 0, NULL).text, "old"));
+    AssertRefused((Getter)getter, 0, "eight888"); /* longer than there is room for */
+    AssertRefused((Getter)getter, 0, "");
+    sam_assert(strstr(message, expected[getter - STRING]));
+  }
+}
+
+/* ---- what the help is told ---- */
+
+/* Writes a line for each title and option. */
+static PetscErrorCode Note(void *context, MPI_Comm comm, const char title[], const SamOptionHelp *o)
+{
+  char *notes = (char *)context, line[256];
+
+  (void)comm;
+  if (title) (void)snprintf(line, sizeof(line), "[%s]", title);
+  if (o) (void)snprintf(line, sizeof(line), "%s %s: %s (%s) %s", o->name, o->argument, o->text, o->value, o->words);
+  strcat(strcat(notes, line), "\n");
+  return 0;
+}
+
+static void test_help_is_told_all_of_an_option(void **state)
+{
+  const SamOptions    from        = {PETSC_COMM_WORLD, "pre_"};
+  const SamOptionHelp other       = {"other", "<list>", "read elsewhere", "1", "1,2"};
+  char                notes[2048] = "", text[8] = "one";
+  PetscReal           real[2] = {0.5, 2};
+  PetscInt            whole   = 1;
+  PetscBool           truth   = PETSC_TRUE;
+
+  (void)state;
+  SamHelpSetFunction(Note, notes);
+  sam_call(SamOptionsHeading(&from, "Not while there is no help"));
+  sam_call(PetscOptionsSetValue(NULL, "-help", NULL));
+  sam_call(SamOptionsHeading(&from, "Group"));
+  sam_call(SamOptionsRealPair(&from, "pair", "two", SAM_RANGE_ANY, real, NULL));
+  sam_call(SamOptionsReal(&from, "real", "size: required", SAM_RANGE_ANY, real, NULL));
+  sam_call(SamOptionsEnum(&from, "enum", "how much", words, &whole, NULL));
+  sam_call(SamOptionsBool(&from, "bool", "whether", &truth, NULL));
+  sam_call(SamOptionsFile(&from, "file", "where", text, sizeof(text), NULL));
+  sam_call(SamOptionsWords(&from, "words", "which", "one,two", text, sizeof(text), NULL));
+  sam_call(SamOptionsDescribe(&from, &other));
+  sam_call(PetscOptionsClear(NULL));
+  SamHelpSetFunction(NULL, NULL);
+  sam_assert(!strcmp(notes, "[Group]\n"
+                            "pre_pair <number>[,<number>]: two (0.5,2) \n"
+                            "pre_real <number>: size: required () \n"
+                            "pre_enum <word>: how much (some) none,some,all\n"
+                            "pre_bool [<bool>]: whether (true) true,false\n"
+                            "pre_file <file>: where (one) \n"
+                            "pre_words <word>[,...]: which (one) one,two\n"
+                            "pre_other <list>: read elsewhere (1) 1,2\n"));
+  sam_assert(SamOptionsIsKnown("pre_other", NULL)); /* for suggestions */
 }
 
 static void test_viewers_other_than_ascii_are_refused(void **state)
@@ -272,7 +332,7 @@ static void test_read_options_are_used(void **state)
 
   (void)state;
   for (int getter = REAL; getter <= VIEWER; getter++) {
-    const char *const text[] = {"1", "1", "1", "1", "1", "a", "all", "ascii"};
+    const char *const text[] = {"1", "1", "1", "1", "1", "a", "a", "one", "one,two", "all", "ascii"};
     Value             v      = {.text = ""};
     PetscBool         set;
 
@@ -403,6 +463,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_booleans),
     cmocka_unit_test(test_enums),
     cmocka_unit_test(test_strings),
+    cmocka_unit_test(test_help_is_told_all_of_an_option),
     cmocka_unit_test(test_viewers_other_than_ascii_are_refused),
     cmocka_unit_test(test_read_options_are_used),
     cmocka_unit_test(test_decimal_commas_are_refused),

@@ -18,10 +18,10 @@ typedef struct {
 } SamArguments;
 
 /*
-  SamArgumentsExamine - takes -help, with the words after it, and -version from the command line, and looks through the rest, the options files,
-  PETSC_OPTIONS and .petscrc, for mistakes at which PETSc would end the program with a trace, or wait for ever, and for
-  options that load code or start programs. After a mistake nothing is left for PETSc to read. To be called between
-  MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
+  SamArgumentsExamine - takes -help, with the words after it, and -version from the command line, and looks through the
+  rest, the options files, PETSC_OPTIONS and .petscrc, for mistakes at which PETSc would end the program with a trace,
+  or wait for ever, and for options that load code or start programs. After a mistake nothing is left for PETSc to read.
+  To be called between MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
 */
 PETSC_EXTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
 /* SamArgumentsSeparate - makes all white space in a text outside of quotes what PETSc separates options by: spaces. */

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Writes the man page of petsam or petsam-stress, from what the program says of itself.
+
+    python3 scripts/maintain/manpage.py build/bin/petsam > petsam.1
+
+`make install` does it. A topic of -help with options becomes the text before these, one without a section of its own.
+"""
+
+import re
+import sys
+
+import options
+
+TITLES = {"history": "LOAD HISTORIES", "exit codes": "EXIT STATUS"}
+SEE_ALSO = {
+    "petsam": "petsam-stress(1); petsam-plot, petsam-study and petsam-surface have --help.",
+    "petsam-stress": "petsam(1); petsam-plot has --help.",
+}
+WIDTH = 70  # of commands
+
+
+def escape(text):
+    """Text that roff does not interpret."""
+    for character, name in (("\\", "\\e"), ("-", "\\-"), ("^", "\\(ha"), ("~", "\\(ti"), ("`", "\\(ga")):
+        text = text.replace(character, name)
+    return re.sub(r"^(?=[.'])", "\\&", text)
+
+
+def command(line):
+    """A command in lines of a terminal's width; an option stays with its value."""
+    lines = [""]
+    for word in re.split(r" +(?=-[a-z])", line):
+        if lines[-1] and len(lines[-1]) + len(word) > WIDTH:
+            lines[-1] += " \\"
+            lines.append("    ")
+        lines[-1] += (" " if lines[-1].strip() else "") + word
+    return lines
+
+
+def entries(lines):
+    """Pairs of a key and its text if that is what all lines are made of; lines that begin deeper go on; else None."""
+    pairs = []
+    for line in lines:
+        parts = re.split(r" {2,}", line.strip())
+        if line.startswith("   ") and pairs and len(parts) == 1:
+            pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]} {parts[0]}")
+        elif len(parts) == 2:
+            pairs.append(tuple(parts))
+        else:
+            return None
+    return pairs
+
+
+def literal(lines):
+    """Lines that begin with two spaces: a list, or commands and tables as they are."""
+    pairs = entries(lines)
+    if pairs:
+        return [line for key, text in pairs for line in (".TP", f"\\fB{escape(key)}\\fP", escape(text))] + [".PP"]
+    text = re.sub(r" *\\\n *", " ", "\n".join(line[2:] for line in lines))
+    shown = [part for line in text.split("\n") for part in (command(line) if len(line) > WIDTH else [line])]
+    return [".PP", ".nf", ".RS 4", *map(escape, shown), ".RE", ".fi", ".PP"]
+
+
+def paragraphs(text):
+    """A text of -help: paragraphs apart by empty lines."""
+    lines = []
+    for part in re.split(r"\n\n+", text.strip("\n")):
+        block = part.split("\n")
+        if lines and lines[-1] != ".PP":
+            lines.append(".PP")
+        # prose may end in a literal block without an empty line between
+        plain = next((k for k, line in enumerate(block) if line.startswith("  ")), len(block))
+        lines += map(escape, block[:plain])
+        if plain < len(block):
+            lines += literal(block[plain:])
+    while lines and lines[-1] == ".PP":
+        lines.pop()
+    return [line for k, line in enumerate(lines) if line != ".PP" or not k or lines[k - 1] != ".PP"]
+
+
+def option_lines(option):
+    default = f" ({option.default})" if option.default else ""
+    argument = f" \\fI{escape(option.argument)}\\fP" if option.argument else ""
+    return [".TP", f"\\fB{escape(option.name)}\\fP{argument}", escape(option.text + default)]
+
+
+def page(described):
+    """The lines of the page of a program."""
+    program, usage = described["program"], described["usage"].split("\n\n", 2)
+    summary = usage[0].split(": ", 1)[1].rstrip(".")
+    lines = [f'.TH {escape(program.upper())} 1 "" "{program} {described["version"]}" "User Commands"']
+    lines += [".SH NAME", f"{escape(program)} \\- {escape(summary)}"]
+    lines += [".SH SYNOPSIS", ".nf", *(escape(line.strip()) for line in usage[1].split("\n")), ".fi"]
+    lines += [".SH DESCRIPTION", *paragraphs(usage[2]), ".SH OPTIONS"]
+    texts = {topic["name"]: topic["text"] for topic in described["topics"]}
+    for group in options.groups_of(described):
+        lines += [f'.SS "{escape(group.name)}"', *paragraphs(texts.pop(group.topic, ""))]
+        lines += [line for option in group.options for line in option_lines(option)]
+    for name, text in texts.items():
+        lines += [f'.SH "{escape(TITLES.get(name, name.upper()))}"', *paragraphs(text)]
+    return [*lines, '.SH "SEE ALSO"', escape(SEE_ALSO[program])]
+
+
+if __name__ == "__main__":
+    print("\n".join(page(options.read_or_end(sys.argv[1]))))
