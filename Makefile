@@ -44,7 +44,7 @@ UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c
 VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants check-fuzz format check-format lint install clean
+.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants check-fuzz check-readmes format check-format lint install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -137,6 +137,9 @@ check-valgrind: all units ## unit tests under valgrind, one rank
 check-mutants: $(B)/venv/tests-done ## change lines that guard correctness, one at a time; a test must fail each time: ARGS="word ..." for some
 	$(PYTHON) tests/mutants/check.py $(ARGS)
 
+check-readmes: all bench-programs $(B)/venv/tests-done ## run the commands in the READMEs and compare what they print: ARGS=--all for the slow ones too, or files
+	$(B)/venv/bin/python scripts/maintain/check_readmes.py --build $(B) $(ARGS)
+
 # the format of the sources; the tests' environment has the formatters in fixed versions
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
 PYTHON_SOURCES := scripts examples tests scripts/petsam-plot scripts/petsam-study scripts/petsam-surface
@@ -156,6 +159,8 @@ lint: ## cppcheck over the sources
 # what is installed for users; scripts that build and maintain petsam are not
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
+# the manual's parts outside of scripts and examples
+MANUAL := README.md include/README.md src/README.md tests/README.md tests/bench/README.md
 
 install: all pages ## install program, library, headers, petsam.pc, scripts, examples, man pages, completions: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
@@ -166,7 +171,8 @@ install: all pages ## install program, library, headers, petsam.pc, scripts, exa
 	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lfftw3f_mpi -lfftw3f -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
 	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done
 	for f in $(notdir $(wildcard scripts/petsam-*)); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
-	install -m 644 README.md LICENSE CITATION.cff $(share)
+	for f in $(MANUAL); do install -D -m 644 $$f $(share)/$$f || exit 1; done
+	install -m 644 LICENSE CITATION.cff $(share)
 	for f in $(PAGES); do install -D -m 644 $(B)/share/$$f $(DESTDIR)$(prefix)/share/$$f || exit 1; done
 	for f in $(notdir $(wildcard scripts/petsam-*)); do \
 	  install -D -m 644 scripts/maintain/tools.bash $(DESTDIR)$(prefix)/share/bash-completion/completions/$$f || exit 1; done

@@ -36,7 +36,7 @@ PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 /*
   SamGapSetFromOptions - reads -gap_type (required unless a type has been set), the options of that type, which are all
   required, and -gap_rough_file, -gap_rough_dataset (default /height) for a roughness (m) that is added to the shape.
-  Datasets are separations in m unless their attributes units and quantity say otherwise (README, "Surfaces").
+  Datasets are separations in m unless their attributes units and quantity say otherwise (examples/SURFACES.md).
   While the help is printed, the options of all types are listed, none is required, and the gap is left flat.
   Collective. Errors: SAM_ERR_USER for missing or wrong values.
 */

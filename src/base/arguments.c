@@ -58,7 +58,7 @@ static const struct {
                {"-fp_trap", "petsam computes with infinite numbers, for rigid bodies and flat surfaces"},
                {"-log_trace", "not supported: it writes a file for each rank"},
                {"-log_mpe*", "not supported: it writes a file for each rank"},
-               {"-citations", "not supported: petsam's sources are in its README"},
+               {"-citations", "not supported: petsam's sources are in src/README.md"},
                {"-options_file_yaml", "not supported: use -options_file"},
                {"-options_string_yaml", "not supported: use -options_file"}};
 

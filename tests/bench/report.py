@@ -139,7 +139,7 @@ class Report:
         return min(rows, key=lambda r: r["seconds"]) if rows else None
 
     def summary(self):
-        """The table for the README: petsam and the fastest peers, each on its better number of cores."""
+        """The table for tests/bench/README.md: petsam and the fastest peers, each on its better number of cores."""
         rows = []
         for case in self.cases():
             for cells in self.grids(case):

@@ -1,5 +1,6 @@
 """What the whole-program tests share: options from dicts, results from HDF5, and mechanics written anew in numpy."""
 
+import re
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -316,3 +317,24 @@ def displacement(results, options, i, j):
         uz = c * (1 - nu) * np.sum(k["r"] * p) + d * np.sum(k["x"] * qx + k["y"] * qy)
         total += (ux, uy, uz)
     return total
+
+
+def anchors(text):
+    """The anchors of a file's headings, as GitHub makes them."""
+    text = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    headings = [heading.strip().lower() for heading in re.findall(r"^#+ (.*)$", text, re.M)]
+    return {re.sub(r"[^\w -]", "", heading).replace(" ", "-") for heading in headings}
+
+
+def dead_links(file):
+    """Relative links to files or headings that are not there."""
+    text = file.read_text()
+    dead = []
+    for link in re.findall(r"\]\(([^)]+)\)", text):
+        if re.match(r"https?:", link):
+            continue
+        path, _, anchor = link.partition("#")
+        target = (file.parent / path).resolve() if path else file
+        if not target.exists() or (anchor and anchor not in anchors(target.read_text())):
+            dead.append(link)
+    return dead

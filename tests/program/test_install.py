@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from conftest import PROGRAM, environment, make_install
-from support import ROOT, Results, closed
+from support import ROOT, Results, closed, dead_links
 
 BUILD = PROGRAM.parents[1]
 CONTACT = dict(radius=0.1, e_star=210e9 / (2 * (1 - 0.3**2)), load=1000.0)  # examples/library/contact.c
@@ -41,11 +41,17 @@ def test_all_that_users_need_is_installed(prefix):
         "share/bash-completion/completions/petsam-plot",
     } <= installed
     for folder, place in (("include", "include"), ("examples", "share/petsam/examples")):
-        wanted = {f"{place}/{name}" for name in files(ROOT / folder) if "__pycache__" not in name}
+        names = {name for name in files(ROOT / folder) if "__pycache__" not in name}
+        wanted = {f"{place}/{name}" for name in names if f"{folder}/{name}" != "include/README.md"}  # is in share
         assert wanted <= installed, wanted - installed
     assert (
         "share/petsam/scripts/petsam/results.py" in installed and "share/petsam/scripts/requirements.txt" in installed
     )
+
+
+def test_links_of_the_manual_work_where_it_is_installed(prefix):
+    manual = [*(prefix / "share/petsam").rglob("*.md")]
+    assert len(manual) > 20 and {str(file): dead_links(file) for file in manual if dead_links(file)} == {}
 
 
 def test_what_only_developers_need_is_not_installed(prefix):

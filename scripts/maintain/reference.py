@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Writes the tables of options in examples/OPTIONS.md from what the programs' -help prints.
+
+    python3 scripts/maintain/reference.py [--build build] [--check]
+
+A table stands between <!-- petsam: GROUP --> and <!-- end -->, GROUP being a heading of -help; all else in the file is
+written by hand. Fails when a group has no table in the file, or a table no group; --check writes nothing, and fails
+when the file is not what would be written.
+"""
+
+import argparse
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[2]
+REFERENCE = ROOT / "examples" / "OPTIONS.md"
+PROGRAMS = ["petsam", "petsam-stress"]
+TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
+
+
+class Option(NamedTuple):
+    """An option as -help has it; values is empty for one that takes none."""
+
+    name: str
+    values: str
+    meaning: str
+
+
+def read_help(text):
+    """Options by the heading under which -help prints them."""
+    groups, group, pending = {}, None, ""
+    for line in text.splitlines():
+        if line and not line.startswith(" "):
+            group = line
+        elif re.fullmatch(r"  -\w+( \S+)?", line):
+            pending = line  # too long a name: the meaning is in the next line
+        elif pending or re.match(r"  -\w", line):
+            name, values, meaning = re.match(r" +(-\w+) ?((?:<\S+>|\[\S+\])\S*)? +(.*)", pending + line).groups()
+            groups.setdefault(group, []).append(Option(name, values or "", meaning))
+            pending = ""
+    return groups
+
+
+def split_meaning(meaning):
+    """The meaning, and what stands behind it: the default, or by what the option is required."""
+    if found := re.fullmatch(r"(.*): (required.*)", meaning):
+        return found.groups()
+    if found := re.fullmatch(r"(.*) \(((?:[^()]|\([^()]*\))*)\)", meaning):
+        return found.groups()
+    return meaning, ""
+
+
+def table(options):
+    lines = ["| option | meaning | default |", "| --- | --- | --- |"]
+    for option in options:
+        meaning, default = (words.replace("|", "\\|") for words in split_meaning(option.meaning))
+        words = f"{option.name} {option.values}".strip()
+        lines.append(f"| `{words}` | {meaning} | {default} |")
+    return "\n".join(lines)
+
+
+def fill(text, groups):
+    """The file's text with its tables made anew; groups: (program, heading) to options."""
+    left = dict(groups)
+
+    def make(found):
+        program, heading = found.groups()
+        if (program, heading) not in left:
+            raise ValueError(f"{program} -help has no group {heading!r}, or it has two tables")
+        return f"<!-- {program}: {heading} -->\n{table(left.pop((program, heading)))}\n<!-- end -->"
+
+    text = TABLE.sub(make, text)
+    if left:
+        raise ValueError("no table for " + ", ".join(f"{program}: {heading}" for program, heading in left))
+    return text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=Path, default=ROOT / "build")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail when the file is out of date")
+    arguments = parser.parse_args()
+    groups = {}
+    for program in PROGRAMS:
+        words = [str(arguments.build / "bin" / program), "-help"]
+        text = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60).stdout
+        groups.update({(program, heading): options for heading, options in read_help(text).items()})
+    old = REFERENCE.read_text()
+    new = fill(old, groups)
+    if not arguments.check:
+        REFERENCE.write_text(new)
+    elif new != old:
+        sys.exit(f"{REFERENCE.relative_to(ROOT)} is not what -help says: run python3 scripts/maintain/reference.py")
+
+
+if __name__ == "__main__":
+    main()

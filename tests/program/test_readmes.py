@@ -1,0 +1,154 @@
+"""The manual: links, options, and the script that runs its commands (scripts/maintain/check_readmes.py)."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+from conftest import PROGRAM
+from support import ROOT, dead_links
+
+sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
+import check_readmes  # noqa: E402
+import reference  # noqa: E402
+
+FILES = [
+    *ROOT.glob("*.md"),
+    *(file for folder in ("examples", "include", "scripts", "src", "tests") for file in ROOT.glob(f"{folder}/**/*.md")),
+]
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
+def test_links_lead_to_files_and_headings_that_exist(file):
+    assert dead_links(file) == []
+
+
+def test_a_dead_link_is_found(tmp_path):
+    (tmp_path / "other.md").write_text("# One, two\n")
+    file = tmp_path / "some.md"
+    file.write_text("[a](other.md#one-two) [b](other.md#three) [c](gone.md) [d](https://example.com)\n")
+    assert dead_links(file) == ["other.md#three", "gone.md"]
+
+
+def test_every_part_of_the_manual_is_reached_from_README():
+    seen, left = set(), [ROOT / "README.md"]
+    while left:
+        file = left.pop()
+        if file in seen or file.suffix != ".md":
+            continue
+        seen.add(file)
+        links = re.findall(r"\]\(([^)#]+)[^)]*\)", file.read_text())
+        left += [(file.parent / link).resolve() for link in links if not link.startswith("http")]
+    assert set(FILES) <= seen
+
+
+def test_README_is_short():
+    assert len((ROOT / "README.md").read_text().splitlines()) <= 110
+
+
+# ---------------------------------------------------------------- the reference of options
+
+
+def test_the_reference_of_options_is_what_help_says():
+    script = ROOT / "scripts/maintain/reference.py"
+    words = [sys.executable, str(script), "--check", "--build", str(PROGRAM.parents[1])]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+
+
+def test_options_of_a_help_become_a_table():
+    groups = reference.read_help(
+        "about\n\nSome group\n  -a <number>      length (m): required\n"
+        "  -a_name_too_long_for_its_column [<bool>]\n                   said (off) if asked (false)\n"
+    )
+    assert reference.fill(
+        "x\n<!-- petsam: Some group -->\nold\n<!-- end -->\n", {("petsam", "Some group"): groups["Some group"]}
+    ) == (
+        "x\n<!-- petsam: Some group -->\n| option | meaning | default |\n| --- | --- | --- |\n"
+        "| `-a <number>` | length (m) | required |\n"
+        "| `-a_name_too_long_for_its_column [<bool>]` | said (off) if asked | false |\n<!-- end -->\n"
+    )
+
+
+@pytest.mark.parametrize("text", ["", "<!-- petsam: A -->\n<!-- end -->\n<!-- petsam: B -->\n<!-- end -->\n"])
+def test_a_group_without_a_table_and_a_table_without_a_group_are_errors(text):
+    with pytest.raises(ValueError):
+        reference.fill(text, {("petsam", "A"): []})
+
+
+# ---------------------------------------------------------------- commands and figures
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
+def test_blocks_say_what_they_are(file):
+    """So that none is left out by check_readmes; blocks by indentation would be."""
+    pieces = check_readmes.read_pieces(file.read_text())
+    assert {piece.kind for piece in pieces} <= {"sh", "python", "text", "table", "run", "slow run", "after"}
+    plain = re.sub(r"^```.*?^```$", "", file.read_text(), flags=re.M | re.S)
+    assert not re.search(r"\n\n    \S", plain)
+
+
+def test_figures_agree_to_the_last_digit_that_is_written():
+    assert check_readmes.figures("a -0.5 % of 2,700 (1.4e-6), x512 and 3e8") == ["-0.5", "2700", "1.4e-6", "3e8"]
+    for word, value in ("2.36", 2.357), ("1.4e-6", 1.449e-6), ("100", 100.9), ("4.3e-19", -2e-17), ("0.25", 0.26):
+        assert check_readmes.agree(word, value), word
+    for word, value in ("2.36", 2.3749), ("1.4e-6", 1.51e-6), ("100", 102), ("4.3e-9", -2e-9), ("0.25", -0.25):
+        assert not check_readmes.agree(word, value), word
+
+
+def test_a_line_of_text_is_one_printed_line():
+    output = "stick 1.23456 m2, N 10\nstick 2.5 m2, N 20\n"
+    assert check_readmes.differences_of_text("stick 1.2346 m2, N 10\nstick ... 20\n", output) == []
+    for line in "stick 1.2346 m2, N 20", "slip 2.5 m2, N 20", "stick 2.5 m2", "stick ... 30":
+        assert check_readmes.differences_of_text(line, output) == [line]
+    assert check_readmes.differences_of_text("time 1 s", output, ["time"]) == []
+
+
+def test_the_rows_of_a_table_have_been_printed():
+    text = "| a | b | time |\n| --- | --- | --- |\n| 1 | 2.5 | 7 |\n| x | 3.1, 4 % | 8 |"
+    assert check_readmes.differences_of_table(text, "1 2.51\n3.1 and 4", ["time"]) == []
+    said = check_readmes.differences_of_table(text, "1 2.7\n3.1 and 4", ["time"])
+    assert len(said) == 1 and said[0].endswith("not printed: 2.5")
+
+
+@pytest.fixture
+def checked(tmp_path, monkeypatch):
+    """checked(text, every=False): differences of a file, and what its commands left in the copy."""
+
+    def run(text, every=False):
+        monkeypatch.setattr(check_readmes, "ROOT", tmp_path)
+        (tmp_path / "README.md").write_text(text)
+        checker = check_readmes.Checker(PROGRAM.parents[1], every, tmp_path / f"copy{every}")
+        checker.check("README.md")
+        return checker.failures, checker.tree
+
+    return run
+
+
+def test_commands_run_where_and_when_they_should(checked):
+    failures, tree = checked(
+        "<!-- file: a.txt -->\n```text\n12.5\n```\n\n```sh\ncat a.txt > b.txt\ncat b.txt\n```\n"
+        "<!-- printed -->\n```text\n12.5\n```\n<!-- not run: why -->\n```sh\ntouch c\n```\n"
+        "<!-- slow: years -->\n```sh\ntouch d\n```\n<!-- exit code 3 -->\n```sh\nexit 3\n```\n"
+        "text\n<!-- run: touch e -->\n"
+    )
+    assert failures == 0 and sorted(path.name for path in tree.glob("?*")) == ["a.txt", "b.txt", "build", "e"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "```sh\nfalse\ntrue\n```\n",
+        "<!-- exit code 3 -->\n```sh\ntrue\n```\n",
+        "```sh\necho 2\n```\n<!-- printed -->\n```text\n4\n```\n",
+        "```sh\necho 2\n```\n<!-- printed -->\n| a |\n| - |\n| 4 |\n",
+    ],
+)
+def test_untruths_are_differences(checked, text):
+    assert checked(text)[0] == 1
+
+
+def test_slow_ones_run_on_demand(checked):
+    text = "<!-- slow: years -->\n```sh\necho 2\n```\n<!-- slow printed -->\n```text\n4\n```\n"
+    assert checked(text)[0] == 0 and checked(text, every=True)[0] == 1
