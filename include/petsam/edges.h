@@ -118,7 +118,7 @@ PETSC_EXTERN PetscErrorCode SamShearProfileDestroy(SamShearProfile *profile);
   the slack if it has one, and the step before (NULL: none so far); `within` has its reference already. Collective.
   SamShearProfileComputeDisplacement - the tangential displacement (m) by that: what the influence of the cells' means
   lacks. For an elasticity whose traits say `within`. Collective.
-  SamShearComputeCenter - a component of the shear at the cells' centres by that (one component, Pa). Collective.
+  SamShearProfileComputeCenter - a component of the shear at the cells' centres by that (one component, Pa). Collective.
 */
 PETSC_EXTERN PetscErrorCode SamShearProfileSet(SamShearProfile profile, const SamShearFields *fields);
 PETSC_EXTERN PetscErrorCode SamShearProfileFindSlack(SamShearProfile profile, SamSlack kind, Vec reference, Vec *slack,
@@ -128,7 +128,7 @@ PETSC_EXTERN PetscErrorCode SamShearProfileFind(SamShearProfile profile, SamProf
                                                 const SamShearBefore *before, SamShearWithin *within);
 PETSC_EXTERN PetscErrorCode SamShearProfileComputeDisplacement(SamShearProfile profile, const SamShearWithin *within,
                                                                Vec u_t);
-PETSC_EXTERN PetscErrorCode SamShearComputeCenter(SamGrid grid, const SamShearWithin *within, Vec shear,
-                                                  PetscInt component, Vec center);
+PETSC_EXTERN PetscErrorCode SamShearProfileComputeCenter(SamShearProfile profile, const SamShearWithin *within,
+                                                         PetscInt component, Vec center);
 
 #endif

@@ -19,6 +19,7 @@
 #include "stepimpl.h"
 
 #define SMOOTH 0.95 /* the least share of the stick zone's edge that must be smooth */
+#define FAR    0.2  /* most change of the shear by a correction, of the bound, in the 2-norm */
 
 typedef struct {
   SamSolve       *s;
@@ -233,8 +234,31 @@ static PetscErrorCode GiveReason(SamSolve *s, PetscReal share)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slack's profile and its rim; `why`: they cannot be found. Without them where the edge is not smooth. */
-static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass, char why[], size_t size)
+/*
+  Whether the slack of the rim is a part of the bound: where that is not near to the edge of contact, more than half of
+  it is no cell that an edge cuts.
+*/
+static PetscErrorCode IsSmall(Deferred *d, Vec rim, PetscBool *small)
+{
+  const double *r, *b;
+  double        over = 0;
+  PetscReal     most;
+
+  PetscFunctionBegin;
+  PetscCall(VecMax(d->s->s->bound, NULL, &most));
+  PetscCall(VecGetArrayRead(rim, &r));
+  PetscCall(VecGetArrayRead(d->s->s->bound, &b));
+  for (PetscInt k = 0; k < d->s->c->grid->cells; k++)
+    if (r[k] > 0.5 * b[k] && b[k] > 0.5 * most) over = 1;
+  PetscCall(VecRestoreArrayRead(d->s->s->bound, &b));
+  PetscCall(VecRestoreArrayRead(rim, &r));
+  PetscCall(SamMax(d->s->c->grid->comm, 1, &over));
+  *small = over == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The slack's profile and its rim; without them where the edge is not smooth. */
+static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass)
 {
   SamShearCorrection *now   = &d->s->s->sheared;
   PetscReal           share = 1;
@@ -254,12 +278,14 @@ static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass, char why[], size
   if (now->slack == SAM_SLACK_NONE) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamShearProfileGetProfile(d->profile, &profile));
   if (found) PetscCall(SamProfileMove(profile, &found));
-  if (!found) {
-    PetscCall(PetscStrncpy(why, "there are too few cells along it", size));
+  PetscCall(SamProfileGetZone(profile, &zone, &rim));
+  if (found) PetscCall(IsSmall(d, rim, &found));
+  if (found) {
+    PetscCall(VecPointwiseMin(now->rim, rim, d->s->s->bound));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamProfileGetZone(profile, &zone, &rim));
-  PetscCall(VecPointwiseMin(now->rim, rim, d->s->s->bound));
+  now->slack = SAM_SLACK_NONE;
+  PetscCall(GiveReason(d->s, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -319,12 +345,28 @@ static PetscErrorCode Pass(Deferred *d, PetscInt pass, char why[], size_t size)
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   PetscCall(FindSlips(d));
   PetscCall(SamShearProfileSet(d->profile, &fields));
-  PetscCall(FindStickEdge(d, pass, why, size));
-  if (!why[0]) PetscCall(FindDisplacement(d));
+  PetscCall(FindStickEdge(d, pass));
+  PetscCall(FindDisplacement(d));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
-  if (why[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Again(d, why, size));
   now->passes = now->slack != SAM_SLACK_NONE ? pass : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A correction changes a layer of cells along the edges. More is no correction, and `why` says so. */
+static PetscErrorCode Compare(SamSolve *s, char why[], size_t size)
+{
+  PetscReal difference, bound;
+  Vec       change;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(s->s->shear, &change));
+  PetscCall(VecWAXPY(change, -1, s->c->tried.plain.shear, s->s->shear));
+  PetscCall(SamGridNorm(s->c->grid, change, NORM_2, &difference));
+  PetscCall(SamGridNorm(s->c->grid, s->s->bound, NORM_2, &bound));
+  PetscCall(VecDestroy(&change));
+  if (difference > FAR * bound)
+    PetscCall(PetscStrncpy(why, "the correction led too far from the plain solution", size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -348,6 +390,7 @@ static PetscErrorCode CorrectShear(SamSolve *s, PetscBool turned)
   for (PetscInt pass = 1; pass <= c->edge_passes && !why[0] && shear != 0; pass++)
     PetscCall(Pass(&d, pass, why, sizeof(why)));
   PetscCall(VecDestroy(&d.slips));
+  if (!why[0]) PetscCall(Compare(s, why, sizeof(why)));
   if (!why[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TakePlain(s));
   PetscCall(PetscSNPrintf(s->step->message, sizeof(s->step->message), "the edge of stick is not corrected: %s", why));
@@ -355,18 +398,70 @@ static PetscErrorCode CorrectShear(SamSolve *s, PetscBool turned)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether nothing has changed since the step before, so that its solution is that of this step. */
+static PetscErrorCode IsHeld(SamSolve *s, PetscBool *held)
+{
+  const SamSolution *before = &s->c->committed.solution;
+  const SamControl  *now    = &s->s->control;
+
+  PetscFunctionBegin;
+  *held = PETSC_FALSE;
+  if (!s->same_pressure || !before->sheared.has) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamControlIsSame(now, &before->control, SAM_BALANCE_TANGENTIAL)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
+      if (now->bulk_stress[body][k] != before->control.bulk_stress[body][k]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamProblemComputeBound(s->c->problem, now->friction_scale, before->pressure, s->s->bound));
+  PetscCall(VecEqual(s->s->bound, before->bound, held));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CopyTractions(const SamSolution *from, SamSolution *to)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(to->load, from->load, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(to->rigid, from->rigid, SAM_COMPONENTS));
+  PetscCall(SamVecCopyNonzero(from->pressure, to->pressure));
+  PetscCall(SamVecCopyNonzero(from->bound, to->bound));
+  PetscCall(SamVecCopyNonzero(from->shear, to->shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TakeBefore(SamSolve *s)
+{
+  const SamContact   c         = s->c;
+  const SamSolution *committed = &c->committed.solution;
+
+  PetscFunctionBegin;
+  PetscCall(KeepPlain(s)); /* makes its fields */
+  PetscCall(CopyTractions(committed, s->s));
+  PetscCall(CopyTractions(&c->committed.plain, &c->tried.plain));
+  PetscCall(SamSolutionCopyCorrection(c->grid, committed, s->s));
+  PetscCall(SamShearCorrectionCopy(c->grid, &committed->sheared, &s->s->sheared));
+  s->step->edge_passes         = committed->passes;
+  s->step->stick_passes        = committed->sheared.passes;
+  s->step->coupling_iterations = 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveCorrected(SamSolve *s, const SamStepStart *start)
 {
   const SamContact   c         = s->c;
   const SamSolution *committed = &c->committed.solution;
-  PetscBool          turned    = PETSC_FALSE;
+  PetscBool          turned    = PETSC_FALSE, held;
 
   PetscFunctionBegin;
   s->before = SamContactPlainBefore(c);
+  PetscCall(IsHeld(s, &held));
+  if (held) {
+    PetscCall(TakeBefore(s));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(SamSolveNormal(s, start->pressure, start->shear));
   if (s->same_pressure) {
     PetscCall(SamVecCopyNonzero(s->before->pressure, s->s->pressure));
     SamSolveStoreNormal(s, s->before);
+    s->s->passes = 0; /* so far */
   } else {
     PetscCall(SamSolveJudgeNormal(s));
   }
@@ -377,6 +472,7 @@ PetscErrorCode SamSolveCorrected(SamSolve *s, const SamStepStart *start)
   if (s->same_pressure) {
     PetscCall(SamVecCopyNonzero(committed->pressure, s->s->pressure));
     SamSolveStoreNormal(s, committed);
+    s->s->passes = s->step->edge_passes = committed->passes;
   } else {
     PetscCall(SamSolveDeferred(s));
   }

@@ -44,7 +44,10 @@ static PetscErrorCode RestoreOptional(Vec field, double **values)
 
 PetscErrorCode SamContactAddFriction(SamContact c, PetscBool add, Vec path, Vec pressed, Vec work)
 {
-  const SamSolution *s = &c->tried.solution, *last = SamContactBefore(c), *before = last ? last : s;
+  /* of a solution that is corrected, the plain one: see deferredshear.c */
+  const PetscBool    plain = c->tried.solution.sheared.has;
+  const SamSolution *s = plain ? &c->tried.plain : &c->tried.solution, *last = SamContactPlainBefore(c);
+  const SamSolution *before = last ? last : s;
   SamIncrement       increment;
   Fields             f = {.add = add};
   Vec                slips;

@@ -223,6 +223,12 @@ PetscErrorCode SamContactComputeState(SamContact c, Vec state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  The solvers put the shear of cells that slip on the circle |q| = bound, to rounding. After a small reversal of the load
+  cells lie a little inside of it, and a state by SAM_SLIP_MARGIN would take them for slipping on.
+*/
+#define ON_CIRCLE 1e-10
+
 PetscErrorCode SamSolutionFindSlips(const SamSolution *s, Vec slips)
 {
   const double *p, *b, *q, *rim = NULL;
@@ -237,7 +243,7 @@ PetscErrorCode SamSolutionFindSlips(const SamSolution *s, Vec slips)
   PetscCall(VecGetArrayWrite(slips, &value));
   if (s->sheared.has) PetscCall(VecGetArrayRead(s->sheared.rim, &rim));
   for (PetscInt k = 0; k < n; k++)
-    value[k] = SamStateOf(p[k], q[k], q[k + n], b[k] - (rim ? rim[k] : 0)) == SAM_STATE_SLIP ? 1 : 0;
+    value[k] = p[k] > 0 && hypot(q[k], q[k + n]) >= (1 - ON_CIRCLE) * (b[k] - (rim ? rim[k] : 0)) ? 1 : 0;
   if (rim) PetscCall(VecRestoreArrayRead(s->sheared.rim, &rim));
   PetscCall(VecRestoreArrayWrite(slips, &value));
   PetscCall(VecRestoreArrayRead(s->shear, &q));

@@ -81,24 +81,60 @@ static PetscErrorCode DivideByFriction(const SamSolution *s, Vec square)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the profiles of a solution whose shear is corrected; that of the slack if the stick zone has an edge. */
+/* Sets the profiles of a solution whose shear is corrected; that of the slack, NULL where the stick zone has none. */
 static PetscErrorCode SetShear(SamContact c, const SamSolution *s, Vec slips, SamShearProfile *shear, SamProfile *slack)
 {
   const SamShearFields fields = {s->pressure, s->bound, s->shear, slips, s->sheared.rim};
   PetscBool            found;
+  SamProfile           profile = NULL;
   Vec                  mean;
 
   PetscFunctionBegin;
   PetscCall(SamSolutionFindSlips(s, slips));
   PetscCall(SamContactGetShearProfile(c, shear));
   PetscCall(SamShearProfileSet(*shear, &fields));
+  *slack = NULL;
   if (s->sheared.slack == SAM_SLACK_NONE) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamShearProfileFindSlack(*shear, s->sheared.slack, s->sheared.within.reference, &mean, slack));
-  PetscCall(SamProfileMatch(*slack, mean, s->sheared.rim, &found));
+  PetscCall(SamShearProfileFindSlack(*shear, s->sheared.slack, s->sheared.within.reference, &mean, &profile));
+  PetscCall(SamProfileMatch(profile, mean, s->sheared.rim, &found));
+  if (found) *slack = profile;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The edge of stick of a solution that has been corrected for it. */
+/* Where no edge of stick is known: that of the contact if nothing slips, else the cells whose centres stick. */
+static PetscErrorCode CountStick(SamContact c, const SamSolution *s, Vec slips, Vec point, SamEdge *edge)
+{
+  const SamGrid grid  = c->grid;
+  SamTotal      total = {0};
+  double        all;
+  const double *p, *rim, *slip;
+  PetscReal     most;
+  Vec           w;
+
+  PetscFunctionBegin;
+  PetscCall(VecMax(slips, NULL, &most));
+  if (most <= 0) {
+    PetscCall(FindCorrected(c, s, point, edge));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamGridCreateVec(grid, 1, &w));
+  PetscCall(FillSquares(s, SAM_CONTACT_EDGE_STICK, w));
+  PetscCall(SamEdgeReconstruct(grid, w, point, edge));
+  PetscCall(VecDestroy(&w));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->rim, &rim));
+  PetscCall(VecGetArrayRead(slips, &slip));
+  for (PetscInt k = 0; k < grid->cells; k++) SamAdd(&total, p[k] > rim[k] && !(slip[k] > 0) ? 1 : 0);
+  PetscCall(VecRestoreArrayRead(slips, &slip));
+  PetscCall(VecRestoreArrayRead(s->rim, &rim));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamSumTotals(grid->comm, 1, &total, &all));
+  edge->area = all * grid->dx * grid->dy;
+  edge->good = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The edge of stick of a solution whose shear is corrected. */
 static PetscErrorCode FindCorrectedStick(SamContact c, const SamSolution *s, Vec point, SamEdge *edge)
 {
   SamShearProfile shear;
@@ -108,8 +144,12 @@ static PetscErrorCode FindCorrectedStick(SamContact c, const SamSolution *s, Vec
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(c->grid, 1, &slips));
   PetscCall(SetShear(c, s, slips, &shear, &slack));
-  PetscCall(SamProfileGetEdge(slack, point, edge));
-  if (point) PetscCall(DivideByFriction(s, point));
+  if (slack) {
+    PetscCall(SamProfileGetEdge(slack, point, edge));
+    if (point) PetscCall(DivideByFriction(s, point));
+  } else {
+    PetscCall(CountStick(c, s, slips, point, edge));
+  }
   PetscCall(VecDestroy(&slips));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -125,7 +165,7 @@ PetscErrorCode SamContactFindEdge(SamContact c, SamContactEdge which, Vec point,
     PetscCall(FindCorrected(c, s, point, edge));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (which == SAM_CONTACT_EDGE_STICK && s->sheared.has && s->sheared.passes) {
+  if (which == SAM_CONTACT_EDGE_STICK && s->sheared.has) {
     PetscCall(FindCorrectedStick(c, s, point, edge));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -177,8 +217,9 @@ static PetscErrorCode ComputeCorrectedShear(SamContact c, const SamSolution *s, 
   PetscCall(SamProfileMatch(pressure, s->pressure, s->rim, &found));
   PetscCall(SamShearCorrectionCreate(c->grid, &now));
   PetscCall(SamVecCopyNonzero(s->sheared.within.reference, now.within.reference));
-  PetscCall(SamShearProfileFind(shear, pressure, s->sheared.slack, &before, &now.within));
-  PetscCall(SamShearComputeCenter(c->grid, &now.within, s->shear, component, value));
+  PetscCall(SamShearProfileFind(shear, found ? pressure : NULL, slack ? s->sheared.slack : SAM_SLACK_NONE, &before,
+                                &now.within));
+  PetscCall(SamShearProfileComputeCenter(shear, &now.within, component, value));
   PetscCall(SamShearCorrectionDestroy(&now));
   PetscCall(VecDestroy(&slips));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -90,8 +90,8 @@ PetscErrorCode SamShearCorrectionCopy(SamGrid grid, const SamShearCorrection *fr
 {
   PetscFunctionBegin;
   to->has = to->within.refers = PETSC_FALSE;
+  if (from->has || from->within.refers || to->displacement) PetscCall(SamShearCorrectionCreate(grid, to));
   if (!from->has && !from->within.refers) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamShearCorrectionCreate(grid, to));
   to->has = from->has;
   PetscCall(SamVecCopyNonzero(from->displacement, to->displacement));
   PetscCall(SamVecCopyNonzero(from->rim, to->rim));

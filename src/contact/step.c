@@ -13,7 +13,7 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
   *w                = (SamSolve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
   w->s->passes      = 0;
   w->coupled        = SamContactIsCoupled(c);
-  w->before         = c->steps ? &c->committed.solution : NULL;
+  w->before         = SamContactPlainBefore(c);
   w->s->sheared.has = PETSC_FALSE;
   w->normal         = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential     = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);

@@ -106,8 +106,8 @@ PetscErrorCode SamShearProfileComputeDisplacement(SamShearProfile s, const SamSh
   What a component of the shear is at a cell's centre, by its mean and the cell's terms: what they differ by from their
   means; where the cell slips, so that it is mu p, they are all of it. `any`: the cell has some.
 */
-static double CenterOf(const SamRoots *roots, const double *terms, PetscInt n, PetscInt component, double mean,
-                       PetscBool *any)
+static double CenterOf(const SamRoots *roots, const double *terms, PetscInt n, PetscInt component, PetscBool slips,
+                       double mean, PetscBool *any)
 {
   double    center[SAM_TERM_KINDS] = {0}, less[SAM_TERM_KINDS] = {0}, part[SAM_ROOTS_CELLS];
   PetscBool has[SAM_TERM_KINDS];
@@ -124,24 +124,26 @@ static double CenterOf(const SamRoots *roots, const double *terms, PetscInt n, P
     less[t]   = vector * SamRootsMean(roots, fit, part, NULL);
   }
   *any = has[SAM_TERM_PRESSURE] || has[SAM_TERM_SLACK] || has[SAM_TERM_LEFT] ? PETSC_TRUE : PETSC_FALSE;
-  if (has[SAM_TERM_PRESSURE] && !has[SAM_TERM_SLACK] && !has[SAM_TERM_LEFT]) return center[SAM_TERM_PRESSURE];
+  if (slips && has[SAM_TERM_PRESSURE] && !has[SAM_TERM_SLACK] && !has[SAM_TERM_LEFT]) return center[SAM_TERM_PRESSURE];
   for (int t = 0; t < SAM_TERM_KINDS; t++) mean += center[t] - less[t];
   return mean;
 }
 
-PetscErrorCode SamShearComputeCenter(SamGrid grid, const SamShearWithin *within, Vec shear, PetscInt component,
-                                     Vec center)
+PetscErrorCode SamShearProfileComputeCenter(SamShearProfile s, const SamShearWithin *within, PetscInt component,
+                                            Vec center)
 {
-  const PetscInt nx = grid->nx;
+  const SamGrid  grid = s->grid;
+  const PetscInt nx   = grid->nx;
   SamRoots       roots;
   SamSeen        q;
-  const double  *terms;
+  const double  *terms, *slips;
   double        *value;
 
   PetscFunctionBegin;
   SamRootsInitialize(SAM_ROOTS_SUB, &roots);
-  PetscCall(SamSee(grid, shear, 2, 1, &q));
+  PetscCall(SamSee(grid, s->fields.shear, 2, 1, &q));
   PetscCall(VecGetArrayRead(within->terms, &terms));
+  PetscCall(VecGetArrayRead(s->fields.slips, &slips));
   PetscCall(VecGetArrayWrite(center, &value));
   for (PetscInt n = 0; n < grid->cells; n++) {
     const PetscInt  i = n % nx, j = grid->row_start + n / nx - q.rows.first;
@@ -149,12 +151,13 @@ PetscErrorCode SamShearComputeCenter(SamGrid grid, const SamShearWithin *within,
     const double   *x = q.at[component];
     PetscBool       any;
 
-    value[n] = CenterOf(&roots, terms + n, grid->cells, component, x[k], &any);
+    value[n] = CenterOf(&roots, terms + n, grid->cells, component, slips[n] > 0, x[k], &any);
     if (any || x[k] == 0) continue;
     if (i > 0 && i + 1 < nx) value[n] -= (x[k + 1] - 2 * x[k] + x[k - 1]) / 24;
     if (j > 0 && j + 1 < q.rows.count) value[n] -= (x[k + nx] - 2 * x[k] + x[k - nx]) / 24;
   }
   PetscCall(VecRestoreArrayWrite(center, &value));
+  PetscCall(VecRestoreArrayRead(s->fields.slips, &slips));
   PetscCall(VecRestoreArrayRead(within->terms, &terms));
   PetscCall(SamForget(&q));
   PetscFunctionReturn(PETSC_SUCCESS);

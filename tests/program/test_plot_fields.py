@@ -72,17 +72,17 @@ def test_a_new_field_needs_no_change_here(path, tmp_path):
     other = tmp_path / "other.h5"
     other.write_bytes(path.read_bytes())
     with h5py.File(other, "r+") as file:
-        file["friction_energy"] = 3.0e3 * file["pressure"][:] / file["pressure"][:].max()
-        file["friction_energy"].attrs.update(units="J/m2", long_name="energy of friction")
-        file["history/slip_max"] = np.arange(file["history/time"].size) * 1e-7
-        file["history/slip_max"].attrs["units"] = "m"
+        file["heat"] = 3.0e3 * file["pressure"][:] / file["pressure"][:].max()
+        file["heat"].attrs.update(units="J/m2", long_name="heat of friction")
+        file["history/wear_rate"] = np.arange(file["history/time"].size) * 1e-7
+        file["history/wear_rate"].attrs["units"] = "m"
     with petsam.open(other) as results:
-        figure = maps.maps([(results, results.of_last())], names=["friction_energy"])
+        figure = maps.maps([(results, results.of_last())], names=["heat"])
         drawn, bar = image(figure)
-        assert bar.get_ylabel() == "kJ/m²" and figure.axes[0].get_title() == "energy of friction"
+        assert bar.get_ylabel() == "kJ/m²" and figure.axes[0].get_title() == "heat of friction"
         assert drawn.get_array().max() == pytest.approx(3.0, rel=1e-12)
-        axes = series.history([results], ["slip_max"]).axes[0]
-        assert axes.get_ylabel().startswith("slip max, ")
+        axes = series.history([results], ["wear_rate"]).axes[0]
+        assert axes.get_ylabel().startswith("wear rate, ")
 
 
 def test_one_field_alone_with_its_sign_is_symmetric_about_zero(results, path):
