@@ -88,9 +88,10 @@ def page(described):
     """The lines of the page of a program."""
     program, usage = described["program"], described["usage"].split("\n\n", 2)
     summary = usage[0].split(": ", 1)[1].rstrip(".")
+    starts = [part for line in usage[1].split("\n") for part in command(line.strip())]
     lines = [f'.TH {escape(program.upper())} 1 "" "{program} {described["version"]}" "User Commands"']
     lines += [".SH NAME", f"{escape(program)} \\- {escape(summary)}"]
-    lines += [".SH SYNOPSIS", ".nf", *(escape(line.strip()) for line in usage[1].split("\n")), ".fi"]
+    lines += [".SH SYNOPSIS", ".nf", *map(escape, starts), ".fi"]
     lines += [".SH DESCRIPTION", *paragraphs(usage[2]), ".SH OPTIONS"]
     texts = {topic["name"]: topic["text"] for topic in described["topics"]}
     for group in options.groups_of(described):

@@ -76,6 +76,8 @@ def test_page_has_the_sections_of_a_man_page(share, program):
     assert re.search(
         r"^\.SH NAME\n" + re.escape(program.replace("-", "\\-")) + r" \\- \w", page(share, program).read_text(), re.M
     )
+    synopsis = shown(share, program).split(".SH SYNOPSIS\n")[1].split(".SH")[0]
+    assert max(map(len, synopsis.splitlines())) <= 80 and f"mpirun -n 4 {program} -" in synopsis
     assert ("LOAD HISTORIES" in heads) == (program == "petsam")
 
 
