@@ -225,6 +225,95 @@ static void test_correction_does_not_depend_on_the_ranks(void **state)
   }
 }
 
+/*
+  A small reversal: all sticks at once, the shear stays but for the change of the load, and what follows is as exact as
+  after another one.
+*/
+static void test_small_reversal_leaves_the_shear(void **state)
+{
+  static const double less[] = {3e-5, 1e-4, 1e-3};
+
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    Case    c      = NewCase(PLAIN, 74, 1.5, MU, DEFERRED);
+    SamStep first  = Push(&c, 0.6, 0), step;
+    Vec     before = ShearOf(&c);
+
+    step = Push(&c, 0.6 * (1 - less[k]), 0);
+    sam_assert(step.status == SAM_STATUS_CONVERGED);
+    sam_assert(Difference(SolutionOf(&c)->shear, before, NORM_2) < 3e-2);
+    sam_assert_close(step.rigid[SAM_COMPONENT_TX] / first.rigid[SAM_COMPONENT_TX], 1, 2e-3);
+    sam_assert((double)step.stick_area > 0.9 * (double)step.contact_area);
+    step = Push(&c, 0.1, 0);
+    sam_assert(Measure(&c, &step, 0.6, 0.1).shear < 1e-2);
+    sam_call(VecDestroy(&before));
+    DestroyCase(&c);
+  }
+}
+
+/* Loads that stay: the solution is the one before, to the last bit, and nothing is dissipated. */
+static void test_held_load_changes_nothing(void **state)
+{
+  Case    c      = NewCase(Steel(), 61, 1.5, MU, DEFERRED);
+  SamStep first  = Push(&c, 0.5, 0.1), held;
+  Vec     before = ShearOf(&c);
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    held = Push(&c, 0.5, 0.1);
+    sam_assert(held.stick_area == first.stick_area && held.stick_passes == first.stick_passes);
+    sam_assert(held.dissipated_energy == 0 && held.tangential_iterations == 0);
+    sam_assert(SameBits(SolutionOf(&c)->shear, before));
+    AssertGood(&held);
+  }
+  sam_call(SamProblemSetFriction(c.problem, 0.9 * MU)); /* another bound: not the same problem */
+  held = Push(&c, 0.5, 0.1);
+  sam_assert(held.tangential_iterations > 0 && held.stick_area < first.stick_area);
+  sam_call(VecDestroy(&before));
+  DestroyCase(&c);
+}
+
+/* After a corrected step one of another way goes on from the plain solution, which the check knows. */
+static void test_other_ways_go_on_from_the_plain_solution(void **state)
+{
+  Case    c = NewCase(Steel(), 53, 1.5, MU, DEFERRED), plain = NewCase(Steel(), 53, 1.5, MU, "-edges none");
+  SamStep step[2];
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    const Case *one = k ? &plain : &c;
+
+    (void)Push(one, 0.5, 0);
+    sam_call(SamContactSetEdges(one->contact, SAM_CONTACT_EDGES_NONE, PETSC_DEFAULT));
+    step[k] = Push(one, -0.2, 0.1);
+    AssertGood(&step[k]);
+  }
+  sam_assert(Difference(SolutionOf(&c)->shear, SolutionOf(&plain)->shear, NORM_2) < 1e-4);
+  DestroyCase(&c);
+  DestroyCase(&plain);
+}
+
+/* A state without a corrected shear takes away that of the state before. */
+static void test_state_without_a_correction_takes_it_away(void **state)
+{
+  Case            c = NewCase(Steel(), 53, 1.5, MU, DEFERRED), used = NewCase(Steel(), 53, 1.5, MU, DEFERRED);
+  SamContactState now;
+
+  (void)state;
+  sam_call(SamContactSetEdges(c.contact, SAM_CONTACT_EDGES_NONE, PETSC_DEFAULT));
+  (void)Push(&c, 0.4, 0);
+  sam_call(SamContactSetEdges(c.contact, SAM_CONTACT_EDGES_DEFERRED, PETSC_DEFAULT));
+  (void)Push(&used, 0.6, 0);
+  (void)Push(&used, -0.3, 0);
+  sam_call(SamContactGetState(c.contact, &now));
+  sam_call(SamContactSetState(used.contact, &now));
+  (void)Push(&c, 0.5, 0.1);
+  (void)Push(&used, 0.5, 0.1);
+  sam_assert(SameBitsOf(&c, &used, ShearOf));
+  DestroyCase(&c);
+  DestroyCase(&used);
+}
+
 /* The energies are those of the plain solution, whose errors cancel. */
 static void test_energies_are_those_of_the_plain_solution(void **state)
 {
@@ -260,6 +349,44 @@ static void test_shear_that_begins_later_is_corrected(void **state)
   step = Push(&c, 0.6, 0);
   sam_assert(step.stick_passes == 2);
   sam_assert(Measure(&c, &step, 0.6, 0.6).area < 8e-5);
+  DestroyCase(&c);
+}
+
+/* Without slip the stick zone ends with the contact. */
+static void test_stick_zone_without_slip_is_the_contact(void **state)
+{
+  Case    c    = NewCase(Steel(), 61, 1.5, MU, DEFERRED);
+  SamStep step = Push(&c, 0, 0);
+
+  (void)state;
+  sam_assert(step.edge_passes == 2 && step.stick_area == step.contact_area && step.edge_accepted == 1);
+  DestroyCase(&c);
+}
+
+/* Of cells that have slipped and stick now the shear at the centre is near the mean. */
+static void test_centres_of_cells_that_stick_again(void **state)
+{
+  Case          c      = NewCase(Steel(), 70, 1.5, MU, DEFERRED);
+  Vec           center = NewField(c.s.grid, 1);
+  SamControl    control;
+  const double *q, *mean;
+  double        most = 0;
+
+  (void)state;
+  (void)Push(&c, 0.6, 0);
+  control = Loads(&c, 1, 0.6, 0, 0.03);
+  (void)Solve(&c, &control);
+  (void)Push(&c, 0.5, 0);
+  sam_call(SamContactComputeShearCenter(c.contact, 0, center));
+  sam_call(VecGetArrayRead(center, &q));
+  sam_call(VecGetArrayRead(SolutionOf(&c)->shear, &mean));
+  for (PetscInt k = 0; k < c.s.grid->cells; k++) most = fmax(most, fabs(q[k] - mean[k]));
+  sam_call(VecRestoreArrayRead(SolutionOf(&c)->shear, &mean));
+  sam_call(VecRestoreArrayRead(center, &q));
+  (void)MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  if (getenv("SAM_SHOW")) print_message("# centre less mean %g of mu p0\n", most / (MU * Hertz(&c.s, 0)));
+  sam_assert(most < 0.15 * MU * Hertz(&c.s, 0));
+  sam_call(VecDestroy(&center));
   DestroyCase(&c);
 }
 
@@ -349,7 +476,13 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_correction_follows_the_load_back),
     cmocka_unit_test(test_correction_belongs_to_the_state),
     cmocka_unit_test(test_correction_does_not_depend_on_the_ranks),
+    cmocka_unit_test(test_small_reversal_leaves_the_shear),
+    cmocka_unit_test(test_held_load_changes_nothing),
+    cmocka_unit_test(test_other_ways_go_on_from_the_plain_solution),
+    cmocka_unit_test(test_state_without_a_correction_takes_it_away),
     cmocka_unit_test(test_energies_are_those_of_the_plain_solution),
+    cmocka_unit_test(test_stick_zone_without_slip_is_the_contact),
+    cmocka_unit_test(test_centres_of_cells_that_stick_again),
     cmocka_unit_test(test_shear_that_begins_later_is_corrected),
     cmocka_unit_test(test_shear_is_not_corrected_alone),
     cmocka_unit_test(test_edge_of_stick_that_is_not_smooth_is_left),
