@@ -16,7 +16,8 @@ compared. Other blocks are text. A comment above a block or a table says more:
                                   text, in which ... stands for anything. Figures agree when they differ by at most one
                                   in the last digit that is written; those below 1e-11 are left by rounding.
     <!-- printed but: WORD, ... --> the same without lines, rows and columns that contain one of the words
-    <!-- slow printed -->         the same, with --all only; also <!-- slow printed but: WORD, ... -->
+    <!-- printed row by row -->   the figures of each row of a table stand in one printed line; also with but: WORD, ...
+    <!-- slow printed -->         the same, with --all only; also with the words above
 
 and one that stands for itself:
 
@@ -106,7 +107,9 @@ def agree(word, value):
 
 
 def missing(words, values):
-    return [word for word in words if not any(agree(word, value) for value in values)]
+    """Figures that stand for none of the values; one without a sign may be a size."""
+    sizes = [*values, *map(abs, values)]
+    return [word for word in words if not any(agree(word, value) for value in (values if word[0] in "+-" else sizes))]
 
 
 def differences_of_text(text, output, but=()):
@@ -129,16 +132,17 @@ def differences_of_text(text, output, but=()):
     return [line for line in left if not any(stands(line.split(), figures(line), *printed) for printed in lines)]
 
 
-def differences_of_table(text, output, but=()):
-    """Rows with figures that are not in the output, each with these figures; the first row is its head."""
+def differences_of_table(text, output, but=(), by_row=False):
+    """Rows, but for the head, with figures that are not in the output, or not in one of its lines; these figures."""
     rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in text.splitlines()]
     columns = [i for i, head in enumerate(rows[0]) if not any(word in head for word in but)]
-    values = [float(word) for word in figures(output)]
+    lines = [[float(word) for word in figures(line)] for line in (output.splitlines() if by_row else [output])]
     out = []
     for row in rows[2:]:
         if any(word in cell for word in but for cell in row):
             continue
-        if left := missing(figures(" | ".join(row[i] for i in columns)), values):
+        words = figures(" | ".join(row[i] for i in columns))
+        if left := min((missing(words, values) for values in lines), key=len, default=words):
             out.append(f"{' | '.join(row)}: not printed: {', '.join(left)}")
     return out
 
@@ -222,8 +226,11 @@ class Checker:
     def compare(self, file, piece, output):
         words = piece.marks.get("printed", piece.marks.get("slow printed", ""))
         but = [word.strip() for word in words.partition("but:")[2].split(",") if word.strip()]
-        differences = differences_of_table if piece.kind == "table" else differences_of_text
-        if left := differences(piece.text, output, but):
+        if piece.kind == "table":
+            left = differences_of_table(piece.text, output, but, "row by row" in words)
+        else:
+            left = differences_of_text(piece.text, output, but)
+        if left:
             self.fail(file, piece, "not as printed:", *left)
 
     def check(self, file):

@@ -106,10 +106,12 @@ def test_a_line_of_text_is_one_printed_line():
 
 
 def test_the_rows_of_a_table_have_been_printed():
-    text = "| a | b | time |\n| --- | --- | --- |\n| 1 | 2.5 | 7 |\n| x | 3.1, 4 % | 8 |"
-    assert check_readmes.differences_of_table(text, "1 2.51\n3.1 and 4", ["time"]) == []
-    said = check_readmes.differences_of_table(text, "1 2.7\n3.1 and 4", ["time"])
+    text = "| a | b | time |\n| --- | --- | --- |\n| 1 | 2.5 | 7 |\n| x | 3.1, 40 % | 8 |"
+    assert check_readmes.differences_of_table(text, "1 2.51\n3.1 and 40", ["time"]) == []
+    said = check_readmes.differences_of_table(text, "1 2.7\n3.1 and 40", ["time"])
     assert len(said) == 1 and said[0].endswith("not printed: 2.5")
+    assert check_readmes.differences_of_table(text, "1 2.51\n3.1\n40", ["time"], True)[0].endswith(": 40")
+    assert check_readmes.missing(["4", "-5", "+4", "5"], [-4.0, 5.0]) == ["-5", "+4"]
 
 
 @pytest.fixture
