@@ -111,7 +111,7 @@ def test_the_rows_of_a_table_have_been_printed():
     said = check_readmes.differences_of_table(text, "1 2.7\n3.1 and 40", ["time"])
     assert len(said) == 1 and said[0].endswith("not printed: 2.5")
     assert check_readmes.differences_of_table(text, "1 2.51\n3.1\n40", ["time"], True)[0].endswith(": 40")
-    assert check_readmes.missing(["4", "-5", "+4", "5"], [-4.0, 5.0]) == ["-5", "+4"]
+    assert check_readmes.missing(["40", "-50", "+40", "50"], [-40.0, 50.0]) == ["-50", "+40"]
 
 
 @pytest.fixture
