@@ -176,9 +176,9 @@ def test_history_of_the_topic_is_one(petsam, tmp_path):
     assert re.findall(r"^ +\d+ +[0-3] +180 +(\S+)", said, re.M) == ["0", "20", "-20", "20"]
 
 
-def test_exit_codes_of_the_topic_are_those_of_the_README(petsam):
+def test_exit_codes_of_the_topic_are_those_of_the_manual(petsam):
     codes = re.findall(r"^  (\d+) ", topic(petsam, "exit codes"), re.M)
-    table = (ROOT / "README.md").read_text().split("| exit code | meaning |")
+    table = (ROOT / "examples" / "RESULTS.md").read_text().split("| exit code | meaning |")
     if len(table) == 2:  # the manual may have it elsewhere
         assert codes == re.findall(r"^\| (\d+) \|", table[1].split("\n\n")[0], re.M)
     assert codes == ["0", "2", "3", "10", "11", "12", "75"]
