@@ -13,7 +13,9 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -38,8 +40,8 @@ def mpirun(ranks, timeout=TIMEOUT):
     return words + ["-n", str(ranks)]
 
 
-def run_unit(program, launcher):
-    """Passed and failed tests of one program; its output when something failed."""
+def run_unit(program, launcher, folder):
+    """Passed and failed tests of one program, run in a folder; its output when something failed."""
     try:
         done = subprocess.run(
             launcher + [str(program)],
@@ -47,7 +49,7 @@ def run_unit(program, launcher):
             text=True,
             env=environment(),
             timeout=TIMEOUT + 30,
-            cwd=program.parent,
+            cwd=folder,
         )
         out, code = done.stdout + done.stderr, done.returncode
     except subprocess.TimeoutExpired as error:
@@ -62,17 +64,23 @@ def run_unit(program, launcher):
 
 
 def run_units(programs, ranks):
-    passed = failed = 0
+    """As many programs at a time as there are cores, each in a folder of its own, on its numbers of ranks in turn."""
     launchers = {n: mpirun(n) for n in ranks}
-    for program in programs:
+
+    def run(program):
+        passed = failed = 0
         for n, launcher in launchers.items():
             start = time.time()
-            p, f, out = run_unit(program, launcher)
+            with tempfile.TemporaryDirectory(prefix=f"{program.name}-") as folder:
+                p, f, out = run_unit(program, launcher, folder)
             passed, failed = passed + p, failed + f
-            print(f"{program.name} on {n}: {p} passed, {f} failed ({time.time() - start:.1f} s)", flush=True)
-            if out:
-                print(out, flush=True)
-    return passed, failed
+            said = f"{program.name} on {n}: {p} passed, {f} failed ({time.time() - start:.1f} s)"
+            print(said + ("\n" + out if out else ""), flush=True)
+        return passed, failed
+
+    with ThreadPoolExecutor(min(os.cpu_count() or 1, WORKERS)) as pool:
+        counts = list(pool.map(run, programs))
+    return sum(p for p, _ in counts), sum(f for _, f in counts)
 
 
 def run_pytest(build, names):
