@@ -224,8 +224,8 @@ PetscErrorCode SamContactComputeState(SamContact c, Vec state)
 }
 
 /*
-  The solvers put the shear of cells that slip on the circle |q| = bound, to rounding. After a small reversal of the load
-  cells lie a little inside of it, and a state by SAM_SLIP_MARGIN would take them for slipping on.
+  The solvers put the shear of cells that slip on the circle |q| = bound, to rounding. After a small reversal of the
+  load cells lie a little inside of it, and a state by SAM_SLIP_MARGIN would take them for slipping on.
 */
 #define ON_CIRCLE 1e-10
 

@@ -184,7 +184,12 @@ def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
     mine = dict(checkpoint="out/state.h5", checkpoint_every=1)
     first = start(launcher, folder, 1, mine)
     wait_for(first, 4)
-    shutil.copy(folder / "out" / "state.h5", folder / "out" / "kept.h5")  # the first run goes on replacing its own
+    running = conftest.processes(first, 1)
+    for process in running:
+        os.kill(process, signal.SIGSTOP)  # it goes on replacing its own, also while one is copied
+    shutil.copy(folder / "out" / "state.h5", folder / "out" / "kept.h5")
+    for process in running:
+        os.kill(process, signal.SIGCONT)
     for other in (
         dict(grid_n=12),
         dict(output="out/other.h5", **mine),
