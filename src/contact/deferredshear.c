@@ -289,26 +289,6 @@ static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Cells that slip, and those that the edge of contact cuts and whose centre is outside: they have no shear at first. */
-static PetscErrorCode FindSlips(Deferred *d)
-{
-  const SamSolution *s = d->s->s;
-  const double      *p, *rim;
-  double            *slips;
-
-  PetscFunctionBegin;
-  PetscCall(SamSolutionFindSlips(s, d->slips));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->rim, &rim));
-  PetscCall(VecGetArray(d->slips, &slips));
-  for (PetscInt k = 0; k < d->s->c->grid->cells; k++)
-    if (p[k] > 0 && p[k] <= rim[k]) slips[k] = 1;
-  PetscCall(VecRestoreArray(d->slips, &slips));
-  PetscCall(VecRestoreArrayRead(s->rim, &rim));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Solves the tangential problem again; `why`: that has failed. */
 static PetscErrorCode Again(Deferred *d, char why[], size_t size)
 {
@@ -343,7 +323,7 @@ static PetscErrorCode Pass(Deferred *d, PetscInt pass, char why[], size_t size)
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
-  PetscCall(FindSlips(d));
+  PetscCall(SamSolutionFindSlips(s->s, d->slips));
   PetscCall(SamShearProfileSet(d->profile, &fields));
   PetscCall(FindStickEdge(d, pass));
   PetscCall(FindDisplacement(d));
