@@ -4,7 +4,7 @@
 
 /* What of a step is needed, and where it goes, or is added to; NULL: not wanted. */
 typedef struct {
-  const double *p, *p_before, *b, *b_before, *q, *slips;
+  const double *p, *p_before, *b, *b_before, *q;
   double       *path, *pressed, *work;
   PetscBool     add;
 } Fields;
@@ -15,7 +15,7 @@ static void FrictionRow(const Fields *f, ptrdiff_t first, PetscInt nx, PetscInt 
   for (PetscInt i = 0; i < nx; i++) {
     const ptrdiff_t k = first + i, l = k + cells;
     const double    length = hypot(sx[i], sy[i]);
-    const PetscBool slips  = f->slips[k] > 0 ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool slips = SamStateOf(f->p[k], f->q[k], f->q[l], f->b[k]) == SAM_STATE_SLIP ? PETSC_TRUE : PETSC_FALSE;
 
     if (f->path) f->path[k] = length + (f->add ? f->path[k] : 0);
     if (f->pressed)
@@ -50,14 +50,10 @@ PetscErrorCode SamContactAddFriction(SamContact c, PetscBool add, Vec path, Vec 
   const SamSolution *before = last ? last : s;
   SamIncrement       increment;
   Fields             f = {.add = add};
-  Vec                slips;
 
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step");
   PetscCall(SamIncrementCreate(c->problem, last, s, &increment));
-  PetscCall(SamGridCreateVec(c->grid, 1, &slips));
-  PetscCall(SamSolutionFindSlips(s, slips));
-  PetscCall(VecGetArrayRead(slips, &f.slips));
   PetscCall(VecGetArrayRead(s->pressure, &f.p));
   PetscCall(VecGetArrayRead(before->pressure, &f.p_before));
   PetscCall(VecGetArrayRead(s->bound, &f.b));
@@ -78,8 +74,6 @@ PetscErrorCode SamContactAddFriction(SamContact c, PetscBool add, Vec path, Vec 
   PetscCall(VecRestoreArrayRead(s->bound, &f.b));
   PetscCall(VecRestoreArrayRead(before->pressure, &f.p_before));
   PetscCall(VecRestoreArrayRead(s->pressure, &f.p));
-  PetscCall(VecRestoreArrayRead(slips, &f.slips));
-  PetscCall(VecDestroy(&slips));
   PetscCall(SamIncrementDestroy(&increment));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
