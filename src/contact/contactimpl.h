@@ -113,6 +113,8 @@ static inline const double *SamSeparationOfRow(SamGrid grid, const double h[], c
   for (PetscInt i = 0; i < grid->nx; i++) row[i] = h[k + i] + w[k + i];
   return row;
 }
+/* SamSolutionComputeGap - the gap (m) of this rank's cells. Not collective. */
+PETSC_INTERN PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *solution, Vec gap);
 /* SamSolutionComputeSlip - a component of the slip (m) of this rank's cells. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *solution, PetscInt component,
                                                    double slip[]);

@@ -170,34 +170,44 @@ PetscErrorCode SamContactComputeSlip(SamContact c, PetscInt component, Vec slip)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactComputeGap(SamContact c, Vec gap)
+PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *s, Vec gap)
 {
-  const SamSolution *s;
-  SamMotion          motion;
-  const double      *u, *h, *w = NULL;
-  double            *g, *row;
-  Vec                separation;
+  SamMotion     motion;
+  SamGrid       grid;
+  const double *u, *h, *w = NULL;
+  double       *g, *row;
+  Vec           separation;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCheckVec(c->grid, 1, gap, "The gap"));
-  PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamMotionSet(&motion, c->problem, s));
-  PetscCall(SamProblemGetGap(c->problem, &separation));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamMotionSet(&motion, problem, s));
+  PetscCall(SamProblemGetGap(problem, &separation));
   PetscCall(VecGetArrayRead(separation, &h));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
   PetscCall(VecGetArrayWrite(gap, &g));
   if (s->plastic) PetscCall(VecGetArrayRead(s->plastic, &w));
-  PetscCall(PetscMalloc1(c->grid->nx, &row));
-  for (PetscInt j = 0; j < c->grid->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * c->grid->nx;
+  PetscCall(PetscMalloc1(grid->nx, &row));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, SamSeparationOfRow(c->grid, h, w, j, row), g + k);
+    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, SamSeparationOfRow(grid, h, w, j, row), g + k);
   }
   PetscCall(PetscFree(row));
   if (s->plastic) PetscCall(VecRestoreArrayRead(s->plastic, &w));
   PetscCall(VecRestoreArrayWrite(gap, &g));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(separation, &h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactComputeGap(SamContact c, Vec gap)
+{
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(c->grid, 1, gap, "The gap"));
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(SamSolutionComputeGap(c->problem, s, gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

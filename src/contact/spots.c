@@ -193,28 +193,22 @@ PetscErrorCode SamContactMeanGap(SamContact c, PetscReal *mean)
 {
   const SamGrid grid  = c->grid;
   SamTotal      total = {0};
-  SamMotion     motion;
-  Vec           separation;
-  const double *u, *h;
-  double       *gap, sum;
+  const double *g;
+  double        sum;
+  Vec           gap;
 
   PetscFunctionBegin;
-  PetscCall(SamMotionSet(&motion, c->problem, &c->tried.solution));
-  PetscCall(SamProblemGetGap(c->problem, &separation));
-  PetscCall(PetscMalloc1(grid->nx, &gap));
-  PetscCall(VecGetArrayRead(separation, &h));
-  PetscCall(VecGetArrayRead(c->tried.solution.displacement_z, &u));
+  PetscCall(SamGridCreateVec(grid, 1, &gap));
+  PetscCall(SamSolutionComputeGap(c->problem, &c->tried.solution, gap));
+  PetscCall(VecGetArrayRead(gap, &g));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const ptrdiff_t k   = (ptrdiff_t)j * grid->nx;
-    double          row = 0;
+    double row = 0;
 
-    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
-    for (PetscInt i = 0; i < grid->nx; i++) row += gap[i];
+    for (PetscInt i = 0; i < grid->nx; i++) row += g[(ptrdiff_t)j * grid->nx + i];
     SamAdd(&total, row);
   }
-  PetscCall(VecRestoreArrayRead(c->tried.solution.displacement_z, &u));
-  PetscCall(VecRestoreArrayRead(separation, &h));
-  PetscCall(PetscFree(gap));
+  PetscCall(VecRestoreArrayRead(gap, &g));
+  PetscCall(VecDestroy(&gap));
   PetscCall(SamSumTotals(grid->comm, 1, &total, &sum));
   *mean = sum / ((PetscReal)grid->nx * (PetscReal)grid->ny);
   PetscFunctionReturn(PETSC_SUCCESS);

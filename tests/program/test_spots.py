@@ -62,6 +62,17 @@ def test_numbers_are_those_of_the_fields(petsam, tmp_path, case, elasticity, loa
         assert all(other[name] == one[name] for name in ("contact_spots", "contact_fraction", "gap_mean", "slip_max"))
 
 
+def test_mean_gap_has_the_plastic_depth(petsam, tmp_path, case):
+    fields = dict(pressure_limit=5e8, output_fields="gap,plastic_depth", load_n=300.0)
+    for ranks in (1, 3):
+        petsam(case, SPOTS, fields, ranks=ranks)
+        with h5py.File(tmp_path / "out.h5") as f:
+            gap, depth = f["gap"][-1], f["plastic_depth"][-1]
+            mean = f["history/gap_mean"][-1]
+        assert depth.mean() > 1e-3 * gap.mean()
+        assert mean == pytest.approx(gap.mean(), rel=1e-12)
+
+
 def test_corners_do_not_connect_and_sides_do(petsam, tmp_path):
     """A checkerboard's peaks, then a comb's: as many spots as cells in contact; one."""
     n = 8
