@@ -12,14 +12,12 @@
 
   It is a correction for edges that are smooth and resolved. Others are known by the layer that they lack, and the plain
   solution stays. It is one of the pressure: a shear that is solved with the plain operator and bounded by the corrected
-  pressure is less exact than with the plain one, whose errors cancel. So there must be no friction.
+  pressure is less exact than with the plain one, whose errors cancel. So with friction the shear is corrected as well
+  (deferredshear.c).
 */
 #include "stepimpl.h"
 #include <petsam/edges.h>
 #include <math.h>
-
-/* The least share of the edge that must be smooth. */
-#define SMOOTH 0.95
 
 /* The plain solution, and what is needed to correct it. */
 typedef struct {
@@ -29,6 +27,22 @@ typedef struct {
   Vec        plain;   /* pressure */
   SamBalance balance; /* of it */
 } Deferred;
+
+PetscErrorCode SamSolveLeaveEdge(SamSolve *s, const char of[], const char why[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(s->step->message, sizeof(s->step->message), "the edge of %s is not corrected: %s", of, why));
+  PetscCall(PetscStrncpy(s->step->setting, "edges", sizeof(s->step->setting)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEdgeTooRough(PetscReal share, char why[], size_t size)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(why, size, "%.3g %% of it is smooth and resolved, %.0f %% would be needed; a finer grid helps",
+                          100 * (double)share, 100 * SAM_SMOOTH_EDGE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode Create(SamSolve *s, Deferred *d)
 {
@@ -66,8 +80,7 @@ static PetscErrorCode GiveUp(Deferred *d, const char why[])
   s->s->passes = 0;
   PetscCall(SamVecCopyNonzero(d->plain, s->s->pressure));
   SamBalanceStore(&d->balance, s->s->load, s->s->rigid);
-  PetscCall(PetscSNPrintf(s->step->message, sizeof(s->step->message), "the edge of contact is not corrected: %s", why));
-  PetscCall(PetscStrncpy(s->step->setting, "edges", sizeof(s->step->setting)));
+  PetscCall(SamSolveLeaveEdge(s, "contact", why));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -154,10 +167,8 @@ PetscErrorCode SamSolveDeferred(SamSolve *s)
     PetscCall(PetscStrncpy(why, "that is known for -elasticity halfspace only", sizeof(why)));
   else
     PetscCall(SamProfileStart(d.profile, s->s->pressure, &edge, &found));
-  if (edge.smooth < SMOOTH * edge.faces)
-    PetscCall(PetscSNPrintf(why, sizeof(why),
-                            "%.3g %% of it is smooth and resolved, %.0f %% would be needed; a finer grid helps",
-                            100 * (double)(edge.smooth / edge.faces), 100 * SMOOTH));
+  if (edge.smooth < SAM_SMOOTH_EDGE * edge.faces)
+    PetscCall(SamEdgeTooRough((PetscReal)(edge.smooth / edge.faces), why, sizeof(why)));
   for (PetscInt pass = 1; pass <= c->edge_passes && !why[0] && edge.faces > 0; pass++) {
     PetscCall(Pass(&d, pass, why, sizeof(why)));
     s->s->passes = pass;

@@ -18,8 +18,7 @@
 */
 #include "stepimpl.h"
 
-#define SMOOTH 0.95 /* the least share of the stick zone's edge that must be smooth */
-#define FAR    0.2  /* most change of the shear by a correction, of the bound, in the 2-norm */
+#define FAR 0.2 /* most change of the shear by a correction, of the bound, in the 2-norm */
 
 typedef struct {
   SamSolve       *s;
@@ -42,6 +41,18 @@ const SamSolution *SamContactBefore(SamContact c)
   return c->steps && c->tried.solution.sheared.has ? &c->committed.solution : SamContactPlainBefore(c);
 }
 
+/* Loads, displacements, pressure, bound and shear. */
+static PetscErrorCode CopyTractions(const SamSolution *from, SamSolution *to)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(to->load, from->load, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(to->rigid, from->rigid, SAM_COMPONENTS));
+  PetscCall(SamVecCopyNonzero(from->pressure, to->pressure));
+  PetscCall(SamVecCopyNonzero(from->bound, to->bound));
+  PetscCall(SamVecCopyNonzero(from->shear, to->shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode KeepPlain(SamSolve *s)
 {
   SamSolution *plain = &s->c->tried.plain;
@@ -49,11 +60,7 @@ static PetscErrorCode KeepPlain(SamSolve *s)
   PetscFunctionBegin;
   if (!plain->pressure) PetscCall(SamSolutionCreate(s->c->grid, plain));
   plain->control = s->s->control;
-  PetscCall(PetscArraycpy(plain->load, s->s->load, SAM_COMPONENTS));
-  PetscCall(PetscArraycpy(plain->rigid, s->s->rigid, SAM_COMPONENTS));
-  PetscCall(SamVecCopyNonzero(s->s->pressure, plain->pressure));
-  PetscCall(SamVecCopyNonzero(s->s->bound, plain->bound));
-  PetscCall(SamVecCopyNonzero(s->s->shear, plain->shear));
+  PetscCall(CopyTractions(s->s, plain));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -144,15 +151,10 @@ static PetscErrorCode FindReferences(SamSolve *s, PetscBool *turned)
 /* It stays. What comes after it goes on from a shear without any variation within cells. */
 static PetscErrorCode TakePlain(SamSolve *s)
 {
-  const SamSolution  *plain = &s->c->tried.plain;
-  SamShearCorrection *now   = &s->s->sheared;
+  SamShearCorrection *now = &s->s->sheared;
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(s->s->load, plain->load, SAM_COMPONENTS));
-  PetscCall(PetscArraycpy(s->s->rigid, plain->rigid, SAM_COMPONENTS));
-  PetscCall(SamVecCopyNonzero(plain->pressure, s->s->pressure));
-  PetscCall(SamVecCopyNonzero(plain->bound, s->s->bound));
-  PetscCall(SamVecCopyNonzero(plain->shear, s->s->shear));
+  PetscCall(CopyTractions(&s->c->tried.plain, s->s));
   PetscCall(SamVecZero(now->within.slopes));
   PetscCall(SamVecZero(now->within.terms));
   PetscCall(SetReference(now->plain_reference, NULL, now->within.reference));
@@ -194,7 +196,7 @@ static PetscErrorCode Start(Deferred *d, SamSlack kind, PetscReal *share, PetscB
   PetscCall(SamShearProfileFindSlack(d->profile, kind, d->s->s->sheared.within.reference, &slack, &profile));
   PetscCall(SamProfileStart(profile, slack, &edge, &found));
   *share  = edge.faces > 0 ? edge.smooth / edge.faces : 1;
-  *smooth = edge.faces > 0 && found && *share >= SMOOTH ? PETSC_TRUE : PETSC_FALSE;
+  *smooth = edge.faces > 0 && found && *share >= SAM_SMOOTH_EDGE ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -222,15 +224,14 @@ static PetscErrorCode ChooseSlack(Deferred *d, PetscReal *share)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A message that says why the stick zone's edge is left as it is. */
-static PetscErrorCode GiveReason(SamSolve *s, PetscReal share)
+/* The stick zone's edge is left as it is, and the step says why. */
+static PetscErrorCode LeaveStickEdge(SamSolve *s, PetscReal share)
 {
+  char why[96];
+
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(s->step->message, sizeof(s->step->message),
-                          "the edge of stick is not corrected: %.3g %% of it is smooth and resolved, %.0f %% would be "
-                          "needed; a finer grid helps",
-                          100 * (double)share, 100 * SMOOTH));
-  PetscCall(PetscStrncpy(s->step->setting, "edges", sizeof(s->step->setting)));
+  PetscCall(SamEdgeTooRough(share, why, sizeof(why)));
+  PetscCall(SamSolveLeaveEdge(s, "stick", why));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -269,7 +270,7 @@ static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass)
   PetscFunctionBegin;
   if (pass == 1) {
     PetscCall(ChooseSlack(d, &share));
-    if (share < SMOOTH && now->slack == SAM_SLACK_NONE) PetscCall(GiveReason(d->s, share));
+    if (share < SAM_SMOOTH_EDGE && now->slack == SAM_SLACK_NONE) PetscCall(LeaveStickEdge(d->s, share));
   } else if (now->slack != SAM_SLACK_NONE) {
     PetscCall(SamShearProfileFindSlack(d->profile, now->slack, now->within.reference, &slack, &profile));
     PetscCall(SamProfileMatch(profile, slack, now->rim, &found));
@@ -285,7 +286,7 @@ static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   now->slack = SAM_SLACK_NONE;
-  PetscCall(GiveReason(d->s, 0));
+  PetscCall(LeaveStickEdge(d->s, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -373,8 +374,7 @@ static PetscErrorCode CorrectShear(SamSolve *s, PetscBool turned)
   if (!why[0]) PetscCall(Compare(s, why, sizeof(why)));
   if (!why[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TakePlain(s));
-  PetscCall(PetscSNPrintf(s->step->message, sizeof(s->step->message), "the edge of stick is not corrected: %s", why));
-  PetscCall(PetscStrncpy(s->step->setting, "edges", sizeof(s->step->setting)));
+  PetscCall(SamSolveLeaveEdge(s, "stick", why));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -393,17 +393,6 @@ static PetscErrorCode IsHeld(SamSolve *s, PetscBool *held)
       if (now->bulk_stress[body][k] != before->control.bulk_stress[body][k]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamProblemComputeBound(s->c->problem, now->friction_scale, before->pressure, s->s->bound));
   PetscCall(VecEqual(s->s->bound, before->bound, held));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CopyTractions(const SamSolution *from, SamSolution *to)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscArraycpy(to->load, from->load, SAM_COMPONENTS));
-  PetscCall(PetscArraycpy(to->rigid, from->rigid, SAM_COMPONENTS));
-  PetscCall(SamVecCopyNonzero(from->pressure, to->pressure));
-  PetscCall(SamVecCopyNonzero(from->bound, to->bound));
-  PetscCall(SamVecCopyNonzero(from->shear, to->shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -36,6 +36,13 @@ PETSC_INTERN PetscErrorCode SamSolveDeferred(SamSolve *solve);
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveCorrected(SamSolve *solve, const SamStepStart *start);
+
+/* The least share of an edge that must be smooth and resolved for its correction, and what is said where less is. */
+#define SAM_SMOOTH_EDGE 0.95
+PETSC_INTERN PetscErrorCode SamEdgeTooRough(PetscReal share, char why[], size_t size);
+/* SamSolveLeaveEdge - the step says that the edge `of` "contact" or "stick" is not corrected, and why. */
+PETSC_INTERN PetscErrorCode SamSolveLeaveEdge(SamSolve *solve, const char of[], const char why[]);
+
 /* SamSolveStoreNormal - copies the loads and displacements of the normal problem of a solution. Not collective. */
 PETSC_INTERN void SamSolveStoreNormal(SamSolve *solve, const SamSolution *from);
 /* SamSolveShearOnce - the bound, and the tangential problem with it, unless the normal one has failed. Collective. */
