@@ -39,7 +39,8 @@ PetscErrorCode SamSolveLeaveEdge(SamSolve *s, const char of[], const char why[])
 PetscErrorCode SamEdgeTooRough(PetscReal share, char why[], size_t size)
 {
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(why, size, "%.3g %% of it is smooth and resolved, %.0f %% would be needed; a finer grid helps",
+  PetscCall(PetscSNPrintf(why, size,
+                          "%.3g %% of it is smooth and resolved, %.0f %% would be needed; a finer grid helps",
                           100 * (double)share, 100 * SAM_SMOOTH_EDGE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -123,15 +123,14 @@ static double SquareAt(const Seen *s, double x, double y)
 */
 static PetscErrorCode FindPeak(SamContact c, const SamEdge *stick, double *peak)
 {
-  const SamGrid  grid = c->grid;
-  const PetscInt from = PetscMax(grid->row_start - BEHIND - 1, 0),
-                 to   = PetscMin(grid->row_start + grid->rows + BEHIND + 1, grid->ny);
-  Seen          s     = {grid, grid->rows ? from : 0, grid->rows ? to - from : 0, NULL};
+  const SamGrid grid = c->grid;
   const double *own, *b;
   SamRows       rows;
+  Seen          s;
 
   PetscFunctionBegin;
-  PetscCall(SamRowsCreate(grid, s.first, s.count, &rows));
+  PetscCall(SamRowsCreateAbout(grid, BEHIND + 1, &rows));
+  s = (Seen){grid, rows.first, rows.count, NULL};
   PetscCall(VecGetArrayRead(c->tried.solution.pressure, &own));
   PetscCall(VecGetArrayRead(c->tried.solution.bound, &b));
   PetscCall(SamRowsFetch(&rows, grid->nx, own, &s.p));

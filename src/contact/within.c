@@ -24,13 +24,12 @@ static double TermsOf(const SamRows *rows, const double u[], PetscInt i, PetscIn
 /* The sum of the terms of all cells, for a pressure with these slopes and a displacement. */
 static PetscErrorCode SumTerms(SamGrid grid, Vec pressure, Vec slopes, Vec u_z, double *sum)
 {
-  const PetscInt begin = PetscMax(grid->row_start - 1, 0), end = PetscMin(grid->row_start + grid->rows + 1, grid->ny);
-  SamTotal       total = {0};
-  SamRows        rows;
-  const double  *p, *m, *own, *u;
+  SamTotal      total = {0};
+  SamRows       rows;
+  const double *p, *m, *own, *u;
 
   PetscFunctionBegin;
-  PetscCall(SamRowsCreate(grid, grid->rows ? begin : 0, grid->rows ? end - begin : 0, &rows));
+  PetscCall(SamRowsCreateAbout(grid, 1, &rows));
   PetscCall(VecGetArrayRead(u_z, &own));
   PetscCall(SamRowsFetch(&rows, grid->nx, own, &u));
   PetscCall(VecGetArrayRead(pressure, &p));

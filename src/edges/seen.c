@@ -3,12 +3,9 @@
 
 PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen)
 {
-  const PetscInt begin = PetscMax(grid->row_start - halo, 0),
-                 end   = PetscMin(grid->row_start + grid->rows + halo, grid->ny);
-
   PetscFunctionBegin;
   *seen = (SamSeen){.field = field, .components = components};
-  PetscCall(SamRowsCreate(grid, grid->rows ? begin : 0, grid->rows ? end - begin : 0, &seen->rows));
+  PetscCall(SamRowsCreateAbout(grid, halo, &seen->rows));
   PetscCall(VecGetArrayRead(field, &seen->own));
   for (PetscInt c = 0; c < components; c++)
     PetscCall(SamRowsFetch(&seen->rows, grid->nx, seen->own + (ptrdiff_t)c * grid->cells, &seen->at[c]));

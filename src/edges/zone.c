@@ -83,12 +83,11 @@ static PetscErrorCode FindDistances(SamZone *z, PetscReal reach)
 
 PetscErrorCode SamZoneCreate(SamGrid grid, Vec field, PetscInt halo, PetscReal reach, SamZone *z)
 {
-  const PetscInt begin = PetscMax(grid->row_start - halo, 0),
-                 end   = PetscMin(grid->row_start + grid->rows + halo, grid->ny);
-
   PetscFunctionBegin;
-  *z = (SamZone){.grid = grid, .field = field, .first = grid->rows ? begin : 0, .count = grid->rows ? end - begin : 0};
-  PetscCall(SamRowsCreate(grid, z->first, z->count, &z->rows));
+  *z = (SamZone){.grid = grid, .field = field};
+  PetscCall(SamRowsCreateAbout(grid, halo, &z->rows));
+  z->first = z->rows.first;
+  z->count = z->rows.count;
   PetscCall(VecGetArrayRead(field, &z->own));
   PetscCall(SamRowsFetch(&z->rows, grid->nx, z->own, &z->w));
   PetscCall(PetscMalloc1(z->count * grid->nx, &z->distance));

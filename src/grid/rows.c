@@ -46,6 +46,16 @@ PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamRowsCreateAbout(SamGrid grid, PetscInt halo, SamRows *rows)
+{
+  const PetscInt begin = PetscMax(grid->row_start - halo, 0),
+                 end   = PetscMin(grid->row_start + grid->rows + halo, grid->ny);
+
+  PetscFunctionBegin;
+  PetscCall(SamRowsCreate(grid, grid->rows ? begin : 0, grid->rows ? end - begin : 0, rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamRowsDestroy(SamRows *rows)
 {
   PetscFunctionBegin;

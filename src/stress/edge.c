@@ -35,8 +35,6 @@ typedef struct {
 static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map *m)
 {
   const SamStressSource source = {{(double)grid->dx, (double)grid->dy}, 0, (double)poisson};
-  const PetscInt        begin  = PetscMax(grid->row_start - BLOCK - 1, 0),
-                 end           = PetscMin(grid->row_start + grid->rows + BLOCK + 1, grid->ny);
 
   PetscFunctionBegin;
   *m = (Map){.grid = grid, .poisson = (double)poisson, .field = field};
@@ -47,7 +45,7 @@ static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map 
       SamStressRow(&source, (SamStressGroup)(SAM_STRESS_PLANE_P + t), j, LAGS, to);
     }
   PetscCall(PetscDTGaussQuadrature(POINTS, 0, 1, m->x, m->w));
-  PetscCall(SamRowsCreate(grid, grid->rows ? begin : 0, grid->rows ? end - begin : 0, &m->rows));
+  PetscCall(SamRowsCreateAbout(grid, BLOCK + 1, &m->rows));
   PetscCall(VecGetArrayRead(field, &m->own));
   for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++)
     PetscCall(SamRowsFetch(&m->rows, grid->nx, m->own + (ptrdiff_t)c * grid->cells, &m->at[c]));

@@ -7,7 +7,8 @@
 /*
   SamRows - rows first ... first + count - 1 of a grid, which this rank wants to see, its own or others'. Create and
   Fetch are collective. Fetch takes this rank's rows of `columns` doubles and gives the wanted ones until Restore; when
-  they are all its own it copies nothing.
+  they are all its own it copies nothing. CreateAbout wants this rank's rows with `halo` more on either side, as far as
+  the grid goes, and none where this rank has none.
 */
 typedef struct {
   SamGrid     grid;
@@ -17,6 +18,7 @@ typedef struct {
   PetscMPIInt *counts[2], *offsets[2];
 } SamRows;
 PETSC_EXTERN PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRows *rows);
+PETSC_EXTERN PetscErrorCode SamRowsCreateAbout(SamGrid grid, PetscInt halo, SamRows *rows);
 PETSC_EXTERN PetscErrorCode SamRowsDestroy(SamRows *rows);
 PETSC_EXTERN PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double own[],
                                          const double **wanted);
