@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of options in examples/OPTIONS.md from what the programs' -help prints.
+"""Writes the tables of options in examples/OPTIONS.md from what the programs' -help says.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -10,10 +10,10 @@ when the file is not what would be written.
 
 import argparse
 import re
-import subprocess
 import sys
 from pathlib import Path
-from typing import NamedTuple
+
+from options import read_options
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "examples" / "OPTIONS.md"
@@ -21,43 +21,18 @@ PROGRAMS = ["petsam", "petsam-stress"]
 TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
 
 
-class Option(NamedTuple):
-    """An option as -help has it; values is empty for one that takes none."""
-
-    name: str
-    values: str
-    meaning: str
-
-
-def read_help(text):
-    """Options by the heading under which -help prints them."""
-    groups, group, pending = {}, None, ""
-    for line in text.splitlines():
-        if line and not line.startswith(" "):
-            group = line
-        elif re.fullmatch(r"  -\w+( \S+)?", line):
-            pending = line  # too long a name: the meaning is in the next line
-        elif pending or re.match(r"  -\w", line):
-            name, values, meaning = re.match(r" +(-\w+) ?((?:<\S+>|\[\S+\])\S*)? +(.*)", pending + line).groups()
-            groups.setdefault(group, []).append(Option(name, values or "", meaning))
-            pending = ""
-    return groups
-
-
-def split_meaning(meaning):
-    """The meaning, and what stands behind it: the default, or by what the option is required."""
-    if found := re.fullmatch(r"(.*): (required.*)", meaning):
+def split_text(option):
+    """What the option means, and what stands in the last column: its default, or by what it is required."""
+    if found := re.fullmatch(r"(.*): (required.*)", option.text):
         return found.groups()
-    if found := re.fullmatch(r"(.*) \(((?:[^()]|\([^()]*\))*)\)", meaning):
-        return found.groups()
-    return meaning, ""
+    return option.text, option.default or ""
 
 
 def table(options):
     lines = ["| option | meaning | default |", "| --- | --- | --- |"]
     for option in options:
-        meaning, default = (words.replace("|", "\\|") for words in split_meaning(option.meaning))
-        words = f"{option.name} {option.values}".strip()
+        meaning, default = (words.replace("|", "\\|") for words in split_text(option))
+        words = f"{option.name} {option.argument}".strip()
         lines.append(f"| `{words}` | {meaning} | {default} |")
     return "\n".join(lines)
 
@@ -85,9 +60,8 @@ def main():
     arguments = parser.parse_args()
     groups = {}
     for program in PROGRAMS:
-        words = [str(arguments.build / "bin" / program), "-help"]
-        text = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60).stdout
-        groups.update({(program, heading): options for heading, options in read_help(text).items()})
+        for group in read_options(arguments.build / "bin" / program):
+            groups[program, group.name] = group.options
     old = REFERENCE.read_text()
     new = fill(old, groups)
     if not arguments.check:

@@ -12,6 +12,7 @@ from support import ROOT, dead_links
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
 import check_readmes  # noqa: E402
 import reference  # noqa: E402
+from options import Option  # noqa: E402
 
 FILES = [
     *ROOT.glob("*.md"),
@@ -57,17 +58,15 @@ def test_the_reference_of_options_is_what_help_says():
     assert done.returncode == 0, done.stderr
 
 
-def test_options_of_a_help_become_a_table():
-    groups = reference.read_help(
-        "about\n\nSome group\n  -a <number>      length (m): required\n"
-        "  -a_name_too_long_for_its_column [<bool>]\n                   said (off) if asked (false)\n"
-    )
-    assert reference.fill(
-        "x\n<!-- petsam: Some group -->\nold\n<!-- end -->\n", {("petsam", "Some group"): groups["Some group"]}
-    ) == (
+def test_options_of_a_group_become_a_table():
+    group = [
+        Option("-a", "<number>", "length (m): required", None, []),
+        Option("-b", "[<bool>]", "said (off) if asked, or on|off", "false", ["true", "false"]),
+    ]
+    assert reference.fill("x\n<!-- petsam: Some group -->\nold\n<!-- end -->\n", {("petsam", "Some group"): group}) == (
         "x\n<!-- petsam: Some group -->\n| option | meaning | default |\n| --- | --- | --- |\n"
         "| `-a <number>` | length (m) | required |\n"
-        "| `-a_name_too_long_for_its_column [<bool>]` | said (off) if asked | false |\n<!-- end -->\n"
+        "| `-b [<bool>]` | said (off) if asked, or on\\|off | false |\n<!-- end -->\n"
     )
 
 

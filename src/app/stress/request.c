@@ -106,8 +106,8 @@ static PetscErrorCode ReadSection(const SamOptions *from, SamStressRequest *r)
   double place     = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "section", "only the cells nearest to a plane: y=0 or x=1e-4, m (whole maps)", text,
-                             sizeof(text), &r->section));
+  PetscCall(SamOptionsString(from, "section", "only the cells nearest to a plane, y=0 or x=1e-4 (m), not whole maps",
+                             text, sizeof(text), &r->section));
   if (!r->section) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck((text[0] == 'x' || text[0] == 'y') && text[1] == '=' && ReadNumber(text + 2, &place), from->comm,
              SAM_ERR_USER, "-section %s: expected for example y=0 or x=1e-4", text);
