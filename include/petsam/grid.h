@@ -103,6 +103,12 @@ PETSC_EXTERN PetscErrorCode SamWindowPut(SamWindow window, Vec part, Vec whole);
 */
 PETSC_EXTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2]);
 /*
+  SamGridCountZones - the number of zones of cells, connected by their sides, where the first component of a field is
+  positive; with `wrap` the cells at opposite borders of the grid are neighbours. The same on any number of ranks.
+  Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones);
+/*
   SamGridMeasureZones - the zones of cells that touch each other, also at corners, where the first component of a field
   is positive: their number, and how many cells across the narrow ones are. Zones in which no more than `part` of all
   these cells lie, the narrowest ones, do not count. A zone is as wide as the shorter side of its bounding box, or as

@@ -1,8 +1,8 @@
 /*
   Connected zones of cells: how many, and how many cells across.
 
-  Each rank goes through its rows once and unites runs of cells that touch a run in the row before (union-find). Zones
-  that lie within a rank's rows are complete then. Those in its first or last row may go on in the next rank: their
+  Each rank goes through its rows once and unites runs of cells that touch a run in the row before (Hoshen and Kopelman
+  1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then. Those in its first or last row may go on in the next rank: their
   pieces are sent to rank 0, which unites them. What is summed are whole numbers, so that nothing depends on the number
   of ranks. Memory: a run of two rows, and a piece a zone.
 */
@@ -27,8 +27,14 @@ typedef struct {
   PetscInt count, room;
 } Row;
 
+/* What connects cells: corners too, or sides only, and these over the grid's borders too. */
+typedef struct {
+  PetscBool corners, wrap;
+} Touch;
+
 /* Pieces; `parent` leads to the piece that one has been united with, itself at first. */
 typedef struct {
+  Touch     touch;
   Piece    *piece;
   PetscInt *parent;
   PetscInt  count, room;
@@ -128,11 +134,13 @@ static PetscErrorCode AddRun(Row *row, Run run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Unites the pieces of two rows that touch, also at corners. */
+/* Unites the pieces of two rows that touch. */
 static void Join(Forest *f, const Run *one, PetscInt ones, const Run *other, PetscInt others)
 {
+  const PetscInt reach = f->touch.corners ? 1 : 0;
+
   for (PetscInt i = 0, j = 0; i < ones && j < others;) {
-    if (one[i].first <= other[j].last + 1 && other[j].first <= one[i].last + 1)
+    if (one[i].first <= other[j].last + reach && other[j].first <= one[i].last + reach)
       Unite(f, (PetscInt)one[i].piece, (PetscInt)other[j].piece);
     if (one[i].last < other[j].last)
       i++;
@@ -144,7 +152,8 @@ static void Join(Forest *f, const Run *one, PetscInt ones, const Run *other, Pet
 /* The runs of row j, which go on with the pieces that they touch in the row before. */
 static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, const Row *before, Forest *f, Row *row)
 {
-  PetscInt b = 0;
+  const PetscInt reach = f->touch.corners ? 1 : 0;
+  PetscInt       b     = 0;
 
   PetscFunctionBegin;
   row->count = 0;
@@ -157,8 +166,8 @@ static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, const 
     while (i + 1 < grid->nx && p[i + 1] > 0) i++;
     run.last = i;
     piece    = PieceOf(run.first, run.last, grid->row_start + j);
-    while (b < before->count && before->run[b].last + 1 < run.first) b++;
-    for (PetscInt k = b; k < before->count && before->run[k].first <= run.last + 1; k++) {
+    while (b < before->count && before->run[b].last + reach < run.first) b++;
+    for (PetscInt k = b; k < before->count && before->run[k].first <= run.last + reach; k++) {
       if (run.piece < 0) {
         run.piece = Find(f, (PetscInt)before->run[k].piece);
         Add(&f->piece[run.piece], &piece);
@@ -172,6 +181,8 @@ static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, const 
     }
     PetscCall(AddRun(row, run));
   }
+  if (f->touch.wrap && row->count && row->run[0].first == 0 && row->run[row->count - 1].last == grid->nx - 1)
+    Unite(f, (PetscInt)row->run[0].piece, (PetscInt)row->run[row->count - 1].piece);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -238,13 +249,13 @@ static PetscErrorCode Pack(Forest *f, const Row edge[2], int64_t **told, PetscMP
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* On rank 0: unites what all ranks have told. */
-static PetscErrorCode UniteRanks(Forest *all, PetscMPIInt size, const int64_t told[], const PetscMPIInt start[])
+/* On rank 0: unites what the ranks that have rows, the first ones, have told. */
+static PetscErrorCode UniteRanks(Forest *all, PetscMPIInt ranks, const int64_t told[], const PetscMPIInt start[])
 {
-  Row last = {NULL, 0, 0};
+  Row first = {NULL, 0, 0}, last = {NULL, 0, 0};
 
   PetscFunctionBegin;
-  for (PetscMPIInt rank = 0; rank < size; rank++) {
+  for (PetscMPIInt rank = 0; rank < ranks; rank++) {
     const int64_t *in   = told + start[rank];
     const PetscInt ones = (PetscInt)in[0], runs = ones + (PetscInt)in[1], base = all->count;
     Row            row = {NULL, 0, 0};
@@ -263,23 +274,30 @@ static PetscErrorCode UniteRanks(Forest *all, PetscMPIInt size, const int64_t to
     }
     Join(all, last.run, last.count, row.run, ones);
     last.count = 0;
+    for (PetscInt r = 0; rank == 0 && r < ones; r++) PetscCall(AddRun(&first, row.run[r]));
     for (PetscInt r = ones; r < runs; r++) PetscCall(AddRun(&last, row.run[r]));
     PetscCall(PetscFree(row.run));
   }
+  if (all->touch.wrap) Join(all, last.run, last.count, first.run, first.count);
+  PetscCall(PetscFree(first.run));
   PetscCall(PetscFree(last.run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The shared zones, on rank 0; the rank's own forest loses their pieces. */
-static PetscErrorCode Share(MPI_Comm comm, Forest *own, const Row edge[2], Forest *shared)
+static PetscErrorCode Share(SamGrid grid, Forest *own, const Row edge[2], Forest *shared)
 {
-  PetscMPIInt rank, size, count, *counts = NULL, *start = NULL;
-  int64_t    *told = NULL, *all = NULL;
+  const MPI_Comm comm = grid->comm;
+  PetscMPIInt    rank, size, ranks = 0, count, *counts = NULL, *start = NULL;
+  int64_t       *told = NULL, *all = NULL;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
+  if (size == 1 && own->touch.wrap) Join(own, edge[1].run, edge[1].count, edge[0].run, edge[0].count);
   if (size == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt begin = 0, end = 1; ranks < size && end > begin; ranks += end > begin)
+    SamGridRowsOf(grid, size, ranks, &begin, &end);
   PetscCall(Pack(own, edge, &told, &count));
   if (rank == 0) PetscCall(PetscMalloc2(size, &counts, size + 1, &start));
   PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
@@ -289,7 +307,7 @@ static PetscErrorCode Share(MPI_Comm comm, Forest *own, const Row edge[2], Fores
     PetscCall(PetscMalloc1(start[size], &all));
   }
   PetscCallMPI(MPI_Gatherv(told, count, MPI_INT64_T, all, counts, start, MPI_INT64_T, 0, comm));
-  if (rank == 0) PetscCall(UniteRanks(shared, size, all, start));
+  if (rank == 0) PetscCall(UniteRanks(shared, ranks, all, start));
   if (rank == 0) PetscCall(PetscFree2(counts, start));
   PetscCall(PetscFree(all));
   PetscCall(PetscFree(told));
@@ -308,18 +326,53 @@ static void Count(Forest *f, PetscInt widths, double cells[])
   }
 }
 
+/* This rank's zones, and on rank 0 those of several ranks. */
+static PetscErrorCode FindZones(SamGrid grid, Vec field, Touch touch, Forest *own, Forest *shared)
+{
+  Row edge[2] = {{NULL, 0, 0}, {NULL, 0, 0}};
+
+  PetscFunctionBegin;
+  *own = *shared = (Forest){.touch = touch};
+  PetscCall(ReadRows(grid, field, own, edge));
+  PetscCall(Share(grid, own, edge, shared));
+  for (int k = 0; k < 2; k++) PetscCall(PetscFree(edge[k].run));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyForest(Forest *f)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(f->piece));
+  PetscCall(PetscFree(f->parent));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones)
+{
+  Forest f[2];
+  double sum = 0;
+
+  PetscFunctionBegin;
+  PetscCall(FindZones(grid, field, (Touch){.wrap = wrap}, &f[0], &f[1]));
+  for (int k = 0; k < 2; k++)
+    for (PetscInt z = 0; z < f[k].count; z++)
+      if (f[k].parent[z] == z && f[k].piece[z].cells) sum += 1;
+  PetscCall(SamSum(grid->comm, 1, &sum));
+  *zones = (PetscInt)sum;
+  for (int k = 0; k < 2; k++) PetscCall(DestroyForest(&f[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscInt *zones, PetscReal *across)
 {
   const PetscInt widths = 10 * PetscMax(grid->nx, grid->ny);
-  Forest         own = {NULL, NULL, 0, 0}, shared = {NULL, NULL, 0, 0};
-  Row            edge[2] = {{NULL, 0, 0}, {NULL, 0, 0}};
   double        *cells, sum = 0, narrow = 0;
+  Forest         own, shared;
   PetscInt       w = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(widths + 1, &cells));
-  PetscCall(ReadRows(grid, field, &own, edge));
-  PetscCall(Share(grid->comm, &own, edge, &shared));
+  PetscCall(FindZones(grid, field, (Touch){.corners = PETSC_TRUE}, &own, &shared));
   Count(&own, widths, cells);
   Count(&shared, widths, cells);
   PetscCall(SamSum(grid->comm, widths + 1, cells)); /* of whole numbers: exact */
@@ -327,11 +380,8 @@ PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, Pets
   while (w < widths && (w == 0 || narrow <= (double)part * sum)) narrow += cells[++w];
   *zones  = (PetscInt)cells[0];
   *across = sum > 0 ? 0.1 * (PetscReal)w : 0;
-  for (int k = 0; k < 2; k++) PetscCall(PetscFree(edge[k].run));
-  PetscCall(PetscFree(own.piece));
-  PetscCall(PetscFree(own.parent));
-  PetscCall(PetscFree(shared.piece));
-  PetscCall(PetscFree(shared.parent));
+  PetscCall(DestroyForest(&own));
+  PetscCall(DestroyForest(&shared));
   PetscCall(PetscFree(cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

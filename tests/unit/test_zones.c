@@ -13,16 +13,23 @@ typedef struct {
   char     in[MOST];
 } Pattern;
 
-static void Measure(const Pattern *p, double part, PetscInt *zones, PetscReal *across)
+static void FieldOf(const Pattern *p, SamGrid *grid, Vec *field)
 {
-  SamGrid grid = NewGrid(p->nx, p->ny, 1, 1);
-  Vec     field;
   double *a;
 
-  sam_call(SamGridCreateVec(grid, 1, &field));
-  sam_call(VecGetArray(field, &a));
-  for (PetscInt k = 0; k < grid->cells; k++) a[k] = p->in[grid->row_start * p->nx + k] ? 1e-3 : -1;
-  sam_call(VecRestoreArray(field, &a));
+  *grid = NewGrid(p->nx, p->ny, 1, 1);
+  sam_call(SamGridCreateVec(*grid, 1, field));
+  sam_call(VecGetArray(*field, &a));
+  for (PetscInt k = 0; k < (*grid)->cells; k++) a[k] = p->in[(*grid)->row_start * p->nx + k] ? 1e-3 : -1;
+  sam_call(VecRestoreArray(*field, &a));
+}
+
+static void Measure(const Pattern *p, double part, PetscInt *zones, PetscReal *across)
+{
+  SamGrid grid;
+  Vec     field;
+
+  FieldOf(p, &grid, &field);
   sam_call(SamGridMeasureZones(grid, field, part, zones, across));
   sam_call(VecDestroy(&field));
   sam_call(SamGridDestroy(&grid));
@@ -112,6 +119,17 @@ static void AssertRight(const Pattern *p, double part)
   sam_assert_close(across, width, 0.0501); /* a tenth of a cell */
 }
 
+/* A share of 16 of the cells of a size, chosen at random. */
+static void Scatter(Pattern *p, const PetscInt size[2], int share, uint64_t *seed)
+{
+  p->nx = size[0];
+  p->ny = size[1];
+  for (PetscInt k = 0; k < p->nx * p->ny; k++) {
+    *seed    = *seed * UINT64_C(6364136223846793005) + 1442695040888963407;
+    p->in[k] = (int)(*seed >> 60) < share;
+  }
+}
+
 static void test_random_cells_give_the_zones_of_a_flood_fill(void **state)
 {
   static Pattern p;
@@ -121,13 +139,57 @@ static void test_random_cells_give_the_zones_of_a_flood_fill(void **state)
   for (int s = 0; s < NUM_SIZES; s++)
     for (int share = 1; share < 10; share += 2)
       for (int part = 0; part < 2; part++) {
-        p.nx = sizes[s][0];
-        p.ny = sizes[s][1];
-        for (PetscInt k = 0; k < p.nx * p.ny; k++) {
-          seed    = seed * UINT64_C(6364136223846793005) + 1442695040888963407;
-          p.in[k] = (int)(seed >> 60) < share;
-        }
+        Scatter(&p, sizes[s], share, &seed);
         AssertRight(&p, 0.1 * part);
+      }
+}
+
+/* The zones by the definition: each cell takes the least number of its neighbours, until none changes. */
+static PetscInt CountBySides(const Pattern *p, PetscBool wrap)
+{
+  static PetscInt at[MOST];
+  const PetscInt  n     = p->nx * p->ny;
+  PetscInt        zones = 0;
+  PetscBool       changes;
+
+  for (PetscInt k = 0; k < n; k++) at[k] = k;
+  do {
+    changes = PETSC_FALSE;
+    for (PetscInt k = 0; k < n; k++)
+      for (int d = 0; d < 4; d++) {
+        static const int step[][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+        const PetscInt   i = k % p->nx + step[d][0], j = k / p->nx + step[d][1];
+        const PetscInt   other = (j + p->ny) % p->ny * p->nx + (i + p->nx) % p->nx;
+
+        if (!p->in[k] || !p->in[other]) continue;
+        if (!wrap && (i < 0 || i >= p->nx || j < 0 || j >= p->ny)) continue;
+        if (at[other] < at[k]) changes = PETSC_TRUE;
+        at[k] = PetscMin(at[k], at[other]);
+      }
+  } while (changes);
+  for (PetscInt k = 0; k < n; k++) zones += p->in[k] && at[k] == k;
+  return zones;
+}
+
+static void test_zones_by_sides_are_those_of_neighbours_also_over_the_borders(void **state)
+{
+  static Pattern p;
+  uint64_t       seed = 7;
+
+  (void)state;
+  for (int s = 0; s < NUM_SIZES; s++)
+    for (int share = 3; share < 14; share += 2)
+      for (int wrap = 0; wrap < 2; wrap++) {
+        PetscInt zones;
+        SamGrid  grid;
+        Vec      field;
+
+        Scatter(&p, sizes[s], share, &seed);
+        FieldOf(&p, &grid, &field);
+        sam_call(SamGridCountZones(grid, field, (PetscBool)wrap, &zones));
+        sam_assert(zones == CountBySides(&p, (PetscBool)wrap));
+        sam_call(VecDestroy(&field));
+        sam_call(SamGridDestroy(&grid));
       }
 }
 
@@ -196,6 +258,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_random_cells_give_the_zones_of_a_flood_fill),
+    cmocka_unit_test(test_zones_by_sides_are_those_of_neighbours_also_over_the_borders),
     cmocka_unit_test(test_zones_that_meet_late_are_one),
     cmocka_unit_test(test_widths_are_those_of_the_shapes),
     cmocka_unit_test(test_small_zones_do_not_count_up_to_their_part),
