@@ -2,9 +2,9 @@
   Connected zones of cells: how many, and how many cells across.
 
   Each rank goes through its rows once and unites runs of cells that touch a run in the row before (Hoshen and Kopelman
-  1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then. Those in its first or last row may go on in the next rank: their
-  pieces are sent to rank 0, which unites them. What is summed are whole numbers, so that nothing depends on the number
-  of ranks. Memory: a run of two rows, and a piece a zone.
+  1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then. Those in its
+  first or last row may go on in the next rank: their pieces are sent to rank 0, which unites them. What is summed are
+  whole numbers, so that nothing depends on the number of ranks. Memory: a run of two rows, and a piece a zone.
 */
 #include "gridimpl.h"
 #include <petsam/private/baseimpl.h>
