@@ -121,18 +121,42 @@ def sphere():
 
 
 @pytest.fixture
-def draw(tmp_path, monkeypatch, capfd):
-    """draw(*words): exit code and messages of petsam-plot, run here in tmp_path: many in little time."""
-    from petsam.plot import command
-
+def call(tmp_path, monkeypatch, capfd):
+    """call(name, main, *words): exit code and messages of a command of Python, run here in tmp_path: many quickly."""
     monkeypatch.chdir(tmp_path)
 
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["petsam-plot", *map(str, words)])
+    def run(name, main, *words):
+        monkeypatch.setattr(sys, "argv", [name, *map(str, words)])
         try:
-            code = command.main()
+            code = main()
         except SystemExit as end:  # of argparse
             code = end.code
         return code, capfd.readouterr().err.splitlines()
 
     return run
+
+
+@pytest.fixture
+def draw(call):
+    """draw(*words): exit code and messages of petsam-plot."""
+    from petsam.plot import command
+
+    return lambda *words: call("petsam-plot", command.main, *words)
+
+
+@pytest.fixture
+def results(path):
+    """The results of the run whose file the fixture `path` of a module gives."""
+    import petsam
+
+    with petsam.open(path) as results:
+        yield results
+
+
+@pytest.fixture
+def closing():
+    """Figures are closed after each test: matplotlib keeps them."""
+    from petsam.plot.style import plt
+
+    yield
+    plt.close("all")

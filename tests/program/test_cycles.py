@@ -1,7 +1,6 @@
 """Cycles of a history: turning points, periods, their energies and loops, in petsam-plot and in petsam-study."""
 
 import csv
-import sys
 
 import h5py
 import numpy as np
@@ -11,8 +10,10 @@ import petsam
 from conftest import PROGRAM as PETSAM
 from petsam import cycles
 from petsam.plot import loops, wear
-from petsam.plot.style import MARKED, plt
+from petsam.plot.style import MARKED
 from support import ball, slide_limit, words
+
+pytestmark = pytest.mark.usefixtures("closing")
 
 CASE = ball(n=24)
 LIMIT = slide_limit(CASE)[0]
@@ -32,19 +33,6 @@ def program(folder, turns, name="h.csv"):
 def path(solve, tmp_path_factory):
     """Three cycles after the first loading; fields of every step."""
     return solve(CASE, dict(history=program(tmp_path_factory.mktemp("history"), TURNS), steps=STEPS)).path
-
-
-@pytest.fixture
-def results(path):
-    with petsam.open(path) as results:
-        yield results
-
-
-@pytest.fixture(autouse=True)
-def closing():
-    """Figures are closed after each test: matplotlib keeps them."""
-    yield
-    plt.close("all")
 
 
 def strokes(path):
@@ -250,23 +238,13 @@ def test_what_is_no_cycle_is_named(draw, path, words, code, says):
 
 
 @pytest.fixture
-def study(launcher, tmp_path, monkeypatch, capfd):
+def study(call, launcher, monkeypatch):
     """study(*words): exit code and messages of petsam-study in tmp_path."""
     from petsam.study import command
 
-    monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PETSAM", str(PETSAM))
     monkeypatch.setenv("MPIRUN", " ".join(launcher))
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["petsam-study", *map(str, words)])
-        try:
-            code = command.main()
-        except SystemExit as end:  # of argparse
-            code = end.code
-        return code, capfd.readouterr().err.splitlines()
-
-    return run
+    return lambda *words: call("petsam-study", command.main, *words)
 
 
 def table(folder):

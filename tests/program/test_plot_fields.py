@@ -10,6 +10,8 @@ from petsam.plot import colours, maps, profiles, series, style
 from petsam.plot.style import plt
 from support import ball, slide_limit
 
+pytestmark = pytest.mark.usefixtures("closing")
+
 CASE = ball(n=32)
 AMPLITUDE = 0.7 * slide_limit(CASE)[0]
 # steel on steel, a narrow ellipse: 10 mm x 1 mm
@@ -32,19 +34,6 @@ def edges(solve):
     """A narrow contact on a long grid, with its edge."""
     more = dict(load_tx=300.0, load_ty=100.0, output_fields="all,contact_edge")
     return solve(dict(LONG, **more)).path
-
-
-@pytest.fixture
-def results(path):
-    with petsam.open(path) as results:
-        yield results
-
-
-@pytest.fixture(autouse=True)
-def closing():
-    """Figures are closed after each test: matplotlib keeps them."""
-    yield
-    plt.close("all")
 
 
 def image(figure, panel=0):

@@ -8,10 +8,11 @@ import pytest
 
 import petsam
 from petsam.plot import tables
-from petsam.plot.style import plt
 from petsam.studies import Study
 from petsam.study.cases import Case
 from petsam.study.tables import write_hdf5
+
+pytestmark = pytest.mark.usefixtures("closing")
 
 RATIOS, FRICTIONS, SHAPES = (0.5, 0.1, 0.9), (0.1, 0.4), ("ball", "punch")
 
@@ -49,13 +50,6 @@ def path(tmp_path):
 @pytest.fixture
 def study(path):
     return Study(path)
-
-
-@pytest.fixture(autouse=True)
-def closing():
-    """Figures are closed after each test: matplotlib keeps them."""
-    yield
-    plt.close("all")
 
 
 def curves(axes):

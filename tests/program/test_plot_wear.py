@@ -6,9 +6,10 @@ import pytest
 
 import petsam
 from petsam.plot import loops, maps, profiles, series, wear
-from petsam.plot.style import plt
 from petsam.plot.units import counted, scale
 from support import ball, slide_limit
+
+pytestmark = pytest.mark.usefixtures("closing")
 
 CASE = ball(n=24)
 AMPLITUDE = 0.8 * slide_limit(CASE)[0]
@@ -53,13 +54,6 @@ def direct(solve, cycle):
 def plain(solve, cycle):
     """Nothing wears."""
     return solve(CASE, dict(history=cycle)).path
-
-
-@pytest.fixture(autouse=True)
-def closing():
-    """Figures are closed after each test: matplotlib keeps them."""
-    yield
-    plt.close("all")
 
 
 def curves(axes):
