@@ -40,6 +40,7 @@ PETSC_EXTERN void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
   SamAdviseCells - the contact of a step is fewer than SAM_FEW_CELLS cells across; grids on which it is not.
   SamAdviseCurvature - its half width is more than SAM_STEEPEST of a radius of curvature.
   SamAdviseMotion - displacements and rotations that are not small, as the theory has them.
+  SamAdviseWear - a step wears more than it may: `excess` of SamWearGetExcess().
   SamAdviseEdge - a grid on which these loads do not bring the contact to its edge, to which it came in a step.
 */
 PETSC_EXTERN PetscErrorCode SamAdviseCells(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
@@ -48,6 +49,7 @@ PETSC_EXTERN PetscErrorCode SamAdviseCurvature(const SamSetup *setup, const SamS
                                                char text[], size_t size);
 PETSC_EXTERN PetscErrorCode SamAdviseMotion(const SamExtent *extent, const SamLoadsMost *most, char text[],
                                             size_t size);
+PETSC_EXTERN PetscErrorCode SamAdviseWear(PetscReal excess, char text[], size_t size);
 PETSC_EXTERN PetscErrorCode SamAdviseEdge(const SamSetup *setup, const SamStep *step, const SamLoadsMost *most,
                                           char text[], size_t size);
 

@@ -65,7 +65,8 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6]);
 /*
-  petsam_commit - the tried step becomes the state from which the next one goes on; bodies wear by it, if they do.
+  petsam_commit - the tried step becomes the state from which the next one goes on; bodies wear by it, if they do. A
+  warning of petsam_message() then says that the step wears more than one may.
   petsam_reject - forgets a tried step, if there is one: later steps are, to the last bit, as if it had not been tried.
 */
 int petsam_commit(petsam_contact *c);

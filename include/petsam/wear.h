@@ -36,6 +36,12 @@ PETSC_EXTERN PetscErrorCode SamWearCreate(SamContact contact, SamWearLaw law, co
 PETSC_EXTERN PetscErrorCode SamWearDestroy(SamWear *wear);
 /* SamWearCountStep - see above. Collective. Errors: PETSC_ERR_ORDER without a tried step. */
 PETSC_EXTERN PetscErrorCode SamWearCountStep(SamWear wear);
+/*
+  SamWearGetExcess - what the tried step that was counted last wears, over the most that a step may wear: above 1 the
+  pressure of the steps to come is uneven from cell to cell, and wrong. That limit is a depth of 1.16 (p/E*) h of
+  half-spaces, h being the width of square cells. Collective. Errors: PETSC_ERR_ORDER without a tried step.
+*/
+PETSC_EXTERN PetscErrorCode SamWearGetExcess(SamWear wear, PetscReal *excess);
 /* SamWearApply - removes material by `times` the wear load of the cycle, which is 0 then. Collective. */
 PETSC_EXTERN PetscErrorCode SamWearApply(SamWear wear, PetscReal times);
 /* SamWearMoveGap - makes the problem's gap that of the unworn bodies and what has been removed. Collective. */

@@ -43,6 +43,22 @@ PetscErrorCode SamRunAdviseEdge(const SamRun *run, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamRunExamineWear(SamRun *run, PetscInt k)
+{
+  PetscReal excess;
+  char      advice[400], text[440];
+
+  PetscFunctionBegin;
+  if (run->wear_told) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamWearGetExcess(run->wear, &excess));
+  PetscCall(SamAdviseWear(excess, advice, sizeof(advice)));
+  if (!advice[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  run->wear_told = PETSC_TRUE;
+  (void)snprintf(text, sizeof(text), "step %" PetscInt_FMT ": %s", k + 1, advice);
+  SamReportWarn(run->report, text, "steps");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamRunExamine(SamRun *run, PetscInt k, const SamStep *step)
 {
   const PetscBool force = step->control.force[SAM_COMPONENT_N];

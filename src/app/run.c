@@ -308,6 +308,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
   PetscCall(SamRunWriteStep(run, &step, due));
   PetscCall(SamReportEndStep(run->report, &step)); /* after writing: a reported step is in the file */
   PetscCall(SamRunExamine(run, k, &step));
+  if (run->wear && SamStepIsSolved(&step)) PetscCall(SamRunExamineWear(run, k));
   if (!*ended) PetscCall(SamContactCommit(run->setup.contact));
   if (!*ended && run->wear) PetscCall(SamWearMoveGap(run->wear));
   if (*ended || !run->point.worst) run->point.worst = step.status;

@@ -41,8 +41,9 @@ typedef struct {
   char              filename[PETSC_MAX_PATH_LEN];
   char              checkpoint_text[PETSC_MAX_PATH_LEN + 256]; /* when checkpoints are written */
   SamLoadsMost      most;                                      /* the largest loads of the steps from here on */
-  PetscInt          largest;  /* step of the largest normal load or approach among them, from 0 */
-  PetscBool         examined; /* whether the size of the contact was looked at */
+  PetscInt          largest;   /* step of the largest normal load or approach among them, from 0 */
+  PetscBool         examined;  /* whether the size of the contact was looked at */
+  PetscBool         wear_told; /* that a step wears more than it may */
 } SamRun;
 
 /* SamRunSetUp - reads all options and input files and makes all objects; writes nothing. Collective. */
@@ -81,9 +82,11 @@ PETSC_INTERN PetscErrorCode SamRunCheckpoint(SamRun *run);
   the steps from `first` on, and warns of options that are unlikely to be meant. SamRunAdviseEdge - appends to the
   message of a step at the grid's edge a grid that is large enough. SamRunExamine - after step k: if it has the largest
   load, warns of too few cells, of a contact too large for half-spaces, of none, and of
-  motions that are not small, once in a run. Collective.
+  motions that are not small, once in a run. SamRunExamineWear - after step k, which has a solution and has worn: warns,
+  once in a run, of more wear than a step may have. Collective.
 */
 PETSC_INTERN PetscErrorCode SamRunPrepareAdvice(SamRun *run, PetscInt first);
+PETSC_INTERN PetscErrorCode SamRunExamineWear(SamRun *run, PetscInt k);
 PETSC_INTERN PetscErrorCode SamRunAdviseEdge(const SamRun *run, SamStep *step);
 PETSC_INTERN PetscErrorCode SamRunExamine(SamRun *run, PetscInt k, const SamStep *step);
 /* SamRunTearDown - destroys all objects, also after an error. Collective. */

@@ -353,7 +353,7 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
 
 static PetscErrorCode Commit(petsam_contact *c)
 {
-  PetscReal depth[2];
+  PetscReal depth[2], excess = 0;
 
   PetscFunctionBegin;
   PetscCheck(!c->has_last || c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
@@ -362,6 +362,7 @@ static PetscErrorCode Commit(petsam_contact *c)
   PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and cannot be committed: %s", c->last.message);
   if (c->wear) PetscCall(SamWearCountStep(c->wear));
+  if (c->wear) PetscCall(SamWearGetExcess(c->wear, &excess));
   PetscCall(SamContactCommit(c->setup.contact));
   if (c->wear) {
     PetscCall(SamWearApply(c->wear, 1));
@@ -371,6 +372,7 @@ static PetscErrorCode Commit(petsam_contact *c)
   c->has_tried     = PETSC_FALSE;
   c->has_committed = PETSC_TRUE;
   c->committed     = c->last;
+  PetscCall(SamAdviseWear(excess, c->message, sizeof(c->message)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -223,6 +223,22 @@ PetscErrorCode SamAdviseMotion(const SamExtent *extent, const SamLoadsMost *most
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- wear ---- */
+
+PetscErrorCode SamAdviseWear(PetscReal excess, char text[], size_t size)
+{
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (excess > 1)
+    (void)snprintf(
+      text, size,
+      "the step wears %.2g times as much as one step may, 1.16 (p/E*) h deep, h being the width of a cell: the "
+      "pressure becomes uneven from cell to cell, and wrong; expected so many times more steps, or less "
+      "wear: check the unit of the coefficient, 1/Pa or m3/J",
+      (double)excess);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the edge ---- */
 
 /*

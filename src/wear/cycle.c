@@ -125,15 +125,6 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a unit of path wears in a cell, per pressure: 1, or the coefficient of friction. */
-static PetscErrorCode GetUnit(SamLife l, PetscReal friction_scale, Vec unit)
-{
-  PetscFunctionBegin;
-  PetscCall(VecSet(unit, 1));
-  if (l->wear->law == SAM_WEAR_ENERGY) PetscCall(SamProblemComputeBound(l->wear->problem, friction_scale, unit, unit));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode FindCoefficient(SamLife l, PetscReal friction_scale, SamRate *rate)
 {
   const SamWear w = l->wear;
@@ -141,7 +132,7 @@ static PetscErrorCode FindCoefficient(SamLife l, PetscReal friction_scale, SamRa
   double       *to, most = 0;
 
   PetscFunctionBegin;
-  PetscCall(GetUnit(l, friction_scale, l->diagonal));
+  PetscCall(SamWearGetUnit(w, friction_scale, l->diagonal));
   PetscCall(VecGetArrayRead(rate->pressure, &p));
   PetscCall(VecGetArrayRead(w->cycle, &load));
   PetscCall(VecGetArrayRead(w->path, &path));
@@ -157,7 +148,7 @@ static PetscErrorCode FindCoefficient(SamLife l, PetscReal friction_scale, SamRa
   PetscCall(VecRestoreArrayRead(w->cycle, &load));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
   PetscCall(SamMax(w->grid->comm, 1, &most));
-  rate->most = (PetscReal)most;
+  PetscCall(SamWearGetLimit(w, (PetscReal)most, &rate->limit));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

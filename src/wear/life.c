@@ -33,25 +33,6 @@
       &(l)->middle.shift, &(l)->whole, &(l)->half, &(l)->halves, &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, NULL \
   }
 
-/* The smallest eigenvalue of the normal influence: the Rayleigh quotient of a checkerboard, a little more. */
-static PetscErrorCode FindLeast(SamLife l)
-{
-  const SamGrid grid = l->wear->grid;
-  SamElasticity elasticity;
-  double       *to;
-  PetscReal     product;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemGetElasticity(l->wear->problem, &elasticity));
-  PetscCall(VecGetArrayWrite(l->p, &to));
-  for (PetscInt k = 0; k < grid->cells; k++) to[k] = (k % grid->nx + k / grid->nx + grid->row_start) % 2 ? 1 : -1;
-  PetscCall(VecRestoreArrayWrite(l->p, &to));
-  PetscCall(SamElasticityApplyNormal(elasticity, l->p, l->gap));
-  PetscCall(SamGridNorm(grid, l->gap, NORM_1, &product)); /* each displacement has the sign of its pressure */
-  l->least = product / ((PetscReal)grid->nx * (PetscReal)grid->ny);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, const SamLifeSettings *settings, SamLife *life)
 {
   const MPI_Comm      comm = wear->grid->comm;
@@ -75,7 +56,6 @@ PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, const SamL
   PetscCall(SamProblemGetElasticity(wear->problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   l->coupled = traits.coupled;
-  PetscCall(FindLeast(l));
   PetscCall(SamLifeFindTurns(l));
   *life = l;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -242,14 +222,6 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
 
 /* ---- the size of jumps ---- */
 
-/* The longest explicit jump that is stable, cycles; infinite without wear. */
-static PetscReal Limit(const SamLife l)
-{
-  const PetscReal most = l->start.most * (l->wear->coefficient[0] + l->wear->coefficient[1]);
-
-  return most > 0 ? 2 * l->least / most : PETSC_INFINITY;
-}
-
 /* A whole number of cycles. */
 static PetscReal Whole(PetscReal jump)
 {
@@ -261,8 +233,8 @@ static PetscReal FirstTry(const SamLife l, PetscReal cycles)
 {
   PetscReal jump = l->state.next;
 
-  if (jump == 0) jump = FIRST * Limit(l);
-  if (l->set.type == SAM_LIFE_EXPLICIT && !l->set.fixed) jump = PetscMin(jump, STABLE * Limit(l));
+  if (jump == 0) jump = FIRST * l->start.limit;
+  if (l->set.type == SAM_LIFE_EXPLICIT && !l->set.fixed) jump = PetscMin(jump, STABLE * l->start.limit);
   return PetscMin(l->set.fixed ? jump : Whole(jump), cycles - l->state.cycles);
 }
 
@@ -288,7 +260,7 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
   *r = (SamLifeReport){.cycles            = l->state.cycles,
                        .jump              = l->state.jump,
                        .error             = l->state.error,
-                       .limit             = Limit(l),
+                       .limit             = l->start.limit,
                        .dissipated_energy = l->energy,
                        .contact_area      = l->step.contact_area,
                        .computed          = l->state.computed,

@@ -15,7 +15,7 @@ typedef struct {
   Vec        pressure;    /* mean over the cycle, Pa */
   Vec        shift;       /* m: what the shear of dissimilar bodies lifts, less what opens in a part of the cycle */
   SamBalance balance;     /* mean over the cycle */
-  PetscReal  most;        /* the largest coefficient, m */
+  PetscReal  limit;       /* the longest explicit jump that is stable, cycles; infinite without wear */
 } SamRate;
 
 struct _n_SamLife {
@@ -24,7 +24,6 @@ struct _n_SamLife {
   SamLifeSettings set;
   SamLifeState    state;
   PetscBool       coupled;
-  PetscReal       least;               /* smallest eigenvalue of the normal influence, m/Pa */
   PetscBool       open;                /* the loop is not closed: a cycle is run before the one that is computed */
   PetscBool       known;               /* `start` has been computed */
   PetscBool      *turns;               /* of each step: whether a component turns there, or the cycle ends */

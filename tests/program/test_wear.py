@@ -1,5 +1,6 @@
 """Wear: direct and over the cycles of a life, its results, restarts, and what is refused."""
 
+import re
 import shutil
 import signal
 import subprocess
@@ -82,6 +83,17 @@ def test_the_gap_follows_at_the_end_of_a_step(petsam, tmp_path):
     gap = r["displacement_z"] + unworn + removed - D
     assert np.abs(gap - r["gap"]).max() < 1e-9 * D
     assert r["wear_depth1"].max() > 0.01 * D
+
+
+def test_steps_that_wear_too_much_are_told_once(petsam, tmp_path):
+    case = dict(BALL, wear_coefficient1=1e-9, steps=4)
+    told = petsam(case, cycle(tmp_path / "h.csv", amplitude=20 * MU * D)).stderr
+    times = float(
+        re.search(r"^petsam: warning: step \d+: the step wears (\S+) times as much .*\(-steps\)$", told, re.M)[1]
+    )
+    assert times > 1 and told.count("the step wears") == 1
+    fewer = dict(case, wear_coefficient1=1e-9 / (20 * times))
+    assert "the step wears" not in petsam(fewer, cycle(tmp_path / "h.csv", amplitude=20 * MU * D)).stderr
 
 
 # ---- a life

@@ -322,6 +322,22 @@ static void test_state_of_another_gap_is_refused(void **state)
   petsam_destroy(&d);
 }
 
+/* A step that wears more than a step may is told by the commit, and by no other call. */
+static void test_wear_of_too_large_a_step_is_told(void **state)
+{
+  petsam_contact *little = NewContact(World(), OPTIONS " -wear_coefficient1 1e-12"),
+                 *much   = NewContact(World(), OPTIONS " -wear_coefficient1 1e-6");
+
+  (void)state;
+  sam_assert(TryLoads(little, 1000, 200, NULL, NULL) == 0 && petsam_commit(little) == 0);
+  sam_assert(!petsam_message(little)[0]);
+  sam_assert(TryLoads(much, 1000, 200, NULL, NULL) == 0 && !petsam_message(much)[0]);
+  sam_assert(petsam_commit(much) == 0 && Says(much, "the step wears"));
+  sam_assert(petsam_reject(much) == 0 && !petsam_message(much)[0]);
+  petsam_destroy(&little);
+  petsam_destroy(&much);
+}
+
 /* A worn body's gap may be given anew: what has been removed stays. */
 static void test_wear_stays_when_the_gap_is_given_anew(void **state)
 {
@@ -357,6 +373,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_saved_state_goes_on_in_another_contact),
     cmocka_unit_test(test_state_of_another_gap_is_refused),
     cmocka_unit_test(test_wear_stays_when_the_gap_is_given_anew),
+    cmocka_unit_test(test_wear_of_too_large_a_step_is_told),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

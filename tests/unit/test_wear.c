@@ -236,6 +236,72 @@ static void test_sliding_sphere_has_its_volume_and_shape(void **state)
   DestroyCase(&c);
 }
 
+/* The mean of a field with the signs of a checkerboard, in the middle 16 x 16 cells of 48 x 48. */
+static double Checkerboard(SamGrid grid, Vec field)
+{
+  const double *a;
+  double        sum = 0;
+
+  sam_call(VecGetArrayRead(field, &a));
+  for (PetscInt k = 0; k < grid->cells; k++) {
+    const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
+
+    if (i >= 16 && i < 32 && j >= 16 && j < 32) sum += (i + j) % 2 ? a[k] : -a[k];
+  }
+  sam_call(VecRestoreArrayRead(field, &a));
+  sam_call(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, grid->comm));
+  return sum / 256;
+}
+
+/*
+  A sphere with a little checkerboard on it slides with `excess` times the wear that a step may have. A step wears by the
+  mean of the pressures before and after it, so the checkerboard c of the pressure goes on by
+  c(n+1) = c(n) - 2 excess (c(n) + c(n-1)) / 2. Returns the square of its growth, the product of both roots.
+*/
+static double GrowthOf(SamWearLaw law, double excess)
+{
+  const double    u     = 1e-8;
+  const PetscReal mu    = law == SAM_WEAR_ENERGY ? 1e-6 : 1e-9;
+  Case            c     = NewCase(Steel(), 48, 1.5, mu, "");
+  const double    limit = 1.16 * (double)(c.s.grid->dx / c.s.pair.modulus) / (2 * u);
+  const PetscReal k[2]  = {(PetscReal)(excess * limit * (law == SAM_WEAR_ENERGY ? 1e6 : 1)), 0};
+  double         *a, board[6];
+  PetscReal       found;
+  SamWear         wear;
+  Vec             gap;
+
+  sam_call(SamProblemGetGap(c.problem, &gap));
+  sam_call(VecGetArray(gap, &a));
+  for (PetscInt n = 0; n < c.s.grid->cells; n++)
+    a[n] += (n % c.s.grid->nx + n / c.s.grid->nx + c.s.grid->row_start) % 2 ? 1e-11 : -1e-11;
+  sam_call(VecRestoreArray(gap, &a));
+  sam_call(SamWearCreate(c.contact, law, k, &wear));
+  for (PetscInt s = 0; s <= 5; s++) {
+    const SamControl control = Stroke(&c, s % 2 ? -u : u);
+
+    if (s)
+      (void)WearStep(&c, wear, &control);
+    else
+      (void)Solve(&c, &control);
+    board[s] = Checkerboard(c.s.grid, SolutionOf(&c)->pressure);
+    if (s) sam_call(SamWearGetExcess(wear, &found));
+    if (s) sam_assert_close(found, excess, 0.02 * excess);
+  }
+  sam_call(SamWearDestroy(&wear));
+  DestroyCase(&c);
+  return (board[4] * board[4] - board[5] * board[3]) / (board[3] * board[3] - board[4] * board[2]);
+}
+
+/* It grows from the limit on. */
+static void test_pressure_gets_uneven_above_the_limit_and_even_below(void **state)
+{
+  (void)state;
+  for (int law = 0; law < 2; law++) {
+    sam_assert_close(GrowthOf((SamWearLaw)law, 0.8), 0.8, 0.02);
+    sam_assert_close(GrowthOf((SamWearLaw)law, 1.2), 1.2, 0.03);
+  }
+}
+
 static void test_wear_that_cannot_be_is_refused(void **state)
 {
   Case    c = NewCase(Steel(), 20, 1.5, MU, "");
@@ -265,6 +331,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_only_cells_that_slip_wear),
     cmocka_unit_test(test_wear_of_a_cycle_is_applied_as_often_as_is_asked),
     cmocka_unit_test(test_sliding_sphere_has_its_volume_and_shape),
+    cmocka_unit_test(test_pressure_gets_uneven_above_the_limit_and_even_below),
     cmocka_unit_test(test_wear_that_cannot_be_is_refused),
   };
 
