@@ -254,9 +254,9 @@ static double Checkerboard(SamGrid grid, Vec field)
 }
 
 /*
-  A sphere with a little checkerboard on it slides with `excess` times the wear that a step may have. A step wears by the
-  mean of the pressures before and after it, so the checkerboard c of the pressure goes on by
-  c(n+1) = c(n) - 2 excess (c(n) + c(n-1)) / 2. Returns the square of its growth, the product of both roots.
+  A sphere with a little checkerboard on it slides with `excess` times the wear that a step may have. A step wears by
+  the mean of the pressures before and after it, so the checkerboard c of the pressure goes on by c(n+1) = c(n) - 2
+  excess (c(n) + c(n-1)) / 2. Returns the square of its growth, the product of both roots.
 */
 static double GrowthOf(SamWearLaw law, double excess)
 {
