@@ -70,6 +70,11 @@ PETSC_EXTERN PetscErrorCode SamProfileGetZone(SamProfile profile, Vec *zone, Vec
 PETSC_EXTERN PetscErrorCode SamProfileComputeDisplacement(SamProfile profile, Vec u_z);
 PETSC_EXTERN PetscErrorCode SamProfileComputeSlopes(SamProfile profile, Vec slopes);
 PETSC_EXTERN PetscErrorCode SamProfileGetEdge(SamProfile profile, Vec point, SamEdge *edge);
+/*
+  SamProfileRootAt - the traction (Pa) at (x, y), cells from the centre of cell i of row j of this rank; 0 where nothing
+  has been found, and outside of the zone. Not collective.
+*/
+PETSC_EXTERN PetscReal SamProfileRootAt(SamProfile profile, PetscInt i, PetscInt j, PetscReal x, PetscReal y);
 
 /*
   SamShearProfile - what a shear q does within cells, and the displacement by that. Where a surface slips, q = mu p e,

@@ -24,7 +24,7 @@ typedef struct {
   PetscInt  step;
 } SamReportWorst;
 
-enum { SAM_REPORT_EDGES = 2 };
+enum { SAM_REPORT_EDGES = 4 };
 
 struct _n_SamReport {
   /* what the user set */
@@ -51,7 +51,7 @@ struct _n_SamReport {
   SamExtent      extent;                       /* of the contact in step `extent_step`, */
   PetscInt       extent_step;                  /* from 1; 0: not known */
   PetscBool      edge_told;                    /* that the contact is at the edge, which is allowed */
-  char     edge_told_of[SAM_REPORT_EDGES][64]; /* edges that are not corrected, whose warnings have been printed */
+  char     edge_told_of[SAM_REPORT_EDGES][96]; /* edges that are not corrected, whose warnings have been printed */
   PetscInt edges_told;
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];

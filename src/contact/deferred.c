@@ -28,10 +28,11 @@ typedef struct {
   SamBalance balance; /* of it */
 } Deferred;
 
-PetscErrorCode SamSolveLeaveEdge(SamSolve *s, const char of[], const char why[])
+PetscErrorCode SamSolveLeaveEdge(SamSolve *s, const char of[], PetscBool plain, const char why[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(s->step->message, sizeof(s->step->message), "the edge of %s is not corrected: %s", of, why));
+  PetscCall(PetscSNPrintf(s->step->message, sizeof(s->step->message), "the edge of %s is not corrected%s: %s", of,
+                          plain ? ", so the step stays as it is without" : "", why));
   PetscCall(PetscStrncpy(s->step->setting, "edges", sizeof(s->step->setting)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -39,9 +40,9 @@ PetscErrorCode SamSolveLeaveEdge(SamSolve *s, const char of[], const char why[])
 PetscErrorCode SamEdgeTooRough(PetscReal share, char why[], size_t size)
 {
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(why, size,
-                          "%.3g %% of it is smooth and resolved, %.0f %% would be needed; a finer grid helps",
-                          100 * (double)share, 100 * SAM_SMOOTH_EDGE));
+  PetscCall(PetscSNPrintf(
+    why, size, "%.3g %% of it is smooth and resolved, %.0f %% would be needed; another grid helps, best a finer one",
+    100 * (double)share, 100 * SAM_SMOOTH_EDGE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,7 +82,7 @@ static PetscErrorCode GiveUp(Deferred *d, const char why[])
   s->s->passes = 0;
   PetscCall(SamVecCopyNonzero(d->plain, s->s->pressure));
   SamBalanceStore(&d->balance, s->s->load, s->s->rigid);
-  PetscCall(SamSolveLeaveEdge(s, "contact", why));
+  PetscCall(SamSolveLeaveEdge(s, "contact", PETSC_FALSE, why));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -9,7 +9,9 @@
        displacement by it, beyond that of the means, is added to the tangential displacement; the bound of cells on the
        rim is less by their slack; the tangential problem is solved again, from the last shear.
   What the shear does within cells has a history, as the shear has, and is kept from step to step. Where the edge of
-  stick is not smooth or not resolved, as in a slip zone of a cell or two, it is left as it is in that step.
+  stick is not smooth or not resolved, as in a slip zone of a cell or two after a reversal, it is left as it is in that
+  step; where nothing has been corrected before, or where the contact grows over a shear that sticks, the plain solution
+  stays.
 
   The plain solution goes along because the errors of p and q, of the same operator, cancel in it: its energies are
   right to the second order of the cell however thin the slip zone is, where the work of a corrected shear on the slip
@@ -64,41 +66,6 @@ static PetscErrorCode KeepPlain(SamSolve *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Whether the load has turned back since the step before: most cells that slipped then do not go on in the same
-  direction.
-*/
-static PetscErrorCode FindTurn(SamSolve *s, const SamSolution *before, PetscBool *turned)
-{
-  const SamGrid  grid  = s->c->grid;
-  const PetscInt n     = grid->cells;
-  SamTotal       total = {0};
-  const double  *q, *q0, *slips, *slips0;
-  double         sum;
-  Vec            slipped, slipping;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(grid, 1, &slipped));
-  PetscCall(SamGridCreateVec(grid, 1, &slipping));
-  PetscCall(SamSolutionFindSlips(before, slipped));
-  PetscCall(SamSolutionFindSlips(s->s, slipping));
-  PetscCall(VecGetArrayRead(slipped, &slips0));
-  PetscCall(VecGetArrayRead(slipping, &slips));
-  PetscCall(VecGetArrayRead(before->shear, &q0));
-  PetscCall(VecGetArrayRead(s->s->shear, &q));
-  for (PetscInt k = 0; k < n; k++)
-    if (slips0[k] > 0) SamAdd(&total, slips[k] > 0 && q[k] * q0[k] + q[k + n] * q0[k + n] > 0 ? 1 : -1);
-  PetscCall(VecRestoreArrayRead(s->s->shear, &q));
-  PetscCall(VecRestoreArrayRead(before->shear, &q0));
-  PetscCall(VecRestoreArrayRead(slipping, &slips));
-  PetscCall(VecRestoreArrayRead(slipped, &slips0));
-  PetscCall(VecDestroy(&slipping));
-  PetscCall(VecDestroy(&slipped));
-  PetscCall(SamSumTotals(grid->comm, 1, &total, &sum));
-  *turned = sum < 0 ? PETSC_TRUE : PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* A shear and its slopes (NULL: none) as a reference. */
 static PetscErrorCode SetReference(Vec shear, Vec slopes, Vec reference)
 {
@@ -135,7 +102,7 @@ static PetscErrorCode FindReferences(SamSolve *s, PetscBool *turned)
   PetscCall(SamShearCorrectionCreate(c->grid, now));
   *turned = PETSC_FALSE;
   if (!plain) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(FindTurn(s, plain, turned));
+  PetscCall(SamSolveFindTurn(s, plain, turned));
   now->within.refers = *turned || before->within.refers ? PETSC_TRUE : PETSC_FALSE;
   if (*turned) {
     PetscCall(VecCopy(plain->shear, now->plain_reference));
@@ -224,17 +191,6 @@ static PetscErrorCode ChooseSlack(Deferred *d, PetscReal *share)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stick zone's edge is left as it is, and the step says why. */
-static PetscErrorCode LeaveStickEdge(SamSolve *s, PetscReal share)
-{
-  char why[96];
-
-  PetscFunctionBegin;
-  PetscCall(SamEdgeTooRough(share, why, sizeof(why)));
-  PetscCall(SamSolveLeaveEdge(s, "stick", why));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   Whether the slack of the rim is a part of the bound: where that is not near to the edge of contact, more than half of
   it is no cell that an edge cuts.
@@ -258,8 +214,22 @@ static PetscErrorCode IsSmall(Deferred *d, Vec rim, PetscBool *small)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slack's profile and its rim; without them where the edge is not smooth. */
-static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass)
+/* The edge of stick is not smooth: it stays as it is where the step before is corrected, else nothing is corrected. */
+static PetscErrorCode LeaveStickEdge(Deferred *d, PetscReal share, char why[], size_t size)
+{
+  const SamContact c = d->s->c;
+
+  PetscFunctionBegin;
+  d->s->s->sheared.slack = SAM_SLACK_NONE;
+  PetscCall(SamEdgeTooRough(share, why, size));
+  if (!c->steps || !c->committed.solution.sheared.has) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSolveLeaveEdge(d->s, "stick", PETSC_FALSE, why));
+  why[0] = '\0';
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The slack's profile and its rim, if there is an edge of stick; `why`: there is none that can be corrected. */
+static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass, char why[], size_t size)
 {
   SamShearCorrection *now   = &d->s->s->sheared;
   PetscReal           share = 1;
@@ -270,7 +240,7 @@ static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass)
   PetscFunctionBegin;
   if (pass == 1) {
     PetscCall(ChooseSlack(d, &share));
-    if (share < SAM_SMOOTH_EDGE && now->slack == SAM_SLACK_NONE) PetscCall(LeaveStickEdge(d->s, share));
+    if (share < SAM_SMOOTH_EDGE && now->slack == SAM_SLACK_NONE) PetscCall(LeaveStickEdge(d, share, why, size));
   } else if (now->slack != SAM_SLACK_NONE) {
     PetscCall(SamShearProfileFindSlack(d->profile, now->slack, now->within.reference, &slack, &profile));
     PetscCall(SamProfileMatch(profile, slack, now->rim, &found));
@@ -285,8 +255,7 @@ static PetscErrorCode FindStickEdge(Deferred *d, PetscInt pass)
     PetscCall(VecPointwiseMin(now->rim, rim, d->s->s->bound));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  now->slack = SAM_SLACK_NONE;
-  PetscCall(LeaveStickEdge(d->s, 0));
+  PetscCall(LeaveStickEdge(d, 0, why, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -326,9 +295,10 @@ static PetscErrorCode Pass(Deferred *d, PetscInt pass, char why[], size_t size)
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   PetscCall(SamSolutionFindSlips(s->s, d->slips));
   PetscCall(SamShearProfileSet(d->profile, &fields));
-  PetscCall(FindStickEdge(d, pass));
-  PetscCall(FindDisplacement(d));
+  PetscCall(FindStickEdge(d, pass, why, size));
+  if (!why[0]) PetscCall(FindDisplacement(d));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
+  if (why[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Again(d, why, size));
   now->passes = now->slack != SAM_SLACK_NONE ? pass : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -374,25 +344,7 @@ static PetscErrorCode CorrectShear(SamSolve *s, PetscBool turned)
   if (!why[0]) PetscCall(Compare(s, why, sizeof(why)));
   if (!why[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TakePlain(s));
-  PetscCall(SamSolveLeaveEdge(s, "stick", why));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Whether nothing has changed since the step before, so that its solution is that of this step. */
-static PetscErrorCode IsHeld(SamSolve *s, PetscBool *held)
-{
-  const SamSolution *before = &s->c->committed.solution;
-  const SamControl  *now    = &s->s->control;
-
-  PetscFunctionBegin;
-  *held = PETSC_FALSE;
-  if (!s->same_pressure || !before->sheared.has) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!SamControlIsSame(now, &before->control, SAM_BALANCE_TANGENTIAL)) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt body = 0; body < 2; body++)
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
-      if (now->bulk_stress[body][k] != before->control.bulk_stress[body][k]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamProblemComputeBound(s->c->problem, now->friction_scale, before->pressure, s->s->bound));
-  PetscCall(VecEqual(s->s->bound, before->bound, held));
+  PetscCall(SamSolveLeaveEdge(s, "stick", PETSC_TRUE, why));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -417,11 +369,11 @@ PetscErrorCode SamSolveCorrected(SamSolve *s, const SamStepStart *start)
 {
   const SamContact   c         = s->c;
   const SamSolution *committed = &c->committed.solution;
-  PetscBool          turned    = PETSC_FALSE, held;
+  PetscBool          turned = PETSC_FALSE, grows = PETSC_FALSE, held;
 
   PetscFunctionBegin;
   s->before = SamContactPlainBefore(c);
-  PetscCall(IsHeld(s, &held));
+  PetscCall(SamSolveIsHeld(s, &held));
   if (held) {
     PetscCall(TakeBefore(s));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -438,6 +390,12 @@ PetscErrorCode SamSolveCorrected(SamSolve *s, const SamStepStart *start)
   if (s->step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(KeepPlain(s));
   PetscCall(FindReferences(s, &turned));
+  if (c->steps && !s->same_pressure) PetscCall(SamSolveFindGrowth(s, SamContactPlainBefore(c), &grows));
+  if (grows) {
+    PetscCall(TakePlain(s));
+    PetscCall(SamSolveLeaveEdge(s, "stick", PETSC_TRUE, "the contact grows over the edge of a shear that sticks"));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (s->same_pressure) {
     PetscCall(SamVecCopyNonzero(committed->pressure, s->s->pressure));
     SamSolveStoreNormal(s, committed);

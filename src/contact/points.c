@@ -101,15 +101,12 @@ static PetscErrorCode SetShear(SamContact c, const SamSolution *s, Vec slips, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where no edge of stick is known: that of the contact if nothing slips, else the cells whose centres stick. */
-static PetscErrorCode CountStick(SamContact c, const SamSolution *s, Vec slips, Vec point, SamEdge *edge)
+/* Where no edge of stick is known: that of the contact if nothing slips, else that of the plain solution. */
+static PetscErrorCode FindPlainStick(SamContact c, const SamSolution *s, Vec slips, Vec point, SamEdge *edge)
 {
-  const SamGrid grid  = c->grid;
-  SamTotal      total = {0};
-  double        all;
-  const double *p, *rim, *slip;
-  PetscReal     most;
-  Vec           w;
+  const SamSolution *plain = s == &c->committed.solution ? &c->committed.plain : &c->tried.plain;
+  PetscReal          most;
+  Vec                w;
 
   PetscFunctionBegin;
   PetscCall(VecMax(slips, NULL, &most));
@@ -117,20 +114,10 @@ static PetscErrorCode CountStick(SamContact c, const SamSolution *s, Vec slips, 
     PetscCall(FindCorrected(c, s, point, edge));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamGridCreateVec(grid, 1, &w));
-  PetscCall(FillSquares(s, SAM_CONTACT_EDGE_STICK, w));
-  PetscCall(SamEdgeReconstruct(grid, w, point, edge));
+  PetscCall(SamGridCreateVec(c->grid, 1, &w));
+  PetscCall(FillSquares(plain, SAM_CONTACT_EDGE_STICK, w));
+  PetscCall(SamEdgeReconstruct(c->grid, w, point, edge));
   PetscCall(VecDestroy(&w));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->rim, &rim));
-  PetscCall(VecGetArrayRead(slips, &slip));
-  for (PetscInt k = 0; k < grid->cells; k++) SamAdd(&total, p[k] > rim[k] && !(slip[k] > 0) ? 1 : 0);
-  PetscCall(VecRestoreArrayRead(slips, &slip));
-  PetscCall(VecRestoreArrayRead(s->rim, &rim));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscCall(SamSumTotals(grid->comm, 1, &total, &all));
-  edge->area = all * grid->dx * grid->dy;
-  edge->good = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,7 +135,7 @@ static PetscErrorCode FindCorrectedStick(SamContact c, const SamSolution *s, Vec
     PetscCall(SamProfileGetEdge(slack, point, edge));
     if (point) PetscCall(DivideByFriction(s, point));
   } else {
-    PetscCall(CountStick(c, s, slips, point, edge));
+    PetscCall(FindPlainStick(c, s, slips, point, edge));
   }
   PetscCall(VecDestroy(&slips));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -12,9 +12,9 @@
 enum { CONTACT, STICK, DISSIPATED, STORED, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
 
-/* The fields of the step's solution, and the bound before it. */
+/* The fields of the step's solution, and the bound before it; `rim`, NULL: none, of cells whose centres are outside. */
 typedef struct {
-  const double *p, *b, *b_before, *q, *u_z, *u_t;
+  const double *p, *b, *b_before, *q, *u_z, *u_t, *rim;
 } Fields;
 
 static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first, double sums[SUMS],
@@ -30,7 +30,7 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
     if (state == SAM_STATE_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
     most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
-    most[SLIP]     = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
+    if (!f->rim || p[k] > f->rim[k]) most[SLIP] = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_STATE_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * f->u_z[k] + q[k] * f->u_t[k] + q[l] * f->u_t[l]);
@@ -45,7 +45,7 @@ static PetscErrorCode SumCells(SamContact c, const SamSolution *s, const SamSolu
   SamTotal     totals[SUMS] = {{0}};
   double       sums[SUMS], most[MOSTS] = {0};
   SamIncrement increment;
-  Fields       f;
+  Fields       f      = {.rim = NULL};
   const Vec    before = last ? last->bound : s->bound;
 
   PetscFunctionBegin;
@@ -56,6 +56,7 @@ static PetscErrorCode SumCells(SamContact c, const SamSolution *s, const SamSolu
   PetscCall(VecGetArrayRead(s->shear, &f.q));
   PetscCall(VecGetArrayRead(s->displacement_z, &f.u_z));
   PetscCall(VecGetArrayRead(s->displacement_t, &f.u_t));
+  if (s->passes) PetscCall(VecGetArrayRead(s->rim, &f.rim));
   for (PetscInt j = 0; j < c->grid->rows; j++) {
     double row[SUMS] = {0};
 
@@ -63,6 +64,7 @@ static PetscErrorCode SumCells(SamContact c, const SamSolution *s, const SamSolu
     SumRow(&f, &increment, (ptrdiff_t)j * c->grid->nx, row, most);
     SamAddAll(SUMS, totals, row);
   }
+  if (s->passes) PetscCall(VecRestoreArrayRead(s->rim, &f.rim));
   PetscCall(VecRestoreArrayRead(s->displacement_t, &f.u_t));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &f.u_z));
   PetscCall(VecRestoreArrayRead(s->shear, &f.q));
@@ -118,10 +120,10 @@ static double SquareAt(const Seen *s, double x, double y)
 
 /*
   The largest shear at the edge of the stick zone, where it is mu p: larger than that of any cell, which is a mean. The
-  pressure is interpolated in p^2, which is smooth up to the contact's edge. Where that edge is near, cells count only:
-  what slips there is not resolved.
+  pressure is interpolated in p^2, which is smooth up to the contact's edge. Where that edge is near, its profile tells
+  the pressure, of a solution that is corrected; else cells count only, as what slips there is not resolved.
 */
-static PetscErrorCode FindPeak(SamContact c, const SamEdge *stick, double *peak)
+static PetscErrorCode FindPeak(SamContact c, SamProfile profile, const SamEdge *stick, double *peak)
 {
   const SamGrid grid = c->grid;
   const double *own, *b;
@@ -140,8 +142,12 @@ static PetscErrorCode FindPeak(SamContact c, const SamEdge *stick, double *peak)
     const double x = (double)((stick->x[n] - SamGridX(grid, 0)) / grid->dx),
                  y = (double)((stick->y[n] - SamGridY(grid, 0)) / grid->dy);
 
-    if (IsInside(&s, k % grid->nx, grid->row_start + k / grid->nx))
+    const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
+
+    if (IsInside(&s, i, j))
       *peak = PetscMax(*peak, b[k] / own[k] * sqrt(SquareAt(&s, x, y)));
+    else if (profile && own[k] > 0)
+      *peak = PetscMax(*peak, b[k] / own[k] * SamProfileRootAt(profile, i, j, x - (double)i, y - (double)j));
   }
   PetscCall(SamRowsRestore(&rows, &s.p));
   PetscCall(VecRestoreArrayRead(c->tried.solution.bound, &b));
@@ -153,13 +159,16 @@ static PetscErrorCode FindPeak(SamContact c, const SamEdge *stick, double *peak)
 /* The areas by the edges of contact and stick, and the peak of the shear between stick and slip. */
 static PetscErrorCode FindEdges(SamContact c, SamStep *step)
 {
-  SamEdge edge[2];
-  double  peak = (double)step->shear_max;
+  SamProfile profile = NULL;
+  SamEdge    edge[2];
+  double     peak = (double)step->shear_max;
 
   PetscFunctionBegin;
   PetscCall(SamContactFindEdge(c, SAM_CONTACT_EDGE_CONTACT, NULL, &edge[0]));
   PetscCall(SamContactFindEdge(c, SAM_CONTACT_EDGE_STICK, NULL, &edge[1]));
-  PetscCall(FindPeak(c, &edge[1], &peak));
+  /* that of the pressure, which the first call has set */
+  if (c->tried.solution.sheared.has && c->tried.solution.sheared.passes) PetscCall(SamContactGetProfile(c, &profile));
+  PetscCall(FindPeak(c, profile, &edge[1], &peak));
   PetscCall(SamMax(c->grid->comm, 1, &peak));
   step->shear_max    = peak;
   step->contact_area = edge[0].area;

@@ -40,8 +40,22 @@ PETSC_INTERN PetscErrorCode SamSolveCorrected(SamSolve *solve, const SamStepStar
 /* The least share of an edge that must be smooth and resolved for its correction, and what is said where less is. */
 #define SAM_SMOOTH_EDGE 0.95
 PETSC_INTERN PetscErrorCode SamEdgeTooRough(PetscReal share, char why[], size_t size);
-/* SamSolveLeaveEdge - the step says that the edge `of` "contact" or "stick" is not corrected, and why. */
-PETSC_INTERN PetscErrorCode SamSolveLeaveEdge(SamSolve *solve, const char of[], const char why[]);
+/*
+  SamSolveLeaveEdge - the step says that the edge `of` "contact" or "stick" is not corrected, and why; `plain`: and that
+  nothing is for it.
+*/
+PETSC_INTERN PetscErrorCode SamSolveLeaveEdge(SamSolve *solve, const char of[], PetscBool plain, const char why[]);
+
+/*
+  What has changed since the step before, `before` being its plain solution (changes.c). Collective.
+  SamSolveIsHeld - nothing has, so that its corrected solution is that of this step.
+  SamSolveFindTurn - the load has turned back: most cells that slipped do not go on in the same direction.
+  SamSolveFindGrowth - the edge of contact has moved out over a shear that sticks: the shear keeps that edge, within the
+    stick zone, where no profile knows of it.
+*/
+PETSC_INTERN PetscErrorCode SamSolveIsHeld(SamSolve *solve, PetscBool *held);
+PETSC_INTERN PetscErrorCode SamSolveFindTurn(SamSolve *solve, const SamSolution *before, PetscBool *turned);
+PETSC_INTERN PetscErrorCode SamSolveFindGrowth(SamSolve *solve, const SamSolution *before, PetscBool *grows);
 
 /* SamSolveStoreNormal - copies the loads and displacements of the normal problem of a solution. Not collective. */
 PETSC_INTERN void SamSolveStoreNormal(SamSolve *solve, const SamSolution *from);

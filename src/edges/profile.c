@@ -113,6 +113,13 @@ const double *SamProfileFunction(SamProfile s, PetscInt i, PetscInt j)
   return s->zone.grid && SamZoneHas(&s->zone, i, j) ? FunctionOf(s, SamZoneAt(&s->zone, i, j)) : NULL;
 }
 
+PetscReal SamProfileRootAt(SamProfile s, PetscInt i, PetscInt j, PetscReal x, PetscReal y)
+{
+  const double *fit = SamProfileFunction(s, i, j);
+
+  return fit ? sqrt(PetscMax(SamFitAt(fit, x, y), 0)) : 0;
+}
+
 /* The sub-cells of a cell of the band. */
 static SamNearSub SubOf(SamProfile s, ptrdiff_t k)
 {

@@ -119,6 +119,7 @@ static void test_correction_makes_hertz_exact(void **state)
     sam_assert(h.errors[1] < 4e-4);
     sam_assert(h.area < 5e-5);
     sam_assert(h.approach < 5e-6);
+    sam_assert_close(step.stored_energy / (0.4 * c.s.N * c.s.a * c.s.a / c.s.R), 1, 5e-5); /* plain: 2e-4 */
     DestroyCase(&c);
   }
 }

@@ -413,6 +413,80 @@ static void test_shear_is_not_corrected_alone(void **state)
   for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
 }
 
+/* N and T that grow together: the edge of the shear before is within the stick zone, and the plain solution stays. */
+static void test_contact_that_grows_over_a_shear_is_left(void **state)
+{
+  Case c[2];
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    SamStep step;
+
+    c[k] = NewCase(Steel(), 61, 2, MU, k ? DEFERRED : "");
+    step = Solve(&c[k], &(SamControl[]){Loads(&c[k], 0.5, 0.2, 0, 0)}[0]);
+    sam_assert(step.stick_passes == (k ? 2 : 0));
+    step = Solve(&c[k], &(SamControl[]){Loads(&c[k], 1, 0.4, 0, 0)}[0]);
+    sam_assert(step.status == SAM_STATUS_CONVERGED && step.edge_passes == 0 && step.stick_passes == 0);
+    sam_assert(!k || strstr(step.message, "grows over the edge of a shear that sticks"));
+  }
+  sam_assert(SameBitsOf(&c[0], &c[1], ShearOf) && SameBitsOf(&c[0], &c[1], NewSlip));
+  (void)Solve(&c[1], &(SamControl[]){Loads(&c[1], 0.7, 0.1, 0, 0)}[0]); /* less N: it goes on with corrections */
+  sam_assert(Solve(&c[1], &(SamControl[]){Loads(&c[1], 0.7, -0.6, 0, 0)}[0]).edge_passes == 2);
+  for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
+}
+
+/* Where the slip zone takes in the edge of the shear before, that is forgotten. */
+static void test_contact_that_grows_with_its_slip_zone_is_corrected(void **state)
+{
+  Case    c    = NewCase(Steel(), 61, 2, MU, DEFERRED);
+  SamStep step = Solve(&c, &(SamControl[]){Loads(&c, 0.8, 0.2, 0, 0)}[0]);
+
+  (void)state;
+  step = Solve(&c, &(SamControl[]){Loads(&c, 1, 0.7, 0, 0)}[0]);
+  sam_assert(step.edge_passes == 2 && step.stick_passes == 2);
+  DestroyCase(&c);
+}
+
+/* A first step whose slip zone is thinner than a cell: nothing of it is corrected. */
+static void test_first_step_without_a_smooth_edge_of_stick_is_left(void **state)
+{
+  Case c[2];
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    SamStep step;
+
+    c[k] = NewCase(PLAIN, 60, 1.5, MU, k ? DEFERRED : "");
+    for (int j = 1; j <= 2; j++) {
+      step = Push(&c[k], 0.002 * j, 0.001 * j);
+      sam_assert(step.status == SAM_STATUS_CONVERGED && step.edge_passes == 0 && step.stick_passes == 0);
+      sam_assert(!k || strstr(step.message, "so the step stays as it is without"));
+    }
+  }
+  sam_assert(SameBitsOf(&c[0], &c[1], ShearOf) && SameBitsOf(&c[0], &c[1], NewSlip));
+  for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
+}
+
+/*
+  A slip zone of two cells: the largest shear, at its inner edge, and the largest slip of a cell in contact, near its
+  outer one: mu times the gap outside of a contact as large as the stick zone.
+*/
+static void test_peaks_in_a_thin_slip_zone(void **state)
+{
+  Case          c    = NewCase(PLAIN, 96, 1.5, MU, DEFERRED);
+  const SamStep step = Push(&c, 0.2, 0);
+  const double  k = cbrt(1 - 0.2), a = 1e-3;
+  const double  slip = MU * a * a / (PETSC_PI * (double)c.s.R) * ((1 - 2 * k * k) * acos(k) + k * sqrt(1 - k * k));
+
+  (void)state;
+  sam_assert(step.stick_passes == 2);
+  sam_assert(Measure(&c, &step, 0.2, 0.2).peak < 2e-3);
+  if (getenv("SAM_SHOW")) print_message("# slip %g\n", (double)step.slip_max / slip - 1);
+  sam_assert_close(step.slip_max, slip, 0.2 * slip);
+  sam_assert((double)step.slip_max < 1.02 * slip); /* none of a cell whose centre is outside */
+  DestroyCase(&c);
+}
+
 /* A slip zone that is thinner than a cell on one side: the step says that its edge is left. */
 static void test_edge_of_stick_that_is_not_smooth_is_left(void **state)
 {
@@ -485,6 +559,10 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_centres_of_cells_that_stick_again),
     cmocka_unit_test(test_shear_that_begins_later_is_corrected),
     cmocka_unit_test(test_shear_is_not_corrected_alone),
+    cmocka_unit_test(test_contact_that_grows_over_a_shear_is_left),
+    cmocka_unit_test(test_contact_that_grows_with_its_slip_zone_is_corrected),
+    cmocka_unit_test(test_first_step_without_a_smooth_edge_of_stick_is_left),
+    cmocka_unit_test(test_peaks_in_a_thin_slip_zone),
     cmocka_unit_test(test_edge_of_stick_that_is_not_smooth_is_left),
     cmocka_unit_test(test_coupled_problems_are_not_corrected),
     cmocka_unit_test(test_check_sees_what_is_wrong_with_a_correction),
