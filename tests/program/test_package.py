@@ -1,5 +1,6 @@
 """The Python package: what importing it costs, reading of results and of what is none, closed solutions, examples."""
 
+import re
 import subprocess
 import sys
 
@@ -12,6 +13,10 @@ from conftest import environment
 from support import FIELDS, ROOT, ball, slide_limit
 
 SCRIPTS = ROOT / "scripts"
+PAGES = [
+    ROOT / "README.md",
+    *(page for folder in ("examples", "include", "scripts") for page in ROOT.glob(folder + "/**/*.md")),
+]
 EXAMPLES = sorted(path.parent.name for path in (ROOT / "examples").glob("*/figures.py"))
 CASE = ball(n=32)
 
@@ -50,6 +55,25 @@ def test_reading_results_does_not_import_matplotlib(path):
 
 def test_closed_solutions_do_not_import_matplotlib():
     assert not {"matplotlib", "h5py"} & set(modules_after("import petsam.closed.plane, petsam.closed.spence"))
+
+
+def test_what_the_pages_name_is_there_after_import_petsam_alone():
+    names = {name for page in PAGES for name in re.findall(r"\bpetsam((?:\.[A-Za-z_]\w*)+)", page.read_text())}
+    names = sorted(name for name in names if not re.match(r"\.(f90|h|log|opts|pc|h5)$", name))
+    assert {".open", ".cycles.find", ".closed.plane", ".Contact"} <= set(names)
+    for name in names:  # an import would also give it to those that follow
+        python("-c", f"import petsam\npetsam{name}")
+    assert {"cycles", "closed", "Contact", "open"} <= set(dir(package)) and "plane" in dir(package.closed)
+    with pytest.raises(AttributeError, match="has no attribute 'circles'"):
+        _ = package.circles
+
+
+def test_the_snippets_of_the_page_of_the_scripts_run(path, tmp_path):
+    (tmp_path / "strokes.h5").symlink_to(path)
+    blocks = re.findall(r"```python\n(.*?)```", (SCRIPTS / "README.md").read_text(), re.DOTALL)
+    assert blocks
+    for block in blocks:
+        python("-c", f"import os\nos.chdir({str(tmp_path)!r})\n{block}")
 
 
 # ---------------------------------------------------------------- results
