@@ -13,7 +13,9 @@ LINE = 4000  # characters of a message at most
 
 
 class Error(Exception):
-    """Something that cannot be read, found or understood."""
+    """Something that cannot be read, found or understood. Lines of an example, if any, are printed below the message."""
+
+    example = ()
 
 
 class Missing(Error):
@@ -39,6 +41,8 @@ def fail(command, error, code=FILE):
     if isinstance(error, OSError):
         error = f"{error.filename or 'writing'}: {error.strerror or error}"
     print(f"{command}: error: {one_line(error)}", file=sys.stderr)
+    for line in getattr(error, "example", ()):
+        print("  " + line, file=sys.stderr)
     return code
 
 
