@@ -1,6 +1,7 @@
 """Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
 
 import os
+from copy import copy
 from functools import cached_property
 
 import h5py
@@ -160,6 +161,8 @@ class Results(Datafile):
     parameters  name of an option: value, all root attributes
     """
 
+    first_row, last_row = 0, None  # rows of the history that count: see between()
+
     def _read(self):
         self.x, self.y = self._read_axes(("x", "y"), 2)
         self.times = self._row(_own(self.file, "time"), "time")
@@ -188,7 +191,33 @@ class Results(Datafile):
         The step that a killed run was writing may be there in some datasets only, and does not count either.
         """
         complete = min(values.size for values in self.history.values())
-        return np.flatnonzero(self.history["status"][:complete] != NO_EQUILIBRIUM)
+        rows = np.flatnonzero(self.history["status"][:complete] != NO_EQUILIBRIUM)
+        return rows[self.counts(rows)]
+
+    def counts(self, rows):
+        """Which of the rows are among the load steps of between(); all unless it has been asked for."""
+        return (rows >= self.first_row) & (rows <= (np.inf if self.last_row is None else self.last_row))
+
+    def between(self, first=None, last=None):
+        """The same results as if their history had the load steps first to last only; numbers as of_step() has them."""
+        count = self.history["time"].size
+        there = "there is 1 step" if count == 1 else f"there are {count} steps"
+        if self.before:
+            there = f"the file has the steps {self.before + 1} to {self.before + count}"
+        rows = []
+        for step, unless in ((first, 0), (last, count - 1)):
+            row = unless if step is None else count + step if step < 0 else step - 1 - self.before
+            if not 0 <= row < count:
+                raise NotSaved(self.path, f"range {_ends(first, last)}", there)
+            rows.append(row)
+        if rows[0] > rows[1]:
+            raise NotSaved(self.path, f"range {_ends(first, last)}", "the first step comes after the last one")
+        part = copy(self)
+        part.__dict__.pop("solved", None)
+        part.first_row, part.last_row = rows
+        if not part.solved.size:
+            raise NotSaved(self.path, f"range {_ends(first, last)}", "no step of these has a solution")
+        return part
 
     def series(self, name):
         """Values of /history/name of the steps that have a solution: what sums and extremes are taken of."""
@@ -481,6 +510,10 @@ def _window(cells, stride, size, margin):
         return slice(0, size)
     more = int(np.ceil(margin * (cells[-1] - cells[0] + stride))) + stride
     return slice(max(0, int(cells[0]) - more), min(size, int(cells[-1]) + stride + more))
+
+
+def _ends(first, last):
+    return ":".join("" if step is None else f"{step}" for step in (first, last))
 
 
 def _some(numbers):

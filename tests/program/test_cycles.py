@@ -202,7 +202,7 @@ def test_three_cycles_give_their_loops_and_energies_too(draw, path, tmp_path):
     [
         ("--energy", "--turns", "load_tx"), ("--period", "2,1"), ("--turns", "disp_x"), ("--energy", "--log", "y"),
         ("--loop", "--cycle", "-1,2", "--load", "n"), ("--cycle", "3", "--period", "1"), ("--maps", "--cycle", "-1"),
-        ("--fretting-log", "--cycle", "1,3"), ("--energy", "--load", "tx"),
+        ("--fretting-log", "--cycle", "1,3"),
     ],
 )  # fmt: skip
 def test_cycles_are_chosen(draw, path, tmp_path, words):

@@ -41,8 +41,9 @@ def series(results, name):
         return results.series(TIME), values[:, LOADS.index(load), WAYS.index(way)]
     if name == "status":
         status, time = results.history[name], results.history[TIME]
-        complete = min(status.size, time.size)
-        return time[:complete], status[:complete].astype(float)
+        rows = np.arange(min(status.size, time.size))
+        rows = rows[results.counts(rows)]
+        return time[rows], status[rows].astype(float)
     values = results.series(name).astype(float)
     return results.series(TIME), np.cumsum(values) if name == ENERGY else values
 
@@ -55,7 +56,8 @@ def against(results, name, other):
     beside = series(results, other)[1]
     if name == "status" or other == "status":
         rows = [
-            np.arange(one.size) if who == "status" else results.solved for who, one in ((name, values), (other, beside))
+            results.first_row + np.arange(one.size) if who == "status" else results.solved
+            for who, one in ((name, values), (other, beside))
         ]
         shared, mine, theirs = np.intersect1d(*rows, return_indices=True)
         values, beside = values[mine], beside[theirs]
