@@ -118,6 +118,23 @@ def test_every_option_that_chooses_something_is_looked_at():
     assert set(vars(given())) - look - kinds == {name for name in uses.NAMES if not name.startswith("log ")}
 
 
+# ---------------------------------------------------------------- formats
+
+
+@pytest.mark.parametrize("name", ["x.bmp", "x.JPG", "a.b/x.jpeg", "x.png.gif", "x.jp2", "x.h5"])
+def test_an_ending_that_is_no_format_is_bad_usage(draw, path, tmp_path, name):
+    for words in ([], ["--maps"], ["--format", "png"]):
+        code, (error,) = draw(path, "-o", name, *words)
+        assert code == 2 and f"--output {name}: expected a name that ends in .png, .pdf or .svg, or has no" in error
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name, written", [("x.SVG", "x.SVG"), ("x", "x.png"), ("mu=0.3", "mu=0.3.png")])
+def test_formats_and_names_without_an_ending_are_taken(draw, path, tmp_path, name, written):
+    assert draw(path, "-o", name, "--loop") == (0, [])
+    assert [file.name for file in tmp_path.iterdir()] == [written]
+
+
 # ---------------------------------------------------------------- a range of load steps
 
 

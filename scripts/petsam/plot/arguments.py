@@ -3,6 +3,7 @@
 import argparse
 import math
 import os
+import re
 import sys
 
 from ..cycles import PAIRS, read_period
@@ -204,6 +205,9 @@ def _check(parser, options):
     if options.labels and len(options.labels.split(",")) != len(options.files):
         parser.error(f"--labels: expected as many as files, {len(options.files)}")
     ending = os.path.splitext(options.output or "")[1].lower()
+    if re.fullmatch(r"\.[a-z]\w*", ending) and ending not in FORMATS:
+        formats = ", ".join(FORMATS[:-1]) + " or " + FORMATS[-1]
+        parser.error(f"--output {short(options.output)}: expected a name that ends in {formats}, or has no ending")
     if options.format and ending in FORMATS and ending != "." + options.format:
         parser.error(f"--format {options.format}: the name {options.output} says otherwise")
     if options.limits and len(options.field or ()) != 1 and not options.component:
