@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from .environment import TREE
-from .errors import Error, Missing
+from .errors import Error, Missing, short, there_are
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
 RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # m, rad
@@ -35,6 +35,11 @@ NUMBERS = (
     "edge_accepted", "normal_residual", "tangential_residual", "equilibrium_residual", "edge_passes", "stick_passes",
     "normal_iterations", "tangential_iterations", "normal_applies", "tangential_applies", "normal_preconditions",
     "tangential_preconditions", "coupling_iterations",
+)  # fmt: skip
+# fields, the last ones of contacts that wear or yield only
+FIELDS = (
+    "pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "displacement_x", "displacement_y", "displacement_z",
+    "state", "pressure_center", "shear_center_x", "shear_center_y", "wear_depth1", "wear_depth2", "plastic_depth",
 )  # fmt: skip
 NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
 
@@ -67,8 +72,8 @@ class EdgeContactWarning(UserWarning):
 
 
 class Step:
-    """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, each of them by its name, and the further
-    NUMBERS of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none.
+    """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, each of them by its name, and the
+    further NUMBERS of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none.
 
     numbers   {name: value} of loads, displacements and the further numbers
     """
@@ -289,7 +294,7 @@ class Contact:
             raise ValueError(f"out is not a contiguous array of doubles of shape {shape} that can be written to")
         if not isinstance(name, str):
             raise TypeError(f"{name!r} is no name of a field")
-        self._call("get_field", name.encode(), _pointer(out))
+        self._ask("get_field", name, FIELDS, _pointer(out))
         return out
 
     __getitem__ = field
@@ -300,8 +305,21 @@ class Contact:
         After reject() it is that of the committed step; the same of a step that has been tried is step.contact_area.
         """
         value = ctypes.c_double()
-        self._call("get_number", name.encode(), ctypes.byref(value))
+        if not isinstance(name, str):
+            raise TypeError(f"{name!r} is no name of a number")
+        self._ask("get_number", name, ("time", "status", *LOADS, *RIGIDS, *NUMBERS), ctypes.byref(value))
         return value.value
+
+    def _ask(self, function, name, names, target):
+        """Call a function that is asked for something by name; an unknown name is an error with those there are."""
+        try:
+            self._call(function, name.encode(), target)
+        except ContactError as error:
+            if error.code != 2 or name in names or not self._contact:
+                raise
+            what = function.split("_")[1]
+            text = f"{short(name)}: there is no {what} of this name{there_are(name, names)}"
+            raise ContactError(error.code, text) from None
 
     def set_field(self, name, values):
         """Give the gap (separation of the undeformed, unworn bodies, m) or the friction: (rows, n[0]) or a number."""

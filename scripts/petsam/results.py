@@ -7,7 +7,7 @@ from functools import cached_property
 import h5py
 import numpy as np
 
-from .errors import Error, Missing, one_line, short
+from .errors import Error, Missing, one_line, short, there_are
 from .files import need_regular
 from .isolation import reading
 
@@ -30,14 +30,14 @@ class NotSaved(Error):
 
 
 class Named(dict):
-    """Values by name; a name that is not there is an Error of the file at path."""
+    """Values by name; a name that is not there is an Error of the file at path, which names those that are."""
 
     def __init__(self, path, values):
         super().__init__(values)
         self.path = path
 
     def __missing__(self, name):
-        raise Error(f"{self.path}: has no {name}")
+        raise Error(f"{self.path}: has no {short(name)}{there_are(name, sorted(self), 'it has')}")
 
 
 class History(Named):
@@ -368,22 +368,28 @@ class Results(Datafile):
     def need_quantity(self, name, option=None):
         """Error where the file has neither a field nor a vector of this name, which an option may have asked for."""
         if name not in self.fields and name not in self.vectors:
-            there = ", ".join([*self.fields, *self.vectors]) or "no field at all"
+            names = [*self.fields, *self.vectors]
+            there = there_are(name, names, "it has") if names else "; it has no field at all"
             lack = f"{option} {short(name)}: has no such field" if option else f"has no {short(name)}"
-            raise Error(f"{self.path}: {lack} (petsam -output_fields); it has {there}")
+            raise Error(f"{self.path}: {lack} (petsam -output_fields){there}")
 
     def _saved(self, name):
         """The dataset of a field, or of an edge."""
         if name not in self.file:
-            there = ", ".join(self.fields) or "no field at all"
-            raise Error(f"{self.path}: has no {name} (petsam -output_fields); it has {there}")
+            names = [*self.fields, *self.edges]
+            there = there_are(name, names, "it has") if names else "; it has no field at all"
+            raise Error(f"{self.path}: has no {short(name)} (petsam -output_fields){there}")
         return _own(self.file, name)
 
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
-        """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell."""
+        """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell.
+
+        index counts the saved steps from 0, or from the end with -1; of_step(K) is that of load step K.
+        """
         if name in EDGES:
             raise Error(f"{self.path}: {name} is no field: ask for edge({name!r})")
         low, high, _ = rows.indices(self.y.size)
+        need_index(self, index)
         try:
             with reading(self.path):
                 data = self._saved(name)
@@ -391,8 +397,6 @@ class Results(Datafile):
                 raise ValueError(f"/{name} has no numbers")
             if data.shape != (self.times.size, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
-            if not -self.times.size <= index < self.times.size:
-                raise IndexError(f"step {index} of {self.times.size}")
             index %= self.times.size
             block = stride * max(1, BLOCK // stride)
             parts = []
@@ -406,8 +410,7 @@ class Results(Datafile):
 
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
-        if not -self.times.size <= index < self.times.size:
-            raise IndexError(f"saved step {index} of {self.times.size}")
+        need_index(self, index)
         try:
             with reading(self.path):
                 data = self._saved(name)
@@ -455,7 +458,8 @@ class Snapshot:
         if not isinstance(results, Results):
             raise Error(f"{results.path}: holds no results of petsam")
         self.results, self._fields = results, {}
-        self.index = results.of_last() if index == -1 else index
+        need_index(results, index)
+        self.index = index
         self.x, self.y, self.parameters = results.x, results.y, results.parameters
         self.dx, self.dy = (float(axis[1] - axis[0]) for axis in (self.x, self.y))
 
@@ -510,6 +514,19 @@ def _window(cells, stride, size, margin):
         return slice(0, size)
     more = int(np.ceil(margin * (cells[-1] - cells[0] + stride))) + stride
     return slice(max(0, int(cells[0]) - more), min(size, int(cells[-1]) + stride + more))
+
+
+def need_index(file, index):
+    """Error where index, from 0 or from -1, is not that of a saved step of the file."""
+    count = file.times.size
+    if not count:
+        raise Error(f"{file.path}: no fields were saved")
+    if not -count <= index < count:
+        saved = "1 step is saved, index 0 or -1"
+        if count > 1:
+            saved = f"{count} steps are saved, indices 0 to {count - 1}, or -1 to {-count} from the end"
+        place = f"; that of load step {index} is of_step({index})" if index in file.steps else ""
+        raise NotSaved(file.path, f"index {index}", saved + place)
 
 
 def _ends(first, last):

@@ -5,7 +5,7 @@ import os
 import h5py
 import numpy as np
 
-from .errors import Error, Missing, short
+from .errors import Error, Missing, short, there_are
 from .files import need_regular
 from .isolation import reading
 from .results import DAMAGED, WHOLE, _own, _reason
@@ -69,7 +69,7 @@ class Study:
         bare = name[:-4] if name.endswith("_end") and name[:-4] in self.inputs else name
         if bare not in self.results:
             what = f"{option} {short(name)}".strip()
-            raise Error(f"{self.path}: {what}: there is no such column; there are {', '.join(self.names)}")
+            raise Error(f"{self.path}: {what}: there is no such column{there_are(name, self.names)}")
         return self.results[bare], self.units[bare]
 
     @property

@@ -221,6 +221,15 @@ told(petsam.NoEquilibrium, contact.try_step, load_n=1000, load_tx=500)
 told(ValueError, contact.set_field, "gap", np.zeros((3, 4)))
 told(petsam.ContactError, contact.set_field, "gap", np.full((40, 45), np.nan))
 told(petsam.ContactError, contact.load, "nowhere.h5")
+contact.try_step(load_n=100)
+told(petsam.ContactError, contact.field, "presure")
+told(petsam.ContactError, contact.number, "area")
+told(petsam.ContactError, contact.number, "qqq")
+told(petsam.ContactError, contact.field, "contact_edge")
+told(TypeError, contact.number, 3)
+for name in petsam.contact.FIELDS:
+    if not name.startswith(("wear", "plastic")):
+        contact.field(name)
 with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     assert contact.try_step(load_n=1e5).status == 12 and "edge" in str(caught[0].message)
@@ -241,6 +250,12 @@ print("alive")
     ):
         assert word in line
     assert lines[-1] == "alive" and "gross slip" in text
+    assert "presure: there is no field of this name: is pressure meant? There are pressure, shear_x, " in text
+    assert (
+        "area: there is no number of this name: is contact_area or stick_area or plastic_area meant? There are time, "
+        in text
+    )
+    assert "qqq: there is no number of this name; there are time, " in text
 
 
 def test_state_is_saved_and_loaded(tmp_path):

@@ -153,6 +153,25 @@ def test_what_the_file_has_not_is_the_packages_error(path, ask):
         ask(results)
 
 
+@pytest.mark.parametrize("ask, says", [
+    (lambda results: results.field("pressure", 500), "index 500: 2 steps are saved, indices 0 to 1, or -1 to -2 from"),
+    (lambda results: results.field("pressure", 4), "from the end; that of load step 4 is of_step(4)"),
+    (lambda results: results.field("pressure", -3), "index -3: 2 steps are saved"),
+    (lambda results: results.edge("contact_edge", 500), "index 500: 2 steps are saved"),
+    (lambda results: package.Snapshot(results, 2), "index 2: 2 steps are saved"),
+    (lambda results: results.field("presure"), "has no presure (petsam -output_fields): is pressure meant? It has "),
+    (lambda results: results.quantity("slips"), ": is slip_y meant? It has "),
+    (lambda results: results.history["area"], "has no area: is contact_area or stick_area meant? It has contact_area"),
+    (lambda results: results.parameters["fricton"], "has no fricton: is friction meant? It has "),
+    (lambda results: results.history["qqq"], "has no qqq; it has contact_area, "),
+])  # fmt: skip
+def test_what_is_asked_for_wrongly_is_told_with_the_nearest_name_and_all_names(path, ask, says):
+    with package.open(path) as results, pytest.raises(package.Error) as caught:
+        ask(results)
+    assert str(caught.value).startswith(f"{path}: ") and says in str(caught.value)
+    assert "is not a results file" not in str(caught.value)
+
+
 # ---------------------------------------------------------------- closed solutions, examples
 
 

@@ -125,6 +125,10 @@ def test_open_knows_the_file_by_its_content(folder):
     assert file.field("mises").shape == (9, 1, 40) and file.field("swt").shape == (9, 1, 40)
     assert file.field("mises", 0, slice(2, 4)).shape == (2, 1, 40) and file.unit("swt") == "Pa"
     assert file.history["mises_max"].size == 4 and file.parameters["body"] == 2
+    with pytest.raises(petsam.Error, match="index 500: 4 steps are saved, indices 0 to 3"):
+        file.field("mises", 500)
+    with pytest.raises(petsam.Error, match="has no stress_xv: is stress_.. meant. It has "):
+        file.field("stress_xv")
     with pytest.raises(petsam.Error, match="has no crossland"):
         file.field("crossland")
     with pytest.raises(petsam.Error, match="holds no results"):

@@ -67,7 +67,10 @@ def test_a_table_is_read_whole(study, path):
     assert study.column("stick_area")[1] == "m2" and study.column("mu")[1] == ""
     assert study.column("load_tx_end")[0][0] == pytest.approx(99.9 * 0.05) and study.column("load_tx")[0][0] == 5.0
     assert "load_tx_end" in study.names and "load_tx" in study.names
-    with pytest.raises(petsam.Error, match="area: there is no such column; there are load_tx, mu, nu, ratio, shape, "):
+    with pytest.raises(
+        petsam.Error,
+        match="area: there is no such column: is contact_area or stick_area meant. There are load_tx, mu, nu, ",
+    ):
         study.column("area")
 
 
@@ -143,7 +146,10 @@ def test_one_picture_is_drawn(draw, path, tmp_path, words):
 @pytest.mark.parametrize(
     "words, says",
     [
-        (["--scalar", "area"], "--scalar area: there is no such column; there are load_tx, mu, nu, ratio, shape, "),
+        (
+            ["--scalar", "area"],
+            "--scalar area: there is no such column: is contact_area or stick_area meant? There are load_tx, mu, nu, ",
+        ),
         (["--against", "shape"], "--against shape: holds texts, no numbers"),
         (["--against", "x"], "--against x: there is no such column; there are load_tx"),
         (["--by", "x"], "--by x: there is no such column; there are load_tx"),

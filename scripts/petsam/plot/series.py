@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..cycles import ENERGY, PAIRS
-from ..errors import Error, short
+from ..errors import Error, short, there_are
 from . import symbols
 from .style import colors, curve, logarithmic, need_few, outlined, plt
 from .units import label, largest, plain, scale
@@ -93,8 +93,8 @@ def need_scalars(results, names, option):
             raise Error(f"{results.path}: {text}")
         if name not in results.history and not entry(results, name):
             entries = [f"{matrix}.LOAD.DISPLACEMENT" for matrix in results.matrices]
-            there = ", ".join([*sorted(results.history), *entries])
-            raise Error(f"{results.path}: {option} {short(name)}: has no such dataset; it has {there}")
+            there = there_are(name, [*sorted(results.history), *entries], "it has")
+            raise Error(f"{results.path}: {option} {short(name)}: has no such dataset{there}")
 
 
 def _panel(panel, results, name, other, across):
