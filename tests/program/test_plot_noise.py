@@ -65,3 +65,24 @@ def test_cycles_are_whole_numbers_and_the_legend_hides_no_curve(strokes):
     (legend,) = figure.legends
     assert not legend.get_window_extent().overlaps(axes.get_window_extent())
     assert axes.get_ylim()[1] > axes.lines[0].get_ydata().max() * 1.02
+
+
+# ---------------------------------------------------------------- many points
+
+
+def test_long_histories_over_what_goes_to_and_fro_are_points(strokes):
+    chance = np.random.default_rng(1)
+    many, time = chance.normal(size=1000), np.linspace(0.0, 1.0, 1000)
+    for x, line in (
+        (many, False), (many[:50], True), (np.sort(many), True), (-np.sort(many), True),
+        (np.sin(2 * np.pi * 8 * time), True), (np.sin(2 * np.pi * 100 * time), False), (np.zeros(1000), True),
+    ):  # fmt: skip
+        assert (style.scattered(x).get("linestyle") != "none") == line
+    with petsam.open(strokes) as results:
+        results.history.update({name: np.zeros(1000) for name in results.history})
+        results.__dict__.pop("solved", None)
+        results.history.update(load_n=many, contact_area=many**2, time=time)
+        over_load = series.history([results], ["contact_area"], "load_n").axes[0].lines[0]
+        over_time = series.history([results], ["contact_area"]).axes[0].lines[0]
+    assert over_load.get_linestyle() == "None" and over_load.get_marker() == "."
+    assert over_time.get_linestyle() == "-" and len(over_load.get_xdata()) == 1000

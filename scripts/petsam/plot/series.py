@@ -5,7 +5,7 @@ import numpy as np
 from ..cycles import ENERGY, PAIRS
 from ..errors import Error, short, there_are
 from . import symbols
-from .style import colors, curve, logarithmic, need_few, outlined, plt
+from .style import MARKED, colors, logarithmic, need_few, outlined, plt, scattered
 from .units import label, largest, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
@@ -103,7 +103,7 @@ def _panel(panel, results, name, other, across):
     factor, unit = scale(unit_of(results[0], name), largest(values for _, values in lines))
     for one, (x, y), tint in zip(results, lines, colors(len(results))):
         x, y = outlined(across * x, factor * y)
-        panel.plot(x, y, color=tint, label=plain(one.label), **curve(x.size))
+        panel.plot(x, y, color=tint, label=plain(one.label), **scattered(x))
     panel.set(ylabel=label(symbols.scalar(name), unit))
 
 
@@ -131,5 +131,5 @@ def history(results, names=None, other=TIME, option="--names", logs=()):
     for panel in axes.flat[max(0, len(names) - columns) : len(names)]:
         panel.set_xlabel(label("time" if other == TIME else symbols.scalar(other), unit))
         panel.tick_params(labelbottom=True)
-    axes.flat[0].legend(loc="best")
+    axes.flat[0].legend(loc="best", markerscale=1.0 if len(axes.flat[0].lines[0].get_xdata()) <= MARKED else 3.0)
     return figure
