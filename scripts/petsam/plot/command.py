@@ -12,11 +12,12 @@
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles of a life
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
-Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop
-and the history, of three cycles or more their loops and energies, too; of a life of many cycles (-wear_cycles) its
-fretting log, scar and life instead of these; of a file of petsam-stress its section or maps, the profile, and fatigue
-parameters if it has them; of results.h5 of petsam-study the results that vary, over the input with the most values.
-An option that none of the pictures uses is refused.
+Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
+if friction works, and the history, of three cycles or more their loops and energies, too; of a life of many cycles
+(-wear_cycles) its fretting log, scar and life instead of these; of a file of petsam-stress its section or maps, the
+profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that vary, over the input with
+the most values. What does not vary, and what is zero but for rounding, is drawn only if it is asked for by name. An
+option that none of the pictures uses is refused.
 Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
 """
 
@@ -29,7 +30,7 @@ from ..files import need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
 from ..studies import Study
-from . import arguments, bodies, colours, loops, maps, profiles, series, tables, uses, wear
+from . import arguments, bodies, colours, loops, maps, noise, profiles, series, tables, uses, wear
 from .arguments import FORMATS
 from .style import STYLE, plt
 from .uses import STUDY
@@ -104,6 +105,8 @@ def result_kinds(results):
         scars = any(wear.worn(one, one.of_last()) for one in results)
         return [*fields, "fretting-log", *(["scar"] if scars else []), "life"]
     several = any(one.solved.size > 1 for one in results)
+    if not any(one.solved.size and noise.works(one) for one in results):  # normal loads alone: no loop, no energy
+        return [*fields, *(["history"] if several else [])] or ["maps"]
     repeated = all(one.solved.size and not one.has_life and len(cycles.find(one)) >= MANY for one in results)
     more = ["loop", *(["energy"] if repeated else []), "history", *(["fretting-log"] if repeated else [])]
     return [*fields, *(more if several else [])] or ["maps"]

@@ -4,12 +4,13 @@ import numpy as np
 
 from ..cycles import ENERGY, PAIRS
 from ..errors import Error, short, there_are
-from . import symbols
+from . import noise, symbols
 from .style import MARKED, colors, logarithmic, need_few, outlined, plt, scattered
 from .units import label, largest, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"
+CONSTANT = ("load_n", "contact_area")  # shown where nothing varies
 # rows and columns of the matrices of /history
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
@@ -65,24 +66,16 @@ def against(results, name, other):
 
 
 def _varying(results):
-    """Names that a picture of the history shows by itself: what is zero but for rounding does not vary."""
-    length = max(largest((one.x, one.y)) for one in results)
-    force, way = (
-        max(largest(one.series(name) for one in results) for name in names)
-        for names in (("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y"))
-    )
-    size = {"N": force, "N m": force * length, "m": way, "rad": way / length}
-    loads = [
-        name
-        for pair in PAIRS.values()
-        for name in pair
-        if any(np.ptp(one.series(name)) > 1e-9 * size.get(one.units[name], 0.0) for one in results)
-    ]
+    """Names that a picture of the history shows by itself: what varies (see noise), each once."""
+    known = noise.scales(results)
     shared = [name for name in VOLUMES if all(name in one.history for one in results)]
-    worn = [name for name in shared if any(np.any(one.series(name)) for one in results)]
     # of a life the sum of the energy over the computed cycles says nothing
     energy = [] if any(one.has_life for one in results) else [ENERGY]
-    return [*loads, "contact_area", "stick_area", *worn, *energy, "tangential_iterations"]
+    names = [*(name for pair in PAIRS.values() for name in pair), "contact_area", "stick_area", *shared, *energy]
+    names = [name for name in names if noise.varies(results, name, known)]
+    all_stick = all(np.allclose(one.series("stick_area"), one.series("contact_area"), rtol=1e-9) for one in results)
+    names = [name for name in names if name != "stick_area" or not all_stick]
+    return names if set(names) - {ENERGY} else [*CONSTANT, *names]  # the sum of one step is no history
 
 
 def need_scalars(results, names, option):
