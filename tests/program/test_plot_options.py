@@ -141,6 +141,7 @@ def test_formats_and_names_without_an_ending_are_taken(draw, path, tmp_path, nam
 
 def test_a_history_and_a_loop_of_some_load_steps(path):
     results = petsam.open(path)
+    assert results.solved.size == 16  # which is kept, and is not that of a part
     with h5py.File(path, "r") as file:
         load, energy, status = (file["history"][name][:] for name in ("load_tx", "dissipated_energy", "status"))
     some = slice(4, 12)  # steps 5 to 12: loading and the way back, without the steps of the preload
