@@ -16,7 +16,8 @@ comparison      what the examples' comparisons with other solutions share
 isolation       reading of files that may be damaged, in a child process
 environment     where the interpreter, its libraries and petsam are found
 
-Importing this package alone needs the standard library only: each part imports its libraries when it is used.
+Importing this package alone needs the standard library only: each part imports its libraries when it is used, and is
+there by its name, petsam.cycles or petsam.closed.plane, without an import of its own.
 """
 
 import importlib
@@ -36,6 +37,8 @@ __all__ = [
     "Snapshot",
     "Stresses",
     "Study",
+    "closed",
+    "cycles",
     "open",
 ]
 
@@ -52,11 +55,19 @@ _HOMES = {
     "Study": ".studies",
 }
 
+_PARTS = ("closed", "comparison", "cycles", "environment", "isolation", "plot", "study", "surface")
+
 
 def __getattr__(name):
+    if name in _PARTS:
+        return importlib.import_module("." + name, __name__)
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(_HOMES[name], __name__), name)
+
+
+def __dir__():
+    return sorted({*globals(), *_HOMES, *_PARTS})
 
 
 def open(path, label=None):

@@ -5,7 +5,7 @@
     sphere = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf")
     with petsam.Contact(grid_n=256, grid_size=2.6e-3, friction=0.1, **steel, **sphere) as contact:
         step = contact.try_step(load_n=1000, disp_x=1e-6)
-        print(step.load_tx, contact.number("contact_area"), contact.stiffness()[1, 1])
+        print(step.load_tx, step.contact_area, step.dissipated_energy, contact.stiffness()[1, 1])
         contact.commit()
 
 The life of a contact, and what each number means: include/petsam/embed.h and examples/embed/README.md.
@@ -22,10 +22,25 @@ from pathlib import Path
 import numpy as np
 
 from .environment import TREE
-from .errors import Error, Missing
+from .errors import Error, Missing, short, there_are
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
 RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # m, rad
+# further numbers of a step, by their names in /history
+NUMBERS = (
+    "contact_area", "stick_area", "contact_fraction", "contact_cells", "stick_cells", "pressure_max", "shear_max",
+    "slip_max", "dissipated_energy", "stored_energy", "friction_scale", "bulk1_stress_xx", "bulk1_stress_yy",
+    "bulk1_stress_xy", "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy", "contact_spots", "gap_mean",
+    "wear_volume1", "wear_volume2", "plastic_cells", "plastic_area", "plastic_depth_max", "plastic_energy",
+    "edge_accepted", "normal_residual", "tangential_residual", "equilibrium_residual", "edge_passes", "stick_passes",
+    "normal_iterations", "tangential_iterations", "normal_applies", "tangential_applies", "normal_preconditions",
+    "tangential_preconditions", "coupling_iterations",
+)  # fmt: skip
+# fields, the last ones of contacts that wear or yield only
+FIELDS = (
+    "pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "displacement_x", "displacement_y", "displacement_z",
+    "state", "pressure_center", "shear_center_x", "shear_center_y", "wear_depth1", "wear_depth2", "plastic_depth",
+)  # fmt: skip
 NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
 
 
@@ -57,12 +72,17 @@ class EdgeContactWarning(UserWarning):
 
 
 class Step:
-    """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, and each of them by its name."""
+    """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, each of them by its name, and the
+    further NUMBERS of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none.
 
-    def __init__(self, time, load, rigid, status, message):
+    numbers   {name: value} of loads, displacements and the further numbers
+    """
+
+    def __init__(self, time, load, rigid, status, message, numbers=None):
         self.time, self.load, self.rigid, self.status, self.message = time, load, rigid, status, message
-        for name, value in zip(LOADS + RIGIDS, [*load, *rigid]):
-            setattr(self, name, float(value))
+        self.numbers = dict(zip(LOADS + RIGIDS, map(float, [*load, *rigid])))
+        self.numbers.update(numbers or {})
+        self.__dict__.update(self.numbers)
 
     def __repr__(self):
         pairs = [f"{name}={value:.6g}" for name, value in zip(LOADS + RIGIDS, [*self.load, *self.rigid])]
@@ -227,12 +247,21 @@ class Contact:
         try:
             code = self._call("try", ctypes.c_double(time), force, value, _pointer(load), _pointer(rigid))
         except (NotConverged, NoEquilibrium) as error:
-            error.step = Step(time, load, rigid, error.code, str(error))
+            error.step = Step(time, load, rigid, error.code, str(error), self._numbers())
             raise
-        step = Step(time, load, rigid, code, self._message())
+        step = Step(time, load, rigid, code, self._message(), self._numbers())
         if code == EDGE:
             warnings.warn(step.message, EdgeContactWarning, stacklevel=2)
         return step
+
+    def _numbers(self):
+        """{name: value} of the further numbers of the last step: a microsecond each."""
+        found, value = {}, ctypes.c_double()
+        with _lock:
+            for name in NUMBERS:
+                if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
+                    found[name] = value.value
+        return found
 
     def commit(self):
         """Make the tried step the state from which the next one goes on; bodies wear by it, if they do."""
@@ -265,16 +294,32 @@ class Contact:
             raise ValueError(f"out is not a contiguous array of doubles of shape {shape} that can be written to")
         if not isinstance(name, str):
             raise TypeError(f"{name!r} is no name of a field")
-        self._call("get_field", name.encode(), _pointer(out))
+        self._ask("get_field", name, FIELDS, _pointer(out))
         return out
 
     __getitem__ = field
 
     def number(self, name):
-        """A number of the last step, by its name in /history: contact_area, dissipated_energy, ..."""
+        """A number of the last step, by its name in /history: contact_area, dissipated_energy, ...
+
+        After reject() it is that of the committed step; the same of a step that has been tried is step.contact_area.
+        """
         value = ctypes.c_double()
-        self._call("get_number", name.encode(), ctypes.byref(value))
+        if not isinstance(name, str):
+            raise TypeError(f"{name!r} is no name of a number")
+        self._ask("get_number", name, ("time", "status", *LOADS, *RIGIDS, *NUMBERS), ctypes.byref(value))
         return value.value
+
+    def _ask(self, function, name, names, target):
+        """Call a function that is asked for something by name; an unknown name is an error with those there are."""
+        try:
+            self._call(function, name.encode(), target)
+        except ContactError as error:
+            if error.code != 2 or name in names or not self._contact:
+                raise
+            what = function.split("_")[1]
+            text = f"{short(name)}: there is no {what} of this name{there_are(name, names)}"
+            raise ContactError(error.code, text) from None
 
     def set_field(self, name, values):
         """Give the gap (separation of the undeformed, unworn bodies, m) or the friction: (rows, n[0]) or a number."""

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .errors import Error, short
+from .errors import Error, short, there_are
 from .results import NotSaved
 
 # the loads and what they work on
@@ -159,6 +159,6 @@ def find(results, turns=None, period=None):
         pair = busiest(results)
         turns = PAIRS[pair][1] if pair else "disp_x"
     if turns not in results.history:
-        there = ", ".join(sorted(results.history))
-        raise Error(f"{results.path}: --turns {short(turns)}: has no such scalar; it has {there}")
+        there = there_are(turns, sorted(results.history), "it has")
+        raise Error(f"{results.path}: --turns {short(turns)}: has no such scalar{there}")
     return Cycles(results, by_turns(results.series(turns).astype(float)), f"turning points of {turns}")

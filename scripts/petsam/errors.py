@@ -1,6 +1,7 @@
 """Errors that the commands report in one line: their message says all that a user needs."""
 
 import argparse
+import difflib
 import os
 import re
 import sys
@@ -13,7 +14,9 @@ LINE = 4000  # characters of a message at most
 
 
 class Error(Exception):
-    """Something that cannot be read, found or understood."""
+    """Something that cannot be read, found or understood; lines of an example are printed below the message."""
+
+    example = ()
 
 
 class Missing(Error):
@@ -34,11 +37,21 @@ def short(text):
     return one_line(text, 80)
 
 
+def there_are(tried, names, there="there are"):
+    """The end of a message about a name that does not exist: which one is meant, if one is near, and all that do."""
+    names, tried = list(names), str(tried)
+    near = difflib.get_close_matches(tried, names, 1) or [name for name in names if tried in name.split("_")][:3]
+    have = f"{there} {', '.join(names)}" if names else f"{there} none"
+    return f": is {' or '.join(near)} meant? {have[0].upper() + have[1:]}" if near else f"; {have}"
+
+
 def fail(command, error, code=FILE):
     """Print the error of a command; the exit code."""
     if isinstance(error, OSError):
         error = f"{error.filename or 'writing'}: {error.strerror or error}"
     print(f"{command}: error: {one_line(error)}", file=sys.stderr)
+    for line in getattr(error, "example", ()):
+        print("  " + line, file=sys.stderr)
     return code
 
 

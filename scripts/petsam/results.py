@@ -1,12 +1,13 @@
 """Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
 
 import os
+from copy import copy
 from functools import cached_property
 
 import h5py
 import numpy as np
 
-from .errors import Error, Missing, one_line, short
+from .errors import Error, Missing, one_line, short, there_are
 from .files import need_regular
 from .isolation import reading
 
@@ -29,14 +30,14 @@ class NotSaved(Error):
 
 
 class Named(dict):
-    """Values by name; a name that is not there is an Error of the file at path."""
+    """Values by name; a name that is not there is an Error of the file at path, which names those that are."""
 
     def __init__(self, path, values):
         super().__init__(values)
         self.path = path
 
     def __missing__(self, name):
-        raise Error(f"{self.path}: has no {name}")
+        raise Error(f"{self.path}: has no {short(name)}{there_are(name, sorted(self), 'it has')}")
 
 
 class History(Named):
@@ -160,6 +161,8 @@ class Results(Datafile):
     parameters  name of an option: value, all root attributes
     """
 
+    first_row, last_row = 0, None  # rows of the history that count: see between()
+
     def _read(self):
         self.x, self.y = self._read_axes(("x", "y"), 2)
         self.times = self._row(_own(self.file, "time"), "time")
@@ -188,7 +191,33 @@ class Results(Datafile):
         The step that a killed run was writing may be there in some datasets only, and does not count either.
         """
         complete = min(values.size for values in self.history.values())
-        return np.flatnonzero(self.history["status"][:complete] != NO_EQUILIBRIUM)
+        rows = np.flatnonzero(self.history["status"][:complete] != NO_EQUILIBRIUM)
+        return rows[self.counts(rows)]
+
+    def counts(self, rows):
+        """Which of the rows are among the load steps of between(); all unless it has been asked for."""
+        return (rows >= self.first_row) & (rows <= (np.inf if self.last_row is None else self.last_row))
+
+    def between(self, first=None, last=None):
+        """The same results as if their history had the load steps first to last only; numbers as of_step() has them."""
+        count = self.history["time"].size
+        there = "there is 1 step" if count == 1 else f"there are {count} steps"
+        if self.before:
+            there = f"the file has the steps {self.before + 1} to {self.before + count}"
+        rows = []
+        for step, unless in ((first, 0), (last, count - 1)):
+            row = unless if step is None else count + step if step < 0 else step - 1 - self.before
+            if not 0 <= row < count:
+                raise NotSaved(self.path, f"range {_ends(first, last)}", there)
+            rows.append(row)
+        if rows[0] > rows[1]:
+            raise NotSaved(self.path, f"range {_ends(first, last)}", "the first step comes after the last one")
+        part = copy(self)
+        part.__dict__.pop("solved", None)
+        part.first_row, part.last_row = rows
+        if not part.solved.size:
+            raise NotSaved(self.path, f"range {_ends(first, last)}", "no step of these has a solution")
+        return part
 
     def series(self, name):
         """Values of /history/name of the steps that have a solution: what sums and extremes are taken of."""
@@ -339,22 +368,28 @@ class Results(Datafile):
     def need_quantity(self, name, option=None):
         """Error where the file has neither a field nor a vector of this name, which an option may have asked for."""
         if name not in self.fields and name not in self.vectors:
-            there = ", ".join([*self.fields, *self.vectors]) or "no field at all"
+            names = [*self.fields, *self.vectors]
+            there = there_are(name, names, "it has") if names else "; it has no field at all"
             lack = f"{option} {short(name)}: has no such field" if option else f"has no {short(name)}"
-            raise Error(f"{self.path}: {lack} (petsam -output_fields); it has {there}")
+            raise Error(f"{self.path}: {lack} (petsam -output_fields){there}")
 
     def _saved(self, name):
         """The dataset of a field, or of an edge."""
         if name not in self.file:
-            there = ", ".join(self.fields) or "no field at all"
-            raise Error(f"{self.path}: has no {name} (petsam -output_fields); it has {there}")
+            names = [*self.fields, *self.edges]
+            there = there_are(name, names, "it has") if names else "; it has no field at all"
+            raise Error(f"{self.path}: has no {short(name)} (petsam -output_fields){there}")
         return _own(self.file, name)
 
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
-        """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell."""
+        """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell.
+
+        index counts the saved steps from 0, or from the end with -1; of_step(K) is that of load step K.
+        """
         if name in EDGES:
             raise Error(f"{self.path}: {name} is no field: ask for edge({name!r})")
         low, high, _ = rows.indices(self.y.size)
+        need_index(self, index)
         try:
             with reading(self.path):
                 data = self._saved(name)
@@ -362,8 +397,6 @@ class Results(Datafile):
                 raise ValueError(f"/{name} has no numbers")
             if data.shape != (self.times.size, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
-            if not -self.times.size <= index < self.times.size:
-                raise IndexError(f"step {index} of {self.times.size}")
             index %= self.times.size
             block = stride * max(1, BLOCK // stride)
             parts = []
@@ -377,8 +410,7 @@ class Results(Datafile):
 
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
-        if not -self.times.size <= index < self.times.size:
-            raise IndexError(f"saved step {index} of {self.times.size}")
+        need_index(self, index)
         try:
             with reading(self.path):
                 data = self._saved(name)
@@ -426,7 +458,8 @@ class Snapshot:
         if not isinstance(results, Results):
             raise Error(f"{results.path}: holds no results of petsam")
         self.results, self._fields = results, {}
-        self.index = results.of_last() if index == -1 else index
+        need_index(results, index)
+        self.index = index
         self.x, self.y, self.parameters = results.x, results.y, results.parameters
         self.dx, self.dy = (float(axis[1] - axis[0]) for axis in (self.x, self.y))
 
@@ -481,6 +514,23 @@ def _window(cells, stride, size, margin):
         return slice(0, size)
     more = int(np.ceil(margin * (cells[-1] - cells[0] + stride))) + stride
     return slice(max(0, int(cells[0]) - more), min(size, int(cells[-1]) + stride + more))
+
+
+def need_index(file, index):
+    """Error where index, from 0 or from -1, is not that of a saved step of the file."""
+    count = file.times.size
+    if not count:
+        raise Error(f"{file.path}: no fields were saved")
+    if not -count <= index < count:
+        saved = "1 step is saved, index 0 or -1"
+        if count > 1:
+            saved = f"{count} steps are saved, indices 0 to {count - 1}, or -1 to {-count} from the end"
+        place = f"; that of load step {index} is of_step({index})" if index in file.steps else ""
+        raise NotSaved(file.path, f"index {index}", saved + place)
+
+
+def _ends(first, last):
+    return ":".join("" if step is None else f"{step}" for step in (first, last))
 
 
 def _some(numbers):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from .errors import Error
+from .errors import Error, short, there_are
 from .isolation import reading
-from .results import DAMAGED, WHOLE, Datafile, NotSaved, Results, _own, _some
+from .results import DAMAGED, WHOLE, Datafile, NotSaved, Results, _own, _some, need_index
 from .studies import Study, is_study
 
 # parameters of a cycle; the critical plane's normal is in NAME_normal_x, _y, _z
@@ -80,14 +80,19 @@ class Stresses(Datafile):
         """Error where the file lacks one of the datasets."""
         for name in names:
             if name not in self:
-                raise Error(f"{self.path}: has no {name} (petsam-stress -quantities)")
+                raise Error(f"{self.path}: has no {name} (petsam-stress -quantities){self._there_are(name)}")
+
+    def _there_are(self, name):
+        names = [name for name in self.file if name not in (*AXES, "history")]
+        return there_are(name, names, "it has")
 
     def field(self, name, index=-1, depths=slice(None), rows=slice(None), columns=slice(None)):
         """A quantity (z, y, x) of a step, or a fatigue parameter, which has no steps; on a window of slices."""
+        need_index(self, index)
         try:
             with reading(self.path):
                 if name not in self:
-                    raise Error(f"{self.path}: has no {name}")
+                    raise Error(f"{self.path}: has no {short(name)}{self._there_are(name)}")
                 data = _own(self.file, name)
                 timeless = name in FATIGUE or "_normal_" in name
                 shape = self.shape[1:] if timeless else self.shape

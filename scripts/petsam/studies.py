@@ -1,14 +1,27 @@
 """Reading of petsam-study's results.h5: inputs and scalars of all cases. SI units."""
 
 import os
+import re
 
 import h5py
 import numpy as np
 
-from .errors import Error, Missing, short
+from .errors import Error, Missing, short, there_are
 from .files import need_regular
 from .isolation import reading
 from .results import DAMAGED, WHOLE, _own, _reason
+
+# units of petsam's options, by their names
+UNITS = (
+    (r"load_(n|tx|ty)", "N"), (r"load_m[xyz]", "N m"), (r"disp_[xyz]|grid_(size|center)|gap_(\w+_)?radius\w*", "m"),
+    (r"rot_[xyz]", "rad"), (r"body[12]_young|pressure_limit|bulk[12]_stress_\w+", "Pa"),
+    (r"wear_coefficient[12]", "1/Pa"), (r"wear_energy[12]", "m3/J"),
+)  # fmt: skip
+
+
+def unit_of_option(name):
+    """Unit of what an option takes; empty of a number, of a text, and of another parameter."""
+    return next((unit for pattern, unit in UNITS if re.fullmatch(pattern, name)), "")
 
 
 class Study:
@@ -69,7 +82,7 @@ class Study:
         bare = name[:-4] if name.endswith("_end") and name[:-4] in self.inputs else name
         if bare not in self.results:
             what = f"{option} {short(name)}".strip()
-            raise Error(f"{self.path}: {what}: there is no such column; there are {', '.join(self.names)}")
+            raise Error(f"{self.path}: {what}: there is no such column{there_are(name, self.names)}")
         return self.results[bare], self.units[bare]
 
     @property

@@ -157,7 +157,8 @@ def test_python_has_the_bits_of_petsam(tmp_path, expected):
         f"""
 import h5py, petsam, numpy as np
 case, steps = {CASE!r}, {STEPS!r}
-tables = {{name: [] for name in ("load", "rigid", "stiffness", "reversal", "shear_x")}}
+tables = {{name: [] for name in ("load", "rigid", "stiffness", "reversal", "shear_x", "dissipated_energy")}}
+numbers = []
 with petsam.Contact(**case) as contact, petsam.Contact(**case) as other:
     for k, step in enumerate(steps, 1):
         one = contact.try_step(time=k, **step)
@@ -167,12 +168,16 @@ with petsam.Contact(**case) as contact, petsam.Contact(**case) as other:
         tables["stiffness"].append(contact.stiffness())
         tables["reversal"].append(contact.stiffness(reversal=True))
         tables["shear_x"].append(contact["shear_x"])
+        tables["dissipated_energy"].append(one.dissipated_energy)
+        numbers.append(one.numbers)
+        assert one.stored_energy == contact.number("stored_energy") > 0
         contact.commit()
         assert one.load_n == one.load[0] and one.rot_z == one.rigid[5] and contact.number("time") == k
     assert contact.x.size == 45 and contact.y.size == contact.rows == 40 and contact.first_row == 0
     area = contact.size[0] / contact.n[0] * contact.size[1] / contact.n[1]
     assert abs(contact["pressure"].sum() * area - one.load_n) < 1e-9 * one.load_n
 np.savez("tables.npz", **tables)
+np.savez("numbers.npz", **{{name: [one[name] for one in numbers] for name in numbers[0]}})
 """,
         tmp_path,
     )
@@ -183,6 +188,12 @@ np.savez("tables.npz", **tables)
     assert np.array_equal(found["stiffness"], expected["stiffness"])
     assert np.array_equal(found["reversal"], expected["stiffness_reversal"])
     assert np.array_equal(found["shear_x"], expected["shear_x"])
+    assert np.array_equal(found["dissipated_energy"], expected["dissipated_energy"])
+    numbers = np.load(tmp_path / "numbers.npz")  # a step has all that a row of /history has
+    own = {"time", "status", "stiffness", "stiffness_reversal", "shear_x"}
+    assert set(expected) - own <= set(numbers) and "wear_volume1" in numbers
+    for name in set(expected) - own:
+        assert np.array_equal(numbers[name], expected[name]), name
 
 
 def test_mistakes_in_python_are_exceptions_and_the_process_lives(tmp_path):
@@ -210,6 +221,15 @@ told(petsam.NoEquilibrium, contact.try_step, load_n=1000, load_tx=500)
 told(ValueError, contact.set_field, "gap", np.zeros((3, 4)))
 told(petsam.ContactError, contact.set_field, "gap", np.full((40, 45), np.nan))
 told(petsam.ContactError, contact.load, "nowhere.h5")
+contact.try_step(load_n=100)
+told(petsam.ContactError, contact.field, "presure")
+told(petsam.ContactError, contact.number, "area")
+told(petsam.ContactError, contact.number, "qqq")
+told(petsam.ContactError, contact.field, "contact_edge")
+told(TypeError, contact.number, 3)
+for name in petsam.contact.FIELDS:
+    if not name.startswith(("wear", "plastic")):
+        contact.field(name)
 with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     assert contact.try_step(load_n=1e5).status == 12 and "edge" in str(caught[0].message)
@@ -230,6 +250,12 @@ print("alive")
     ):
         assert word in line
     assert lines[-1] == "alive" and "gross slip" in text
+    assert "presure: there is no field of this name: is pressure meant? There are pressure, shear_x, " in text
+    assert (
+        "area: there is no number of this name: is contact_area or stick_area or plastic_area meant? There are time, "
+        in text
+    )
+    assert "qqq: there is no number of this name; there are time, " in text
 
 
 def test_state_is_saved_and_loaded(tmp_path):
@@ -305,6 +331,7 @@ if __name__ == "__main__":
             pool.submit(work, 1000).result()
         except petsam.NoEquilibrium as error:
             assert "gross slip" in str(error) and error.code == 11 and error.step.load_tx == 1000
+            assert error.step.dissipated_energy != error.step.dissipated_energy  # NaN
     with petsam.Contact(**case) as contact:
         for copied in copy.copy, copy.deepcopy, pickle.dumps:
             try:

@@ -1,5 +1,6 @@
 """The Python package: what importing it costs, reading of results and of what is none, closed solutions, examples."""
 
+import re
 import subprocess
 import sys
 
@@ -12,6 +13,10 @@ from conftest import environment
 from support import FIELDS, ROOT, ball, slide_limit
 
 SCRIPTS = ROOT / "scripts"
+PAGES = [
+    ROOT / "README.md",
+    *(page for folder in ("examples", "include", "scripts") for page in ROOT.glob(folder + "/**/*.md")),
+]
 EXAMPLES = sorted(path.parent.name for path in (ROOT / "examples").glob("*/figures.py"))
 CASE = ball(n=32)
 
@@ -50,6 +55,25 @@ def test_reading_results_does_not_import_matplotlib(path):
 
 def test_closed_solutions_do_not_import_matplotlib():
     assert not {"matplotlib", "h5py"} & set(modules_after("import petsam.closed.plane, petsam.closed.spence"))
+
+
+def test_what_the_pages_name_is_there_after_import_petsam_alone():
+    names = {name for page in PAGES for name in re.findall(r"\bpetsam((?:\.[A-Za-z_]\w*)+)", page.read_text())}
+    names = sorted(name for name in names if not re.match(r"\.(f90|h|log|opts|pc|h5)$", name))
+    assert {".open", ".cycles.find", ".closed.plane", ".Contact"} <= set(names)
+    for name in names:  # an import would also give it to those that follow
+        python("-c", f"import petsam\npetsam{name}")
+    assert {"cycles", "closed", "Contact", "open"} <= set(dir(package)) and "plane" in dir(package.closed)
+    with pytest.raises(AttributeError, match="has no attribute 'circles'"):
+        _ = package.circles
+
+
+def test_the_snippets_of_the_page_of_the_scripts_run(path, tmp_path):
+    (tmp_path / "strokes.h5").symlink_to(path)
+    blocks = re.findall(r"```python\n(.*?)```", (SCRIPTS / "README.md").read_text(), re.DOTALL)
+    assert blocks
+    for block in blocks:
+        python("-c", f"import os\nos.chdir({str(tmp_path)!r})\n{block}")
 
 
 # ---------------------------------------------------------------- results
@@ -127,6 +151,25 @@ def test_what_is_no_file_of_hdf5_is_told(tmp_path, content, reason):
 def test_what_the_file_has_not_is_the_packages_error(path, ask):
     with package.open(path) as results, pytest.raises(package.Error, match="results.h5: "):
         ask(results)
+
+
+@pytest.mark.parametrize("ask, says", [
+    (lambda results: results.field("pressure", 500), "index 500: 2 steps are saved, indices 0 to 1, or -1 to -2 from"),
+    (lambda results: results.field("pressure", 4), "from the end; that of load step 4 is of_step(4)"),
+    (lambda results: results.field("pressure", -3), "index -3: 2 steps are saved"),
+    (lambda results: results.edge("contact_edge", 500), "index 500: 2 steps are saved"),
+    (lambda results: package.Snapshot(results, 2), "index 2: 2 steps are saved"),
+    (lambda results: results.field("presure"), "has no presure (petsam -output_fields): is pressure meant? It has "),
+    (lambda results: results.quantity("slips"), ": is slip_y meant? It has "),
+    (lambda results: results.history["area"], "has no area: is contact_area or stick_area meant? It has contact_area"),
+    (lambda results: results.parameters["fricton"], "has no fricton: is friction meant? It has "),
+    (lambda results: results.history["qqq"], "has no qqq; it has contact_area, "),
+])  # fmt: skip
+def test_what_is_asked_for_wrongly_is_told_with_the_nearest_name_and_all_names(path, ask, says):
+    with package.open(path) as results, pytest.raises(package.Error) as caught:
+        ask(results)
+    assert str(caught.value).startswith(f"{path}: ") and says in str(caught.value)
+    assert "is not a results file" not in str(caught.value)
 
 
 # ---------------------------------------------------------------- closed solutions, examples

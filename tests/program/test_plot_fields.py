@@ -392,10 +392,16 @@ def test_bad_usage_names_the_option_with_exit_code_2(draw, path, words, says):
 @pytest.mark.parametrize(
     "words, says",
     [
-        (["--field", "presure"], "--field presure: has no such field (petsam -output_fields); it has "),
+        (
+            ["--field", "presure"],
+            "--field presure: has no such field (petsam -output_fields): is pressure meant? It has ",
+        ),
         (["--profiles", "--field", "q"], "--field q: has no such field"),
         (["--field", "contact_edge"], "--field contact_edge: "),
-        (["--scalar", "area", "--against", "load_n"], "--scalar area: has no such dataset; it has contact_area, "),
+        (
+            ["--scalar", "area", "--against", "load_n"],
+            "--scalar area: has no such dataset: is contact_area or stick_area meant? It has contact_area, ",
+        ),
         (["--names", "area"], "--names area: has no such dataset"),
         (["--against", "force"], "--against force: has no such dataset; it has contact_area, "),
         (["--scalar", "stick_area", "--by", "mu"], "--by: is for results.h5 of petsam-study"),

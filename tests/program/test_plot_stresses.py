@@ -118,6 +118,49 @@ def test_fatigue_names_the_largest_value_and_its_place(folder, name):
     assert "Ruiz" in figure.axes[1].get_title()
 
 
+def test_numbers_of_contours_lie_neither_on_one_another_nor_on_the_mark(folder):
+    file = petsam.open(folder / "section.h5")
+    found = 0
+    for figure in (bodies.fatigue(file), bodies.sections([(file, 1), (file, 2)], "zz")):
+        figure.canvas.draw()
+        for axes in figure.axes:
+            room = axes.get_window_extent()
+            boxes = [text.get_window_extent() for text in axes.texts if text.get_gid() == bodies.LABEL]
+            found += len(boxes)
+            marks = [line.get_window_extent() for line in axes.lines if line.get_gid() == bodies.MARK]
+            for k, box in enumerate(boxes):
+                assert room.x0 - 1 <= box.x0 and box.x1 <= room.x1 + 1 and box.y1 <= room.y1 + 1
+                assert not any(box.overlaps(other) for other in [*boxes[k + 1 :], *marks])
+    assert found > 5
+
+
+def test_numbers_on_one_another_are_taken_away():
+    figure, axes = bodies.plt.subplots()
+    axes.set(xlim=(0, 1), ylim=(0, 1))
+    bodies._mark(axes, 0.2, 0.2)
+    for x, y, text in (
+        (0.5, 0.5, "kept"),
+        (0.505, 0.505, "on it"),
+        (0.2, 0.2, "marked"),
+        (0.999, 0.8, "out"),
+        (0.8, 0.8, "far"),
+    ):
+        axes.text(x, y, text, gid=bodies.LABEL)
+    axes.text(0.5, 0.5, "no label")
+    bodies._untangle(figure)
+    assert [text.get_text() for text in axes.texts] == ["kept", "far", "no label"]
+
+
+def test_the_mark_of_a_curve_does_not_hide_it_and_titles_have_units(folder):
+    axes = bodies.fatigue(petsam.open(folder / "section.h5")).axes[1]  # Ruiz is on the surface only
+    curve, mark = axes.lines
+    assert mark.get_marker() == "o" and mark.get_markerfacecolor() == "none"
+    assert mark.get_xydata()[0] == pytest.approx(curve.get_xydata()[np.argmax(curve.get_ydata())])
+    maps = petsam.open(folder / "maps.h5")
+    for axes in bodies.maps([(maps, 0)], "zz").axes:
+        assert axes.get_title().splitlines()[0].endswith(" MPa")
+
+
 def test_open_knows_the_file_by_its_content(folder):
     assert isinstance(petsam.open(folder / "c.h5"), petsam.Results)
     file = petsam.open(folder / "section.h5")
@@ -125,6 +168,10 @@ def test_open_knows_the_file_by_its_content(folder):
     assert file.field("mises").shape == (9, 1, 40) and file.field("swt").shape == (9, 1, 40)
     assert file.field("mises", 0, slice(2, 4)).shape == (2, 1, 40) and file.unit("swt") == "Pa"
     assert file.history["mises_max"].size == 4 and file.parameters["body"] == 2
+    with pytest.raises(petsam.Error, match="index 500: 4 steps are saved, indices 0 to 3"):
+        file.field("mises", 500)
+    with pytest.raises(petsam.Error, match="has no stress_xv: is stress_.. meant. It has "):
+        file.field("stress_xv")
     with pytest.raises(petsam.Error, match="has no crossland"):
         file.field("crossland")
     with pytest.raises(petsam.Error, match="holds no results"):

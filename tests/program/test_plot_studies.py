@@ -1,6 +1,7 @@
 """petsam-plot of petsam-study's tables: columns over one another, curves by other columns, and what is not there."""
 
 import itertools
+import re
 
 import h5py
 import numpy as np
@@ -8,9 +9,10 @@ import pytest
 
 import petsam
 from petsam.plot import tables
-from petsam.studies import Study
+from petsam.studies import Study, unit_of_option
 from petsam.study.cases import Case
 from petsam.study.tables import write_hdf5
+from support import ROOT
 
 pytestmark = pytest.mark.usefixtures("closing")
 
@@ -67,7 +69,10 @@ def test_a_table_is_read_whole(study, path):
     assert study.column("stick_area")[1] == "m2" and study.column("mu")[1] == ""
     assert study.column("load_tx_end")[0][0] == pytest.approx(99.9 * 0.05) and study.column("load_tx")[0][0] == 5.0
     assert "load_tx_end" in study.names and "load_tx" in study.names
-    with pytest.raises(petsam.Error, match="area: there is no such column; there are load_tx, mu, nu, ratio, shape, "):
+    with pytest.raises(
+        petsam.Error,
+        match="area: there is no such column: is contact_area or stick_area meant. There are load_tx, mu, nu, ",
+    ):
         study.column("area")
 
 
@@ -108,8 +113,52 @@ def test_by_itself_what_varies_is_drawn_over_the_input_with_the_most_values(stud
     drawn = [axes.get_ylabel().split(",")[0] for axes in figure.axes if axes.lines]
     # neither what is constant, nor numbers without a unit, nor rounding
     assert drawn == ["dissipated energy", "$T_x$", "stick area"]
-    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx"}
+    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx, N"}
     assert figure.get_suptitle() == "left out, as they have not finished: 1 of the cases"
+
+
+@pytest.fixture
+def single(tmp_path):
+    """Cases of one step each, of loads that are inputs: what is known twice stands in the table twice."""
+    found = []
+    for number, (normal, tangential) in enumerate(itertools.product((100.0, 200.0), (5.0, 10.0, 15.0))):
+        inputs = {"load_n": str(normal), "load_tx": str(tangential)}
+        energy = 1e-9 * tangential**3 / normal
+        values = {
+            "dissipated_energy": (energy, "J"), "dissipated_energy_sum": (energy, "J"),
+            "load_n": (normal * (1 + 1e-9), "N"), "load_tx": (tangential, "N"),
+            "stored_energy": (2 * energy, "J"), "pressure_max": (1e6 * tangential, "Pa"),
+        }  # fmt: skip
+        case = Case(number, f"case{number}", inputs, {}, {}, 1)
+        found.append((case, {"exit_code": 0, "seconds": 1.0, "message": ""}, values))
+    write_hdf5(str(tmp_path / "results.h5"), found, "single.csv")
+    return Study(tmp_path / "results.h5")
+
+
+def test_what_is_known_twice_is_drawn_once_and_inputs_have_their_units(single):
+    figure = tables.study([single])
+    drawn = [axes.get_ylabel() for axes in figure.axes if axes.lines]
+    assert [name.split(",")[0] for name in drawn] == ["dissipated energy", "pressure max", "stored energy"]
+    assert drawn[0].startswith("dissipated energy, sum")
+    assert set(curves(figure.axes[0])) == {"load_n = 100 N", "load_n = 200 N"}
+    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx, N"}
+    x = figure.axes[0].lines[0].get_xdata()
+    assert x.tolist() == [5.0, 10.0, 15.0]  # as the table has them, without a prefix
+    named = tables.study([single], ["dissipated_energy", "load_n_end"])
+    assert [axes.get_ylabel().split(",")[0] for axes in named.axes if axes.lines] == ["dissipated energy", "$N$"]
+
+
+def test_units_of_options_are_those_of_the_reference():
+    text = (ROOT / "examples" / "OPTIONS.md").read_text()
+    known = re.findall(r"^\| `-(\w+) <number>(.*)$", text, re.MULTILINE)
+    inputs = ("load", "disp", "rot", "grid", "gap", "body", "bulk", "wear_c", "wear_e", "pressure")
+    checked = 0
+    for name, words in known:
+        unit = re.search(r"\((m|N|N m|rad|Pa|1/Pa|m3/J)[),]", words)
+        if name.startswith(inputs):
+            assert unit_of_option(name) == (unit[1] if unit else ""), name
+            checked += bool(unit)
+    assert checked > 20 and unit_of_option("friction") == unit_of_option("ratio") == unit_of_option("my_load_n") == ""
 
 
 def test_several_studies_are_told_apart(study, path):
@@ -143,7 +192,10 @@ def test_one_picture_is_drawn(draw, path, tmp_path, words):
 @pytest.mark.parametrize(
     "words, says",
     [
-        (["--scalar", "area"], "--scalar area: there is no such column; there are load_tx, mu, nu, ratio, shape, "),
+        (
+            ["--scalar", "area"],
+            "--scalar area: there is no such column: is contact_area or stick_area meant? There are load_tx, mu, nu, ",
+        ),
         (["--against", "shape"], "--against shape: holds texts, no numbers"),
         (["--against", "x"], "--against x: there is no such column; there are load_tx"),
         (["--by", "x"], "--by x: there is no such column; there are load_tx"),

@@ -206,7 +206,6 @@ def test_a_file_of_any_option_is_found_and_its_change_noticed(tmp_path, option):
         ("t.csv", "load_tx,case\n1,../a\n", "t.csv, line 2: case ../a"),
         ("t.yaml", "options:\n  load_tx: [1\n", "t.yaml, line 3:"),
         ("t.yaml", "options:\n  load_tx: 1\nrank: 1\n", "t.yaml: rank: unknown"),
-        ("t.yaml", "parameters: {a: 1}\n", "t.yaml: expected a section `options`"),
         ("t.yaml", 'options:\n  load_tx: "{2 * a}"\n', "t.yaml: {2 * a}: there is no parameter or option a"),
         ("t.yaml", 'options:\n  load_tx: "{load_tx}"\n', "refers to itself"),
         ("t.yaml", 'options:\n  load_tx: "{1 / 0}"\n', "t.yaml: {1 / 0}: "),
@@ -224,9 +223,21 @@ def test_a_bad_table_is_exit_code_2_with_its_place(run, tmp_path, name, text, me
     assert not (tmp_path / "t").exists()
 
 
+@pytest.mark.parametrize("text", ["parameters: {a: 1}\n", "load_tx: [30, 60]\n", "30\n", ""])
+def test_a_table_without_options_is_shown_how_they_are_written(run, tmp_path, text):
+    table(tmp_path, text, "t.yaml")
+    first, *example = run("t.yaml", check=2).splitlines()
+    assert first.startswith("petsam-study: error: ") and "t.yaml: expected a section `options`" in first
+    assert len(example) == 2 and all(line.startswith("  ") for line in example)
+    table(tmp_path, "\n".join(line[2:] for line in example), "t.yaml")  # what is shown is a table
+    assert [case.inputs for case in study_cases.read(str(tmp_path / "t.yaml"))] == [
+        {"load_tx": load} for load in ("30", "60", "90")
+    ]
+
+
 def refused(said):
-    """The one line of an error, without a traceback."""
-    lines = said.splitlines()
+    """The one line of an error, without a traceback; an example may stand below it."""
+    lines = [line for line in said.splitlines() if not line.startswith("  ")]
     assert len(lines) == 1 and lines[0].startswith("petsam-study: error: ") and "TRACEBACK" not in lines[0], said
     return lines[0]
 

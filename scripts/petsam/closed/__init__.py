@@ -17,7 +17,11 @@ punch      flat circular punch with a rounded edge under normal load
 plane      infinitely long punch with rounded edges, upright or inclined, in partial slip
 
 `python3 -m petsam.closed` compares every formula with a numerical quadrature and fails when one disagrees.
+
+Functions of materials, sphere and stress have their names here; the others are imported when they are first asked for.
 """
+
+import importlib
 
 # fmt: off
 from .materials import (  # isort: skip
@@ -28,3 +32,15 @@ from .sphere import (  # isort: skip
 from .stress import (  # isort: skip
     HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface)
 # fmt: on
+
+_PARTS = ("loop", "plane", "punch", "spence")
+
+
+def __getattr__(name):
+    if name not in _PARTS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return importlib.import_module("." + name, __name__)
+
+
+def __dir__():
+    return sorted({*globals(), *_PARTS})

@@ -3,6 +3,7 @@
 import argparse
 import math
 import os
+import re
 import sys
 
 from ..cycles import PAIRS, read_period
@@ -25,6 +26,18 @@ def numbers(kind):
             raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {reason}") from error
 
     return read
+
+
+def steps(text):
+    """Reader of FIRST:LAST for argparse; None where one is left out."""
+    parts = text.split(":")
+    try:
+        first, last = (int(part) if part.strip() else None for part in parts)
+    except ValueError:
+        first = last = None
+    if (first, last) == (None, None) or 0 in (first, last):
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected load steps FIRST:LAST, FIRST: or :LAST")
+    return first, last
 
 
 def point(text):
@@ -141,7 +154,8 @@ def _quantities(parser):
 
 def _steps(parser):
     title = "steps (the last saved; of a scar all saved cycles)"
-    which = parser.add_argument_group(title).add_mutually_exclusive_group()
+    group = parser.add_argument_group(title)
+    which = group.add_mutually_exclusive_group()
     which.add_argument(
         "--step", type=numbers(int), metavar="K,...", help="load steps from 1, as petsam prints them; -1 is the last"
     )
@@ -149,6 +163,10 @@ def _steps(parser):
     which.add_argument(
         "--cycle", type=numbers(float), metavar="C,...",
         help="cycles from 1, -1 is the last: their loops, or ends; of a life the saved cycles nearest to C",
+    )  # fmt: skip
+    group.add_argument(
+        "--range", type=steps, metavar="FIRST:LAST",
+        help="only these load steps in histories and loops, from 1, -1 is the last: 33: leaves out the first 32",
     )  # fmt: skip
     title = "cycles (by turning points of the displacement that works)"
     how = parser.add_argument_group(title).add_mutually_exclusive_group()
@@ -187,6 +205,9 @@ def _check(parser, options):
     if options.labels and len(options.labels.split(",")) != len(options.files):
         parser.error(f"--labels: expected as many as files, {len(options.files)}")
     ending = os.path.splitext(options.output or "")[1].lower()
+    if re.fullmatch(r"\.[a-z]\w*", ending) and ending not in FORMATS:
+        formats = ", ".join(FORMATS[:-1]) + " or " + FORMATS[-1]
+        parser.error(f"--output {short(options.output)}: expected a name that ends in {formats}, or has no ending")
     if options.format and ending in FORMATS and ending != "." + options.format:
         parser.error(f"--format {options.format}: the name {options.output} says otherwise")
     if options.limits and len(options.field or ()) != 1 and not options.component:

@@ -4,7 +4,9 @@ A step is given as a pair (Stresses, index). Depth points down. Places of larges
 """
 
 import numpy as np
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import Bbox
 
 from ..errors import Error
 from .maps import PIXELS, Layout
@@ -24,6 +26,7 @@ OTHERS = {
     "shear_max": "$\\tau_{max}$", "mises": "$\\sigma_M$",
 }  # fmt: skip
 COMPONENTS = (*STRESSES, *OTHERS)
+LABEL, MARK = "label", "mark"  # ids of the numbers of contours and of marks
 PLANES = 4  # of maps in a picture, unless --depth asks for some
 
 
@@ -94,7 +97,9 @@ def _contours(axes, along, z, values, low, high, color_map):
     lines = axes.contour(
         along, z, values, levels=MaxNLocator(LINES).tick_values(low, high)[1:-1], colors="0.25", linewidths=0.5
     )
-    axes.clabel(lines, fmt="%.3g", fontsize=6.5)
+    labels = axes.clabel(lines, fmt="%.3g", fontsize=6.5, inline=False, colors="0.15")
+    for text in labels:
+        text.set(gid=LABEL, path_effects=[withStroke(linewidth=1.5, foreground="white", alpha=0.8)])
     axes.set_ylim(z[-1], z[0])
     return image
 
@@ -107,8 +112,31 @@ def _limits(name, component, top, limits):
 
 
 def _mark(axes, x, y):
-    axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6, clip_on=False, zorder=5)
+    axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6, clip_on=False, zorder=5, gid=MARK)
     axes.plot(x, y, "+", color="black", markersize=9, markeredgewidth=1.2, clip_on=False, zorder=6)
+
+
+def _ring(axes, x, y):
+    """A mark around the top of a curve, which it does not hide."""
+    axes.plot(x, y, "o", color="black", markersize=9, markerfacecolor="none", markeredgewidth=1.0, clip_on=False)
+
+
+def _untangle(figure):
+    """Take away numbers of contours that lie on one another, on a mark, or across the border."""
+    figure.draw_without_rendering()  # which lays the panels out
+    for axes in figure.axes:
+        room, taken = axes.get_window_extent(), []
+        for mark in (line for line in axes.lines if line.get_gid() == MARK):
+            x, y = axes.transData.transform(mark.get_xydata()[0])
+            half = 0.5 * mark.get_markersize() * figure.dpi / 72.0
+            taken.append(Bbox.from_extents(x - half, y - half, x + half, y + half))
+        for text in [text for text in axes.texts if text.get_gid() == LABEL]:
+            box = text.get_window_extent().padded(1.0)
+            corners = box.x0 >= room.x0 and box.x1 <= room.x1 and box.y0 >= room.y0 and box.y1 <= room.y1
+            if corners and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
+            else:
+                text.remove()
 
 
 def _extremes(name, values):
@@ -151,6 +179,7 @@ def sections(steps, component=None, at=(0.0, 0.0), limits=None):
             )
             bar(panel, image, prefixed)
             _title(panel, text, f"{_extremes(name, factor * values)} {prefixed}", file, index)
+    _untangle(figure)
     return figure
 
 
@@ -213,7 +242,8 @@ def maps(steps, component=None, depths=None, limits=None):
             panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if column == 0 or layout.stacked else "")
             layout.number(panel)
             bar(panel, image, prefixed, layout.height)
-            depth = f"$z$ = {length * file.z[k]:.4g} {unit}, {_extremes(name, factor * values)}{layout.remark}"
+            most = f"{_extremes(name, factor * values)} {prefixed}"
+            depth = f"$z$ = {length * file.z[k]:.4g} {unit}, {most}{layout.remark}"
             _title(panel, text, depth, file, index)
     return figure
 
@@ -235,6 +265,7 @@ def fatigue(file, at=(0.0, 0.0)):
     for panel in axes.flat[len(names) :]:
         panel.set_axis_off()
     figure.suptitle(plain(file.label), fontsize=9, color="0.35")
+    _untangle(figure)
     return figure
 
 
@@ -260,7 +291,7 @@ def _fatigue_panel(figure, panel, file, name, at):
         image = None
         panel.plot(length * along, factor * values[k], color=colors(1)[0], linewidth=1.3)
     if image is None:
-        _mark(panel, length * along[i], factor * high)
+        _ring(panel, length * along[i], factor * high)
         panel.set(ylabel=label(FATIGUE[name], prefixed))
     else:
         _mark(panel, length * along[i], length * down[k])

@@ -7,14 +7,17 @@
     petsam-plot --loop --cycle 1,10,-1 strokes.h5   loops of three cycles
     petsam-plot --energy --period 0.02 random.h5    dissipated energy of every period
     petsam-plot --scalar contact_area --against load_n a.h5 b.h5               any scalar of /history over any other
+    petsam-plot --loop --range 33:64 strokes.h5     load steps 33 to 64 only
     petsam-plot --scalar stick_area --against load_tx --by friction study/results.h5       a study's table
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles of a life
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
-Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop
-and the history, of three cycles or more their loops and energies, too; of a life of many cycles (-wear_cycles) its
-fretting log, scar and life instead of these; of a file of petsam-stress its section or maps, the profile, and fatigue
-parameters if it has them; of results.h5 of petsam-study the results that vary, over the input with the most values.
+Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
+if friction works, and the history, of three cycles or more their loops and energies, too; of a life of many cycles
+(-wear_cycles) its fretting log, scar and life instead of these; of a file of petsam-stress its section or maps, the
+profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that vary, over the input with
+the most values. What does not vary, and what is zero but for rounding, is drawn only if it is asked for by name. An
+option that none of the pictures uses is refused.
 Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
 """
 
@@ -22,20 +25,20 @@ import os
 import warnings
 
 from .. import cycles, isolation
-from ..errors import Error, fail, guarded
+from ..errors import FILE, USAGE, Error, fail, guarded
 from ..files import need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
 from ..studies import Study
-from . import arguments, bodies, colours, loops, maps, profiles, series, tables, wear
+from . import arguments, bodies, colours, loops, maps, noise, profiles, series, tables, uses, wear
 from .arguments import FORMATS
 from .style import STYLE, plt
+from .uses import STUDY
 
 OF_LIFE = ("scar", "life")
 OF_RESULTS = ("maps", "profiles", "loop", "energy", "history", "fretting-log", *OF_LIFE)
 OF_STRESSES = ("maps", "sections", "profiles", "fatigue")
 KINDS = tuple(dict.fromkeys(OF_STRESSES[:3] + OF_RESULTS + OF_STRESSES))  # in the order in which they are drawn
-STUDY = "study"  # the only kind of a study's table
 MANY = 3  # cycles from which their loops and energies are drawn without being asked for
 ORIGIN = (0.0, 0.0)
 PIXELS = 300e6  # of a PNG at most: matplotlib holds them all
@@ -75,6 +78,8 @@ def chosen(options, results):
         return kinds
     if stresses:
         return stress_kinds(results)
+    if options.range:
+        return ["loop", "history"]
     if options.cycle and not all(one.has_life for one in results):
         return ["loop"]
     return result_kinds(results)
@@ -100,6 +105,8 @@ def result_kinds(results):
         scars = any(wear.worn(one, one.of_last()) for one in results)
         return [*fields, "fretting-log", *(["scar"] if scars else []), "life"]
     several = any(one.solved.size > 1 for one in results)
+    if not any(one.solved.size and noise.works(one) for one in results):  # normal loads alone: no loop, no energy
+        return [*fields, *(["history"] if several else [])] or ["maps"]
     repeated = all(one.solved.size and not one.has_life and len(cycles.find(one)) >= MANY for one in results)
     more = ["loop", *(["energy"] if repeated else []), "history", *(["fretting-log"] if repeated else [])]
     return [*fields, *(more if several else [])] or ["maps"]
@@ -178,10 +185,15 @@ def draw_wear(options, results, kind):
     return wear.scar(steps, options.at, options.whole_grid)
 
 
+def ranged(options, results):
+    """The results with the load steps of --range only."""
+    return [one.between(*options.range) for one in results] if options.range else results
+
+
 def draw_cycles(options, results, kind):
     """One picture of loops and cycles, a matplotlib figure."""
     if kind == "loop" and not options.cycle:
-        return loops.loop(results, options.load)
+        return loops.loop(ranged(options, results), options.load)
     if kind == "loop":
         for one in results:
             if one.has_life:
@@ -220,7 +232,7 @@ def draw(options, results, kind):
         return draw_wear(options, results, kind)
     if kind == "history":
         other = options.against or series.TIME
-        return series.history(results, options.scalar, other, options.spelling, axes_of(options))
+        return series.history(ranged(options, results), options.scalar, other, options.spelling, axes_of(options))
     return draw_cycles(options, results, kind)
 
 
@@ -257,11 +269,12 @@ def draw_all(options):
     results = [open_any(*one) for one in zip(options.files, labels)]
     need_options(options, results)
     kinds = chosen(options, results)
+    uses.need_use(options, results, kinds)
     with plt.rc_context(STYLE):
         for kind in kinds:
             try:
                 save(options, draw(options, results, kind), path(options, kind, len(kinds) == 1))
-            except NotSaved as error:  # of what --step, --time or --cycle has asked for
+            except NotSaved as error:  # of what --step, --time, --cycle or --range has asked for
                 raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
             except OSError:  # of the picture; those of the results have been taken for Errors
                 raise
@@ -277,7 +290,7 @@ def carry_out(options):
     try:
         draw_all(options)
     except Error as error:
-        return fail("petsam-plot", error)
+        return fail("petsam-plot", error, USAGE if isinstance(error, uses.Useless) else FILE)
     return 0
 
 

@@ -5,6 +5,7 @@ Cycles are those of petsam.cycles, given as one Cycles a file.
 
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.ticker import MaxNLocator
 
 from ..cycles import ENERGY, PAIRS, busiest
 from ..errors import Error
@@ -15,6 +16,7 @@ from .units import counted, label, largest, plain, scale
 LOOPS = 8  # in a panel: more cannot be told apart
 DENSE = 1000  # points from which a loop is drawn in transparent pieces: where it passes often is darker
 PIECE = 20  # points of a piece
+HEADROOM = 1.08  # the top of an axis of energies over the largest one
 
 
 def of_computed(results):
@@ -127,10 +129,13 @@ def energy(found, logs=()):
         axes.plot(many * numbers, joules * energies, color=color, label=text, **curve(numbers.size))
     axes.set(xlabel=words, ylabel=label("dissipated energy of a cycle", unit))
     logarithmic(axes, logs)
+    if many == 1.0 and "x" not in logs:
+        axes.xaxis.set_major_locator(MaxNLocator(8, integer=True))
     if "y" not in logs:
-        axes.set_ylim(bottom=min(0.0, *(float(np.min(joules * energies)) for _, energies in data)))
+        top, low = joules * largest(energies for _, energies in data), joules * min(np.min(one) for _, one in data)
+        axes.set_ylim(min(0.0, low), HEADROOM * top if top > 0.0 else None)
     manners = {one.manner for one in found if not one.results.has_life}
     if len(manners) == 1:
         axes.set_title("cycles by " + plain(manners.pop()), fontsize=9.5, color="0.35")
-    axes.legend(loc="best")
+    figure.legend(loc="outside lower left")  # below the axes: the curve may be anywhere above zero
     return figure

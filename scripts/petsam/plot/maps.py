@@ -11,7 +11,7 @@ from matplotlib.colors import ListedColormap, Normalize
 
 from ..errors import Error
 from ..results import DEPTHS, EDGES, OPEN, SLIP, STICK
-from . import colours, symbols
+from . import colours, noise, symbols
 from .style import bar, extent, field, need_few, plt, ticks
 from .units import label, largest, plain, scale
 
@@ -62,7 +62,10 @@ def _gather(snapshots, names, whole):
         results.need_quantity("pressure")
     data = [_read(*one, [*wanted[one[0]], *one[0].depths], whole) for one in snapshots]
     worn = [name for name in DEPTHS if largest(one[name] for one in data if name in one) > 0.0]
-    return data, list(dict.fromkeys([*(name for fields in wanted.values() for name in fields), *worn]))
+    shown = list(dict.fromkeys([*(name for fields in wanted.values() for name in fields), *worn]))
+    tops = {name: largest(one[name] for one in data if name in one) for name in shown}
+    something = [name for name in shown if not noise.is_nothing(name, tops, list(wanted))]
+    return data, something or shown
 
 
 class Layout:

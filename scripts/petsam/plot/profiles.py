@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import Error
 from ..results import DEPTHS, OPEN
-from . import symbols
+from . import noise, symbols
 from .maps import OF_CONTACT
 from .style import colors, logarithmic, plt
 from .units import label, largest, plain, scale
@@ -104,6 +104,10 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
     every = [line[0] for side in lines for line in side]
     length, unit = scale("m", largest(data["along"] for data in every))
     tops = [largest(data[name] for data in every for name in row[0]) for row in rows]
+    if not names:
+        by_name = {row[0][0]: top for row, top in zip(rows, tops)}
+        files = list(dict.fromkeys(one for one, _ in snapshots))
+        tops = [0.0 if noise.is_nothing(row[0][0], by_name, files) else top for row, top in zip(rows, tops)]
     shown = [(row, top) for row, top in zip(rows, tops) if top > 0.0] or [(rows[0], 0.0)]
     size = (11.0, 2.7 * len(shown) + (0.4 if len(shown) > 1 else 1.2))
     shared = {"sharey": "row", "sharex": "col", "constrained_layout": True}

@@ -3,13 +3,14 @@
 import numpy as np
 
 from ..cycles import ENERGY, PAIRS
-from ..errors import Error, short
-from . import symbols
-from .style import colors, curve, logarithmic, need_few, outlined, plt
+from ..errors import Error, short, there_are
+from . import noise, symbols
+from .style import MARKED, colors, logarithmic, need_few, outlined, plt, scattered
 from .units import label, largest, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"
+CONSTANT = ("load_n", "contact_area")  # shown where nothing varies
 # rows and columns of the matrices of /history
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
@@ -41,8 +42,9 @@ def series(results, name):
         return results.series(TIME), values[:, LOADS.index(load), WAYS.index(way)]
     if name == "status":
         status, time = results.history[name], results.history[TIME]
-        complete = min(status.size, time.size)
-        return time[:complete], status[:complete].astype(float)
+        rows = np.arange(min(status.size, time.size))
+        rows = rows[results.counts(rows)]
+        return time[rows], status[rows].astype(float)
     values = results.series(name).astype(float)
     return results.series(TIME), np.cumsum(values) if name == ENERGY else values
 
@@ -55,7 +57,8 @@ def against(results, name, other):
     beside = series(results, other)[1]
     if name == "status" or other == "status":
         rows = [
-            np.arange(one.size) if who == "status" else results.solved for who, one in ((name, values), (other, beside))
+            results.first_row + np.arange(one.size) if who == "status" else results.solved
+            for who, one in ((name, values), (other, beside))
         ]
         shared, mine, theirs = np.intersect1d(*rows, return_indices=True)
         values, beside = values[mine], beside[theirs]
@@ -63,24 +66,16 @@ def against(results, name, other):
 
 
 def _varying(results):
-    """Names that a picture of the history shows by itself: what is zero but for rounding does not vary."""
-    length = max(largest((one.x, one.y)) for one in results)
-    force, way = (
-        max(largest(one.series(name) for one in results) for name in names)
-        for names in (("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y"))
-    )
-    size = {"N": force, "N m": force * length, "m": way, "rad": way / length}
-    loads = [
-        name
-        for pair in PAIRS.values()
-        for name in pair
-        if any(np.ptp(one.series(name)) > 1e-9 * size.get(one.units[name], 0.0) for one in results)
-    ]
+    """Names that a picture of the history shows by itself: what varies (see noise), each once."""
+    known = noise.scales(results)
     shared = [name for name in VOLUMES if all(name in one.history for one in results)]
-    worn = [name for name in shared if any(np.any(one.series(name)) for one in results)]
     # of a life the sum of the energy over the computed cycles says nothing
     energy = [] if any(one.has_life for one in results) else [ENERGY]
-    return [*loads, "contact_area", "stick_area", *worn, *energy, "tangential_iterations"]
+    names = [*(name for pair in PAIRS.values() for name in pair), "contact_area", "stick_area", *shared, *energy]
+    names = [name for name in names if noise.varies(results, name, known)]
+    all_stick = all(np.allclose(one.series("stick_area"), one.series("contact_area"), rtol=1e-9) for one in results)
+    names = [name for name in names if name != "stick_area" or not all_stick]
+    return names if set(names) - {ENERGY} else [*CONSTANT, *names]  # the sum of one step is no history
 
 
 def need_scalars(results, names, option):
@@ -91,8 +86,8 @@ def need_scalars(results, names, option):
             raise Error(f"{results.path}: {text}")
         if name not in results.history and not entry(results, name):
             entries = [f"{matrix}.LOAD.DISPLACEMENT" for matrix in results.matrices]
-            there = ", ".join([*sorted(results.history), *entries])
-            raise Error(f"{results.path}: {option} {short(name)}: has no such dataset; it has {there}")
+            there = there_are(name, [*sorted(results.history), *entries], "it has")
+            raise Error(f"{results.path}: {option} {short(name)}: has no such dataset{there}")
 
 
 def _panel(panel, results, name, other, across):
@@ -101,7 +96,7 @@ def _panel(panel, results, name, other, across):
     factor, unit = scale(unit_of(results[0], name), largest(values for _, values in lines))
     for one, (x, y), tint in zip(results, lines, colors(len(results))):
         x, y = outlined(across * x, factor * y)
-        panel.plot(x, y, color=tint, label=plain(one.label), **curve(x.size))
+        panel.plot(x, y, color=tint, label=plain(one.label), **scattered(x))
     panel.set(ylabel=label(symbols.scalar(name), unit))
 
 
@@ -129,5 +124,5 @@ def history(results, names=None, other=TIME, option="--names", logs=()):
     for panel in axes.flat[max(0, len(names) - columns) : len(names)]:
         panel.set_xlabel(label("time" if other == TIME else symbols.scalar(other), unit))
         panel.tick_params(labelbottom=True)
-    axes.flat[0].legend(loc="best")
+    axes.flat[0].legend(loc="best", markerscale=1.0 if len(axes.flat[0].lines[0].get_xdata()) <= MARKED else 3.0)
     return figure

@@ -20,6 +20,7 @@ STYLE = {
 COLORS = ("#3b4cc0", "#c44e52", "#2a9d8f", "#e9a03b", "#7a5195", "#5a5a5a")
 PANELS = 64  # of a picture at most, one below the other or side by side
 MARKED = 80  # points of a curve that are marked one by one; more would be a band
+TURNS = 20  # of the abscissa, of ten cycles; with more a curve over it is drawn as points
 BINS = 1500  # parts of an axis of time, more than a panel has pixels: of each the extremes are drawn
 CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed solution
 
@@ -57,6 +58,18 @@ def curve(count, **style):
     if count <= MARKED:
         return {"marker": ".", "linestyle": "-", "linewidth": 1.1, "markersize": 4.0, **style}
     return {"marker": "", "linestyle": "-", "linewidth": 1.1 if count <= 600 else 0.6, **style}
+
+
+def scattered(x, **style):
+    """The same of a curve over any quantity x: points without lines when there are more than MARKED and x turns back
+    more than TURNS times, where lines to and fro would be a solid block. A loop that is passed a few times keeps them.
+    """
+    moves = np.sign(np.diff(x[np.isfinite(x)]))
+    moves = moves[moves != 0.0]
+    if x.size <= MARKED or np.count_nonzero(np.diff(moves)) <= TURNS:
+        return curve(x.size, **style)
+    size = float(np.clip(90.0 / np.sqrt(x.size), 1.2, 3.0))
+    return {"marker": ".", "linestyle": "none", "markersize": size, "markeredgewidth": 0.0, **style}
 
 
 def outlined(x, y):

@@ -3,14 +3,16 @@
 import numpy as np
 
 from ..errors import Error, short
+from ..studies import unit_of_option
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
-from .units import label, largest, plain, scale
+from .units import label, largest, plain, scale, written
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
 MOST = 9  # panels of a picture unless columns are named
 CURVES = 40  # in a panel
 SAME = 1e-9  # relative: what differs by less does not vary
+AGAIN = 1e-6  # relative: a result that differs from the input of its name by less is that input
 NOISE = 1e-9  # of the largest number with the same dimension: what is smaller is zero but for rounding; rad by itself
 DIMENSION = {"J": "N m"}
 
@@ -59,12 +61,36 @@ def _results(study, other):
     for name, unit in study.units.items():
         values = study.results[name].astype(float)
         column = name + "_end" if name in study.inputs else name
-        if column != other and unit not in ("1", "s") and _varies(values):
-            size = sizes[DIMENSION.get(unit, unit)]
-            names += [column] if np.nanmax(values) - np.nanmin(values) > NOISE * size else []
+        if column == other or unit in ("1", "s") or not _varies(values) or _is_input(study, name, values):
+            continue
+        if np.nanmax(values) - np.nanmin(values) > NOISE * sizes[DIMENSION.get(unit, unit)]:
+            names.append(column)
+    names = _once(study, names)
     if not names:
         raise Error(f"{study.path}: no result varies; --scalar names what is drawn: {', '.join(study.names)}")
     return names[:MOST]
+
+
+def _is_input(study, name, values):
+    """Whether a result is the input of its name again."""
+    given = study.inputs.get(name)
+    if given is None or given.dtype.kind not in "biuf":
+        return False
+    known = np.isfinite(values)
+    return bool(np.allclose(values[known], given.astype(float)[known], rtol=AGAIN, atol=0.0))
+
+
+def _once(study, names):
+    """The names without those whose values another one has, too: of a single step the sum is that of the step."""
+    kept = []
+    for name in sorted(names, key=lambda name: not name.endswith("_sum")):  # the sum means more than the last step
+        values, unit = study.column(name)
+        others = (study.column(other) for other in kept)
+        if not any(
+            unit == one and np.allclose(values, some, rtol=SAME, atol=0.0, equal_nan=True) for some, one in others
+        ):
+            kept.append(name)
+    return [name for name in names if name in kept]
 
 
 def rows(study, where=()):
@@ -90,7 +116,10 @@ def rows(study, where=()):
 
 
 def _text(name, value):
-    return f"{plain(name)} = {value:g}" if isinstance(value, float) else f"{plain(name)} = {plain(value)}"
+    unit = written(unit_of_option(name))
+    return (
+        f"{plain(name)} = {value:g} {unit}".rstrip() if isinstance(value, float) else f"{plain(name)} = {plain(value)}"
+    )
 
 
 def _split(columns, chosen):
@@ -206,7 +235,7 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
 
 def _abscissa(curves, other):
     """Factor and unit of what is drawn over; an input has the numbers that the table gives."""
-    unit = curves[0][0].column(other)[1]
-    return (
-        scale(unit, largest(study.column(other)[0][cases] for study, _, _, _, cases in curves)) if unit else (1.0, "")
-    )
+    study = curves[0][0]
+    if other in study.inputs:
+        return 1.0, written(unit_of_option(other))
+    return scale(study.column(other)[1], largest(study.column(other)[0][cases] for study, _, _, _, cases in curves))

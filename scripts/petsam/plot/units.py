@@ -16,8 +16,9 @@ NUMBERS = ((1e9, "billion "), (1e6, "million "), (1e3, "thousand "))
 
 
 def written(unit):
-    """A unit as it is printed."""
-    return re.sub(r"(?<=m)[23](?!\d)", lambda power: "²³"[int(power[0]) - 2], plain(unit))
+    """A unit as it is printed: powers raised, and a dot between factors."""
+    unit = re.sub(r"(?<=m)[23](?!\d)", lambda power: "²³"[int(power[0]) - 2], plain(unit))
+    return re.sub(r"(?<=[\w²³]) (?=[A-Za-z])", "·", unit)
 
 
 def scale(unit, largest):

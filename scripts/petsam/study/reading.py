@@ -16,6 +16,7 @@ CSV, YAML = 64 << 20, 1 << 20  # bytes of a table at most; reading YAML takes lo
 VALUE = 16384  # characters of a value: the system bounds the words of a command
 NAME = re.compile(r"[A-Za-z]\w*")  # of an option or a parameter
 KEYS = ("options", "parameters", "files", "ranks")
+EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
 # what a case's folder holds anyway (runs.py), and what petsam writes beside it
 FOLDER = re.compile(r"(petsam\.log|record\.json|lock|results\.(h5|xdmf)|checkpoint.*)(\..*)?")
 FILE_NAME = 251  # bytes: it is written as NAME.tmp first
@@ -211,7 +212,9 @@ class _Reader:
         """The whole table."""
         sections = self.pairs(root, "the table") if isinstance(root, yaml.MappingNode) else {}
         if "options" not in sections:
-            raise self.error("expected a section `options`")
+            error = self.error("expected a section `options`, a line for each option of petsam below it, such as")
+            error.example = EXAMPLE
+            raise error
         for key in sections:
             if key not in KEYS:
                 raise self.error(f"{short(key)}: unknown; known are options, parameters, files and ranks")

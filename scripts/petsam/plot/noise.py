@@ -1,0 +1,65 @@
+"""What a picture leaves out by itself: what does not vary, and what is rounding noise. Asked for by name it is drawn.
+
+The rule: a scalar counts where it varies, a field where it differs from zero, by more than NOISE of the scale of its
+kind, over all files of a picture. The scales: of forces the largest load; of displacements and slip the largest
+displacement; of moments a force times the size of the contact; of rotations a displacement over it; of shear the
+largest pressure; of energies a force times a displacement; of other units the largest value itself. Moments of periodic
+bodies, which do not rotate, do not count.
+"""
+
+import numpy as np
+
+from ..cycles import ENERGY
+from .units import largest
+
+NOISE = 1e-6  # of the scale: solvers converge to 1e-8 and less
+FORCES, WAYS = ("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y")
+AREA = "contact_area"
+MOMENTS = ("load_mx", "load_my", "load_mz")
+
+
+def _largest(results, names):
+    return largest(one.series(name).astype(float) for one in results for name in names if name in one.history)
+
+
+def scales(results):
+    """Unit: scale of the scalars with this unit."""
+    force, way = _largest(results, FORCES), _largest(results, WAYS)
+    size = np.sqrt(_largest(results, (AREA,))) or largest(axis for one in results for axis in (one.x, one.y))
+    return {"N": force, "N m": force * size, "m": way, "rad": way / size, "J": force * way}
+
+
+def varies(results, name, known):
+    """Whether a scalar of /history varies in any of the files; known is what scales() says of them all."""
+    own = _largest(results, (name,))
+    for one in results:
+        values = one.series(name).astype(float)
+        values = values[np.isfinite(values)]
+        if name in MOMENTS and str(one.parameters.get("elasticity")) == "periodic":
+            continue
+        if name == ENERGY:  # drawn as a sum
+            if abs(float(np.sum(values))) > NOISE * known["J"]:
+                return True
+        elif values.size and float(np.ptp(values)) > NOISE * known.get(one.units[name], own):
+            return True
+    return False
+
+
+def works(one):
+    """Whether friction does something in a history: a tangential load works, or something is dissipated."""
+    known = scales([one])
+    if varies([one], ENERGY, known):
+        return True
+    pairs = (("load_tx", "disp_x"), ("load_ty", "disp_y"), ("load_mz", "rot_z"))
+    return any(all(varies([one], name, known) for name in pair) for pair in pairs)
+
+
+def is_nothing(name, tops, results):
+    """Whether shear or slip is zero but for rounding; tops are the largest values of all fields of a picture."""
+    if name.startswith("shear"):
+        scale = tops.get("pressure")
+    elif name.startswith("slip"):
+        scale = scales(results)["m"]
+    else:
+        return False
+    return scale is not None and tops[name] <= NOISE * scale
