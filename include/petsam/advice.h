@@ -14,7 +14,7 @@
 
 /* SamExtent - the size of a contact. */
 typedef struct {
-  PetscInt  zones;   /* that are connected; 0: the bodies do not touch */
+  PetscInt  zones;   /* connected by the sides of cells, as contact_spots; 0: the bodies do not touch */
   PetscReal across;  /* cells, of the narrow zones: SamGridMeasureZones(), a tenth of the cells left out */
   PetscReal half[2]; /* m: half widths of the rectangle that holds all of it */
 } SamExtent;

@@ -109,13 +109,11 @@ PETSC_EXTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt 
 */
 PETSC_EXTERN PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones);
 /*
-  SamGridMeasureZones - the zones of cells that touch each other, also at corners, where the first component of a field
-  is positive: their number, and how many cells across the narrow ones are. Zones in which no more than `part` of all
-  these cells lie, the narrowest ones, do not count. A zone is as wide as the shorter side of its bounding box, or as
-  the ellipse of its second moments, if that is narrower; to a tenth of a cell. Without such cells both are 0. The
-  same on any number of ranks. Collective.
+  SamGridMeasureZones - how many cells across the narrow ones of these zones are, without `wrap`. Zones in which no more
+  than `part` of all these cells lie, the narrowest ones, do not count. A zone is as wide as the shorter side of its
+  bounding box, or as the ellipse of its second moments, if that is narrower; to a tenth of a cell. 0 without such
+  cells. The same on any number of ranks. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscInt *zones,
-                                                PetscReal *across);
+PETSC_EXTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across);
 
 #endif

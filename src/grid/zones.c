@@ -27,14 +27,9 @@ typedef struct {
   PetscInt count, room;
 } Row;
 
-/* What connects cells: corners too, or sides only, and these over the grid's borders too. */
-typedef struct {
-  PetscBool corners, wrap;
-} Touch;
-
 /* Pieces; `parent` leads to the piece that one has been united with, itself at first. */
 typedef struct {
-  Touch     touch;
+  PetscBool wrap; /* the grid's opposite borders connect cells, too */
   Piece    *piece;
   PetscInt *parent;
   PetscInt  count, room;
@@ -137,10 +132,8 @@ static PetscErrorCode AddRun(Row *row, Run run)
 /* Unites the pieces of two rows that touch. */
 static void Join(Forest *f, const Run *one, PetscInt ones, const Run *other, PetscInt others)
 {
-  const PetscInt reach = f->touch.corners ? 1 : 0;
-
   for (PetscInt i = 0, j = 0; i < ones && j < others;) {
-    if (one[i].first <= other[j].last + reach && other[j].first <= one[i].last + reach)
+    if (one[i].first <= other[j].last && other[j].first <= one[i].last)
       Unite(f, (PetscInt)one[i].piece, (PetscInt)other[j].piece);
     if (one[i].last < other[j].last)
       i++;
@@ -152,8 +145,7 @@ static void Join(Forest *f, const Run *one, PetscInt ones, const Run *other, Pet
 /* The runs of row j, which go on with the pieces that they touch in the row before. */
 static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, const Row *before, Forest *f, Row *row)
 {
-  const PetscInt reach = f->touch.corners ? 1 : 0;
-  PetscInt       b     = 0;
+  PetscInt b = 0;
 
   PetscFunctionBegin;
   row->count = 0;
@@ -166,8 +158,8 @@ static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, const 
     while (i + 1 < grid->nx && p[i + 1] > 0) i++;
     run.last = i;
     piece    = PieceOf(run.first, run.last, grid->row_start + j);
-    while (b < before->count && before->run[b].last + reach < run.first) b++;
-    for (PetscInt k = b; k < before->count && before->run[k].first <= run.last + reach; k++) {
+    while (b < before->count && before->run[b].last < run.first) b++;
+    for (PetscInt k = b; k < before->count && before->run[k].first <= run.last; k++) {
       if (run.piece < 0) {
         run.piece = Find(f, (PetscInt)before->run[k].piece);
         Add(&f->piece[run.piece], &piece);
@@ -181,7 +173,7 @@ static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, const 
     }
     PetscCall(AddRun(row, run));
   }
-  if (f->touch.wrap && row->count && row->run[0].first == 0 && row->run[row->count - 1].last == grid->nx - 1)
+  if (f->wrap && row->count && row->run[0].first == 0 && row->run[row->count - 1].last == grid->nx - 1)
     Unite(f, (PetscInt)row->run[0].piece, (PetscInt)row->run[row->count - 1].piece);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -278,7 +270,7 @@ static PetscErrorCode UniteRanks(Forest *all, PetscMPIInt ranks, const int64_t t
     for (PetscInt r = ones; r < runs; r++) PetscCall(AddRun(&last, row.run[r]));
     PetscCall(PetscFree(row.run));
   }
-  if (all->touch.wrap) Join(all, last.run, last.count, first.run, first.count);
+  if (all->wrap) Join(all, last.run, last.count, first.run, first.count);
   PetscCall(PetscFree(first.run));
   PetscCall(PetscFree(last.run));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -294,7 +286,7 @@ static PetscErrorCode Share(SamGrid grid, Forest *own, const Row edge[2], Forest
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  if (size == 1 && own->touch.wrap) Join(own, edge[1].run, edge[1].count, edge[0].run, edge[0].count);
+  if (size == 1 && own->wrap) Join(own, edge[1].run, edge[1].count, edge[0].run, edge[0].count);
   if (size == 1) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt begin = 0, end = 1; ranks < size && end > begin; ranks += end > begin)
     SamGridRowsOf(grid, size, ranks, &begin, &end);
@@ -316,23 +308,22 @@ static PetscErrorCode Share(SamGrid grid, Forest *own, const Row edge[2], Forest
 
 /* ---- all of it ---- */
 
-/* Counts whole zones by their width, to a tenth of a cell: cells[w] in zones of w/10 cells across; cells[0]: zones. */
+/* Counts the cells of whole zones by their width, to a tenth of a cell: cells[w] in zones of w/10 cells across. */
 static void Count(Forest *f, PetscInt widths, double cells[])
 {
   for (PetscInt k = 0; k < f->count; k++) {
     if (f->parent[k] != k || !f->piece[k].cells) continue;
-    cells[0] += 1;
     cells[PetscMin(widths, PetscMax(1, (PetscInt)floor(10 * Across(&f->piece[k]) + 0.5)))] += (double)f->piece[k].cells;
   }
 }
 
 /* This rank's zones, and on rank 0 those of several ranks. */
-static PetscErrorCode FindZones(SamGrid grid, Vec field, Touch touch, Forest *own, Forest *shared)
+static PetscErrorCode FindZones(SamGrid grid, Vec field, PetscBool wrap, Forest *own, Forest *shared)
 {
   Row edge[2] = {{NULL, 0, 0}, {NULL, 0, 0}};
 
   PetscFunctionBegin;
-  *own = *shared = (Forest){.touch = touch};
+  *own = *shared = (Forest){.wrap = wrap};
   PetscCall(ReadRows(grid, field, own, edge));
   PetscCall(Share(grid, own, edge, shared));
   for (int k = 0; k < 2; k++) PetscCall(PetscFree(edge[k].run));
@@ -353,7 +344,7 @@ PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscI
   double sum = 0;
 
   PetscFunctionBegin;
-  PetscCall(FindZones(grid, field, (Touch){.wrap = wrap}, &f[0], &f[1]));
+  PetscCall(FindZones(grid, field, wrap, &f[0], &f[1]));
   for (int k = 0; k < 2; k++)
     for (PetscInt z = 0; z < f[k].count; z++)
       if (f[k].parent[z] == z && f[k].piece[z].cells) sum += 1;
@@ -363,7 +354,7 @@ PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscInt *zones, PetscReal *across)
+PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across)
 {
   const PetscInt widths = 10 * PetscMax(grid->nx, grid->ny);
   double        *cells, sum = 0, narrow = 0;
@@ -372,13 +363,12 @@ PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, Pets
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(widths + 1, &cells));
-  PetscCall(FindZones(grid, field, (Touch){.corners = PETSC_TRUE}, &own, &shared));
+  PetscCall(FindZones(grid, field, PETSC_FALSE, &own, &shared));
   Count(&own, widths, cells);
   Count(&shared, widths, cells);
   PetscCall(SamSum(grid->comm, widths + 1, cells)); /* of whole numbers: exact */
   for (PetscInt k = 1; k <= widths; k++) sum += cells[k];
   while (w < widths && (w == 0 || narrow <= (double)part * sum)) narrow += cells[++w];
-  *zones  = (PetscInt)cells[0];
   *across = sum > 0 ? 0.1 * (PetscReal)w : 0;
   PetscCall(DestroyForest(&own));
   PetscCall(DestroyForest(&shared));
