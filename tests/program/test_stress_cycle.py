@@ -161,6 +161,20 @@ def test_cycle_that_is_not_closed_is_warned_of(stress):
     common = dict(input="c.h5", output="w.h5", section="y=0", fatigue="swt", quantities="none")
     assert "not a closed cycle" in stress(dict(common, steps="41:48")).stderr  # half of one
     assert "shear of step 24" in stress(dict(common, steps="9:24")).stderr  # not yet steady
+    assert "more than one" not in stress(dict(common, steps=CYCLE)).stderr
+    assert "more than one" not in stress(dict(common, steps="40:56")).stderr  # both ends
+
+
+@pytest.mark.parametrize("steps", ["25:56", "33:56", "all", "8:56:8"])
+def test_more_than_one_cycle_is_warned_of_with_the_steps_of_one(stress, steps):
+    """The preload, or a cycle, is before the last cycle."""
+    common = dict(input="c.h5", output="w.h5", section="y=0", fatigue="swt", quantities="none")
+    one = "48:56:8" if steps == "8:56:8" else "41:56"
+    told = stress(dict(common, steps=steps)).stderr
+    assert (
+        f"more than one cycle, taken as one: tractions of step 40 are those of the last one already; one cycle is -steps {one}\n"
+        in told
+    )
 
 
 @pytest.mark.parametrize("ranks", [2, 3])

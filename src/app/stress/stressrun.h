@@ -89,7 +89,8 @@ PETSC_INTERN PetscBool      SamCycleWanted(const SamStressRun *run);
 PETSC_INTERN PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *points, double done, double share);
 /*
   SamCycleCheckClosed - warns if the step before the first one has been saved and has not the tractions of the last: the
-  steps are not a closed cycle then, or it has not become steady. Collective.
+  steps are not a closed cycle then, or it has not become steady; of steps that hold more than one cycle, or what leads
+  to it; and of those of several cycles of a life. Collective.
 */
 PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamStressRun *run);
 
