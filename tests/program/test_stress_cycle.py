@@ -171,10 +171,17 @@ def test_more_than_one_cycle_is_warned_of_with_the_steps_of_one(stress, steps):
     common = dict(input="c.h5", output="w.h5", section="y=0", fatigue="swt", quantities="none")
     one = "48:56:8" if steps == "8:56:8" else "41:56"
     told = stress(dict(common, steps=steps)).stderr
-    assert (
-        f"more than one cycle, taken as one: tractions of step 40 are those of the last one already; one cycle is -steps {one}\n"
-        in told
-    )
+    said = "more than one cycle, taken as one: tractions of step 40 are those of the last one already; one cycle is"
+    assert f"{said} -steps {one}\n" in told
+
+
+def test_held_loads_are_no_further_cycle(launcher, tmp_path):
+    case = dict(SPHERE, friction=0.5, history="h.csv", output="c.h5", steps=4)
+    t = PART * slide_limit(case)[0]
+    (tmp_path / "h.csv").write_text(f"time,load_tx\n1,{t}\n2,{-t}\n3,{t}\n4,{t}\n")
+    conftest.execute(launcher, tmp_path, [case], 1, 0)
+    words = dict(input="c.h5", output="w.h5", section="y=0", fatigue="swt", quantities="none", steps="5:16")
+    assert "more than one" not in conftest.execute(launcher, tmp_path, [words], 1, 0, program=PROGRAM).stderr
 
 
 @pytest.mark.parametrize("ranks", [2, 3])

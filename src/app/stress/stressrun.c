@@ -71,6 +71,7 @@ static PetscErrorCode ReadSteps(SamStressRun *run)
   PetscCall(PetscMalloc1(run->steps, &run->times));
   PetscCall(PetscMalloc3(run->steps, &run->mises, run->steps, &run->principal, run->steps, &run->bulk));
   PetscCall(PetscMalloc2(run->steps, &run->edge_xx, run->steps, &run->edge_principal));
+  PetscCall(PetscCalloc1(run->steps, &run->edge_left));
   for (PetscInt k = 0; k < run->steps; k++) {
     PetscInt step;
 
@@ -145,6 +146,7 @@ PetscErrorCode SamStressRunTearDown(SamStressRun *run)
   PetscCall(PetscFree(run->times));
   PetscCall(PetscFree3(run->mises, run->principal, run->bulk));
   PetscCall(PetscFree2(run->edge_xx, run->edge_principal));
+  PetscCall(PetscFree(run->edge_left));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

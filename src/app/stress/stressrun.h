@@ -28,6 +28,7 @@ typedef struct {
   double (*bulk)[SAM_BULK_COMPONENTS];      /* bulk stress of the body in each step, Pa */
   SamLargest     *mises, *principal;        /* of each step */
   SamEdgeLargest *edge_xx, *edge_principal; /* likewise */
+  PetscBool      *edge_left;                /* of each step: it has an edge of contact, which is not found */
   SamLargest      fatigue[SAM_QUANTITIES];  /* of the cycle */
   PetscBool       quiet, writing;
   PetscLogDouble  start, told; /* when the computation began, and the last line was printed, s */
