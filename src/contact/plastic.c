@@ -55,7 +55,11 @@ static PetscErrorCode AddOverlap(SamContact c, PetscReal limit)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Cells at the limit, the largest depth, and the work of the pressure on what has been added to it. */
+/*
+  Cells at the limit, the largest depth, and the work of the pressure on what has been added to it. When a load comes
+  back that has yielded, all that was at the limit is there again, to the tolerance of the solver.
+*/
+#define AT_LIMIT (1 - 1e-6)
 static PetscErrorCode CountYielded(SamContact c, PetscReal limit, SamStep *step)
 {
   const SamSolution *s     = &c->tried.solution;
@@ -76,7 +80,7 @@ static PetscErrorCode CountYielded(SamContact c, PetscReal limit, SamStep *step)
     for (PetscInt i = 0; i < c->grid->nx; i++) {
       const ptrdiff_t k = (ptrdiff_t)j * c->grid->nx + i;
 
-      row[CELLS] += p[k] >= SAM_SATURATED * limit ? 1 : 0;
+      row[CELLS] += p[k] >= AT_LIMIT * limit ? 1 : 0;
       row[WORK] += p[k] * (depth[k] - (before ? before[k] : 0));
       most = PetscMax(most, depth[k]);
     }
