@@ -47,10 +47,11 @@ PETSC_EXTERN const char *SamOptionsPrefix(const SamOptions *from);
   the option's name, the text, and what was expected.
 */
 typedef enum {
-  SAM_RANGE_ANY,         /* any finite number */
-  SAM_RANGE_NONNEGATIVE, /* finite, >= 0 */
-  SAM_RANGE_POSITIVE,    /* finite, > 0 */
-  SAM_RANGE_POSITIVE_INF /* > 0, `inf` allowed */
+  SAM_RANGE_ANY,          /* any finite number */
+  SAM_RANGE_NONNEGATIVE,  /* finite, >= 0 */
+  SAM_RANGE_POSITIVE,     /* finite, > 0 */
+  SAM_RANGE_POSITIVE_INF, /* > 0, `inf` allowed */
+  SAM_RANGE_PART          /* > 0, < 1 */
 } SamRange;
 
 /* SamOptionsHeading - prints the title of a group of options, while the help is printed. */

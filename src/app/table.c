@@ -48,6 +48,16 @@ static char *Trim(char *text)
   return text;
 }
 
+/* A field without the quotes that spreadsheets put about it. */
+static char *Unquote(char *field)
+{
+  const size_t length = strlen(field);
+
+  if (length < 2 || field[0] != '"' || field[length - 1] != '"') return field;
+  field[length - 1] = '\0';
+  return Trim(field + 1);
+}
+
 /* The next field of a line, its separator overwritten; NULL after the last. */
 static char *NextField(char **rest, char separator)
 {
@@ -58,7 +68,7 @@ static char *NextField(char **rest, char separator)
   *rest = end && *end ? end + 1 : NULL;
   if (end) *end = '\0';
   while (separator == ' ' && *rest && isspace((unsigned char)**rest)) ++*rest;
-  return Trim(field);
+  return Unquote(Trim(field));
 }
 
 /* ---- names of columns ---- */

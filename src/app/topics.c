@@ -79,7 +79,8 @@ static const char history[] =
   "increments up to the first row and then stay. A load that has a column must not be given as an option as well; in "
   "an\n"
   "options file, its value is not used. Further columns: friction_scale, a factor on the friction (1), and the bulk\n"
-  "stresses, bulk1_stress_xx and so on.\n";
+  "stresses, bulk1_stress_xx and so on. A step takes its new N first, and then what acts tangentially: more -steps\n"
+  "where both change much at once.\n";
 
 static const char signs[] =
   "Body 1 is the upper one and carries the loads, body 2 is fixed; z points into body 2. With pressure p and shear q "

@@ -63,6 +63,8 @@ static const char *DescribeRange(SamRange range)
     return "a number > 0";
   case SAM_RANGE_POSITIVE_INF:
     return "a number > 0 or inf";
+  case SAM_RANGE_PART:
+    return "a number > 0 and < 1";
   default:
     return "a finite number";
   }
@@ -74,7 +76,7 @@ static PetscBool InRange(SamRange range, double value)
   if (isinf(value)) return (range == SAM_RANGE_POSITIVE_INF && value > 0) ? PETSC_TRUE : PETSC_FALSE;
   if (range == SAM_RANGE_NONNEGATIVE) return value >= 0 ? PETSC_TRUE : PETSC_FALSE;
   if (range == SAM_RANGE_ANY) return PETSC_TRUE;
-  return value > 0 ? PETSC_TRUE : PETSC_FALSE;
+  return value > 0 && (range != SAM_RANGE_PART || value < 1) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Reads one number at *text and moves past it; the character after it must be `,` or the end. */

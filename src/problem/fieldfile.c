@@ -193,6 +193,11 @@ static PetscErrorCode RaiseLengths(const SamFieldFile *source, SamGrid grid, con
             "-%s%s %s: %s: its attribute quantity is \"%s\": known are " SAM_LENGTHS_QUANTITIES
             " (heights of body 1 or 2, positive out of the body)",
             prefix, option, file, of, lengths->text);
+  case SAM_LENGTHS_PACKED:
+    SETERRQ(grid->comm, SAM_ERR_FILE,
+            "-%s%s %s: %s: its attributes scale_factor or add_offset say that it is packed: expected the numbers "
+            "themselves, and no such attributes",
+            prefix, option, file, of);
   case SAM_LENGTHS_FALLING_AXIS:
     SETERRQ(grid->comm, SAM_ERR_FILE,
             "-%s%s %s: %s falls along the file, so the surface would be mirrored: turn it and the values of %s round",

@@ -174,7 +174,9 @@ static void ReadAxis(hid_t file, const char dataset[], char letter, hsize_t n, S
 void SamLengthsRead(hid_t file, hid_t dataset, const char name[], const hsize_t shape[2], SamLengths *lengths)
 {
   *lengths = (SamLengths){.problem = SAM_LENGTHS_GOOD, .factor = 1};
-  ReadUnits(dataset, lengths);
+  if (H5Aexists(dataset, "scale_factor") > 0 || H5Aexists(dataset, "add_offset") > 0)
+    lengths->problem = SAM_LENGTHS_PACKED;
+  if (!lengths->problem) ReadUnits(dataset, lengths);
   if (!lengths->problem) ReadQuantity(dataset, lengths);
   if (lengths->problem || ReadSize(dataset, lengths)) return;
   ReadAxis(file, name, 'x', shape[1], lengths, &lengths->size[0]);

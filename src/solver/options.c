@@ -47,7 +47,7 @@ PetscErrorCode SamSolverSetFromOptions(SamSolver s)
   PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind->name));
   PetscCall(SamOptionsHeading(&from, title));
   PetscCall(SetTypeFromOptions(s, &from));
-  PetscCall(SamOptionsReal(&from, "rtol", s->kind->error_help, SAM_RANGE_POSITIVE, &rtol, NULL));
+  PetscCall(SamOptionsReal(&from, "rtol", s->kind->error_help, SAM_RANGE_PART, &rtol, NULL));
   PetscCall(SamOptionsInt(&from, "max_it", "iterations on the finest grid, 0: the type's default", 0, &max_it, NULL));
   PetscCall(SamOptionsInt(&from, "levels", "nested grids, 0: the type's default", 0, &levels, NULL));
   PetscCall(SamOptionsBool(&from, "monitor", "print the error after each iteration", &monitor, NULL));

@@ -98,6 +98,7 @@ MISTAKES = [
     mistake("both rigid", dict(body1_young="inf", body2_young="inf"), says=["-body1_young", "at least one"]),
     mistake("unknown coupling", dict(coupling="half"), says=["-coupling half", "none or full"]),
     mistake("unknown solver", dict(normal_type="cg"), says=["-normal_type cg", "activeset"]),
+    mistake("tolerance that allows anything", dict(normal_rtol=1), says=["-normal_rtol 1", "a number > 0 and < 1"]),
     mistake("limit of time without a checkpoint", dict(max_walltime=60), says=["-max_walltime", "-checkpoint"]),
     mistake("checkpoints without a file", dict(checkpoint_every=5), says=["-checkpoint_every", "-checkpoint"]),
     mistake(

@@ -302,7 +302,7 @@ REFUSED = [
     (dict(fatigue="swt"), "-fatigue needs the steps of a cycle"),
     (dict(fatigue="swt", steps="5"), "-fatigue needs the steps of a cycle"),
     (dict(fatigue="ruiz", depths=1e-4, steps="all"), "0 must be one of -depths"),
-    (dict(fatigue="swt", fatigue_yield=4e8, steps="all"), "-fatigue_yield"),
+    (dict(fatigue="swt", fatigue_yield=4e8, steps="all"), "has no effect without -fatigue fatemi_socie"),
     (dict(depths="0:1e-3:999999999"), "-depths 0:1e-3:999999999: expected at most 100000 depths"),
 ]
 

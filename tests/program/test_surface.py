@@ -366,6 +366,8 @@ def test_a_file_that_says_all_needs_no_option(surface, tmp_path):
     (dict(units="ell", quantity="height1"), True, [], "'ell': known are m, cm"),
     (dict(units="nm", quantity="depth"), True, [], "'depth': known are height1"),
     (dict(units=3, quantity="height1"), True, [], "units is not a text"),
+    (dict(units="nm", quantity="height1", scale_factor=0.1), True, [], "packed"),
+    (dict(units="nm", quantity="height1", add_offset=5.0), True, [], "packed"),
     (dict(units="nm", quantity="height1"), True, ["--dataset", "z"], "has no dataset /z"),
 ], ids=str)  # fmt: skip
 def test_files_and_options_together_say_everything_once(surface, tmp_path, attributes, axes, more, says):

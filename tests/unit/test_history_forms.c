@@ -23,6 +23,14 @@ static void test_first_line_may_begin_with_a_byte_order_mark(void **state)
                   2, "is not a finite number");
 }
 
+static void test_spreadsheets_may_quote_fields(void **state)
+{
+  (void)state;
+  AssertPlain("\"time\",\"load_n\", \"load_tx\"\n1,100,0\n\"2.5\",100,25\n4,120,\"-30.5\"\n");
+  AssertMalformed("\"time\",\"load_tx\n1,2\n", 1, "load_tx");
+  AssertMalformed("time,load_tx\n1,\"\n", 2, "is not a finite number");
+}
+
 static void test_lines_may_end_in_carriage_returns(void **state)
 {
   (void)state;
@@ -134,6 +142,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_separators_may_be_semicolons_tabs_or_spaces),
     cmocka_unit_test(test_first_line_may_begin_with_a_byte_order_mark),
+    cmocka_unit_test(test_spreadsheets_may_quote_fields),
     cmocka_unit_test(test_lines_may_end_in_carriage_returns),
     cmocka_unit_test(test_first_row_of_zeros_is_not_divided),
     cmocka_unit_test(test_first_row_with_a_load_is_divided),

@@ -20,6 +20,7 @@ typedef struct {
   const char *units, *quantity, *axis_units;
   int         fixed;     /* texts of fixed length, padded by spaces */
   int         number;    /* the attribute units is a number */
+  const char *packed;    /* an attribute that packed numbers have */
   double      size[2];   /* the attribute size */
   double      axis[2];   /* distances of the values of x and y */
   hsize_t     axis_more; /* values that x has too many */
@@ -83,6 +84,7 @@ static void Write(const Words *words)
     H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
     if (words->units) WriteText(id, "units", words->units, words->fixed);
     if (words->number) WriteNumbers(id, "units", 1, values);
+    if (words->packed) WriteNumbers(id, words->packed, 1, values + 1);
     if (words->quantity) WriteText(id, "quantity", words->quantity, words->fixed);
     if (words->size[0] != 0) WriteNumbers(id, "size", words->size[1] != 0 ? 2 : 1, words->size);
     if (words->axis[0] != 0) WriteAxis(group, "x", NX + words->axis_more, words->axis[0], words->axis_units);
@@ -195,6 +197,8 @@ static void test_what_is_not_understood_is_named(void **state)
   AssertRefused(&(Words){.units = "a unit with a name so long that no message should have to hold all of its words"},
                 "a unit with a name", "um");
   AssertRefused(&(Words){.number = 1}, "not a text", "um");
+  AssertRefused(&(Words){.packed = "scale_factor"}, "packed", "the numbers themselves");
+  AssertRefused(&(Words){.packed = "add_offset"}, "packed", "the numbers themselves");
   AssertRefused(&(Words){.quantity = "depth"}, "depth", "height1, height2");
   AssertRefused(&(Words){.quantity = "height"}, "quantity is \"height\"", "height1, height2");
   AssertRefused(&(Words){.size = {2.5e-3}}, "size", "two positive numbers");

@@ -13,6 +13,7 @@ typedef enum {
   SAM_LENGTHS_BAD_UNITS,
   SAM_LENGTHS_BAD_QUANTITY,
   SAM_LENGTHS_BAD_SIZE,    /* attribute size: other than two positive numbers */
+  SAM_LENGTHS_PACKED,      /* attributes scale_factor, add_offset: whole numbers that stand for others */
   SAM_LENGTHS_FALLING_AXIS /* x or y falls along its dataset, so the surface would be mirrored */
 } SamLengthsProblem;
 

@@ -98,6 +98,8 @@ def _read_hdf5(path, options):
         data = file.get(name)
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
             raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); --dataset names another")
+        if "scale_factor" in data.attrs or "add_offset" in data.attrs:
+            raise Error(f"{path}: /{name}: its attributes scale_factor or add_offset say that it is packed")
         values = data[:]
         quantity = _attribute(path, data, "quantity")
         if quantity is not None and quantity not in QUANTITIES:

@@ -177,27 +177,28 @@ static PetscErrorCode ReadConstants(const SamOptions *from, SamStressRequest *r)
 {
   const struct {
     SamQuantity quantity;
-    const char *name, *help;
+    const char *with, *name, *help;
     SamRange    range;
     PetscReal  *value;
   } all[] = {
-    {SAM_QUANTITY_CROSSLAND, "fatigue_crossland_alpha", "factor on the largest mean stress, required by crossland",
-     SAM_RANGE_NONNEGATIVE, &r->constants.crossland_alpha},
-    {SAM_QUANTITY_DANG_VAN, "fatigue_dang_van_alpha", "factor on the mean stress, required by dang_van",
-     SAM_RANGE_NONNEGATIVE, &r->constants.dang_van_alpha},
-    {SAM_QUANTITY_FINDLEY, "fatigue_findley_k", "factor on the largest normal stress, required by findley",
-     SAM_RANGE_NONNEGATIVE, &r->constants.findley_k},
-    {SAM_QUANTITY_FATEMI_SOCIE, "fatigue_fatemi_socie_k",
+    {SAM_QUANTITY_CROSSLAND, "-fatigue crossland", "fatigue_crossland_alpha",
+     "factor on the largest mean stress, required by crossland", SAM_RANGE_NONNEGATIVE, &r->constants.crossland_alpha},
+    {SAM_QUANTITY_DANG_VAN, "-fatigue dang_van", "fatigue_dang_van_alpha",
+     "factor on the mean stress, required by dang_van", SAM_RANGE_NONNEGATIVE, &r->constants.dang_van_alpha},
+    {SAM_QUANTITY_FINDLEY, "-fatigue findley", "fatigue_findley_k",
+     "factor on the largest normal stress, required by findley", SAM_RANGE_NONNEGATIVE, &r->constants.findley_k},
+    {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_fatemi_socie_k",
      "factor on the largest normal stress, required by fatemi_socie", SAM_RANGE_NONNEGATIVE,
      &r->constants.fatemi_socie_k},
-    {SAM_QUANTITY_FATEMI_SOCIE, "fatigue_yield", "yield stress, Pa, required by fatemi_socie", SAM_RANGE_POSITIVE,
-     &r->constants.yield},
+    {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_yield", "yield stress, Pa, required by fatemi_socie",
+     SAM_RANGE_POSITIVE, &r->constants.yield},
   };
   PetscBool set, print;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&print));
   for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) {
+    if (!r->wants[all[k].quantity]) SamOptionsKnow(from, all[k].name, all[k].with);
     if (!r->wants[all[k].quantity] && !print) continue;
     PetscCall(SamOptionsReal(from, all[k].name, all[k].help, all[k].range, all[k].value, &set));
     PetscCall(SamOptionsRequire(from, set || print, all[k].name, all[k].help));
