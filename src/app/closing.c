@@ -9,6 +9,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#define FOUND 0.5 /* share of the edges from which nothing is said of them */
+
 /* A row of the table: the sum of the times of one or more events. */
 typedef struct {
   const char *name;
@@ -109,6 +111,25 @@ static PetscErrorCode PrintExtent(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What of the edges is not found, or not corrected where that is asked for. */
+static PetscErrorCode PrintEdges(SamReport r)
+{
+  const PetscBool corrects  = r->edge_way == SAM_CONTACT_EDGES_DEFERRED ? PETSC_TRUE : PETSC_FALSE;
+  char            where[48] = "";
+
+  PetscFunctionBegin;
+  if (!r->touching) PetscFunctionReturn(PETSC_SUCCESS);
+  if (corrects)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  corrected in %" PetscInt_FMT " of %" PetscInt_FMT " steps\n", "edges",
+                          r->corrected, r->touching));
+  if (r->edges.residual >= FOUND) PetscFunctionReturn(PETSC_SUCCESS);
+  if (r->steps > 1)
+    PetscCall(PetscSNPrintf(where, sizeof(where), " (step %" PetscInt_FMT ", the least)", r->edges.step));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %.0f %% of them smooth and resolved%s: the areas of the rest are of cells\n",
+                        corrects ? "" : "edges", 100 * (double)r->edges.residual, where));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintFiles(SamReport r)
 {
   PetscFunctionBegin;
@@ -174,6 +195,7 @@ PetscErrorCode SamReportClosing(SamReport r)
   }
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscCall(PrintExtent(r));
+  PetscCall(PrintEdges(r));
   PetscCall(PrintFiles(r));
   PetscCall(PrintResources(r));
   PetscFunctionReturn(PETSC_SUCCESS);

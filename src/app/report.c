@@ -169,6 +169,7 @@ PetscErrorCode SamReportBeginStep(SamReport r, PetscInt number, SamContact conta
   PetscFunctionBegin;
   r->number = number;
   r->begin  = MPI_Wtime();
+  PetscCall(SamContactGetEdges(contact, &r->edge_way));
   if (!r->done) {
     PetscCall(SamReportGetOutputTime(r, &r->output_before));
     r->first = r->begin;
@@ -198,6 +199,15 @@ static void KeepWorst(SamReport r, const SamStep *step)
     if (worst > r->worst[k].residual || r->done == 1) r->worst[k].step = r->number + 1;
     r->worst[k].residual = worst;
   }
+}
+
+static void KeepEdges(SamReport r, const SamStep *step)
+{
+  if (r->edge_way == SAM_CONTACT_EDGES_NONE || !(step->contact_area > 0)) return;
+  r->touching++;
+  r->corrected += step->edge_passes > 0 ? 1 : 0;
+  if (!r->edges.step || step->edge_accepted < r->edges.residual)
+    r->edges = (SamReportWorst){step->edge_accepted, r->number + 1};
 }
 
 /*
@@ -255,7 +265,10 @@ PetscErrorCode SamReportCountStep(SamReport r, PetscInt number, const SamStep *s
   PetscFunctionBegin;
   r->number = number - 1;
   r->done++;
-  if (step->status != SAM_STATUS_NO_EQUILIBRIUM) KeepWorst(r, step);
+  if (step->status != SAM_STATUS_NO_EQUILIBRIUM) {
+    KeepWorst(r, step);
+    KeepEdges(r, step);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -303,3 +303,16 @@ def test_help_into_a_pipe_that_closes_is_no_crash(tmp_path):
 @pytest.mark.parametrize("word", ["-quiet", "-progress"])
 def test_wrong_word_for_an_option_is_named(petsam, word):
     assert word in petsam(SPHERE, word, "perhaps", check=2).complaint[0]
+
+
+def test_edges_that_are_not_found_or_corrected_are_told(petsam):
+    case = dict(ball(64), load_tx=25.0, steps=4)
+    assert "  edges " not in petsam(dict(case, steps=1)).stdout.split("worst")[1]
+    assert re.search(r"^  edges +corrected in 1 of 4 steps$", petsam(case, dict(edges="deferred")).stdout, re.M)
+    unlike = dict(case, body2_young=10e9)
+    told = petsam(unlike).stdout
+    share, step = re.search(
+        r"^  edges +(\d+) % of them smooth and resolved \(step (\d), the least\)", told, re.M
+    ).groups()
+    assert int(share) < 50 and 1 <= int(step) <= 4
+    assert "  edges " not in petsam(unlike, dict(edges="none")).stdout.split("worst")[1]
