@@ -305,11 +305,13 @@ def test_wrong_word_for_an_option_is_named(petsam, word):
     assert word in petsam(SPHERE, word, "perhaps", check=2).complaint[0]
 
 
-def test_edges_that_are_not_found_or_corrected_are_told(petsam):
+def test_edges_that_are_not_found_or_corrected_are_told(petsam, tmp_path):
     case = dict(ball(64), load_tx=25.0, steps=4)
     assert "  edges " not in petsam(dict(case, steps=1)).stdout.split("worst")[1]
-    assert re.search(r"^  edges +corrected in 1 of 4 steps$", petsam(case, dict(edges="deferred")).stdout, re.M)
-    unlike = dict(case, body2_young=10e9)
+    (tmp_path / "loads.csv").write_text("time,load_n,load_tx\n1,180,25\n2,180,10\n3,190,20\n")  # the last grows
+    grows = dict(ball(96, load_n=None), history="loads.csv", edges="deferred")
+    assert re.search(r"^  edges +corrected in 2 of 3 steps$", petsam(grows).stdout, re.M)
+    unlike = dict(case, body2_poisson=0.1)
     told = petsam(unlike).stdout
     share, step = re.search(
         r"^  edges +(\d+) % of them smooth and resolved \(step (\d), the least\)", told, re.M
