@@ -37,6 +37,7 @@ __all__ = [
     "Snapshot",
     "Stresses",
     "Study",
+    "WearWarning",
     "closed",
     "cycles",
     "open",
@@ -53,6 +54,7 @@ _HOMES = {
     "Snapshot": ".results",
     "Stresses": ".stresses",
     "Study": ".studies",
+    "WearWarning": ".contact",
 }
 
 _PARTS = ("closed", "comparison", "cycles", "environment", "isolation", "plot", "study", "surface")

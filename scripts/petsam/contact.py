@@ -71,6 +71,10 @@ class EdgeContactWarning(UserWarning):
     """The contact has reached the edge of the grid: the answer depends on the grid."""
 
 
+class WearWarning(UserWarning):
+    """A step wears so much that the pressure of the next ones is uneven from cell to cell, and wrong."""
+
+
 class Step:
     """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, each of them by its name, and the
     further NUMBERS of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none.
@@ -264,8 +268,14 @@ class Contact:
         return found
 
     def commit(self):
-        """Make the tried step the state from which the next one goes on; bodies wear by it, if they do."""
+        """Make the tried step the state from which the next one goes on; bodies wear by it, if they do.
+
+        WearWarning where the step wears more than one may.
+        """
         self._call("commit")
+        message = self._message()
+        if message:
+            warnings.warn(message, WearWarning, stacklevel=2)
 
     def reject(self):
         """Forget the tried step: later ones are, to the last bit, as if it had not been tried."""

@@ -258,6 +258,24 @@ print("alive")
     assert "qqq: there is no number of this name; there are time, " in text
 
 
+def test_too_much_wear_is_warned_of_by_the_commit(tmp_path):
+    text = run_python(
+        f"""
+import petsam, warnings
+for rate in (1e-13, 1e-6):
+    contact = petsam.Contact(**dict({CASE!r}, wear_coefficient1=rate))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        contact.try_step(load_n=1000, load_tx=200)
+        before = len(said)
+        contact.commit()
+    print(before, [one.category.__name__ for one in said], *("the step wears" in str(one.message) for one in said))
+""",
+        tmp_path,
+    )
+    assert text.splitlines() == ["0 []", "0 ['WearWarning'] True"]
+
+
 def test_state_is_saved_and_loaded(tmp_path):
     run_python(
         f"""
