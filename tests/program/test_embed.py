@@ -266,7 +266,7 @@ for rate in (1e-13, 1e-6):
     contact = petsam.Contact(**dict({CASE!r}, wear_coefficient1=rate))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        contact.try_step(load_n=1000, load_tx=200)
+        contact.try_step(load_n=1000, load_tx=100)
         before = len(said)
         contact.commit()
     print(before, [one.category.__name__ for one in said], *("the step wears" in str(one.message) for one in said))
