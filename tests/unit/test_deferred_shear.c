@@ -487,6 +487,25 @@ static void test_peaks_in_a_thin_slip_zone(void **state)
   DestroyCase(&c);
 }
 
+/* A correction that does not converge: the plain solution stays, with all that belongs to it, also at the same N. */
+static void test_correction_that_fails_leaves_the_plain_solution(void **state)
+{
+  Case c               = NewCase(Steel(), 61, 1.5, MU, DEFERRED),
+       few             = NewCase(Steel(), 61, 1.5, MU, DEFERRED " -tangential_max_it 8");
+  SamStep         step = Push(&c, 0.5, 0);
+  SamContactState now;
+
+  (void)state;
+  sam_assert(step.edge_passes == 2);
+  sam_call(SamContactGetState(c.contact, &now));
+  sam_call(SamContactSetState(few.contact, &now));
+  step = Push(&few, 0.4, 0);
+  sam_assert(step.status == SAM_STATUS_CONVERGED);
+  sam_assert(step.edge_passes == 0 && strstr(step.message, "did not converge"));
+  DestroyCase(&few);
+  DestroyCase(&c);
+}
+
 /* A slip zone that is thinner than a cell on one side: the step says that its edge is left. */
 static void test_edge_of_stick_that_is_not_smooth_is_left(void **state)
 {
@@ -563,6 +582,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_contact_that_grows_with_its_slip_zone_is_corrected),
     cmocka_unit_test(test_first_step_without_a_smooth_edge_of_stick_is_left),
     cmocka_unit_test(test_peaks_in_a_thin_slip_zone),
+    cmocka_unit_test(test_correction_that_fails_leaves_the_plain_solution),
     cmocka_unit_test(test_edge_of_stick_that_is_not_smooth_is_left),
     cmocka_unit_test(test_coupled_problems_are_not_corrected),
     cmocka_unit_test(test_check_sees_what_is_wrong_with_a_correction),
