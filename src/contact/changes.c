@@ -50,34 +50,8 @@ PetscErrorCode SamSolveFindTurn(SamSolve *s, const SamSolution *before, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A pressure in this rank's rows and one more on either side. */
-typedef struct {
-  Vec           vec;
-  SamRows       rows;
-  const double *own, *p;
-} Around;
-
-static PetscErrorCode See(SamGrid grid, Vec pressure, Around *a)
-{
-  PetscFunctionBegin;
-  a->vec = pressure;
-  PetscCall(SamRowsCreateAbout(grid, 1, &a->rows));
-  PetscCall(VecGetArrayRead(pressure, &a->own));
-  PetscCall(SamRowsFetch(&a->rows, grid->nx, a->own, &a->p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Forget(Around *a)
-{
-  PetscFunctionBegin;
-  PetscCall(SamRowsRestore(&a->rows, &a->p));
-  PetscCall(VecRestoreArrayRead(a->vec, &a->own));
-  PetscCall(SamRowsDestroy(&a->rows));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Whether the contact has grown by a neighbour of cell i of row j of those around. */
-static PetscBool GrowsAt(const Around *before, const Around *now, PetscInt i, PetscInt j)
+static PetscBool GrowsAt(const SamSeen *before, const SamSeen *now, PetscInt i, PetscInt j)
 {
   static const int step[][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
@@ -85,7 +59,8 @@ static PetscBool GrowsAt(const Around *before, const Around *now, PetscInt i, Pe
     const PetscInt  nx = now->rows.grid->nx, a = i + step[k][0], b = j + step[k][1];
     const ptrdiff_t at = (ptrdiff_t)b * nx + a;
 
-    if (a >= 0 && a < nx && b >= 0 && b < now->rows.count && !(before->p[at] > 0) && now->p[at] > 0) return PETSC_TRUE;
+    if (a >= 0 && a < nx && b >= 0 && b < now->rows.count && !(before->at[0][at] > 0) && now->at[0][at] > 0)
+      return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
@@ -95,14 +70,14 @@ PetscErrorCode SamSolveFindGrowth(SamSolve *s, const SamSolution *before, PetscB
   const SamGrid grid = s->c->grid;
   const double *q0, *slips;
   double        any = 0;
-  Around        p0, p;
+  SamSeen       p0, p;
   Vec           slipping;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(grid, 1, &slipping));
   PetscCall(SamSolutionFindSlips(s->s, slipping));
-  PetscCall(See(grid, before->pressure, &p0));
-  PetscCall(See(grid, s->s->pressure, &p));
+  PetscCall(SamSee(grid, before->pressure, 1, 1, &p0));
+  PetscCall(SamSee(grid, s->s->pressure, 1, 1, &p));
   PetscCall(VecGetArrayRead(before->shear, &q0));
   PetscCall(VecGetArrayRead(slipping, &slips));
   for (PetscInt k = 0; k < grid->cells; k++)
@@ -111,8 +86,8 @@ PetscErrorCode SamSolveFindGrowth(SamSolve *s, const SamSolution *before, PetscB
       any = 1;
   PetscCall(VecRestoreArrayRead(slipping, &slips));
   PetscCall(VecRestoreArrayRead(before->shear, &q0));
-  PetscCall(Forget(&p));
-  PetscCall(Forget(&p0));
+  PetscCall(SamForget(&p));
+  PetscCall(SamForget(&p0));
   PetscCall(VecDestroy(&slipping));
   PetscCall(SamMax(grid->comm, 1, &any));
   *grows = any > 0 ? PETSC_TRUE : PETSC_FALSE;

@@ -90,29 +90,22 @@ static PetscErrorCode SumCells(SamContact c, const SamSolution *s, const SamSolu
 
 #define BEHIND 2 /* cells about a point of the stick edge that must be in contact */
 
-/* The rows that are seen, p being the pressure there. */
-typedef struct {
-  SamGrid       grid;
-  PetscInt      first, count;
-  const double *p;
-} Seen;
-
 /* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
-static PetscBool IsInside(const Seen *s, PetscInt i, PetscInt j)
+static PetscBool IsInside(const SamSeen *p, PetscInt i, PetscInt j)
 {
   for (PetscInt b = j - BEHIND; b <= j + BEHIND; b++)
     for (PetscInt a = i - BEHIND; a <= i + BEHIND; a++)
-      if (a < 0 || a >= s->grid->nx || b < s->first || b >= s->first + s->count ||
-          !(s->p[(ptrdiff_t)(b - s->first) * s->grid->nx + a] > 0))
+      if (a < 0 || a >= p->rows.grid->nx || b < p->rows.first || b >= p->rows.first + p->rows.count ||
+          !(p->at[0][(ptrdiff_t)(b - p->rows.first) * p->rows.grid->nx + a] > 0))
         return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
 /* p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
-static double SquareAt(const Seen *s, double x, double y)
+static double SquareAt(const SamSeen *p, double x, double y)
 {
-  const PetscInt nx = s->grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
-  const double   tx = x - (double)i, ty = y - (double)j, *q = s->p + (ptrdiff_t)(j - s->first) * nx + i;
+  const PetscInt nx = p->rows.grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
+  const double   tx = x - (double)i, ty = y - (double)j, *q = p->at[0] + (ptrdiff_t)(j - p->rows.first) * nx + i;
 
   return (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
          ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
@@ -126,16 +119,12 @@ static double SquareAt(const Seen *s, double x, double y)
 static PetscErrorCode FindPeak(SamContact c, SamProfile profile, const SamEdge *stick, double *peak)
 {
   const SamGrid grid = c->grid;
-  const double *own, *b;
-  SamRows       rows;
-  Seen          s;
+  const double *b;
+  SamSeen       p;
 
   PetscFunctionBegin;
-  PetscCall(SamRowsCreateAbout(grid, BEHIND + 1, &rows));
-  s = (Seen){grid, rows.first, rows.count, NULL};
-  PetscCall(VecGetArrayRead(c->tried.solution.pressure, &own));
+  PetscCall(SamSee(grid, c->tried.solution.pressure, 1, BEHIND + 1, &p));
   PetscCall(VecGetArrayRead(c->tried.solution.bound, &b));
-  PetscCall(SamRowsFetch(&rows, grid->nx, own, &s.p));
   for (PetscInt n = 0; n < stick->count; n++) {
     const PetscInt k = stick->cell[n];
     /* counted from the grid's first row and not from the rank's, whose sums would round otherwise */
@@ -144,15 +133,13 @@ static PetscErrorCode FindPeak(SamContact c, SamProfile profile, const SamEdge *
 
     const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
 
-    if (IsInside(&s, i, j))
-      *peak = PetscMax(*peak, b[k] / own[k] * sqrt(SquareAt(&s, x, y)));
-    else if (profile && own[k] > 0)
-      *peak = PetscMax(*peak, b[k] / own[k] * SamProfileRootAt(profile, i, j, x - (double)i, y - (double)j));
+    if (IsInside(&p, i, j))
+      *peak = PetscMax(*peak, b[k] / p.own[k] * sqrt(SquareAt(&p, x, y)));
+    else if (profile && p.own[k] > 0)
+      *peak = PetscMax(*peak, b[k] / p.own[k] * SamProfileRootAt(profile, i, j, x - (double)i, y - (double)j));
   }
-  PetscCall(SamRowsRestore(&rows, &s.p));
   PetscCall(VecRestoreArrayRead(c->tried.solution.bound, &b));
-  PetscCall(VecRestoreArrayRead(c->tried.solution.pressure, &own));
-  PetscCall(SamRowsDestroy(&rows));
+  PetscCall(SamForget(&p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,13 +25,11 @@ static double TermsOf(const SamRows *rows, const double u[], PetscInt i, PetscIn
 static PetscErrorCode SumTerms(SamGrid grid, Vec pressure, Vec slopes, Vec u_z, double *sum)
 {
   SamTotal      total = {0};
-  SamRows       rows;
-  const double *p, *m, *own, *u;
+  SamSeen       u;
+  const double *p, *m;
 
   PetscFunctionBegin;
-  PetscCall(SamRowsCreateAbout(grid, 1, &rows));
-  PetscCall(VecGetArrayRead(u_z, &own));
-  PetscCall(SamRowsFetch(&rows, grid->nx, own, &u));
+  PetscCall(SamSee(grid, u_z, 1, 1, &u));
   PetscCall(VecGetArrayRead(pressure, &p));
   PetscCall(VecGetArrayRead(slopes, &m));
   for (PetscInt j = 0; j < grid->rows; j++) {
@@ -41,15 +39,14 @@ static PetscErrorCode SumTerms(SamGrid grid, Vec pressure, Vec slopes, Vec u_z, 
       const PetscInt k = j * grid->nx + i;
 
       if (p[k] > 0)
-        row += TermsOf(&rows, u, i, grid->row_start + j - rows.first, p[k], (double[]){m[k], m[k + grid->cells]});
+        row +=
+          TermsOf(&u.rows, u.at[0], i, grid->row_start + j - u.rows.first, p[k], (double[]){m[k], m[k + grid->cells]});
     }
     SamAdd(&total, row);
   }
   PetscCall(VecRestoreArrayRead(slopes, &m));
   PetscCall(VecRestoreArrayRead(pressure, &p));
-  PetscCall(SamRowsRestore(&rows, &u));
-  PetscCall(VecRestoreArrayRead(u_z, &own));
-  PetscCall(SamRowsDestroy(&rows));
+  PetscCall(SamForget(&u));
   PetscCall(SamSumTotals(grid->comm, 1, &total, sum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

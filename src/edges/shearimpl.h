@@ -12,6 +12,8 @@
 enum { SAM_TERM_VECTOR = 0, SAM_TERM_FUNCTION = 2, SAM_TERM = SAM_TERM_FUNCTION + SAM_FIT_TERMS };
 enum { SAM_TERM_PRESSURE, SAM_TERM_SLACK, SAM_TERM_LEFT, SAM_TERM_KINDS };
 
+_Static_assert(SAM_SHEAR_TERMS <= SAM_SEEN_MOST, "all terms are seen at once");
+
 struct _n_SamShearProfile {
   SamElasticity  elasticity;
   SamGrid        grid; /* of it; borrowed */
@@ -21,19 +23,6 @@ struct _n_SamShearProfile {
   SamProfile     profile; /* of the slack */
   SamNear        near;
 };
-
-/*
-  SamSeen - a field in this rank's rows and `halo` more before and after them. SamSee - fetches it; `components`: at
-  most SAM_SHEAR_TERMS. SamForget - gives it back. Collective.
-*/
-typedef struct {
-  Vec           field;
-  PetscInt      components;
-  SamRows       rows;
-  const double *own, *at[SAM_SHEAR_TERMS]; /* the components of the rows that are seen */
-} SamSeen;
-PETSC_INTERN PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen);
-PETSC_INTERN PetscErrorCode SamForget(SamSeen *seen);
 
 /* The sub-cells of a cell with that function: an edge nearer to the centre than this may cut it, or nearly. */
 #define SAM_SHEAR_CUT 1.5

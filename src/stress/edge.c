@@ -24,12 +24,10 @@ enum { LAGS = BLOCK + 2, NODES = 9 };
 
 /* The map about this rank's rows, and what all points share. */
 typedef struct {
-  SamGrid       grid;
-  double        poisson, kernel[SAM_STRESS_TRACTIONS][PLANE][LAGS][LAGS]; /* of the lags */
-  PetscReal     x[POINTS], w[POINTS];                                     /* of Gauss' rule on (0, 1) */
-  SamRows       rows;
-  Vec           field;
-  const double *own, *at[SAM_STRESS_COMPONENTS];
+  SamGrid   grid;
+  double    poisson, kernel[SAM_STRESS_TRACTIONS][PLANE][LAGS][LAGS]; /* of the lags */
+  PetscReal x[POINTS], w[POINTS];                                     /* of Gauss' rule on (0, 1) */
+  SamSeen   seen;
 } Map;
 
 static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map *m)
@@ -37,7 +35,7 @@ static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map 
   const SamStressSource source = {{(double)grid->dx, (double)grid->dy}, 0, (double)poisson};
 
   PetscFunctionBegin;
-  *m = (Map){.grid = grid, .poisson = (double)poisson, .field = field};
+  *m = (Map){.grid = grid, .poisson = (double)poisson};
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
     for (PetscInt j = 0; j < LAGS; j++) {
       double *const to[] = {m->kernel[t][XX][j], m->kernel[t][YY][j], m->kernel[t][XY][j]};
@@ -45,19 +43,7 @@ static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map 
       SamStressRow(&source, (SamStressGroup)(SAM_STRESS_PLANE_P + t), j, LAGS, to);
     }
   PetscCall(PetscDTGaussQuadrature(POINTS, 0, 1, m->x, m->w));
-  PetscCall(SamRowsCreateAbout(grid, BLOCK + 1, &m->rows));
-  PetscCall(VecGetArrayRead(field, &m->own));
-  for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++)
-    PetscCall(SamRowsFetch(&m->rows, grid->nx, m->own + (ptrdiff_t)c * grid->cells, &m->at[c]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode DestroyMap(Map *m)
-{
-  PetscFunctionBegin;
-  for (PetscInt c = SAM_STRESS_COMPONENTS; c-- > 0;) PetscCall(SamRowsRestore(&m->rows, &m->at[c]));
-  PetscCall(VecRestoreArrayRead(m->field, &m->own));
-  PetscCall(SamRowsDestroy(&m->rows));
+  PetscCall(SamSee(grid, field, SAM_STRESS_COMPONENTS, BLOCK + 1, &m->seen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -66,8 +52,8 @@ static double TractionAt(const Map *m, PetscInt t, PetscInt i, PetscInt j)
 {
   static const SamStressComponent components[] = {SAM_STRESS_ZZ, SAM_STRESS_XZ, SAM_STRESS_YZ};
 
-  if (i < 0 || i >= m->grid->nx || j < m->rows.first || j >= m->rows.first + m->rows.count) return 0;
-  return -m->at[components[t]][(ptrdiff_t)(j - m->rows.first) * m->grid->nx + i];
+  if (i < 0 || i >= m->grid->nx || j < m->seen.rows.first || j >= m->seen.rows.first + m->seen.rows.count) return 0;
+  return -m->seen.at[components[t]][(ptrdiff_t)(j - m->seen.rows.first) * m->grid->nx + i];
 }
 
 /* The kernel at a lag of any sign. */
@@ -83,9 +69,9 @@ static double KernelAt(const Map *m, PetscInt t, PetscInt c, PetscInt i, PetscIn
 static void OutsideOf(const Map *m, PetscInt i, PetscInt j, PetscInt a, PetscInt b, double stress[PLANE])
 {
   static const SamStressComponent components[] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
-  const ptrdiff_t                 k            = (ptrdiff_t)(j + b - m->rows.first) * m->grid->nx + i + a;
+  const ptrdiff_t                 k            = (ptrdiff_t)(j + b - m->seen.rows.first) * m->grid->nx + i + a;
 
-  for (int c = 0; c < PLANE; c++) stress[c] = m->at[components[c]][k];
+  for (int c = 0; c < PLANE; c++) stress[c] = m->seen.at[components[c]][k];
   for (PetscInt y = -BLOCK; y <= BLOCK; y++)
     for (PetscInt x = -BLOCK; x <= BLOCK; x++)
       for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
@@ -212,6 +198,6 @@ PetscErrorCode SamStressAtEdge(SamGrid grid, PetscReal poisson, Vec field, const
     AddOutside(&m, i, j, at, to);
     AddInside(&m, i, j, at, edge->fit[n], to);
   }
-  PetscCall(DestroyMap(&m));
+  PetscCall(SamForget(&m.seen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

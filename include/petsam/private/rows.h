@@ -24,4 +24,18 @@ PETSC_EXTERN PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, 
                                          const double **wanted);
 PETSC_EXTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted);
 
+#define SAM_SEEN_MOST 24
+/*
+  SamSeen - a field in this rank's rows and `halo` more before and after them. SamSee - fetches it; `components`: at
+  most SAM_SEEN_MOST. SamForget - gives it back. Collective.
+*/
+typedef struct {
+  Vec           field;
+  PetscInt      components;
+  SamRows       rows;
+  const double *own, *at[SAM_SEEN_MOST]; /* the components of the rows that are seen */
+} SamSeen;
+PETSC_EXTERN PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen);
+PETSC_EXTERN PetscErrorCode SamForget(SamSeen *seen);
+
 #endif

@@ -1,5 +1,6 @@
 /* Fields in the rows about this rank's. */
-#include "shearimpl.h"
+#include "gridimpl.h"
+#include <petsam/private/rows.h>
 
 PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen)
 {
