@@ -33,6 +33,19 @@ static PetscErrorCode FillSquares(const SamSolution *s, SamContactEdge which, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The edge of a plain solution. */
+static PetscErrorCode Reconstruct(SamContact c, const SamSolution *s, SamContactEdge which, Vec point, SamEdge *edge)
+{
+  Vec w;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(c->grid, 1, &w));
+  PetscCall(FillSquares(s, which, w));
+  PetscCall(SamEdgeReconstruct(c->grid, w, point, edge));
+  PetscCall(VecDestroy(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactGetProfile(SamContact c, SamProfile *profile)
 {
   PetscFunctionBegin;
@@ -106,18 +119,13 @@ static PetscErrorCode FindPlainStick(SamContact c, const SamSolution *s, Vec sli
 {
   const SamSolution *plain = s == &c->committed.solution ? &c->committed.plain : &c->tried.plain;
   PetscReal          most;
-  Vec                w;
 
   PetscFunctionBegin;
   PetscCall(VecMax(slips, NULL, &most));
-  if (most <= 0) {
+  if (most <= 0)
     PetscCall(FindCorrected(c, s, point, edge));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamGridCreateVec(c->grid, 1, &w));
-  PetscCall(FillSquares(plain, SAM_CONTACT_EDGE_STICK, w));
-  PetscCall(SamEdgeReconstruct(c->grid, w, point, edge));
-  PetscCall(VecDestroy(&w));
+  else
+    PetscCall(Reconstruct(c, plain, SAM_CONTACT_EDGE_STICK, point, edge));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -144,22 +152,15 @@ static PetscErrorCode FindCorrectedStick(SamContact c, const SamSolution *s, Vec
 PetscErrorCode SamContactFindEdge(SamContact c, SamContactEdge which, Vec point, SamEdge *edge)
 {
   const SamSolution *s;
-  Vec                w;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
-  if (which == SAM_CONTACT_EDGE_CONTACT && s->passes) {
+  if (which == SAM_CONTACT_EDGE_CONTACT && s->passes)
     PetscCall(FindCorrected(c, s, point, edge));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  if (which == SAM_CONTACT_EDGE_STICK && s->sheared.has) {
+  else if (which == SAM_CONTACT_EDGE_STICK && s->sheared.has)
     PetscCall(FindCorrectedStick(c, s, point, edge));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamGridCreateVec(c->grid, 1, &w));
-  PetscCall(FillSquares(s, which, w));
-  PetscCall(SamEdgeReconstruct(c->grid, w, point, edge));
-  PetscCall(VecDestroy(&w));
+  else
+    PetscCall(Reconstruct(c, s, which, point, edge));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
