@@ -171,24 +171,26 @@ PetscErrorCode SamCycleWrite(SamStressRun *run, const SamPoints *p, double done,
 /* That by which they differ at most when a cycle comes again that is not yet steady. */
 #define AGAIN 0.05
 
-/* The largest difference and size, of the pressure and of the shear, of two saved steps. */
-static PetscErrorCode CompareSteps(SamStressRun *run, PetscInt saved, PetscInt other, PetscReal most[4])
+/* The tractions of the last step, of 3 components, and room for those of another one. */
+typedef struct {
+  double *last, *other;
+} Ends;
+
+/* The largest difference and size, of the pressure and of the shear, of a saved step and the last one. */
+static PetscErrorCode CompareWithLast(SamStressRun *run, PetscInt saved, const Ends *ends, PetscReal most[4])
 {
-  const PetscInt cells = run->grid->cells;
-  double        *a, *b;
+  const PetscInt      cells = run->grid->cells;
+  const double *const a = ends->last, *const b = ends->other;
 
   PetscFunctionBegin;
   for (int k = 0; k < 4; k++) most[k] = 0;
-  PetscCall(PetscMalloc2(3 * cells, &a, 3 * cells, &b));
-  PetscCall(SamTractionsRead(run, saved, (double *[]){a, a + cells, a + 2 * cells}));
-  PetscCall(SamTractionsRead(run, other, (double *[]){b, b + cells, b + 2 * cells}));
+  PetscCall(SamTractionsRead(run, saved, (double *[]){ends->other, ends->other + cells, ends->other + 2 * cells}));
   for (PetscInt k = 0; k < 3 * cells; k++) {
     PetscReal *const m = most + (k < cells ? 0 : 2);
 
     m[0] = PetscMax(m[0], fabs(a[k] - b[k]));
     m[1] = PetscMax(m[1], PetscMax(fabs(a[k]), fabs(b[k])));
   }
-  PetscCall(PetscFree2(a, b));
   PetscCall(SamMax(run->grid->comm, 4, most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -224,7 +226,7 @@ static PetscErrorCode CheckLife(SamStressRun *run, PetscBool *life)
 }
 
 /* Whether the cycle closes: by the step before the first. */
-static PetscErrorCode CheckEnds(SamStressRun *run)
+static PetscErrorCode CheckEnds(SamStressRun *run, const Ends *ends)
 {
   const PetscInt before = run->saved[0] - (run->saved[1] - run->saved[0]), last = run->saved[run->steps - 1];
   PetscReal      most[4];
@@ -235,7 +237,7 @@ static PetscErrorCode CheckEnds(SamStressRun *run)
   if (before < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamResultsGetSaved(run->results, before, &step[0], NULL));
   PetscCall(SamResultsGetSaved(run->results, last, &step[1], NULL));
-  PetscCall(CompareSteps(run, before, last, most));
+  PetscCall(CompareWithLast(run, before, ends, most));
   for (int f = 0; f < 2; f++) {
     if (most[2 * f] <= CLOSED * most[2 * f + 1]) continue;
     (void)snprintf(
@@ -273,7 +275,7 @@ static PetscErrorCode WarnOfMore(SamStressRun *run, PetscInt k)
   Whether the cycle comes more than once, or after what leads to it: a step is as the last, with others between and
   before. So neither steps near the cycle's start count nor those at which the loads are held.
 */
-static PetscErrorCode CheckOnce(SamStressRun *run)
+static PetscErrorCode CheckOnce(SamStressRun *run, const Ends *ends)
 {
   const PetscInt last      = run->steps - 1;
   PetscReal      least     = AGAIN;
@@ -284,7 +286,7 @@ static PetscErrorCode CheckOnce(SamStressRun *run)
   for (PetscInt k = last - 1; k >= 0; k--) {
     PetscReal most[4], difference = 0;
 
-    PetscCall(CompareSteps(run, run->saved[k], run->saved[last], most));
+    PetscCall(CompareWithLast(run, run->saved[k], ends, most));
     for (int f = 0; f < 4; f += 2)
       if (most[f] > 0) difference = PetscMax(difference, most[f] / most[f + 1]);
     if (difference > AGAIN) {
@@ -302,12 +304,18 @@ static PetscErrorCode CheckOnce(SamStressRun *run)
 
 PetscErrorCode SamCycleCheckClosed(SamStressRun *run)
 {
-  PetscBool life;
+  const PetscInt cells = run->grid->cells;
+  PetscBool      life;
+  Ends           ends;
 
   PetscFunctionBegin;
   PetscCall(CheckLife(run, &life));
   if (life) PetscFunctionReturn(PETSC_SUCCESS); /* petsam has closed the loop */
-  PetscCall(CheckEnds(run));
-  PetscCall(CheckOnce(run));
+  PetscCall(PetscMalloc2(3 * cells, &ends.last, 3 * cells, &ends.other));
+  PetscCall(SamTractionsRead(run, run->saved[run->steps - 1],
+                             (double *[]){ends.last, ends.last + cells, ends.last + 2 * cells}));
+  PetscCall(CheckEnds(run, &ends));
+  PetscCall(CheckOnce(run, &ends));
+  PetscCall(PetscFree2(ends.last, ends.other));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
