@@ -103,6 +103,12 @@ def hertz(options):
     return closed.hertz(options["load_n"], radius, e_star)
 
 
+def history(path, header, *rows):
+    """Writes a history of loads; returns the options that take it."""
+    path.write_text(header + "\n" + "\n".join(",".join(map(repr, row)) for row in rows) + "\n")
+    return dict(history=path)
+
+
 def ball(n=64, half_width=1.5, young=72e9, poisson=0.34, **more):
     """An aluminium ball on an aluminium flat, on a grid of that half width in contact radii."""
     case = dict(

@@ -4,14 +4,9 @@ import h5py
 import numpy as np
 import pytest
 
-from support import SPHERE, assert_same, ball, slide_limit
+from support import SPHERE, assert_same, ball, history, slide_limit
 
 BALL = ball(48, load_tx=10.0)
-
-
-def history(path, header, *rows):
-    path.write_text(header + "\n" + "\n".join(",".join(map(repr, row)) for row in rows) + "\n")
-    return dict(history=path)
 
 
 @pytest.mark.parametrize("body", [1, 2])

@@ -11,7 +11,7 @@ from conftest import PROGRAM as PETSAM
 from petsam import cycles
 from petsam.plot import loops, wear
 from petsam.plot.style import MARKED
-from support import ball, slide_limit, words
+from support import ball, history, slide_limit, words
 
 pytestmark = pytest.mark.usefixtures("closing")
 
@@ -23,10 +23,8 @@ TURNS = (0.6, -0.5, 0.7, -0.6, 0.7, -0.6, 0.7)  # of T_x over mu N
 
 def program(folder, turns, name="h.csv"):
     """A history of T_x that turns there, a second a stroke, from zero."""
-    table = folder / name
     rows = [(0, 0.0), *((k, float(turn * LIMIT)) for k, turn in enumerate(turns, 1))]
-    table.write_text("time,load_tx\n" + "".join(f"{k},{load!r}\n" for k, load in rows))
-    return table
+    return history(folder / name, "time,load_tx", *rows)["history"]
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import FIELDS, assert_close, assert_same, ball, kernels
+from support import FIELDS, assert_close, assert_same, ball, history, kernels
 
 BALL = ball(60, poisson=0.3)
 LIMIT = BALL["friction"] * BALL["load_n"]
@@ -15,11 +15,6 @@ def with_field(case, path, values, dataset="friction"):
     with h5py.File(path, "w") as f:
         f[dataset] = values
     return dict(case, friction=None, friction_file=path)
-
-
-def history(path, header, *rows):
-    path.write_text(header + "\n" + "\n".join(",".join(map(repr, row)) for row in rows) + "\n")
-    return dict(history=path)
 
 
 def elastic(results, options):

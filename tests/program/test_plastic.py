@@ -111,12 +111,10 @@ def plastic(results):
 
 def test_plastic_area_comes_back_with_the_load(solve, tmp_path_factory):
     case = dict(ball(96, load_n=None), pressure_limit=0.6 * support.hertz(ball()).pressure)
-    table = tmp_path_factory.mktemp("history") / "h.csv"
     load = ball()["load_n"]
-    table.write_text(
-        "time,load_n\n" + "".join(f"{k},{n!r}\n" for k, n in enumerate((load, load / 9, load, 0.5 * load, load)))
-    )
-    with h5py.File(solve(dict(case, history=table)).path) as f:
+    loads = enumerate((load, load / 9, load, 0.5 * load, load))
+    table = support.history(tmp_path_factory.mktemp("history") / "h.csv", "time,load_n", *loads)
+    with h5py.File(solve(dict(case, **table)).path) as f:
         area, energy = f["history/plastic_area"][:], f["history/plastic_energy"][:]
     assert area[0] == area[2] == area[4] > 0 and area[1] == area[3] == 0
     assert abs(energy[1:]).max() < 1e-7 * energy[0]

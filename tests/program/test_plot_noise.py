@@ -7,7 +7,7 @@ import pytest
 import petsam
 from petsam import cycles
 from petsam.plot import loops, maps, noise, profiles, series, style
-from support import ball, slide_limit
+from support import ball, history, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
 
@@ -18,10 +18,9 @@ AMPLITUDE = float(0.7 * slide_limit(CASE)[0])
 @pytest.fixture(scope="module")
 def strokes(solve, tmp_path_factory):
     """Three cycles at constant normal load."""
-    table = tmp_path_factory.mktemp("history") / "h.csv"
     turns = [0.0, *[AMPLITUDE, -AMPLITUDE] * 3, AMPLITUDE]
-    table.write_text("time,load_tx\n" + "".join(f"{k},{load!r}\n" for k, load in enumerate(turns)))
-    return solve(CASE, dict(history=table, steps=3)).path
+    table = history(tmp_path_factory.mktemp("history") / "h.csv", "time,load_tx", *enumerate(turns))
+    return solve(CASE, dict(table, steps=3)).path
 
 
 @pytest.fixture(scope="module", params=[0.0, 0.3])

@@ -10,7 +10,7 @@ import petsam
 from petsam.plot import arguments, loops, series, uses
 from petsam.stresses import Stresses
 from petsam.studies import Study
-from support import ball, slide_limit
+from support import ball, history, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
 
@@ -21,10 +21,9 @@ AMPLITUDE = float(0.7 * slide_limit(CASE)[0])
 @pytest.fixture(scope="module")
 def path(solve, tmp_path_factory):
     """A preload and three strokes in four steps each; then a load that friction cannot balance."""
-    table = tmp_path_factory.mktemp("history") / "h.csv"
     turns = [0.0, AMPLITUDE, -AMPLITUDE, AMPLITUDE, 9.0 * AMPLITUDE]
-    table.write_text("time,load_tx\n" + "".join(f"{k},{load!r}\n" for k, load in enumerate(turns)))
-    return solve(CASE, dict(history=table, steps=4), check=11).path
+    table = history(tmp_path_factory.mktemp("history") / "h.csv", "time,load_tx", *enumerate(turns))
+    return solve(CASE, dict(table, steps=4), check=11).path
 
 
 # ---------------------------------------------------------------- options without effect

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conftest import PROGRAM, environment
-from support import SPHERE, ball, flatten
+from support import SPHERE, ball, flatten, history
 
 STEPS = dict(ball(48), load_tx=20.0, steps=4)
 HEADING = [
@@ -308,8 +308,8 @@ def test_wrong_word_for_an_option_is_named(petsam, word):
 def test_edges_that_are_not_found_or_corrected_are_told(petsam, tmp_path):
     case = dict(ball(64), load_tx=25.0, steps=4)
     assert "  edges " not in petsam(dict(case, steps=1)).stdout.split("worst")[1]
-    (tmp_path / "loads.csv").write_text("time,load_n,load_tx\n1,180,25\n2,180,10\n3,190,20\n")  # the last grows
-    grows = dict(ball(96, load_n=None), history="loads.csv", edges="deferred")
+    loads = history(tmp_path / "loads.csv", "time,load_n,load_tx", (1, 180, 25), (2, 180, 10), (3, 190, 20))  # grows
+    grows = dict(ball(96, load_n=None), **loads, edges="deferred")
     assert re.search(r"^  edges +corrected in 2 of 3 steps$", petsam(grows).stdout, re.M)
     unlike = dict(case, body2_poisson=0.1)
     told = petsam(unlike).stdout

@@ -24,7 +24,7 @@ def written(unit):
 def scale(unit, largest):
     """Factor and unit with the prefix in which largest has up to three digits before the point.
 
-    Areas and volumes have more: from µm² to mm² it is six, from µm³ to mm³ nine. There 0.001 stands for its own unit.
+    Areas and volumes have more: six from µm² to mm², nine from µm³ to mm³. There 0.001 stands for its own unit.
     """
     first = BASE.match(unit)
     if not first or not np.isfinite(largest) or largest == 0.0:
