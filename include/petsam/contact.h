@@ -127,8 +127,7 @@ typedef struct {
 /* SamStepIsSolved - whether a step has a solution to go on from. Not collective. */
 static inline PetscBool SamStepIsSolved(const SamStep *step)
 {
-  return step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE
-                                                                                               : PETSC_FALSE;
+  return step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM;
 }
 
 /* SamCheckLimits - the largest errors of a step that counts as converged. */

@@ -175,7 +175,7 @@ static PetscBool TimeIsUp(const SamCheckpoints cp, double now)
   if (cp->limit == 0) return PETSC_FALSE;
   for (PetscInt s = 0; s < known; s++) slowest = PetscMax(slowest, cp->recent[s]);
   writing = cp->writing > 0 ? cp->writing : slowest; /* before the first checkpoint: a safe estimate */
-  return now - cp->start + MARGIN * slowest + writing > cp->limit ? PETSC_TRUE : PETSC_FALSE;
+  return now - cp->start + MARGIN * slowest + writing > cp->limit;
 }
 
 /* ---- the position in the load program, and the program up to there ---- */
@@ -378,9 +378,9 @@ PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints cp, SamContact contact, co
   if (any[0] > 0) signaled[0] = 0;
   if (any[1] > 0) signaled[1] = 0;
   PetscCallMPI(MPI_Comm_rank(cp->comm, &rank));
-  more  = progress->life || progress->steps < count ? PETSC_TRUE : PETSC_FALSE;
-  due   = cp->every && progress->steps / cp->every > cp->seen / cp->every ? PETSC_TRUE : PETSC_FALSE;
-  *stop = (cp->filename[0] && more && (any[1] > 0 || any[2] > 0)) ? PETSC_TRUE : PETSC_FALSE;
+  more  = progress->life || progress->steps < count;
+  due   = cp->every && progress->steps / cp->every > cp->seen / cp->every;
+  *stop = cp->filename[0] && more && (any[1] > 0 || any[2] > 0);
   if (!cp->filename[0]) {
     if ((any[0] > 0 || any[1] > 0) && rank == 0)
       fprintf(stderr, "petsam: warning: a signal asked for a checkpoint, but -checkpoint is not given\n");

@@ -114,7 +114,7 @@ static PetscErrorCode PrintExtent(SamReport r)
 /* What of the edges is not found, or not corrected where that is asked for. */
 static PetscErrorCode PrintEdges(SamReport r)
 {
-  const PetscBool corrects  = r->edge_way == SAM_CONTACT_EDGES_DEFERRED ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool corrects  = r->edge_way == SAM_CONTACT_EDGES_DEFERRED;
   char            where[48] = "";
 
   PetscFunctionBegin;

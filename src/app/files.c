@@ -37,8 +37,7 @@ static PetscBool IsSameFile(const char a[], const char b[])
   PetscBool         same;
 
   if (!strcmp(a, b)) return PETSC_TRUE;
-  if (!stat(a, &one) && !stat(b, &other))
-    return one.st_dev == other.st_dev && one.st_ino == other.st_ino ? PETSC_TRUE : PETSC_FALSE;
+  if (!stat(a, &one) && !stat(b, &other)) return one.st_dev == other.st_dev && one.st_ino == other.st_ino;
   for (int k = 0; k < 2; k++) {
     const char *slash = strrchr(names[k], '/');
 
@@ -46,7 +45,7 @@ static PetscBool IsSameFile(const char a[], const char b[])
     SamGetFolder(names[k], folder[k]);
     real[k] = realpath(folder[k], NULL);
   }
-  same = real[0] && real[1] && !strcmp(real[0], real[1]) && !strcmp(last[0], last[1]) ? PETSC_TRUE : PETSC_FALSE;
+  same = real[0] && real[1] && !strcmp(real[0], real[1]) && !strcmp(last[0], last[1]);
   free(real[0]);
   free(real[1]);
   return same;
@@ -141,7 +140,7 @@ static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *
 static PetscBool MayMeet(const SamNamedFile *one, const SamNamedFile *other)
 {
   if (!strcmp(one->option, other->option)) return PETSC_TRUE;
-  return !strcmp(one->option, "-checkpoint") && !strcmp(other->option, "-restart") ? PETSC_TRUE : PETSC_FALSE;
+  return !strcmp(one->option, "-checkpoint") && !strcmp(other->option, "-restart");
 }
 
 /* Says which written file would replace another one; empty if none does. */
@@ -153,7 +152,7 @@ static void Compare(const SamFiles *f, char message[], size_t size)
 
     for (PetscInt k = 0; k < f->count && !message[0] && one->role == SAM_FILE_WRITTEN; k++) {
       const SamNamedFile *other   = &f->list[k];
-      const PetscBool     written = other->role == SAM_FILE_WRITTEN ? PETSC_TRUE : PETSC_FALSE;
+      const PetscBool     written = other->role == SAM_FILE_WRITTEN;
 
       if (written && k >= w) continue;
       if (!MayMeet(one, other) && IsSameFile(one->name, other->name))

@@ -150,7 +150,7 @@ static PetscBool IsNamed(const char asked[], const char name[], PetscBool part)
 
     if (a != b) return PETSC_FALSE;
   }
-  return part || !name[k] ? PETSC_TRUE : PETSC_FALSE;
+  return part || !name[k];
 }
 
 /* The topic of this name, or with `part` the only one that begins with it; NULL: none. */

@@ -114,8 +114,7 @@ PetscErrorCode SamHelpPrintJson(const SamProgram *program, const SamHelpList *li
   PetscCall(PrintMember(",\n", "version", PETSAM_VERSION));
   PetscCall(PrintMember(",\n", "usage", program->usage));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, ",\n\"topics\": ["));
-  for (const SamTopic *t = program->topics; t->name; t++)
-    PetscCall(PrintTopic(t, t == program->topics ? PETSC_TRUE : PETSC_FALSE));
+  for (const SamTopic *t = program->topics; t->name; t++) PetscCall(PrintTopic(t, t == program->topics));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "],\n\"groups\": ["));
   for (PetscInt g = 0; g < list->groups; g++) PetscCall(PrintGroup(program, list, g));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "]}\n"));

@@ -181,7 +181,7 @@ PetscErrorCode SamHistoryGetStart(SamHistory h, PetscInt *steps)
 PetscErrorCode SamHistoryHas(SamHistory h, PetscBool *friction_scale, PetscBool *bulk_stress)
 {
   PetscFunctionBegin;
-  *friction_scale = h->friction >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  *friction_scale = h->friction >= 0;
   *bulk_stress    = PETSC_FALSE;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)

@@ -38,7 +38,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
 {
   SamRun *const   run    = (SamRun *)context;
   SamStep         told   = *result;
-  const PetscBool failed = told.status == SAM_STATUS_NOT_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool failed = told.status == SAM_STATUS_NOT_CONVERGED;
   PetscInt        start;
   PetscReal       depth[2];
   PetscBool       due;
@@ -46,9 +46,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetStart(run->history, &start));
   due = SamWearingIsOutput(&run->wearing, cycles) &&
-            ((step + 1) % run->output_every == 0 || step + 1 == run->needs.steps - start)
-          ? PETSC_TRUE
-          : PETSC_FALSE;
+        ((step + 1) % run->output_every == 0 || step + 1 == run->needs.steps - start);
   if (!step) run->last_time = PETSC_NINFINITY; /* the fields of the step before are not those of a step in the file */
   told.cycle = cycles;
   PetscCall(TimeOf(run, cycles, &told.control.time));
@@ -57,7 +55,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   run->point.steps++;
   run->point.times = SamOutputAddTime(run->point.times, told.control.time);
   PetscCall(SamReportCountStep(run->report, run->point.steps, &told));
-  PetscCall(SamRunWriteStep(run, &told, due || failed ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(SamRunWriteStep(run, &told, due || failed));
   PetscCall(SamRunExamine(run, start + step, &told));
   run->told = SamStepIsSolved(&told) ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -149,7 +147,7 @@ static PetscErrorCode ComputeCycle(SamRun *run, PetscBool *ended)
   PetscFunctionBegin;
   PetscCall(SamReportBeginCycle(run->report, run->setup.contact));
   PetscCall(SamLifeCompute(run->life, &r));
-  *ended = r.cycles >= run->wearing.cycles || r.step.status != SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
+  *ended = r.cycles >= run->wearing.cycles || r.step.status != SAM_STATUS_CONVERGED;
   if (r.step.status != SAM_STATUS_CONVERGED) PetscCall(EndLife(run, &r, "after"));
   if (!SamStepIsSolved(&r.step)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!run->warned && r.step.status == SAM_STATUS_CONVERGED) PetscCall(SamReportMessage(run->report, "", &r.step));

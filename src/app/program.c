@@ -30,9 +30,7 @@ static PetscBool launched = PETSC_TRUE;
 /* Errors that a line explains; of all others PETSc prints a trace. */
 static PetscBool IsPlain(PetscErrorCode code)
 {
-  return (code == SAM_ERR_USER || code == SAM_ERR_FILE || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_MEM)
-           ? PETSC_TRUE
-           : PETSC_FALSE;
+  return code == SAM_ERR_USER || code == SAM_ERR_FILE || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_MEM;
 }
 
 /* Prints an error as one line: one that all ranks have met from rank 0. */

@@ -47,7 +47,7 @@ static PetscBool OnTerminal(void)
   length = readlink(link, target, sizeof(target) - 1);
   if (length < 0) return PETSC_FALSE;
   target[length] = '\0';
-  return (!strncmp(target, "/dev/pts/", 9) || !strncmp(target, "/dev/tty", 8)) ? PETSC_TRUE : PETSC_FALSE;
+  return !strncmp(target, "/dev/pts/", 9) || !strncmp(target, "/dev/tty", 8);
 }
 
 PetscErrorCode SamProgressSetFromOptions(SamReport r, const SamOptions *from)
@@ -58,9 +58,7 @@ PetscErrorCode SamProgressSetFromOptions(SamReport r, const SamOptions *from)
   PetscCall(SamOptionsEnum(from, "progress", "line within long steps: auto (on a terminal), always or never",
                            mode_words, &mode, NULL));
   r->progress.active =
-    (!r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal())))
-      ? PETSC_TRUE
-      : PETSC_FALSE;
+    !r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal()));
   r->progress.after = mode == SAM_PROGRESS_ALWAYS ? 0 : AFTER;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -232,7 +232,7 @@ static PetscBool IsRepeated(SamReport r, const SamStep *step)
 /* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
 static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
-  const PetscBool edge       = !step->status && step->check.edge > 0 ? PETSC_TRUE : PETSC_FALSE; /* and allowed */
+  const PetscBool edge       = !step->status && step->check.edge > 0; /* and allowed */
   char            option[48] = "";
 
   if (edge && r->edge_told) return;

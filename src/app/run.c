@@ -73,7 +73,7 @@ static PetscErrorCode ReadWear(SamRun *run, const SamOptions *from)
   PetscCheck(!w->laws.on || run->needs.friction || help, from->comm, SAM_ERR_USER,
              "-wear_coefficient or -wear_energy is given without -friction: surfaces wear where friction acts");
   run->needs.wear = w->laws.on;
-  run->needs.life = w->cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
+  run->needs.life = w->cycles > 0;
   PetscCall(SamProblemGetPressureLimit(run->setup.problem, &limit));
   PetscCheck(isinf(limit) || !run->needs.life || help, from->comm, SAM_ERR_USER,
              "-wear_cycles with -pressure_limit: cycles are jumped over by their wear, and do not know how much the "
@@ -118,7 +118,7 @@ static PetscErrorCode ReadOptions(SamRun *run, const SamArguments *arguments, co
   run->output_settings.with[SAM_OUTPUT_STIFFNESS] = run->needs.stiffness;
   for (size_t k = 0; k < 2; k++) run->needs.sums += SamOutputSettingsHas(&run->output_settings, sums[k]);
   PetscCall(SamProblemGetPressureLimit(run->setup.problem, &limit));
-  run->needs.plastic                            = isfinite(limit) ? PETSC_TRUE : PETSC_FALSE;
+  run->needs.plastic                            = isfinite(limit) != 0;
   run->output_settings.with[SAM_OUTPUT_PLASTIC] = run->needs.plastic;
   PetscCall(SamPrintHelp(&help));
   PetscCheck(!run->needs.stiffness || run->has_output || help, from->comm, SAM_ERR_USER,
@@ -205,7 +205,7 @@ PetscErrorCode SamRunWriteLastFields(SamRun *run)
 
 PetscErrorCode SamRunWriteStep(SamRun *run, const SamStep *step, PetscBool due)
 {
-  const PetscBool none = step->status == SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool none = step->status == SAM_STATUS_NO_EQUILIBRIUM;
 
   PetscFunctionBegin;
   if (!run->output) PetscFunctionReturn(PETSC_SUCCESS);
@@ -304,7 +304,7 @@ static PetscErrorCode SolveStep(SamRun *run, PetscBool *ended)
   PetscCall(WearStep(run, &step));
   PetscCall(SamRunAdviseEdge(run, &step));
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
-  due    = ((k + 1) % run->output_every == 0 || k == last || *ended) ? PETSC_TRUE : PETSC_FALSE;
+  due    = (k + 1) % run->output_every == 0 || k == last || *ended;
   PetscCall(SamRunWriteStep(run, &step, due));
   PetscCall(SamReportEndStep(run->report, &step)); /* after writing: a reported step is in the file */
   PetscCall(SamRunExamine(run, k, &step));

@@ -26,7 +26,7 @@ static PetscBool IsOption(const char text[])
 
   if (name[0] != '-' || !((name[1] >= 'a' && name[1] <= 'z') || (name[1] >= 'A' && name[1] <= 'Z'))) return PETSC_FALSE;
   (void)strtod(name, &end);
-  return end == name || *end ? PETSC_TRUE : PETSC_FALSE;
+  return end == name || *end;
 }
 
 /* Notes the first mistake. */
@@ -174,7 +174,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
   const char *before = NULL, *value = NULL;
 
   for (int k = 0; k < count; k++) {
-    const PetscBool valued = k + 1 < count && !IsOption(words[k + 1]) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool valued = k + 1 < count && !IsOption(words[k + 1]);
 
     if (!IsOption(words[k]))
       RefuseWord(a, where, words[k], before, value);
@@ -213,7 +213,7 @@ static PetscBool IsYaml(const char name[])
 {
   const char *ending = strrchr(name, '.');
 
-  return ending && (!strcmp(ending, ".yaml") || !strcmp(ending, ".yml")) ? PETSC_TRUE : PETSC_FALSE;
+  return ending && (!strcmp(ending, ".yaml") || !strcmp(ending, ".yml"));
 }
 
 /* Lines of a file; YAML is left to PETSc, but for the options that are refused. */

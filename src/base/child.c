@@ -47,5 +47,5 @@ PetscBool SamCallInChild(void (*function)(void *data), void *data, size_t size)
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   memcpy(data, shared, size);
   (void)munmap(shared, size);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? PETSC_TRUE : PETSC_FALSE;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }

@@ -73,10 +73,10 @@ static const char *DescribeRange(SamRange range)
 static PetscBool InRange(SamRange range, double value)
 {
   if (isnan(value)) return PETSC_FALSE;
-  if (isinf(value)) return (range == SAM_RANGE_POSITIVE_INF && value > 0) ? PETSC_TRUE : PETSC_FALSE;
-  if (range == SAM_RANGE_NONNEGATIVE) return value >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (isinf(value)) return range == SAM_RANGE_POSITIVE_INF && value > 0;
+  if (range == SAM_RANGE_NONNEGATIVE) return value >= 0;
   if (range == SAM_RANGE_ANY) return PETSC_TRUE;
-  return value > 0 && (range != SAM_RANGE_PART || value < 1) ? PETSC_TRUE : PETSC_FALSE;
+  return value > 0 && (range != SAM_RANGE_PART || value < 1);
 }
 
 /* Reads one number at *text and moves past it; the character after it must be `,` or the end. */
@@ -126,7 +126,7 @@ static PetscErrorCode GetReals(const SamOptions *from, const char name[], const 
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   while (good && *rest && n < most) {
     good = ReadReal(&rest, &v[n]);
-    good = (good && InRange(range, v[n])) ? PETSC_TRUE : PETSC_FALSE;
+    good = good && InRange(range, v[n]);
     n++;
   }
   PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name,
@@ -185,9 +185,7 @@ static PetscErrorCode GetInts(const SamOptions *from, const char name[], const c
     errno  = 0;
     number = strtoll(rest, &end, 10);
     good =
-      (end != rest && !errno && (!*end || (*end == ',' && *(end + 1))) && number >= least && number <= PETSC_MAX_INT)
-        ? PETSC_TRUE
-        : PETSC_FALSE;
+      end != rest && !errno && (!*end || (*end == ',' && *(end + 1))) && number >= least && number <= PETSC_MAX_INT;
     if (good) {
       v[n++] = (PetscInt)number;
       rest   = *end ? end + 1 : end;

@@ -72,7 +72,7 @@ static PetscBool IsSame(const char a[], const char b[])
   size_t k = 0;
 
   for (; a[k] && Plain(a[k]) == Plain(b[k]); k++) continue;
-  return !a[k] && !b[k] ? PETSC_TRUE : PETSC_FALSE;
+  return !a[k] && !b[k];
 }
 
 /*
@@ -104,7 +104,7 @@ PetscBool SamIsNear(const char tried[], const char name[])
 {
   const size_t length = strlen(tried);
 
-  return CountSlips(tried, name) <= (length < 4 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3) ? PETSC_TRUE : PETSC_FALSE;
+  return CountSlips(tried, name) <= (length < 4 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3);
 }
 
 const char *SamNearestName(const char tried[], size_t count, const char *const names[])
@@ -150,7 +150,7 @@ PetscBool SamOptionsIsKnown(const char name[], const char **with)
   const PetscInt k = FindKnown(name);
 
   if (with) *with = k >= 0 && belongs[k][0] ? belongs[k] : NULL;
-  return k >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  return k >= 0;
 }
 
 const char *SamOptionsNearest(const char tried[])
@@ -208,7 +208,7 @@ PetscBool SamIsDecimalComma(const char text[])
   const size_t first = text[0] == '-' || text[0] == '+' ? 1 : 0;
 
   if (!comma || !isdigit((unsigned char)comma[1]) || comma == text + first) return PETSC_FALSE;
-  return strspn(text + first, "0123456789") == (size_t)(comma - text) - first ? PETSC_TRUE : PETSC_FALSE;
+  return strspn(text + first, "0123456789") == (size_t)(comma - text) - first;
 }
 
 const char *SamExplainNumber(const char text[])

@@ -42,7 +42,7 @@ static PetscBool IsDiagonal(PetscInt n, const double A[])
         on = PetscMax(on, fabs(A[i * n + j]));
       else
         beside = PetscMax(beside, fabs(A[i * n + j]));
-  return beside <= 1e-18 * on ? PETSC_TRUE : PETSC_FALSE;
+  return beside <= 1e-18 * on;
 }
 
 void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[])

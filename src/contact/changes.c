@@ -46,7 +46,7 @@ PetscErrorCode SamSolveFindTurn(SamSolve *s, const SamSolution *before, PetscBoo
   PetscCall(VecDestroy(&slipping));
   PetscCall(VecDestroy(&slipped));
   PetscCall(SamSumTotals(grid->comm, 1, &total, &sum));
-  *turned = sum < 0 ? PETSC_TRUE : PETSC_FALSE;
+  *turned = sum < 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -90,6 +90,6 @@ PetscErrorCode SamSolveFindGrowth(SamSolve *s, const SamSolution *before, PetscB
   PetscCall(SamForget(&p0));
   PetscCall(VecDestroy(&slipping));
   PetscCall(SamMax(grid->comm, 1, &any));
-  *grows = any > 0 ? PETSC_TRUE : PETSC_FALSE;
+  *grows = any > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

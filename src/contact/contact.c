@@ -304,11 +304,9 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
 
   PetscFunctionBegin;
   PetscCall(SamContactIsGapCurrent(c, &current));
-  *same = (!SamContactIsCoupled(c) && c->steps && current &&
-           c->committed.solution.passes == (c->edges == SAM_CONTACT_EDGES_DEFERRED ? c->edge_passes : 0) &&
-           SamControlIsSame(&c->committed.solution.control, control, SAM_BALANCE_NORMAL))
-            ? PETSC_TRUE
-            : PETSC_FALSE;
+  *same = !SamContactIsCoupled(c) && c->steps && current &&
+          c->committed.solution.passes == (c->edges == SAM_CONTACT_EDGES_DEFERRED ? c->edge_passes : 0) &&
+          SamControlIsSame(&c->committed.solution.control, control, SAM_BALANCE_NORMAL);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -317,7 +315,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
 {
   SamSolution       *s      = &c->tried.solution;
   const SamSolution *before = SamContactBefore(c);
-  const PetscBool    known  = same_pressure && s->passes == c->committed.solution.passes ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool    known  = same_pressure && s->passes == c->committed.solution.passes;
 
   PetscFunctionBegin;
   /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */

@@ -153,7 +153,7 @@ PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
 /* Whether pressure and shear depend on each other. */
 static inline PetscBool SamContactIsCoupled(SamContact c)
 {
-  return (c->traits.coupled && c->coupling) ? PETSC_TRUE : PETSC_FALSE;
+  return c->traits.coupled && c->coupling;
 }
 
 /* The guess from which a step is solved. */

@@ -75,10 +75,10 @@ static PetscErrorCode Destroy(Passes *p)
 static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
 {
   SamSolve       *s            = p->s;
-  const PetscBool has_pressure = pass > 1 || start->pressure ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool has_pressure = pass > 1 || start->pressure;
   /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
-  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck ? PETSC_TRUE : PETSC_FALSE) : start->shear;
-  const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : start->shear;
+  const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE;
   const PetscReal error     = PetscMin(p->error, FIRST);
   SamSolverReason reason;
   PetscReal       limit;
@@ -90,7 +90,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   SamSolverSetEffort(s->c->tangential, PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error),
                      brief ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL);
   PetscCall(VecCopy(s->lift, s->h));
-  PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear));
   PetscCall(SamSolveJudgeNormal(s));
   PetscCall(SamProblemComputeBound(s->c->problem, s->s->control.friction_scale, s->s->pressure, s->s->bound));
   p->slides = PETSC_FALSE;
@@ -102,7 +102,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscCall(SamSolverGetReason(s->c->tangential, &reason));
   PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
-  p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0 ? PETSC_TRUE : PETSC_FALSE;
+  p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0;
   if (!p->slides && !p->stuck) PetscCall(SamSolveJudgeTangential(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -124,8 +124,8 @@ static PetscErrorCode Measure(Passes *p, PetscBool *solved)
   if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudgeNormal(s));
   PetscCall(SamSolverGetStatistics(s->c->normal, &p->error, NULL, NULL, NULL));
   PetscCall(SamSolverGetStatistics(s->c->tangential, &error, NULL, NULL, NULL));
-  p->looks = p->error > LOOK * before ? PETSC_TRUE : PETSC_FALSE;
-  *solved  = (reason > 0 && (p->slides || error <= p->rtol[1])) ? PETSC_TRUE : PETSC_FALSE;
+  p->looks = p->error > LOOK * before;
+  *solved  = reason > 0 && (p->slides || error <= p->rtol[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -157,7 +157,7 @@ static PetscErrorCode IsLast(Passes *p, PetscInt pass, PetscBool solved, PetscBo
   if (c->coupling_monitor)
     PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n", pass,
                           (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
-  *last = solved && (pass == 1 || PetscMax(change[0], change[1]) <= c->coupling_rtol) ? PETSC_TRUE : PETSC_FALSE;
+  *last = solved && (pass == 1 || PetscMax(change[0], change[1]) <= c->coupling_rtol);
   if (*last && p->slides) PetscCall(SamSolveJudgeTangential(s));
   if (*last || pass < c->coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
   *last = PETSC_TRUE;

@@ -103,7 +103,7 @@ static PetscErrorCode FindReferences(SamSolve *s, PetscBool *turned)
   *turned = PETSC_FALSE;
   if (!plain) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolveFindTurn(s, plain, turned));
-  now->within.refers = *turned || before->within.refers ? PETSC_TRUE : PETSC_FALSE;
+  now->within.refers = *turned || before->within.refers;
   if (*turned) {
     PetscCall(VecCopy(plain->shear, now->plain_reference));
     PetscCall(
@@ -163,7 +163,7 @@ static PetscErrorCode Start(Deferred *d, SamSlack kind, PetscReal *share, PetscB
   PetscCall(SamShearProfileFindSlack(d->profile, kind, d->s->s->sheared.within.reference, &slack, &profile));
   PetscCall(SamProfileStart(profile, slack, &edge, &found));
   *share  = edge.faces > 0 ? edge.smooth / edge.faces : 1;
-  *smooth = edge.faces > 0 && found && *share >= SAM_SMOOTH_EDGE ? PETSC_TRUE : PETSC_FALSE;
+  *smooth = edge.faces > 0 && found && *share >= SAM_SMOOTH_EDGE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -210,7 +210,7 @@ static PetscErrorCode IsSmall(Deferred *d, Vec rim, PetscBool *small)
   PetscCall(VecRestoreArrayRead(d->s->s->bound, &b));
   PetscCall(VecRestoreArrayRead(rim, &r));
   PetscCall(SamMax(d->s->c->grid->comm, 1, &over));
-  *small = over == 0 ? PETSC_TRUE : PETSC_FALSE;
+  *small = over == 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -15,7 +15,7 @@ static void FrictionRow(const Fields *f, ptrdiff_t first, PetscInt nx, PetscInt 
   for (PetscInt i = 0; i < nx; i++) {
     const ptrdiff_t k = first + i, l = k + cells;
     const double    length = hypot(sx[i], sy[i]);
-    const PetscBool slips = SamStateOf(f->p[k], f->q[k], f->q[l], f->b[k]) == SAM_STATE_SLIP ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool slips  = SamStateOf(f->p[k], f->q[k], f->q[l], f->b[k]) == SAM_STATE_SLIP;
 
     if (f->path) f->path[k] = length + (f->add ? f->path[k] : 0);
     if (f->pressed)

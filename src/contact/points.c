@@ -8,7 +8,7 @@
 */
 static PetscErrorCode FillSquares(const SamSolution *s, SamContactEdge which, Vec w)
 {
-  const PetscBool stick = which == SAM_CONTACT_EDGE_STICK ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool stick = which == SAM_CONTACT_EDGE_STICK;
   const double   *p, *b, *q;
   double         *square;
   PetscInt        cells;

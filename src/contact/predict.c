@@ -178,7 +178,7 @@ static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_sc
   PetscCall(RestoreTractions(before, t.before));
   if (field) PetscCall(VecRestoreArrayRead(field, &t.friction));
   PetscCall(SamMax(c->grid->comm, 1, &most));
-  *found = most > 0 ? PETSC_TRUE : PETSC_FALSE;
+  *found = most > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -163,7 +163,7 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
   PetscCall(SamProblemGetGapRevision(c->problem, &revision));
   changed = c->committed.gap_revision == revision ? 0 : 1;
   PetscCall(SamMax(c->grid->comm, 1, &changed)); /* each rank counts the changes of its own part */
-  *current = changed == 0 ? PETSC_TRUE : PETSC_FALSE;
+  *current = changed == 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

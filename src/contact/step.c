@@ -254,7 +254,7 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
   *offset = NULL;
   PetscCall(SamElasticityGetPair(c->elasticity, &pair));
   e         = SamStretchOf(pair, &w->s->control);
-  stretched = (e.xx != 0 || e.yy != 0 || e.xy != 0) ? PETSC_TRUE : PETSC_FALSE;
+  stretched = e.xx != 0 || e.yy != 0 || e.xy != 0;
   if (!w->coupled && !w->before && !stretched && !w->s->sheared.has) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 2, offset));
   if (w->before) {

@@ -13,10 +13,8 @@ PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]
 /* Written with <= so that a NaN is refused, too. */
 static PetscBool Agrees(const SamCheck *check, const SamCheckLimits *limits)
 {
-  return (check->normal <= limits->normal && check->tangential <= limits->tangential &&
-          check->equilibrium <= limits->equilibrium && check->cone <= limits->cone)
-           ? PETSC_TRUE
-           : PETSC_FALSE;
+  return check->normal <= limits->normal && check->tangential <= limits->tangential &&
+         check->equilibrium <= limits->equilibrium && check->cone <= limits->cone;
 }
 
 PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)

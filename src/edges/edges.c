@@ -126,7 +126,7 @@ static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
       farthest = z->distance[k];
       behind   = z->w[k];
     }
-  return farthest > 2 && z->w[SamZoneAt(z, i, j)] > BLUNT * behind ? PETSC_TRUE : PETSC_FALSE;
+  return farthest > 2 && z->w[SamZoneAt(z, i, j)] > BLUNT * behind;
 }
 
 /* Adds a cell to the sums and to the edge, and writes its value. */
@@ -137,9 +137,9 @@ static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS],
   const SamZone  *z      = &band->zone;
   const ptrdiff_t k      = SamZoneAt(z, i, j);
   const PetscInt  slot   = band->slot[k];
-  const PetscBool inside = z->distance[k] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool inside = z->distance[k] > 0;
   const Quality   about  = slot >= 0 ? QualityAbout(band, i, j) : COUNT;
-  const PetscBool good   = about == ACCEPT ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool good   = about == ACCEPT;
   const double   *fit    = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)slot : NULL;
   PetscInt        faces  = 0;
 

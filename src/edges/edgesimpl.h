@@ -28,7 +28,7 @@ PETSC_INTERN PetscErrorCode SamZoneDestroy(SamZone *zone);
 /* Whether a cell is seen, and its place among those that are. */
 static inline PetscBool SamZoneHas(const SamZone *z, PetscInt i, PetscInt j)
 {
-  return i >= 0 && i < z->grid->nx && j >= z->first && j < z->first + z->count ? PETSC_TRUE : PETSC_FALSE;
+  return i >= 0 && i < z->grid->nx && j >= z->first && j < z->first + z->count;
 }
 static inline ptrdiff_t SamZoneAt(const SamZone *z, PetscInt i, PetscInt j)
 {

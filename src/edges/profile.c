@@ -182,7 +182,7 @@ static PetscErrorCode FindBand(SamProfile s)
   PetscCall(PetscMalloc2(SAM_FIT_TERMS * s->band, &s->fit, SAM_FIT_PRODUCTS * s->band, &s->factor));
   PetscCall(VisitBand(s, FactorCell, &missing));
   PetscCall(SamMax(grid->comm, 1, &missing));
-  s->found = missing == 0 ? PETSC_TRUE : PETSC_FALSE;
+  s->found = missing == 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -317,7 +317,7 @@ static PetscErrorCode MoveZone(SamProfile s)
   PetscCall(SamGridCreateVec(s->grid, 1, &moved));
   PetscCall(VecGetArrayWrite(moved, &in));
   for (PetscInt k = 0; k < s->grid->cells; k++) {
-    const PetscBool inside = s->zone.distance[first + k] > 0 ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool inside = s->zone.distance[first + k] > 0;
     const double   *fit    = FunctionOf(s, first + k);
 
     in[k] = inside ? 1 : 0;
@@ -465,7 +465,7 @@ static void AddRows(SamProfile s, const double mean[], SamEdge *edge, double squ
     for (PetscInt i = 0; i < grid->nx; i++) {
       const ptrdiff_t k      = SamZoneAt(z, i, j);
       const double   *fit    = FunctionOf(s, k);
-      const PetscBool middle = !fit && z->distance[k] > 0 ? PETSC_TRUE : PETSC_FALSE;
+      const PetscBool middle = !fit && z->distance[k] > 0;
 
       row += fit ? SamFitPart(fit) : middle ? 1 : 0;
       if (fit) SamEdgeAddPoint(grid, fit, i, j, edge);

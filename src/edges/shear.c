@@ -151,7 +151,7 @@ PetscErrorCode SamShearProfileFindSlack(SamShearProfile s, SamSlack kind, Vec re
   PetscCall(VecGetArrayWrite(s->slack, &t));
   if (kind == SAM_SLACK_OF_CHANGE) PetscCall(VecGetArrayRead(reference, &q_r));
   for (PetscInt k = 0; k < n; k++) {
-    const PetscBool known = e[k] != 0 || e[k + n] != 0 ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool known = e[k] != 0 || e[k + n] != 0;
     double          limit = b[k], along = known ? q[k] * e[k] + q[k + n] * e[k + n] : hypot(q[k], q[k + n]);
 
     if (q_r && known) {
@@ -226,7 +226,7 @@ static void SlopesAtEdge(const Search *w, const double *fit[2], PetscInt i, Pets
   const PetscInt  j = grid->row_start + row - w->p.rows.first, n = grid->cells, at = row * grid->nx + i;
   const ptrdiff_t k    = (ptrdiff_t)j * grid->nx + i;
   const double    e[2] = {w->e.at[0][k], w->e.at[1][k]}, q[2] = {w->q.at[0][k], w->q.at[1][k]};
-  const PetscBool refers = fit[1] && w->kind == SAM_SLACK_OF_CHANGE ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool refers = fit[1] && w->kind == SAM_SLACK_OF_CHANGE;
   const double    mu = w->b.at[0][k] / w->p.at[0][k], along = q[0] * e[0] + q[1] * e[1];
   double          by_p[2] = {SlopeAt(&w->p, 0, 0, i, j), SlopeAt(&w->p, 0, 1, i, j)}, by_t[2] = {0, 0};
 
@@ -270,7 +270,7 @@ static void KeepTerms(const Search *w, PetscBool only_left, PetscInt at)
 {
   const PetscInt  n     = w->s->grid->cells;
   const double   *slack = w->terms0 + at + SAM_TERM_SLACK * SAM_TERM * n;
-  const PetscBool moves = w->turned && (slack[0] != 0 || slack[n] != 0) ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool moves = w->turned && (slack[0] != 0 || slack[n] != 0);
 
   for (int c = 0; c < SAM_TERM; c++) {
     const PetscInt pressure = at + (SAM_TERM_PRESSURE * SAM_TERM + c) * n,
@@ -290,7 +290,7 @@ static void FindInCell(const Search *w, PetscInt i, PetscInt row)
   const ptrdiff_t k      = (ptrdiff_t)j * grid->nx + i;
   const double   *fit[2] = {w->pressure ? SamProfileFunction(w->pressure, i, grid->row_start + row) : NULL,
                           w->slack ? SamProfileFunction(w->slack, i, grid->row_start + row) : NULL};
-  const PetscBool known = w->e.at[0][k] != 0 || w->e.at[1][k] != 0 ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool known = w->e.at[0][k] != 0 || w->e.at[1][k] != 0;
   double          slopes[SAM_SHEAR_SLOPES];
 
   for (int c = 0; c < SAM_SHEAR_TERMS; c++) Put(w->terms + at + c * n, 0);

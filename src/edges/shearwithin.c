@@ -117,13 +117,13 @@ static double CenterOf(const SamRoots *roots, const double *terms, PetscInt n, P
     const double  vector = term[(ptrdiff_t)component * n];
     double        fit[SAM_FIT_TERMS];
 
-    has[t] = term[0] != 0 || term[n] != 0 ? PETSC_TRUE : PETSC_FALSE;
+    has[t] = term[0] != 0 || term[n] != 0;
     if (!has[t]) continue;
     for (int c = 0; c < SAM_FIT_TERMS; c++) fit[c] = term[(ptrdiff_t)(SAM_TERM_FUNCTION + c) * n];
     center[t] = vector * sqrt(PetscMax(fit[0], 0));
     less[t]   = vector * SamRootsMean(roots, fit, part, NULL);
   }
-  *any = has[SAM_TERM_PRESSURE] || has[SAM_TERM_SLACK] || has[SAM_TERM_LEFT] ? PETSC_TRUE : PETSC_FALSE;
+  *any = has[SAM_TERM_PRESSURE] || has[SAM_TERM_SLACK] || has[SAM_TERM_LEFT];
   if (slips && has[SAM_TERM_PRESSURE] && !has[SAM_TERM_SLACK] && !has[SAM_TERM_LEFT]) return center[SAM_TERM_PRESSURE];
   for (int t = 0; t < SAM_TERM_KINDS; t++) mean += center[t] - less[t];
   return mean;

@@ -185,7 +185,7 @@ PetscErrorCode SamElasticityGetTraits(SamElasticity e, SamElasticityTraits *trai
 PetscBool SamElasticityPairIsCoupled(const SamPair *pair)
 {
   /* bodies of equal constants cancel exactly; others may leave rounding */
-  return PetscAbsReal(pair->dundurs) > 1e-14 ? PETSC_TRUE : PETSC_FALSE;
+  return PetscAbsReal(pair->dundurs) > 1e-14;
 }
 
 PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)

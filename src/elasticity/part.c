@@ -48,7 +48,7 @@ static PetscErrorCode IsAt(const SamElasticityPart *part, const PetscInt first[2
   *is = PETSC_FALSE;
   if (!part->window) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamWindowGetPlace(part->window, there, size));
-  *is = (n[0] == size[0] && n[1] == size[1] && first[0] == there[0] && first[1] == there[1]) ? PETSC_TRUE : PETSC_FALSE;
+  *is = n[0] == size[0] && n[1] == size[1] && first[0] == there[0] && first[1] == there[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -83,9 +83,7 @@ static PetscBool Suits(SamElasticity e, const PetscInt first[2], const PetscInt 
   const SamElasticityPart *part = InUse(e);
 
   if (!part || !SamWindowCovers(part->window, first, n)) return PETSC_FALSE;
-  return SLACK * (double)n[0] * (double)n[1] >= (double)part->elasticity->grid->nx * (double)part->elasticity->grid->ny
-           ? PETSC_TRUE
-           : PETSC_FALSE;
+  return SLACK * (double)n[0] * (double)n[1] >= (double)part->elasticity->grid->nx * (double)part->elasticity->grid->ny;
 }
 
 PetscErrorCode SamElasticityChoosePart(SamElasticity e, const PetscInt first[2], const PetscInt n[2], PetscBool keep,

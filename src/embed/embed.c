@@ -20,7 +20,7 @@ static PetscBool IsAlive(void)
   PetscBool has;
   int       ended;
 
-  return !MPI_Finalized(&ended) && !ended && !PetscInitialized(&has) && has ? PETSC_TRUE : PETSC_FALSE;
+  return !MPI_Finalized(&ended) && !ended && !PetscInitialized(&has) && has;
 }
 
 PetscBool SamEmbedEnter(petsam_contact *c)
@@ -267,7 +267,7 @@ static PetscErrorCode SetGap(petsam_contact *c, Vec gap)
 
 static PetscErrorCode SetField(petsam_contact *c, const char name[], const double values[])
 {
-  const PetscBool gap = !strcmp(name, "gap") ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool gap = !strcmp(name, "gap");
   PetscBool       finite;
   double         *cells;
 
@@ -300,7 +300,7 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 static PetscErrorCode AdviseEdge(petsam_contact *c)
 {
   const size_t used = strlen(c->last.message);
-  SamLoadsMost most = {.open = c->wear || c->has_gap ? PETSC_TRUE : PETSC_FALSE};
+  SamLoadsMost most = {.open = c->wear || c->has_gap};
   char         text[400];
 
   PetscFunctionBegin;
@@ -319,7 +319,7 @@ static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
   PetscCall(SamEmbedForget(c));
   PetscCall(SamContactTry(c->setup.contact, control, &c->last));
   c->has_last  = PETSC_TRUE;
-  c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
+  c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM;
   if (c->wear) PetscCall(SamWearGetVolumes(c->wear, c->last.wear_volume, depth));
   PetscCall(AdviseEdge(c));
   PetscFunctionReturn(PETSC_SUCCESS);

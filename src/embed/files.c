@@ -76,7 +76,7 @@ static PetscErrorCode KnowState(petsam_contact *c)
   PetscCall(PetscArraycpy(step->load, state.now.load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, state.now.rigid, SAM_COMPONENTS));
   if (c->wear) PetscCall(SamWearGetVolumes(c->wear, step->wear_volume, depth));
-  c->has_committed = state.steps > 0 ? PETSC_TRUE : PETSC_FALSE;
+  c->has_committed = state.steps > 0;
   PetscCall(SamEmbedForget(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -187,8 +187,8 @@ static PetscBool FindNine(const SamKernelMatrix *M, Nine *nine)
     for (PetscInt i = 0; i < 3; i++)
       if (!M->kernel[o][i]) return PETSC_FALSE;
   for (PetscInt k = 0; k < 3; k++) {
-    nine->in[k]  = M->kernel[0][k]->odd_x != M->kernel[0][k]->odd_y ? PETSC_TRUE : PETSC_FALSE;
-    nine->out[k] = (M->kernel[k][0]->odd_x != M->kernel[k][0]->odd_y) != nine->in[0] ? PETSC_TRUE : PETSC_FALSE;
+    nine->in[k]  = M->kernel[0][k]->odd_x != M->kernel[0][k]->odd_y;
+    nine->out[k] = (M->kernel[k][0]->odd_x != M->kernel[k][0]->odd_y) != nine->in[0];
   }
   for (PetscInt o = 0; o < 3; o++)
     for (PetscInt i = 0; i < 3; i++) {
@@ -202,10 +202,8 @@ static PetscBool FindNine(const SamKernelMatrix *M, Nine *nine)
 
 static PetscBool IsScalar(const SamKernelMatrix *M)
 {
-  return (M->n_in == 1 && M->n_out == 1 && M->scale[0][0] == 1 && M->kernel[0][0]->odd_x == M->kernel[0][0]->odd_y &&
-          !M->kernel[0][0]->odd_y)
-           ? PETSC_TRUE
-           : PETSC_FALSE;
+  return M->n_in == 1 && M->n_out == 1 && M->scale[0][0] == 1 && M->kernel[0][0]->odd_x == M->kernel[0][0]->odd_y &&
+         !M->kernel[0][0]->odd_y;
 }
 
 static PetscBool IsSymmetricPair(const SamKernelMatrix *M)

@@ -33,7 +33,7 @@ static PetscBool IsSmooth(ptrdiff_t n)
 {
   for (ptrdiff_t p = 2; p <= 7; p++)
     while (n % p == 0) n /= p;
-  return n == 1 ? PETSC_TRUE : PETSC_FALSE;
+  return n == 1;
 }
 
 /*
@@ -72,7 +72,7 @@ PetscErrorCode SamFourierCheckPlan(const void *plan)
 void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2])
 {
   const ptrdiff_t acute = PetscMin(k, n - k);
-  const PetscBool steep = 4 * acute > n ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool steep = 4 * acute > n;
   const double    angle = PETSC_PI * (double)(steep ? n - 2 * acute : 2 * acute) / (double)(2 * n);
 
   root[0] = steep ? sin(angle) : cos(angle);

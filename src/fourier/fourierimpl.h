@@ -79,7 +79,7 @@ PETSC_INTERN PetscErrorCode SamWorkspaceSynchronize(SamWorkspace workspace);
 /* Whether rows have to be sent to become columns. */
 static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
 {
-  return w->ranks > 1 && !w->shared ? PETSC_TRUE : PETSC_FALSE;
+  return w->ranks > 1 && !w->shared;
 }
 
 /* The transform of a kernel (kernel.c). */

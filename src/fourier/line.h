@@ -29,7 +29,7 @@ static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
 static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out,
                                         LINE *l)
 {
-  const PetscBool parts = (effort == FFTW_ESTIMATE && n >= LONG_LINE && n % 4 == 0) ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool parts = effort == FFTW_ESTIMATE && n >= LONG_LINE && n % 4 == 0;
   const int       part  = (int)(parts ? n / 4 : n);
 
   PetscFunctionBegin;

@@ -21,7 +21,7 @@ static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
 /* Whether a row has no halves. */
 static inline PetscBool IsOdd(SamFourier F, SamFourierMode mode)
 {
-  return mode == SAM_FOURIER_PERIODIC && F->hx % 2 ? PETSC_TRUE : PETSC_FALSE;
+  return mode == SAM_FOURIER_PERIODIC && F->hx % 2;
 }
 
 /* What rows of a mode need. */

@@ -43,7 +43,7 @@ static PetscErrorCode CanShare(SamWorkspace w)
   PetscCallMPI(MPI_Comm_size(node, &size));
   PetscCallMPI(MPI_Comm_free(&node));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_INT, MPI_MIN, w->comm));
-  w->shared = (!w->send && w->ranks > 1 && size == w->ranks) ? PETSC_TRUE : PETSC_FALSE;
+  w->shared = !w->send && w->ranks > 1 && size == w->ranks;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

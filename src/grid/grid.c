@@ -211,7 +211,7 @@ PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is)
   PetscCall(VecRestoreArrayRead(field, &values));
   bad = isnan(sum) ? 1 : 0;
   PetscCall(SamMax(grid->comm, 1, &bad));
-  *is = bad == 0 ? PETSC_TRUE : PETSC_FALSE;
+  *is = bad == 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -52,12 +52,11 @@ static Vec *FieldOf(SamContactState *state, PetscInt k)
 static PetscBool IsKept(SamContactState *state, PetscInt k)
 {
   if (kept[k].when == SUM) return *FieldOf(state, k) ? PETSC_TRUE : PETSC_FALSE;
-  if (kept[k].when == CORRECTED) return state->now.passes > 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (kept[k].when == CORRECTED) return state->now.passes > 0;
   if (kept[k].when == PLAIN) return state->now.sheared.has;
-  if (kept[k].when == SHEARED)
-    return state->now.sheared.has || state->now.sheared.within.refers ? PETSC_TRUE : PETSC_FALSE;
+  if (kept[k].when == SHEARED) return state->now.sheared.has || state->now.sheared.within.refers;
   if (kept[k].when == YIELDING) return state->now.plastic ? PETSC_TRUE : PETSC_FALSE;
-  return kept[k].when == ALWAYS || state->steps > 1 ? PETSC_TRUE : PETSC_FALSE;
+  return kept[k].when == ALWAYS || state->steps > 1;
 }
 
 struct _n_SamCheckpoint {

@@ -134,10 +134,8 @@ static PetscErrorCode Look(SamOutput o, const Wanted *wanted, Found *found)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(CompareTimes(o, wanted, found));
-  found->whole = (steps == (hsize_t)wanted->point.steps && cycles == (hsize_t)wanted->point.cycles &&
-                  found->saved == found->keep && HasAllWanted(o))
-                   ? PETSC_TRUE
-                   : PETSC_FALSE;
+  found->whole = steps == (hsize_t)wanted->point.steps && cycles == (hsize_t)wanted->point.cycles &&
+                 found->saved == found->keep && HasAllWanted(o);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -317,7 +315,7 @@ static PetscErrorCode CopySteps(SamOutput from, hsize_t steps, hsize_t keep, Sam
     ReadRow(from, SAM_SERIES_HISTORY, k, &step);
     if (fields.index < keep) SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, fields.index, 1, &time);
     PetscCall(SamFileEnd(from->f));
-    has = (fields.index < keep && time == (double)step.control.time) ? PETSC_TRUE : PETSC_FALSE;
+    has = fields.index < keep && time == (double)step.control.time;
     PetscCall(SamOutputAppend(to, &step, step.control.time, has ? GetFileValues : NULL, &fields));
     fields.index += has ? 1 : 0;
   }

@@ -212,9 +212,7 @@ static PetscBool IsNameOf(const char filename[], int file)
 {
   struct stat named, open;
 
-  return (!stat(filename, &named) && !fstat(file, &open) && named.st_dev == open.st_dev && named.st_ino == open.st_ino)
-           ? PETSC_TRUE
-           : PETSC_FALSE;
+  return !stat(filename, &named) && !fstat(file, &open) && named.st_dev == open.st_dev && named.st_ino == open.st_ino;
 }
 
 /* What a name stands for before it is opened. A pipe, or a device, would wait for its reader. */
@@ -319,9 +317,7 @@ static PetscBool HasMark(const SamHold *hold)
   double found = 0;
 
   if (!hold->mark_at) return PETSC_TRUE;
-  return pread(hold->file, &found, sizeof(found), hold->mark_at) == (ssize_t)sizeof(found) && found == hold->mark
-           ? PETSC_TRUE
-           : PETSC_FALSE;
+  return pread(hold->file, &found, sizeof(found), hold->mark_at) == (ssize_t)sizeof(found) && found == hold->mark;
 }
 
 PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold)

@@ -249,7 +249,7 @@ PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *set, PetscInt count
 {
   PetscFunctionBegin;
   *unknown   = NULL;
-  set->named = count > 0 ? PETSC_TRUE : PETSC_FALSE;
+  set->named = count > 0;
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
     set->fields[f] = count < 0 ? SamOutputFields[f].usual : PETSC_FALSE;
   for (PetscInt k = 0; k < count; k++) {
@@ -361,10 +361,8 @@ PetscErrorCode SamFieldGet(SamContact contact, SamWear worn, const char name[], 
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamProblemGetPressureLimit(problem, &limit));
   *found = f < SamOutputFieldCount && SamOutputFields[f].kind != SAM_FIELD_POINTS &&
-               (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR) &&
-               (isfinite(limit) || SamOutputFields[f].option != SAM_OUTPUT_PLASTIC)
-             ? PETSC_TRUE
-             : PETSC_FALSE;
+           (worn || SamOutputFields[f].option != SAM_OUTPUT_WEAR) &&
+           (isfinite(limit) || SamOutputFields[f].option != SAM_OUTPUT_PLASTIC);
   PetscCall(CheckSum(contact, f, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputFindField(&SamOutputFields[f], contact, worn, field, &holder, &component));

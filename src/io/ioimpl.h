@@ -238,7 +238,7 @@ PETSC_INTERN const SamOutputSeries SamOutputAllSeries[SAM_SERIES];
 /* SamOutputWants - whether a file has what belongs to an option. Not collective. */
 static inline PetscBool SamOutputWants(const SamOutputSettings *set, SamOutputOption option)
 {
-  return option == SAM_OUTPUT_OPTIONS || set->with[option] ? PETSC_TRUE : PETSC_FALSE;
+  return option == SAM_OUTPUT_OPTIONS || set->with[option];
 }
 
 /* SamOutputWantsField - whether a file has field f of the table. Not collective. */

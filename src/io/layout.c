@@ -119,7 +119,7 @@ PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double
   for (PetscInt f = 0; f < SamOutputFieldCount; f++)
     if (SamOutputWantsField(set, f)) *bytes += saved * index;
   for (PetscInt c = 0; c < s->count; c++) {
-    const PetscBool matrix = s->columns[c].kind == SAM_COLUMN_MATRIX ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool matrix = s->columns[c].kind == SAM_COLUMN_MATRIX;
 
     if (SamOutputWants(set, s->columns[c].option))
       *bytes += SeriesBytes(steps, matrix ? CHUNK_MATRICES : CHUNK_STEPS, matrix ? SAM_COMPONENTS * SAM_COMPONENTS : 1);
@@ -207,9 +207,8 @@ static hid_t CreateColumn(SamOutput o, hid_t group, const SamOutputColumn *colum
 {
   const int64_t   statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM,
                                 SAM_STATUS_EDGE_CONTACT};
-  const PetscBool whole =
-    (column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS) ? PETSC_TRUE : PETSC_FALSE;
-  const hid_t dataset = SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE,
+  const PetscBool whole      = column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS;
+  const hid_t     dataset    = SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE,
                                              column->kind == SAM_COLUMN_MATRIX ? &matrices : &series, 0);
 
   if (column->kind == SAM_COLUMN_STATUS) {
@@ -275,8 +274,7 @@ static void OpenSeries(SamOutput o, SamOutputSeriesKind kind)
   group = SamFileNote(o->f, H5Gopen2(o->f->id, s->name, H5P_DEFAULT));
   for (PetscInt c = 0; c < s->count; c++)
     OpenDataset(o, group, s->columns[c].label.name,
-                kind == SAM_SERIES_HISTORY && s->columns[c].option < SAM_OUTPUT_OPTIONS ? PETSC_TRUE : PETSC_FALSE,
-                &o->columns[kind][c]);
+                kind == SAM_SERIES_HISTORY && s->columns[c].option < SAM_OUTPUT_OPTIONS, &o->columns[kind][c]);
   if (group >= 0) (void)SamFileNote(o->f, H5Gclose(group));
 }
 
@@ -288,12 +286,12 @@ static void ReadFields(SamOutput o)
   hsize_t  chunk[3] = {1, 1, 1};
 
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
-    o->set.fields[f] = o->fields[f] >= 0 ? PETSC_TRUE : PETSC_FALSE;
+    o->set.fields[f] = o->fields[f] >= 0;
     if (!o->set.fields[f] || SamOutputFields[f].kind == SAM_FIELD_POINTS) continue;
     some = f;
     if (SamOutputFields[f].kind != SAM_FIELD_REAL) continue;
     type          = SamFileNote(o->f, H5Dget_type(o->fields[f]));
-    o->set.single = H5Tget_size(type) == sizeof(float) ? PETSC_TRUE : PETSC_FALSE;
+    o->set.single = H5Tget_size(type) == sizeof(float);
     if (type >= 0) (void)SamFileNote(o->f, H5Tclose(type));
   }
   if (some < 0) return;

@@ -127,7 +127,7 @@ PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to)
     PetscBool has = PETSC_FALSE;
 
     PetscCall(SamFileBegin(from->f));
-    has = SamFileNote(from->f, H5Aexists(from->f->id, numbers[k])) > 0 ? PETSC_TRUE : PETSC_FALSE;
+    has = SamFileNote(from->f, H5Aexists(from->f->id, numbers[k])) > 0;
     if (has) SamFileReadAttribute(from->f, from->f->id, numbers[k], H5T_NATIVE_DOUBLE, 1, &number);
     PetscCall(SamFileEnd(from->f));
     if (has) PetscCall(SamOutputSetReals(to, numbers[k], 1, &number));

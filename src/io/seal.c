@@ -18,7 +18,7 @@
 
 PetscBool SamSealIsOne(const char head[], size_t size)
 {
-  return size >= SAM_SEAL && !strncmp(head, TITLE, strlen(TITLE)) ? PETSC_TRUE : PETSC_FALSE;
+  return size >= SAM_SEAL && !strncmp(head, TITLE, strlen(TITLE));
 }
 
 static uint64_t HashBlock(const unsigned char bytes[], size_t size, uint64_t place)

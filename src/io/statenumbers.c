@@ -29,7 +29,7 @@ static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
   const double *n = numbers;
 
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    s->control.force[k] = *n++ != 0 ? PETSC_TRUE : PETSC_FALSE;
+    s->control.force[k] = *n++ != 0;
     s->control.value[k] = *n++;
     s->load[k]          = *n++;
     s->rigid[k]         = *n++;
@@ -40,8 +40,8 @@ static void UnpackSolution(const double numbers[NUMBERS], SamSolution *s)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) s->control.bulk_stress[body][k] = *n++;
   s->passes                = (PetscInt)*n++;
   s->sheared.passes        = (PetscInt)*n++;
-  s->sheared.has           = *n++ != 0 ? PETSC_TRUE : PETSC_FALSE;
-  s->sheared.within.refers = *n++ != 0 ? PETSC_TRUE : PETSC_FALSE;
+  s->sheared.has           = *n++ != 0;
+  s->sheared.within.refers = *n++ != 0;
   s->sheared.slack         = (SamSlack)*n++;
 }
 

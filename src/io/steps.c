@@ -133,8 +133,7 @@ static PetscErrorCode AppendRows(SamOutput o, SamOutputSeriesKind kind, const vo
   PetscCall(PetscMalloc1(count * SAM_COMPONENTS * SAM_COMPONENTS, &values));
   for (PetscInt c = 0; c < s->count; c++) {
     const SamOutputColumn *column = &s->columns[c];
-    const PetscBool        real =
-      (column->kind == SAM_COLUMN_REAL || column->kind == SAM_COLUMN_MATRIX) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool        real   = column->kind == SAM_COLUMN_REAL || column->kind == SAM_COLUMN_MATRIX;
 
     if (o->columns[kind][c] < 0) continue; /* an optional column that this file does not have */
     GatherColumn(column, rows, bytes, count, values);

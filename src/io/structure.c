@@ -51,7 +51,7 @@ static PetscBool AddChunk(haddr_t address, hsize_t bytes, void *context)
 static PetscBool FindChunks(const char filename[], Extents *e)
 {
   const hid_t file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT);
-  PetscBool   good = file >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool   good = file >= 0;
 
   for (PetscInt f = 0; f < SamOutputFieldCount && good; f++) {
     const SamOutputField *field = &SamOutputFields[f];
@@ -94,7 +94,7 @@ static PetscBool MakeLine(const char filename[], int file, off_t end, char line[
     good = HashRange(file, at, PetscMin(e.list[k].first, end), &hash);
     at   = PetscMax(at, e.list[k].end);
   }
-  good = good && HashRange(file, at, end, &hash) ? PETSC_TRUE : PETSC_FALSE;
+  good = good && HashRange(file, at, end, &hash);
   free(e.list);
   (void)snprintf(line, LINE + 1, TITLE "%016llx\n", (unsigned long long)hash);
   return good;
@@ -122,8 +122,7 @@ PetscBool SamStructureIsSealed(const char filename[])
 
   if (file >= 0 && !fstat(file, &status) && status.st_size > LINE &&
       pread(file, has, LINE, status.st_size - LINE) == LINE && !strncmp(has, TITLE, strlen(TITLE)))
-    good =
-      MakeLine(filename, file, status.st_size - LINE, should) && !memcmp(has, should, LINE) ? PETSC_TRUE : PETSC_FALSE;
+    good = MakeLine(filename, file, status.st_size - LINE, should) && !memcmp(has, should, LINE);
   if (file >= 0) (void)close(file);
   return good;
 }

@@ -119,7 +119,7 @@ static char *StepText(SamXdmf x, long step, double time, size_t *length)
         "%.17g</DataItem>\n        </Geometry>\n",
         (double)PetscMax(g->dx, g->dy), (double)g->dy, (double)g->dx);
   for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
-    const PetscBool state = SamOutputFields[f].kind == SAM_FIELD_STATE ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool state = SamOutputFields[f].kind == SAM_FIELD_STATE;
 
     if (!SamOutputWantsField(&x->set, f) || SamOutputFields[f].kind == SAM_FIELD_POINTS) continue;
     PrintField(x, &text, length, SamOutputFields[f].label.name, state ? "Char" : "Float",

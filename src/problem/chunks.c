@@ -9,10 +9,8 @@ PetscBool SamChunksVisit(hid_t dataset, int rank, const hsize_t extent[], SamChu
 
   if (space >= 0 && creation >= 0)
     good = H5Sget_simple_extent_ndims(space) == rank && H5Sget_simple_extent_dims(space, n, NULL) == rank &&
-               H5Pget_layout(creation) == H5D_CHUNKED && H5Pget_chunk(creation, rank, chunk) == rank && chunk[0] &&
-               chunk[1] && chunk[2]
-             ? PETSC_TRUE
-             : PETSC_FALSE;
+           H5Pget_layout(creation) == H5D_CHUNKED && H5Pget_chunk(creation, rank, chunk) == rank && chunk[0] &&
+           chunk[1] && chunk[2];
   for (int d = 0; d < rank && extent; d++) n[d] = extent[d];
   for (at[0] = 0; good && at[0] < n[0]; at[0] += chunk[0])
     for (at[1] = 0; good && at[1] < n[1]; at[1] += chunk[1])
@@ -40,13 +38,12 @@ static PetscBool IsWithin(haddr_t address, hsize_t bytes, void *context)
   const Bounds *b = (const Bounds *)context;
 
   if (address == HADDR_UNDEF) return b->every ? PETSC_FALSE : PETSC_TRUE;
-  return address <= b->size && bytes <= b->size - address ? PETSC_TRUE : PETSC_FALSE;
+  return address <= b->size && bytes <= b->size - address;
 }
 
 PetscBool SamChunksAreWhole(hid_t file, hid_t dataset, int rank, const hsize_t extent[], PetscBool every)
 {
   Bounds b = {0, every};
 
-  return H5Fget_filesize(file, &b.size) >= 0 && SamChunksVisit(dataset, rank, extent, IsWithin, &b) ? PETSC_TRUE
-                                                                                                    : PETSC_FALSE;
+  return H5Fget_filesize(file, &b.size) >= 0 && SamChunksVisit(dataset, rank, extent, IsWithin, &b);
 }

@@ -46,7 +46,7 @@ PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal v
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    const PetscBool load = !strcmp(name, SamComponentNames[k].load) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool load = !strcmp(name, SamComponentNames[k].load);
 
     if (!load && strcmp(name, SamComponentNames[k].rigid)) continue;
     control->force[k] = load;

@@ -117,7 +117,7 @@ static PetscBool HasAllData(hid_t file, hid_t dataset)
   const int   chunked  = creation >= 0 && H5Pget_layout(creation) == H5D_CHUNKED,
             plain      = creation >= 0 && H5Pget_layout(creation) == H5D_CONTIGUOUS && !H5Pget_external_count(creation);
   hsize_t   size       = 0;
-  PetscBool good       = creation >= 0 && H5Fget_filesize(file, &size) >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool good       = creation >= 0 && H5Fget_filesize(file, &size) >= 0;
 
   if (good && chunked) {
     good = SamChunksAreWhole(file, dataset, 2, NULL, PETSC_FALSE);

@@ -86,7 +86,7 @@ static PetscBool ReadText(hid_t object, const char name[], char text[], size_t s
   if (space >= 0) (void)H5Sclose(space);
   if (type >= 0) (void)H5Tclose(type);
   if (attribute >= 0) (void)H5Aclose(attribute);
-  return attribute >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  return attribute >= 0;
 }
 
 static void ReadUnits(hid_t dataset, SamLengths *lengths)

@@ -156,7 +156,7 @@ PetscErrorCode SamProblemHasFriction(SamProblem p, PetscBool *has)
 
   PetscFunctionBegin;
   if (p->field) PetscCall(VecMax(p->field, NULL, &most));
-  *has = most > 0 ? PETSC_TRUE : PETSC_FALSE;
+  *has = most > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -291,7 +291,7 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamStep *step, const SamLo
 
   PetscFunctionBegin;
   PetscCall(Estimate(s, most->force, most->normal, half, &known));
-  flat = isinf(half[0]) || isinf(half[1]) ? PETSC_TRUE : PETSC_FALSE;
+  flat = isinf(half[0]) || isinf(half[1]);
   if (flat) {
     (void)snprintf(text, size,
                    "the bodies are straight along %s, and touch up to the edge of any grid: periodic bodies "
@@ -303,7 +303,7 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamStep *step, const SamLo
     (void)snprintf(text, size,
                    "a surface from a file cannot be made larger by it: expected a file of a larger area, or less load");
   } else {
-    known = known && !most->open ? PETSC_TRUE : PETSC_FALSE;
+    known = known && !most->open;
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
     if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio)));

@@ -32,7 +32,7 @@ PetscErrorCode SamWearLawsSetFromOptions(SamWearLaws *w, const SamOptions *from)
              "-wear_coefficient1 or 2 and -wear_energy1 or 2 are given: a run has one law of wear");
   w->law = given[1] ? SAM_WEAR_ENERGY : SAM_WEAR_ARCHARD;
   PetscCall(PetscArraycpy(w->coefficient, given[1] ? energy : archard, 2));
-  w->on = w->coefficient[0] + w->coefficient[1] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  w->on = w->coefficient[0] + w->coefficient[1] > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -47,9 +47,7 @@ PetscBool SamLevelHasProduct(const SamLevel *level)
 {
   const SamProduct *p = level->product;
 
-  return (p && p->first[0] == 0 && p->first[1] == 0 && p->n[0] == level->grid->nx && p->n[1] == level->grid->ny)
-           ? PETSC_TRUE
-           : PETSC_FALSE;
+  return p && p->first[0] == 0 && p->first[1] == 0 && p->n[0] == level->grid->nx && p->n[1] == level->grid->ny;
 }
 
 void SamLevelKeepProduct(SamLevel *level, double rounding)
@@ -88,7 +86,7 @@ static PetscErrorCode TakeProduct(SamWindow window, const SamLevel *from, SamLev
 {
   const SamProduct *whole = from->product;
   PetscInt          first[2], n[2];
-  PetscBool         known = whole->n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool         known = whole->n[0] > 0;
   double            all, inside;
 
   PetscFunctionBegin;
@@ -250,5 +248,5 @@ PetscErrorCode SamLevelIterated(SamSolver s, SamLevel *level, PetscReal error)
 
 PetscBool SamLevelAtMaxIterations(SamSolver s, const SamLevel *level)
 {
-  return level->finest && s->iterations >= SamSolverMaxIterations(s) ? PETSC_TRUE : PETSC_FALSE;
+  return level->finest && s->iterations >= SamSolverMaxIterations(s);
 }

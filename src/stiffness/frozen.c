@@ -123,9 +123,7 @@ static void SetCells(SamFrozen *f, double still, const double p[], const double 
   for (PetscInt m = 0; m < f->count; m++) {
     const PetscInt  k = f->cell[m];
     const double    b = bound[k], size = hypot(q[k], q[k + cells]);
-    const PetscBool slips = path[k] > still && size > 0 && SamStateOf(p[k], q[k], q[k + cells], b) == SAM_STATE_SLIP
-                              ? PETSC_TRUE
-                              : PETSC_FALSE;
+    const PetscBool slips = path[k] > still && size > 0 && SamStateOf(p[k], q[k], q[k + cells], b) == SAM_STATE_SLIP;
 
     f->free[m]   = b > 0 ? 1 : 0;
     f->e[0][m]   = slips && b > 0 ? q[k] / size : 0;
@@ -143,7 +141,7 @@ static void SetYielding(SamFrozen *f, double still, const double overlap[])
 
 static PetscErrorCode PackCells(SamFrozen *f, SamStiffnessDirection direction, const Fields *from)
 {
-  const PetscBool forward = direction == SAM_STIFFNESS_FORWARD ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool forward = direction == SAM_STIFFNESS_FORWARD;
   const double   *p, *b, *q, *path, *overlap;
   PetscReal       most[2];
 
@@ -214,7 +212,7 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   PetscCall(SamElasticityGetTraits(f->elasticity, &traits));
   PetscCall(SamContactGetCoupling(contact, &full));
   PetscCall(SamProblemHasFriction(problem, &friction));
-  f->coupled = traits.coupled && full && friction ? PETSC_TRUE : PETSC_FALSE;
+  f->coupled = traits.coupled && full && friction;
   f->grid    = whole;
   PetscCall(SamContactGetSolution(contact, &s));
   PetscCall(SamGridGetSupport(whole, s->pressure, first, n));

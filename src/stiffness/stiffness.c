@@ -176,7 +176,7 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   else
     PetscCall(ComputeUncoupled(&s));
   stiffness->error         = s.error;
-  stiffness->converged     = s.error <= SAM_STIFFNESS_RTOL ? PETSC_TRUE : PETSC_FALSE;
+  stiffness->converged     = s.error <= SAM_STIFFNESS_RTOL;
   stiffness->columns       = SAM_COMPONENTS;
   stiffness->applies       = s.f.applies;
   stiffness->preconditions = s.f.preconditions;

@@ -47,7 +47,7 @@ static double Excess(const Ball *b, const double p[], const double center[], dou
 
 static PetscBool IsOutside(const Ball *b, const double p[])
 {
-  return b->best_square < 0 || Excess(b, p, b->best, b->best_square) > INSIDE * b->scale ? PETSC_TRUE : PETSC_FALSE;
+  return b->best_square < 0 || Excess(b, p, b->best, b->best_square) > INSIDE * b->scale;
 }
 
 /* The ball through the boundary's points and p becomes the present one, unless p lies in their plane. */

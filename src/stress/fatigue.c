@@ -173,8 +173,7 @@ static PetscBool IsElsewhere(const Plane *a, const Plane *b)
 
   SetFrame(a->theta, a->phi, n[0], u, v);
   SetFrame(b->theta, b->phi, n[1], u, v);
-  return fabs(n[0][0] * n[1][0] + n[0][1] * n[1][1] + n[0][2] * n[1][2]) < cos(ELSEWHERE * DEGREE) ? PETSC_TRUE
-                                                                                                   : PETSC_FALSE;
+  return fabs(n[0][0] * n[1][0] + n[0][1] * n[1][1] + n[0][2] * n[1][2]) < cos(ELSEWHERE * DEGREE);
 }
 
 /* Keeps a plane among the best starts, which point to different sides. */
@@ -240,7 +239,7 @@ static double FindStarts(const Cycle *c, double margin, Plane starts[STARTS], Pe
 /* The parameter of the best plane, and its normal if that is not NULL. */
 static double LargestOverPlanes(const Cycle *c, double normal[3])
 {
-  const PetscBool swt    = c->parameter == SAM_FATIGUE_SWT ? PETSC_TRUE : PETSC_FALSE; /* never negative */
+  const PetscBool swt    = c->parameter == SAM_FATIGUE_SWT; /* never negative */
   const double    margin = swt ? INFINITY : (1 - NEARLY) * Scale(c);
   Plane           starts[STARTS];
   PetscInt        count = 0, winner = 0;

@@ -299,7 +299,7 @@ static void TransformKernels(SamSection s, PetscInt d, Work *w)
     SamStressRow(&s->source, (SamStressGroup)g, d, s->length, w->lags[g]);
   for (PetscInt k = 0; k < SHARED; k++) {
     const SamStressKernel even = shared[k][0], odd = shared[k][1];
-    const PetscBool       both = odd.group < SAM_STRESS_GROUPS ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool       both = odd.group < SAM_STRESS_GROUPS;
     const double *const a = w->lags[even.group][even.member], *const b = both ? w->lags[odd.group][odd.member] : NULL;
 
     memset(s->line, 0, sizeof(double) * (size_t)s->period);

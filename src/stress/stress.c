@@ -95,7 +95,7 @@ static void GetRows(PetscInt j, PetscInt n, double *const values[], const void *
 /* Whether the zz, xz and yz of this depth are the tractions. */
 static PetscBool IsSurface(SamStress s)
 {
-  return s->source.depth == 0 ? PETSC_TRUE : PETSC_FALSE;
+  return s->source.depth == 0;
 }
 
 PetscErrorCode SamStressSetDepth(SamStress s, PetscReal depth)

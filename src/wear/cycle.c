@@ -69,7 +69,7 @@ static PetscErrorCode BeginSums(SamLife l, PetscBool middle)
 static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
 {
   PetscFunctionBegin;
-  PetscCall(BeginSums(l, rate == &l->middle ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(BeginSums(l, rate == &l->middle));
   PetscCall(VecSet(l->wear->cycle, 0));
   PetscCall(VecSet(l->wear->path, 0));
   PetscCall(VecSet(rate->pressure, 0));
@@ -232,7 +232,7 @@ static PetscErrorCode FindWay(SamLife l, PetscReal cycles, PetscBool *solved)
   if (*solved) PetscCall(GoRound(l, cycles, &after, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
   l->state.computed++;
-  same = fabs(after - closed) <= CLOSED * l->set.rtol * closed ? PETSC_TRUE : PETSC_FALSE;
+  same = fabs(after - closed) <= CLOSED * l->set.rtol * closed;
   if (!same) PetscCall(CloseLoop(l, cycles, &closed, solved));
   l->state.by_turns = same;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -125,7 +125,7 @@ static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cy
   PetscCall(SamContactGetNormal(w->contact, &normal));
   PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, l->p));
   PetscCall(SamSolverGetReason(normal, &reason));
-  *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
+  *solved = reason > 0;
   if (!*solved) PetscCall(FailJump(l, cycles, reason));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -325,7 +325,7 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
   while (!accepted && next != jump) {
     jump = next;
     PetscCall(TryJump(l, jump, &error, &solved));
-    accepted = solved && (l->set.fixed || jump <= 1 || error <= HALVES * l->set.rtol) ? PETSC_TRUE : PETSC_FALSE;
+    accepted = solved && (l->set.fixed || jump <= 1 || error <= HALVES * l->set.rtol);
     next     = solved ? NextTry(l, jump, error / (HALVES * l->set.rtol)) : PetscMin(jump, Whole(GROW_LEAST * jump));
   }
   PetscCall(JumpSums(l, accepted ? jump : 0));

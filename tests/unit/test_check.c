@@ -290,7 +290,7 @@ static PetscInt wrong; /* the component whose load is changed after the solve */
 
 static void ChangeLoad(const Case *c, SamSolution *s)
 {
-  const PetscBool moment = wrong >= SAM_COMPONENT_MX ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool moment = wrong >= SAM_COMPONENT_MX;
 
   s->control.value[wrong] += 1e-6 * c->s.N * (moment ? c->s.a : 1);
 }

@@ -43,7 +43,7 @@ static SamSolverReason Press(Case *c, SamSolverType type, double rtol, double me
   PetscInt        its;
 
   b->kind     = SAM_BALANCE_NORMAL;
-  b->force[0] = mean > 0 ? PETSC_TRUE : PETSC_FALSE;
+  b->force[0] = mean > 0;
   b->load[0]  = mean * c->area;
   sam_call(SamNormalCreate(c->elasticity, &normal));
   sam_call(SamSolverSetType(normal, type));

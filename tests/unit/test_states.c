@@ -75,7 +75,7 @@ static void SetRandomFriction(const Case *c, int kind, int step, int attempt)
 /* Whether the gap is another in this step. A try may then have still another one; else its revision must stay. */
 static PetscBool HasOwnGap(int kind, int step)
 {
-  return Chance(kind, step, 0, 23) < 0.4 ? PETSC_TRUE : PETSC_FALSE;
+  return Chance(kind, step, 0, 23) < 0.4;
 }
 
 /* How a try ended, and how often. */

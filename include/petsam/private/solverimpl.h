@@ -224,7 +224,7 @@ static inline void SamRoundingRaise(SamRounding *rounding, double error)
 }
 static inline PetscBool SamRoundingIsWithin(const SamRounding *rounding, double limit)
 {
-  return rounding->bound <= limit ? PETSC_TRUE : PETSC_FALSE;
+  return rounding->bound <= limit;
 }
 
 #endif

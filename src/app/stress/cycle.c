@@ -30,7 +30,7 @@ static PetscErrorCode GatherLine(const SamStressRun *run, const double field[], 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(line, length));
   for (PetscInt k = 0; k < length; k++) {
-    const PetscBool row = run->request.axis == SAM_SECTION_X ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool row = run->request.axis == SAM_SECTION_X;
     const PetscInt  j = (row ? run->index : k) - g->row_start, i = row ? k : run->index;
 
     if (j >= 0 && j < g->rows) line[k] = field[j * g->nx + i];
@@ -216,7 +216,7 @@ static PetscErrorCode CheckLife(SamStressRun *run, PetscBool *life)
     PetscCall(SamResultsGetSaved(run->results, run->saved[k ? run->steps - 1 : 0], &step, NULL));
     PetscCall(SamResultsReadCycle(run->results, step, &cycle[k]));
   }
-  *life = cycle[0] > 0 || cycle[1] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  *life = cycle[0] > 0 || cycle[1] > 0;
   if (cycle[0] == cycle[1]) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(text, sizeof(text),
                  "of several cycles of a life, from %g to %g, which are taken as one: expected the steps of one",

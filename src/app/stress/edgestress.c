@@ -44,7 +44,7 @@ PetscErrorCode SamEdgeStressCompute(SamStressRun *run, PetscInt step, Vec field)
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
   PetscCall(SamEdgeReconstruct(g, square, NULL, &edge));
-  run->edge_left[step] = edge.faces > 0 && edge.good < FOUND * edge.faces ? PETSC_TRUE : PETSC_FALSE;
+  run->edge_left[step] = edge.faces > 0 && edge.good < FOUND * edge.faces;
   PetscCall(PetscMalloc1(PLANE * edge.count, &stress));
   PetscCall(SamStressAtEdge(g, run->poisson, field, &edge, stress));
   for (PetscInt n = 0; n < edge.count && edge.good >= FOUND * edge.faces; n++) {

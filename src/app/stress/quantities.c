@@ -85,11 +85,11 @@ static PetscErrorCode Write(SamStressRun *run, PetscInt step, const SamPoints *p
 
 PetscErrorCode SamQuantitiesWrite(SamStressRun *run, PetscInt step, const SamPoints *p, const double stress[])
 {
-  const PetscBool *wants    = run->request.wants;
-  const PetscBool principal = wants[SAM_QUANTITY_PRINCIPAL] || wants[SAM_QUANTITY_SHEAR_MAX] ? PETSC_TRUE : PETSC_FALSE;
-  const PetscInt  arrays    = wants[SAM_QUANTITY_STRAIN] ? SAM_STRESS_COMPONENTS : principal ? 3 : 1;
-  const double   *s[SAM_STRESS_COMPONENTS];
-  double         *more[SAM_STRESS_COMPONENTS];
+  const PetscBool *wants     = run->request.wants;
+  const PetscBool  principal = wants[SAM_QUANTITY_PRINCIPAL] || wants[SAM_QUANTITY_SHEAR_MAX];
+  const PetscInt   arrays    = wants[SAM_QUANTITY_STRAIN] ? SAM_STRESS_COMPONENTS : principal ? 3 : 1;
+  const double    *s[SAM_STRESS_COMPONENTS];
+  double          *more[SAM_STRESS_COMPONENTS];
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++) s[c] = stress + c * (ptrdiff_t)p->count;

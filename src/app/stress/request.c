@@ -20,7 +20,7 @@ static PetscBool ReadNumber(const char text[], double *value)
   char *end;
 
   *value = strtod(text, &end);
-  return end != text && *end == '\0' && isfinite(*value) ? PETSC_TRUE : PETSC_FALSE;
+  return end != text && *end == '\0' && isfinite(*value);
 }
 
 static PetscBool ReadWhole(const char text[], PetscInt *value)
@@ -29,7 +29,7 @@ static PetscBool ReadWhole(const char text[], PetscInt *value)
   const long number = strtol(text, &end, 10);
 
   *value = (PetscInt)number;
-  return end != text && *end == '\0' && number == (long)*value ? PETSC_TRUE : PETSC_FALSE;
+  return end != text && *end == '\0' && number == (long)*value;
 }
 
 /* Divides a text at a character, in place; returns the number of parts, of which at most `most` are given. */
@@ -125,8 +125,8 @@ static PetscErrorCode ReadSteps(const SamOptions *from, SamStressRequest *r)
   PetscCall(SamOptionsString(from, "steps", "load steps: last, all, a number, or first:last[:stride]", text,
                              sizeof(text), NULL));
   PetscCall(PetscStrncpy(whole, text, sizeof(whole)));
-  r->all_steps = !strcmp(text, "all") ? PETSC_TRUE : PETSC_FALSE;
-  r->last_step = !strcmp(text, "last") ? PETSC_TRUE : PETSC_FALSE;
+  r->all_steps = !strcmp(text, "all");
+  r->last_step = !strcmp(text, "last");
   if (r->all_steps || r->last_step) PetscFunctionReturn(PETSC_SUCCESS);
   count     = Divide(text, ':', parts, 3);
   r->stride = 1;

@@ -32,7 +32,7 @@ static PetscErrorCode CheckDepths(const SamStressRun *run)
 static PetscErrorCode FindLine(SamStressRun *run)
 {
   const SamGrid   g     = run->grid;
-  const PetscBool row   = run->request.axis == SAM_SECTION_X ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool row   = run->request.axis == SAM_SECTION_X;
   const PetscInt  n     = row ? g->ny : g->nx;
   const PetscReal first = row ? SamGridY(g, 0) : SamGridX(g, 0), step = row ? g->dy : g->dx;
   const PetscReal at = (run->request.place - first) / step;

@@ -90,8 +90,7 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
   PetscFunctionBegin;
   if (!data->kernel[kind]) {
     const Coefficients c        = GetCoefficients(e, kind);
-    const PetscBool    odd[][2] = {
-         {kind == XY || kind == XZ ? PETSC_TRUE : PETSC_FALSE, kind == XY || kind == YZ ? PETSC_TRUE : PETSC_FALSE}};
+    const PetscBool    odd[][2] = {{kind == XY || kind == XZ, kind == XY || kind == YZ}};
 
     PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, &data->kernel[kind]));
   }
@@ -197,10 +196,9 @@ static PetscErrorCode GetSlopeKernel(SamElasticity e, Kind kind, int axis, SamKe
   PetscFunctionBegin;
   if (!data->slope[kind][axis]) {
     const SamPair  *pair     = &e->pair;
-    const PetscBool odd[][2] = {
-      {(kind == XY) != (axis == 0) ? PETSC_TRUE : PETSC_FALSE, (kind == XY) != (axis == 1) ? PETSC_TRUE : PETSC_FALSE}};
-    SamSlopeRules  rules;
-    SamSlopeKernel c = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy};
+    const PetscBool odd[][2] = {{(kind == XY) != (axis == 0), (kind == XY) != (axis == 1)}};
+    SamSlopeRules   rules;
+    SamSlopeKernel  c = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy};
 
     PetscCall(SamSlopeRulesCreate(&rules));
     c.r  = kind == ZZ ? pair->normal : kind == XY ? 0 : pair->shear;

@@ -280,7 +280,7 @@ PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal valu
 
   PetscFunctionBegin;
   half[0] = half[1] = 0;
-  *known            = gap->ops.contact && !gap->rough.file[0] ? PETSC_TRUE : PETSC_FALSE;
+  *known            = gap->ops.contact && !gap->rough.file[0];
   if (!*known || !(value > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   contact = gap->ops.contact(gap->values, high);
   for (PetscInt k = 0; k < HALVINGS && ValueOf(&contact, force) < value; k++) {

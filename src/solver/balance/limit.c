@@ -81,7 +81,7 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
 
     if (!balance->force[k]) continue;
     if (balance->load[0] == 0) {
-      *possible = balance->load[k] == 0 ? PETSC_TRUE : PETSC_FALSE;
+      *possible = balance->load[k] == 0;
       if (!*possible)
         PetscCall(PetscSNPrintf(message, size, "%s = %g N m needs a normal force to balance it, and load_n is 0", name,
                                 (double)balance->load[k]));
@@ -131,7 +131,7 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   *possible  = PETSC_TRUE;
   message[0] = '\0';
   if (!isfinite(limit) || !balance->force[0] || load == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  *possible = load <= most * (1 + FULL) ? PETSC_TRUE : PETSC_FALSE;
+  *possible = load <= most * (1 + FULL);
   if (!*possible)
     PetscCall(PetscSNPrintf(
       message, size, "load_n = %.8g N is more than pressure_limit = %g Pa on the whole grid bears (limit %.8g N)", load,
@@ -267,7 +267,7 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
   PetscCall(EvaluatePower(f, bound, a, smoothing, &now));
   slope = FindStep(across, &now, step);
   for (PetscInt it = 0; it < 50 && across->count && slope > 0; it++) {
-    const PetscBool flat = slope <= FLAT * now.value ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool flat = slope <= FLAT * now.value;
     double          t    = 1, trial[3];
 
     for (;;) {

@@ -191,7 +191,7 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
   *found      = PETSC_FALSE;
   /* where pressures are far above the load, it is lost in their rounding; projected again, they are of its size */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
-    const PetscBool once             = (cells.quick && time == 0) ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool once             = cells.quick && time == 0;
     SamTotal        totals[SAM_DUAL] = {{0}};
     double          a[3]             = {0, 0, 0};
 

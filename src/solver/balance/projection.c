@@ -144,8 +144,8 @@ PetscErrorCode SamDualMinimize(const SamFrame *f, SamDualPass pass, const void *
     if (idle && (best.size <= SAM_BALANCED_ENOUGH || idle > IDLE_MAX)) break; /* at rounding */
   }
   for (PetscInt i = 0; i < 3; i++) a[i] = best.a[i];
-  *found = best.size <= SAM_BALANCED_ENOUGH ? PETSC_TRUE : PETSC_FALSE;
-  *near  = best.size <= SAM_BALANCED_NEAR ? PETSC_TRUE : PETSC_FALSE;
+  *found = best.size <= SAM_BALANCED_ENOUGH;
+  *near  = best.size <= SAM_BALANCED_NEAR;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,7 +162,7 @@ PetscErrorCode SamDualVanish(const SamFrame *f, SamDualPass pass, const void *co
     if (!(next.dual.value < now.dual.value)) break;
     now = next;
   }
-  *vanishes = now.dual.scale <= VANISHED * first ? PETSC_TRUE : PETSC_FALSE;
+  *vanishes = now.dual.scale <= VANISHED * first;
   for (PetscInt i = 0; i < 3; i++) a[i] = now.a[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -174,6 +174,6 @@ PetscErrorCode SamDualIsBalanced(const SamFrame *f, const SamTotal totals[], dou
 
   PetscFunctionBegin;
   PetscCall(SamSumTotals(f->grid->comm, SAM_DUAL, totals, (double *)&dual));
-  *balanced = Imbalance(f, &dual, error) <= limit ? PETSC_TRUE : PETSC_FALSE;
+  *balanced = Imbalance(f, &dual, error) <= limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -198,7 +198,7 @@ static PetscErrorCode AreRounding(const SamFrame *f, const double q[], PetscBool
   }
   PetscCall(SamSumTotals(f->grid->comm, 1, &total, &sum));
   for (PetscInt k = 0; k < f->count; k++) load = SamLarger(load, fabs(f->target[k]));
-  *are = load <= ROUNDING * sum ? PETSC_TRUE : PETSC_FALSE;
+  *are = load <= ROUNDING * sum;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -344,7 +344,7 @@ static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *bett
   SetLength(w, 1, ignored);
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
   PetscCall(SamActiveSetRefresh(w));
-  *better = w->error < w->unit ? PETSC_TRUE : PETSC_FALSE;
+  *better = w->error < w->unit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -360,7 +360,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   if (!gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, PETSC_FALSE, motion, found));
-    gradient = (!*found || w->slope >= 0) ? PETSC_TRUE : PETSC_FALSE;
+    gradient = !*found || w->slope >= 0;
     if (*found && gradient) SetLength(w, 0, ignored);
   }
   if (gradient) PetscCall(TryGradient(w, motion, found));
@@ -368,7 +368,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   if (*found && w->slope == 0) PetscCall(TakeTrial(w, motion, downhill));
   if (!*found || w->slope == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best, contact));
-  *downhill = best > 0 ? PETSC_TRUE : PETSC_FALSE;
+  *downhill = best > 0;
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
   w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
   PetscCall(SamActiveSetChoose(w, contact));
@@ -426,9 +426,9 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
   best = w.error;
   PetscCall(GetReason(&w, stagnant, downhill, found, &reason));
   while (!reason) {
-    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0;
 
-    w.stagnates = stagnant >= PARTING ? PETSC_TRUE : PETSC_FALSE;
+    w.stagnates = stagnant >= PARTING;
     PetscCall(Iterate(&w, gradient, &downhill, &found));
     if (downhill && (gradient || w.lost > 0 || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
     stagnant = w.error < 0.9 * best ? 0 : stagnant + 1;

@@ -30,7 +30,7 @@ static double Tolerance(const Work *w)
 /* Single precision for S p is all that the tolerance asks for. */
 static PetscBool IsSingleEnough(const Work *w)
 {
-  return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol ? PETSC_TRUE : PETSC_FALSE;
+  return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol;
 }
 
 /* The rounding of g is no more than the tolerance has room for. */
@@ -43,8 +43,7 @@ PetscBool SamActiveSetIsStale(const Work *w)
 {
   const double later = SAM_SINGLE_ROUNDING * w->error; /* what rounding will be after a product */
 
-  return (!IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding.bound)) ? PETSC_TRUE
-                                                                                                 : PETSC_FALSE;
+  return !IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding.bound);
 }
 
 /* ---- the gap and the active set ---- */
@@ -120,7 +119,7 @@ static PetscBool IsClear(const Work *w, PetscInt stretch, SamRow row, const doub
   const double a = motion[0] - motion[1] * row.eta, b = motion[2];
   const double last = w->frame->xi0 + (double)(row.column + row.count - 1) * row.dxi;
 
-  return !w->busy[stretch] && w->open[stretch] > PetscMax(a + b * row.xi0, a + b * last) ? PETSC_TRUE : PETSC_FALSE;
+  return !w->busy[stretch] && w->open[stretch] > PetscMax(a + b * row.xi0, a + b * last);
 }
 
 /* A in a row, and which of its stretches are busy: by the gap that `motion` has moved back. */
@@ -244,6 +243,6 @@ PetscErrorCode SamActiveSetIsSolved(Work *w, PetscBool *solved)
   for (PetscInt j = 0; j < w->rows; j++) max = PetscMax(max, SamActiveSetDisplacementRow(w, SamActiveSetRow(w, j)));
   PetscCall(SamMax(w->level->grid->comm, 1, &max));
   w->displacement = max;
-  *solved         = w->error <= Tolerance(w) ? PETSC_TRUE : PETSC_FALSE;
+  *solved         = w->error <= Tolerance(w);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

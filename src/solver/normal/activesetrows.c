@@ -53,7 +53,7 @@ SAM_VECTORIZED PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, doub
   sums->xi2 += xi2;
   sums->g += sum;
   sums->xi_g += turn;
-  return count > 0 || pressure > 0 ? PETSC_TRUE : PETSC_FALSE;
+  return count > 0 || pressure > 0;
 }
 
 SAM_VECTORIZED double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const double motion[3])

@@ -125,8 +125,8 @@ static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt
   PetscCall(SamGridGetSupport(level->grid, level->traction, first, size));
   *inside = PETSC_TRUE;
   for (PetscInt k = 0; k < 2; k++) {
-    const PetscBool low  = start[k] > 0 && first[k] <= start[k] ? PETSC_TRUE : PETSC_FALSE;
-    const PetscBool high = start[k] + n[k] < all[k] && first[k] + size[k] >= start[k] + n[k] ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool low  = start[k] > 0 && first[k] <= start[k];
+    const PetscBool high = start[k] + n[k] < all[k] && first[k] + size[k] >= start[k] + n[k];
 
     first[k] -= low; /* a window that covers these cells as well is a larger one */
     size[k] += low + high;
@@ -154,7 +154,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
     if (!window) break;
     PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveFromPressure));
     if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
-    done = (!level->finest || s->reason < 0) ? PETSC_TRUE : PETSC_FALSE;
+    done = !level->finest || s->reason < 0;
     if (!done && s->effort == SAM_EFFORT_GLANCE)
       PetscCall(IsInside(level, window, first, size, &done));
     else if (!done)
@@ -250,7 +250,7 @@ static PetscErrorCode IsSeparated(const SamLevel *level, PetscReal rigid[3], Pet
   PetscCall(SamFrameSetGiven(&frame, level->grid, &still));
   PetscCall(ComputeClearance(level->grid, level->given[SAM_NORMAL_SEPARATION], &frame, &clearance));
   if (b->force[0]) rigid[0] = PetscMin(0, clearance);
-  *separated = b->force[0] || clearance >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  *separated = b->force[0] || clearance >= 0;
   if (!*separated) PetscCall(CanTilt(level, rigid, separated));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -291,7 +291,7 @@ static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can
   for (PetscInt k = 0; k < grid->cells; k++) SamAdd(&total, h[k]);
   PetscCall(VecRestoreArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
   PetscCall(SamSumTotals(grid->comm, 1, &total, &sum));
-  *can = level->balance->rigid[0] < sum / ((double)grid->nx * (double)grid->ny) ? PETSC_TRUE : PETSC_FALSE;
+  *can = level->balance->rigid[0] < sum / ((double)grid->nx * (double)grid->ny);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -50,9 +50,7 @@ static void NearestInRow(const SamFrame *f, PetscInt j, SamWindow window, const 
   for (PetscInt part = 0; part < 3; part++) {
     const PetscInt  begin[3] = {0, first[0], first[0] + size[0]}, end[3] = {first[0], first[0] + size[0], grid->nx};
     const SamRow    row    = SamFrameRow(f, j, begin[part], end[part]);
-    const PetscBool inside = (part == 1 && grid->row_start + j >= first[1] && grid->row_start + j < first[1] + size[1])
-                               ? PETSC_TRUE
-                               : PETSC_FALSE;
+    const PetscBool inside = part == 1 && grid->row_start + j >= first[1] && grid->row_start + j < first[1] + size[1];
 
     NearestCells(row, u + row.first, h + row.first, scale, f->fixed, inside ? &within : nearest);
   }
@@ -82,7 +80,7 @@ static PetscErrorCode IsClear(SamSolver s, SamLevel *level, const SamFrame *fram
   PetscCall(VecRestoreArrayRead(gap, &h));
   SamFree(u);
   PetscCall(SamMax(grid->comm, 2, (double *)&nearest));
-  *clear = nearest.overlap < -CLEARANCE * nearest.displacement ? PETSC_TRUE : PETSC_FALSE;
+  *clear = nearest.overlap < -CLEARANCE * nearest.displacement;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

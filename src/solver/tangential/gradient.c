@@ -83,7 +83,7 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double *L, double y[], doubl
     PetscCall(ComputeBend(w, y, sy, sums));
     if (sums[0] <= *L * sums[1] * (1 + 1e-12) || !isfinite(sums[0] + sums[1])) break;
     *L     = PetscMax(2 * *L, sums[0] / sums[1]);
-    *found = *L <= STIFFEST * w->self ? PETSC_TRUE : PETSC_FALSE; /* else rounding, not stiffness, breaks the bound */
+    *found = *L <= STIFFEST * w->self; /* else rounding, not stiffness, breaks the bound */
     if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -222,19 +222,19 @@ static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
 /* Whether the step changes the energy by less than the rounding of the work of friction in it. */
 static PetscBool IsRounding(const Work *w)
 {
-  return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work ? PETSC_TRUE : PETSC_FALSE;
+  return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work;
 }
 
 /* Whether the trial is the shear itself, to rounding. */
 static PetscBool IsStill(const Work *w)
 {
-  return sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale ? PETSC_TRUE : PETSC_FALSE;
+  return sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale;
 }
 
 static PetscBool IsDownhill(const Work *w)
 {
   if (IsStill(w)) return PETSC_FALSE;
-  return (IsRounding(w) ? w->along > 0 : w->slope < 0) ? PETSC_TRUE : PETSC_FALSE;
+  return IsRounding(w) ? w->along > 0 : w->slope < 0;
 }
 
 /*
@@ -252,7 +252,7 @@ static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
   for (PetscInt halving = 0; halving <= HALVINGS && *found && !*downhill; halving++, alpha *= 0.5) {
     for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), alpha);
     PetscCall(Project(w, NULL, NULL, found));
-    *downhill = (*found && IsDownhill(w)) ? PETSC_TRUE : PETSC_FALSE;
+    *downhill = *found && IsDownhill(w);
     if (*downhill) w->alpha = alpha;
     if (w->along <= 0 || w->whole) break;
   }
@@ -361,7 +361,7 @@ static PetscErrorCode MoveOnly(Work *w, const double motion[3], PetscBool *bette
   PetscCall(SamStickSlipComputeSlip(u));
   PetscCall(Advance(w, 0));
   w->rounding.bound = 0;
-  *better           = u->error < error ? PETSC_TRUE : PETSC_FALSE;
+  *better           = u->error < error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -443,7 +443,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   best   = u->error;
   reason = found ? Reason(&w, stagnant) : SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
   while (!reason) {
-    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0 ? PETSC_TRUE : PETSC_FALSE, whole = w.whole;
+    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0, whole = w.whole;
     PetscBool       downhill = PETSC_TRUE;
 
     PetscCall(Iterate(&w, gradient, &downhill, &found));

@@ -143,7 +143,7 @@ static PetscErrorCode ComputeLimit(SamSolver s, const SamLevel *level, PetscBool
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(level->grid, 2, &shear));
   PetscCall(SamBalanceSlideLimit(level->grid, level->balance, level->given[SAM_TANGENTIAL_BOUND], &s->limit, shear));
-  *reached = s->limit <= 1 + LIMIT_ROUNDING ? PETSC_TRUE : PETSC_FALSE;
+  *reached = s->limit <= 1 + LIMIT_ROUNDING;
   if (*reached) PetscCall(VecCopy(shear, level->traction));
   PetscCall(VecDestroy(&shear));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -237,7 +237,7 @@ static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
   if (!SamLevelHasProduct(level)) PetscCall(MakeAdmissible(level, &possible)); /* else it would no longer belong to q */
   if (possible) {
     PetscCall(SolveWithStarts(s, level, guess, &possible));
-    possible = possible && s->reason != SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM ? PETSC_TRUE : PETSC_FALSE;
+    possible = possible && s->reason != SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
   }
   if (!possible) {
     SamLevelForgetProduct(level);
