@@ -6,6 +6,7 @@
 PKG_CONFIG ?= pkg-config
 OPT        ?= -O3 -g
 WERROR     ?=
+NM         ?= nm
 prefix     ?= /usr/local
 PYTHON     ?= python3
 B          := build
@@ -31,7 +32,7 @@ ifeq ($(origin CC),default)
 endif
 
 WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(WERROR),-Werror)
-ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
+ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude -I$(B) $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
 LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/app/*"))
 PROGRAMS := petsam petsam-stress
@@ -40,8 +41,12 @@ LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
 APP_OBJ := $(APP_SRC:%.c=$(B)/obj/%.o)
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
+# types from outside of the library, for the unit tests
+METHODS := $(patsubst %.c,$(B)/obj/%.o,$(wildcard tests/unit/methods/*.c examples/embed/plugin/*.c))
 
-VERSION := $(shell sed -n 's/^\#define PETSAM_VERSION "\(.*\)"/\1/p' include/petsam/base.h)
+VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p' include/petsam/base.h | paste -sd.)
+# what programs are linked with: it changes with major and minor, as the interface may
+SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
 .PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants check-fuzz check-readmes format check-format lint install clean
@@ -58,27 +63,39 @@ $(B)/obj/%.o: %.c
 	$(say) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -c $< -o $@
 
+# the text of -help
+$(PROGRAMS:%=$(B)/obj/src/app/%.o): $(B)/obj/src/app/%.o: $(B)/help/%.h
+$(B)/help/%.h: src/app/%.help scripts/maintain/help.awk include/petsam/base.h
+	@mkdir -p $(@D)
+	$(Q)awk -v version=$(VERSION) -f scripts/maintain/help.awk $< > $@
+
 $(B)/lib/libpetsam.a: $(LIB_OBJ)
 	@mkdir -p $(@D)
 	$(say) AR $@
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
-$(B)/lib/libpetsam.so: $(LIB_OBJ)
-	@mkdir -p $(@D)
-	$(say) LD $@
-	$(Q)$(CC) -shared $(LDFLAGS) -o $@ $^ $(PC_LIBS)
+# the shared library exports what begins with Sam or petsam_, and none of gcc's names with a dot
+$(B)/lib/exports.map: $(B)/lib/libpetsam.a
+	$(Q){ echo '{ global:'; $(NM) -g --defined-only $< | sed -nE 's/^[0-9a-f]+ [A-Zi] ((Sam|petsam_)[A-Za-z0-9_]+)$$/  \1;/p'; echo 'local: *; };'; } > $@
 
-$(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/src/app/%.o $(APP_OBJ) $(B)/lib/libpetsam.a
+$(B)/lib/libpetsam.so: $(LIB_OBJ) $(B)/lib/exports.map
 	@mkdir -p $(@D)
 	$(say) LD $@
-	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS)
+	$(Q)$(CC) -shared -Wl,-Bsymbolic-functions -Wl,-soname,$(SONAME) -Wl,--version-script=$(B)/lib/exports.map $(LDFLAGS) -o $@.$(VERSION) $(LIB_OBJ) $(PC_LIBS)
+	$(Q)cd $(@D) && ln -sf $(@F).$(VERSION) $(SONAME) && ln -sf $(SONAME) $(@F)
+
+# with the shared library beside them, whose lists of types plugins add to
+$(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/src/app/%.o $(APP_OBJ) $(B)/lib/libpetsam.so
+	@mkdir -p $(@D)
+	$(say) LD $@
+	$(Q)$(CC) $(LDFLAGS) -o $@ $^ '-Wl,-rpath,$$ORIGIN/../lib' $(PC_LIBS)
 
 $(B)/bench/%: $(B)/obj/tests/bench/%.o $(B)/lib/libpetsam.a
 	@mkdir -p $(@D)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS)
 
-$(B)/tests/%: $(B)/obj/tests/unit/%.o $(APP_OBJ) $(B)/lib/libpetsam.a
+$(B)/tests/%: $(B)/obj/tests/unit/%.o $(METHODS) $(APP_OBJ) $(B)/lib/libpetsam.a
 	@mkdir -p $(@D)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS) -lcmocka
@@ -153,8 +170,8 @@ check-format: $(B)/venv/tests-done ## check the format of C and Python
 	@$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
 	@$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
 
-lint: ## cppcheck over the sources
-	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) $(PROGRAMS:%=src/app/%.c)
+lint: $(PROGRAMS:%=$(B)/help/%.h) ## cppcheck over the sources
+	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude -I$(B) --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) $(PROGRAMS:%=src/app/%.c)
 
 # what is installed for users; scripts that build and maintain petsam are not
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
@@ -166,7 +183,8 @@ install: all pages ## install program, library, headers, petsam.pc, scripts, exa
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
 	install -m 755 $(PROGRAMS:%=$(B)/bin/%) $(DESTDIR)$(prefix)/bin
 	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
-	install -m 755 $(B)/lib/libpetsam.so $(DESTDIR)$(prefix)/lib
+	install -m 755 $(B)/lib/libpetsam.so.$(VERSION) $(DESTDIR)$(prefix)/lib
+	cd $(DESTDIR)$(prefix)/lib && ln -sf libpetsam.so.$(VERSION) $(SONAME) && ln -sf $(SONAME) libpetsam.so
 	for f in $(HEADERS); do install -D -m 644 $$f $(DESTDIR)$(prefix)/$$f || exit 1; done
 	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lfftw3f_mpi -lfftw3f -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
 	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done

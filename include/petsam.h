@@ -4,9 +4,9 @@
 
 #include <petsam/base.h>
 #include <petsam/grid.h>
+#include <petsam/parameters.h>
 #include <petsam/material.h>
 #include <petsam/gap.h>
-#include <petsam/influence.h>
 #include <petsam/fourier.h>
 #include <petsam/elasticity.h>
 #include <petsam/balance.h>
@@ -24,9 +24,12 @@
 #include <petsam/checkpoint.h>
 #include <petsam/setup.h>
 #include <petsam/advice.h>
+#include <petsam/history.h>
+#include <petsam/simulation.h>
 #include <petsam/results.h>
 #include <petsam/stress.h>
 #include <petsam/fatigue.h>
+#include <petsam/evaluation.h>
 #include <petsam/stressfile.h>
 
 #endif

@@ -16,7 +16,6 @@ int main(int argc, char **argv)
   Vec             separation;
 
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  PetscCall(PetscOptionsInsertString(NULL, "-gap_type sphere -gap_radius1 0.2 -gap_radius2 0.2"));
   PetscCall(SamGridCreate(PETSC_COMM_WORLD, n, width, center, &grid));
   PetscCall(SamPairSet(&bodies, young, poisson));
   PetscCall(SamElasticityCreate(grid, &bodies, &elasticity));
@@ -24,7 +23,10 @@ int main(int argc, char **argv)
   PetscCall(SamProblemSetFriction(problem, 0.1));
   PetscCall(SamProblemGetGap(problem, &separation));
   PetscCall(SamGapCreate(PETSC_COMM_WORLD, &gap));
-  PetscCall(SamGapSetFromOptions(gap));
+  PetscCall(SamGapSetType(gap, SAM_GAP_SPHERE));
+  PetscCall(SamGapSetParameter(gap, "radius1", 0.2));
+  PetscCall(SamGapSetParameter(gap, "radius2", 0.2));
+  PetscCall(SamGapSetFromOptions(gap)); /* -gap_radius1 and so on, where they are given */
   PetscCall(SamGapFill(gap, grid, separation));
   PetscCall(SamContactCreate(problem, &contact));
 

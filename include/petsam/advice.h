@@ -35,22 +35,19 @@ typedef struct {
 PETSC_EXTERN void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control);
 
 /*
-  The messages, on one line and without option of theirs at the end; empty when there is nothing to say. None is
-  collective.
-  SamAdviseCells - the contact of a step is fewer than SAM_FEW_CELLS cells across; grids on which it is not.
-  SamAdviseCurvature - its half width is more than SAM_STEEPEST of a radius of curvature.
-  SamAdviseMotion - displacements and rotations that are not small, as the theory has them.
-  SamAdviseWear - a step wears more than it may: `excess` of SamWearGetExcess().
-  SamAdviseEdge - a grid on which these loads do not bring the contact to its edge, to which it came in a step.
+  SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it, where the text
+  does not name it itself; else empty.
 */
-PETSC_EXTERN PetscErrorCode SamAdviseCells(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
-                                           char text[], size_t size);
-PETSC_EXTERN PetscErrorCode SamAdviseCurvature(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
-                                               char text[], size_t size);
-PETSC_EXTERN PetscErrorCode SamAdviseMotion(const SamExtent *extent, const SamLoadsMost *most, char text[],
-                                            size_t size);
-PETSC_EXTERN PetscErrorCode SamAdviseWear(PetscReal excess, char text[], size_t size);
-PETSC_EXTERN PetscErrorCode SamAdviseEdge(const SamSetup *setup, const SamStep *step, const SamLoadsMost *most,
-                                          char text[], size_t size);
+typedef PetscErrorCode (*SamAdviceFunction)(void *context, const char text[], const char setting[]);
+/*
+  None of these is collective.
+  SamAdviseStep - gives a function what there is to say of a step that is solved: motions that are not small, bodies
+  that do not touch, a contact of fewer than SAM_FEW_CELLS cells across, and one that is wider than SAM_STEEPEST of a
+  radius of curvature.
+  SamAdviseEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not.
+*/
+PETSC_EXTERN PetscErrorCode SamAdviseStep(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
+                                          const SamLoadsMost *most, SamAdviceFunction receive, void *context);
+PETSC_EXTERN PetscErrorCode SamAdviseEdge(const SamSetup *setup, const SamLoadsMost *most, SamStep *step);
 
 #endif

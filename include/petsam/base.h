@@ -5,7 +5,21 @@
 #include <petscsys.h>
 #include <petscvec.h>
 
-#define PETSAM_VERSION "0.1.0"
+/* The version. SAM_VERSION_GE(0, 1, 0) is true from 0.1.0 on; programs are linked again when the first two change. */
+#define SAM_VERSION_MAJOR    0
+#define SAM_VERSION_MINOR    1
+#define SAM_VERSION_SUBMINOR 0
+#define PETSAM_VERSION       PetscStringize(SAM_VERSION_MAJOR.SAM_VERSION_MINOR.SAM_VERSION_SUBMINOR)
+
+#define SAM_VERSION_COUNT(major, minor, subminor) (1000000 * (major) + 1000 * (minor) + (subminor))
+
+#define SAM_VERSION_HERE SAM_VERSION_COUNT(SAM_VERSION_MAJOR, SAM_VERSION_MINOR, SAM_VERSION_SUBMINOR)
+
+#define SAM_VERSION_EQ(major, minor, subminor) (SAM_VERSION_HERE == SAM_VERSION_COUNT(major, minor, subminor))
+#define SAM_VERSION_LT(major, minor, subminor) (SAM_VERSION_HERE < SAM_VERSION_COUNT(major, minor, subminor))
+#define SAM_VERSION_LE(major, minor, subminor) (SAM_VERSION_HERE <= SAM_VERSION_COUNT(major, minor, subminor))
+#define SAM_VERSION_GT(major, minor, subminor) (SAM_VERSION_HERE > SAM_VERSION_COUNT(major, minor, subminor))
+#define SAM_VERSION_GE(major, minor, subminor) (SAM_VERSION_HERE >= SAM_VERSION_COUNT(major, minor, subminor))
 
 /*
   Errors. Every function returns a PetscErrorCode. Two codes are for mistakes of the user, with a message of one or two
@@ -92,5 +106,15 @@ PETSC_EXTERN PetscErrorCode SamOptionsEnum(const SamOptions *from, const char na
 */
 PETSC_EXTERN PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], const char help[],
                                                 PetscBool *set);
+/*
+  SamOptionsPlugins - loads the shared libraries that -plugin names, and calls the function
+
+      PetscErrorCode SamPluginRegister(void)
+
+  of each, which registers types (SamGapRegister(), SamLawRegister(), ...); to be called before types are chosen, as
+  SamSetupReadOptions() does. They stay loaded. Collective. Errors: SAM_ERR_FILE for one that cannot be loaded, lacks
+  the function, or would register its types in another copy of petsam's library than that of the caller.
+*/
+PETSC_EXTERN PetscErrorCode SamOptionsPlugins(const SamOptions *from);
 
 #endif

@@ -29,24 +29,22 @@ PETSC_EXTERN PetscErrorCode SamCheckpointDestroy(SamCheckpoint *checkpoint);
 /* SamCheckpointNames - the two other names; the caller frees them with PetscFree(). Not collective. */
 PETSC_EXTERN PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **temporary);
 /*
-  SamCheckpointWrite - writes the committed state of a contact, and of its wear (NULL: none), the parameters that define
+  SamCheckpointWrite - writes the committed state of a contact, the parameters that define
   it, and a program's n notes to an HDF5 file, all ranks together. The file is written as name.tmp, sealed with a
   checksum, flushed to the disk, and renamed; the previous checkpoint becomes name.1. So once there is a checkpoint,
   there always is one that can be read, whatever ends the run. Collective. Errors: SAM_ERR_FILE; earlier checkpoints are
   kept then.
 */
-PETSC_EXTERN PetscErrorCode SamCheckpointWrite(SamCheckpoint checkpoint, SamContact contact, SamWear wear,
+PETSC_EXTERN PetscErrorCode SamCheckpointWrite(SamCheckpoint checkpoint, SamContact contact,
                                                const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 /*
-  SamCheckpointRead - gives a contact, and its wear (NULL: none), the state in a file, to the last bit, on any number of
+  SamCheckpointRead - gives a contact the state in a file, to the last bit, on any number of
   ranks, and reads the notes. When the problem's gap is not the one the checkpoint was written with, the next step
   solves the pressure again and keeps the slip. Collective. Errors: SAM_ERR_USER for a checkpoint of another version or
   with another value of a fixed parameter, which the message names; SAM_ERR_FILE for a file that is missing or damaged
   (its checksum is compared). The message then names the checkpoint before it, name.1, if that can be read.
 */
-PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamWear wear,
+PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact,
                                               const SamParameters *parameters, PetscInt n, const SamNote notes[]);
-/* SamCheckpointChecksum - a checksum of a field's values by cell, the same on any number of ranks. Collective. */
-PETSC_EXTERN PetscErrorCode SamCheckpointChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 
 #endif

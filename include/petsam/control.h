@@ -62,6 +62,13 @@ typedef struct {
 PETSC_EXTERN PetscReal   SamControlPart(const SamControl *control, PetscInt k);
 PETSC_EXTERN const char *SamControlPartName(const SamControl *control, PetscInt k);
 
+/*
+  SamControlPack, SamControlUnpack - a control as SAM_CONTROL_NUMBERS numbers, and back. Not collective.
+*/
+#define SAM_CONTROL_NUMBERS (2 * SAM_COMPONENTS + 2 + 2 * SAM_BULK_COMPONENTS)
+PETSC_EXTERN void SamControlPack(const SamControl *control, double numbers[]);
+PETSC_EXTERN void SamControlUnpack(const double numbers[], SamControl *control);
+
 /* SamControlInitialize - all loads given and 0, friction scale 1, no bulk stress, time 0. Not collective. */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
 /*

@@ -11,7 +11,7 @@
 
   SamEdge - what is known of the edge of a zone.
 */
-typedef struct {
+typedef struct _n_SamEdge {
   PetscReal area;        /* m2: by the reconstructed edge; where that is refused, cells less a part of a cell a face */
   PetscInt  cells;       /* of the zone */
   PetscReal faces, good; /* of these cells to cells outside; those where the reconstruction is accepted */
@@ -23,6 +23,9 @@ typedef struct {
   /* what vanishes at the edge, about each point's cell: its terms 1, x, y, x^2, x y, y^2, in cells from the centre */
   PetscReal (*fit)[6];
 } SamEdge;
+
+/* The two edges of a solution. */
+typedef enum { SAM_EDGE_CONTACT, SAM_EDGE_STICK } SamEdgeOf;
 
 /*
   SamEdgeReconstruct - the edge of the zone where w > 0. `w` (one component): the square of what vanishes at the edge,
@@ -70,70 +73,4 @@ PETSC_EXTERN PetscErrorCode SamProfileGetZone(SamProfile profile, Vec *zone, Vec
 PETSC_EXTERN PetscErrorCode SamProfileComputeDisplacement(SamProfile profile, Vec u_z);
 PETSC_EXTERN PetscErrorCode SamProfileComputeSlopes(SamProfile profile, Vec slopes);
 PETSC_EXTERN PetscErrorCode SamProfileGetEdge(SamProfile profile, Vec point, SamEdge *edge);
-/*
-  SamProfileRootAt - the traction (Pa) at (x, y), cells from the centre of cell i of row j of this rank; 0 where nothing
-  has been found, and outside of the zone. Not collective.
-*/
-PETSC_EXTERN PetscReal SamProfileRootAt(SamProfile profile, PetscInt i, PetscInt j, PetscReal x, PetscReal y);
-
-/*
-  SamShearProfile - what a shear q does within cells, and the displacement by that. Where a surface slips, q = mu p e,
-  so that it varies as the pressure does; where it sticks, near the edge of the stick zone, q = (mu p - t) e with a
-  slack t that vanishes there like the root of the distance, and has a SamProfile of its own. After a reversal of the
-  load the edges of former stick zones are still in q; then t is the slack of what has come since, against 2 mu p, the
-  change of the shear where it slips back. Elsewhere in the stick zone what the shear does within a cell stays as it
-  was, but for the linear part of what has come since.
-
-  SamShearFields - the shear that is looked at, and its limit: fields of pressure (one component), mu p (one component)
-  and shear (two), Pa; slips: positive in cells that slip (one component); rim: the given mean slacks of cells outside
-  the stick zone that its edge cuts, else 0 (one component).
-  SamShearWithin - what is known of the cells, to be kept from step to step: the slopes of q_x and q_y along x, then
-  along y (Pa over a cell; SAM_SHEAR_SLOPES components), the terms of the cells near edges (SAM_SHEAR_TERMS), and, if
-  `refers`, the shear when the load last turned back, and its slopes (SAM_SHEAR_REFERENCE).
-  SamShearBefore - the step before: its shear, and what that did within cells.
-*/
-typedef struct _n_SamShearProfile *SamShearProfile;
-typedef struct {
-  Vec pressure, bound, shear, slips, rim;
-} SamShearFields;
-enum { SAM_SHEAR_SLOPES = 4, SAM_SHEAR_TERMS = 24, SAM_SHEAR_REFERENCE = 6 };
-typedef struct {
-  Vec       slopes, terms, reference;
-  PetscBool refers;
-} SamShearWithin;
-typedef struct {
-  Vec                   shear;
-  const SamShearWithin *within;
-  PetscBool             turned; /* the load has turned back since */
-} SamShearBefore;
-/*
-  What the slack is measured from: it has no profile; the limit of the shear; that of its change since the reference.
-*/
-typedef enum { SAM_SLACK_NONE, SAM_SLACK_OF_LIMIT, SAM_SLACK_OF_CHANGE } SamSlack;
-/* SamShearProfileCreate - references the elasticity. SamShearProfileDestroy - sets the handle to NULL. Collective. */
-PETSC_EXTERN PetscErrorCode SamShearProfileCreate(SamElasticity elasticity, SamShearProfile *profile);
-PETSC_EXTERN PetscErrorCode SamShearProfileDestroy(SamShearProfile *profile);
-/*
-  SamShearProfileSet - the shear that the next functions are about; its fields are borrowed. Finds its direction.
-  Collective.
-  SamShearProfileFindSlack - the slack (one component, Pa, >= 0), and the profile for it; borrowed. `reference`: for the
-  slack of the change, whose first two components are used. Not collective.
-  SamShearProfileGetProfile - that profile. Not collective.
-  SamShearProfileFind - what the shear does within cells: by the profile of the pressure (NULL: it has none), that of
-  the slack if it has one, and the step before (NULL: none so far); `within` has its reference already. Collective.
-  SamShearProfileComputeDisplacement - the tangential displacement (m) by that: what the influence of the cells' means
-  lacks. For an elasticity whose traits say `within`. Collective.
-  SamShearProfileComputeCenter - a component of the shear at the cells' centres by that (one component, Pa). Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamShearProfileSet(SamShearProfile profile, const SamShearFields *fields);
-PETSC_EXTERN PetscErrorCode SamShearProfileFindSlack(SamShearProfile profile, SamSlack kind, Vec reference, Vec *slack,
-                                                     SamProfile *slack_profile);
-PETSC_EXTERN PetscErrorCode SamShearProfileGetProfile(SamShearProfile profile, SamProfile *slack_profile);
-PETSC_EXTERN PetscErrorCode SamShearProfileFind(SamShearProfile profile, SamProfile pressure, SamSlack slack,
-                                                const SamShearBefore *before, SamShearWithin *within);
-PETSC_EXTERN PetscErrorCode SamShearProfileComputeDisplacement(SamShearProfile profile, const SamShearWithin *within,
-                                                               Vec u_t);
-PETSC_EXTERN PetscErrorCode SamShearProfileComputeCenter(SamShearProfile profile, const SamShearWithin *within,
-                                                         PetscInt component, Vec center);
-
 #endif

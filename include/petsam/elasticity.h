@@ -2,8 +2,9 @@
 #ifndef PETSAM_ELASTICITY_H
 #define PETSAM_ELASTICITY_H
 
-#include <petsam/grid.h>
+#include <petsam/fourier.h>
 #include <petsam/material.h>
+#include <petsam/parameters.h>
 #include <petscmat.h>
 #include <petscpc.h>
 
@@ -22,14 +23,16 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_PERIODIC \
   "periodic" /* two half-spaces, the grid being one period of everything; tractions are sums of waves */
 
-/* SamElasticityTraits - what users of the operator have to know of its kind. */
+/* SamElasticityTraits - what users of the operator have to know of its kind. None follows from another. */
 typedef struct {
-  PetscBool coupled;   /* pressure moves the surfaces tangentially, and shear moves them normally */
-  PetscBool rotations; /* rigid rotations are possible, and moments defined */
-  PetscBool edge;      /* the grid ends at its border: contact there is cut off */
-  PetscBool mean;      /* a uniform traction displaces the surface; else displacements count from the mean surface */
-  PetscBool parts;     /* where only a part of the grid has traction, an operator on that part will do */
-  PetscBool within;    /* tractions may vary within cells */
+  PetscBool coupled;  /* pressure moves the surfaces tangentially, and shear moves them normally */
+  PetscBool periodic; /* cells at opposite borders of the grid are neighbours; else contact at a border is cut off */
+  PetscBool stretch;  /* the bodies may bear a uniform bulk stress */
+  PetscBool rotations[3]; /* about x, y, z: a rigid rotation is possible, and a moment defined */
+  PetscBool mean;         /* a uniform traction displaces the surface; else displacements count from the mean surface */
+  PetscBool parts;        /* where only a part of the grid has traction, an operator on that part will do */
+  PetscBool within;       /* the pressure may vary within cells */
+  PetscBool stress;       /* the stresses in the bodies are known; set by the class */
 } SamElasticityTraits;
 
 /*
@@ -65,6 +68,16 @@ PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGrid *grid);        /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, const SamPair **pair); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, SamElasticityTraits *traits);
+/*
+  SamElasticityAddParameters - appends what defines the bodies, by the names of its options: elastic constants, type,
+  and what the type adds. Not collective.
+  SamElasticityCreateFromParameters - the same bodies on a grid, from what has been recorded so. `source` says in
+  messages where that is. Collective. Errors: SAM_ERR_FILE for a type that is not registered, and for parameters that
+  are missing or make no bodies.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
+PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *parameters,
+                                                              const char source[], SamElasticity *elasticity);
 /*
   SamElasticityGetCoarse - the operator on the next coarser grid, and the transfer to it; both borrowed, NULL when the
   grid is too small to be halved (fewer than 32 cells in a direction). Made at the first call. Collective.
@@ -103,22 +116,18 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity e
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q,
                                                                  Vec u_z); /* u_z from q */
 /*
-  Tractions that vary within cells, where the traits know them:
+  Pressure that varies within cells, where the traits know them:
   SamElasticityApplyNormalSlopes - u_z from a pressure that is linear in each cell, and zero in the mean. `slopes` (two
   components): by how much it grows from one side of the cell to the other, along x and along y (Pa).
-  SamElasticityApplyTangentialSlopes - u_t from a shear like that. `slopes` (two components): by how much q_x and q_y
-  grow along x (axis 0) or along y (axis 1).
-  SamElasticityGetNear - one component of u per unit of one traction (m/Pa) on the sub * sub sub-cells of a cell at the
-  centres of the cells about it, up to `reach` cells away in both directions:
+  SamElasticityGetNear - u_z per unit of pressure (m/Pa) on the sub * sub sub-cells of a cell at the centres of the
+  cells about it, up to `reach` cells away in both directions:
   table[(j * (2 reach + 1) + i) * sub * sub + l * sub + k], for the cell i - reach to the right and j - reach above, and
   the sub-cell k from the left, l from below. `sub`: odd.
   Collective.
 */
-typedef enum { SAM_ELASTICITY_ZZ, SAM_ELASTICITY_XX, SAM_ELASTICITY_YY, SAM_ELASTICITY_XY } SamElasticityKernel;
 PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalSlopes(SamElasticity elasticity, Vec slopes, Vec u_z);
-PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialSlopes(SamElasticity elasticity, int axis, Vec slopes, Vec u_t);
-PETSC_EXTERN PetscErrorCode SamElasticityGetNear(SamElasticity elasticity, SamElasticityKernel kernel, PetscInt reach,
-                                                 PetscInt sub, double table[]);
+PETSC_EXTERN PetscErrorCode SamElasticityGetNear(SamElasticity elasticity, PetscInt reach, PetscInt sub,
+                                                 double table[]);
 /*
   The same in single precision: arrays of this rank's cells, two components one after the other; `factor` times the
   product. For directions and corrections, whose product is small against what it is added to. Scale so that input and
@@ -148,6 +157,15 @@ PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangential(SamElasticity el
 */
 PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elasticity, PetscReal *normal,
                                                           PetscReal *tangential);
+
+/*
+  SamElasticityCreateStress - the stresses in body 1 or 2 under tractions on the grid (stress.h); `settings` of the
+  transforms, NULL: those of the elasticity. Collective. Errors: PETSC_ERR_SUP where the traits say that they are not
+  known; PETSC_ERR_ARG_OUTOFRANGE for another body, or a rigid one.
+*/
+typedef struct _n_SamStress *SamStress;
+PETSC_EXTERN PetscErrorCode  SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
+                                                       const SamFourierSettings *settings, SamStress *stress);
 
 /* The same products as PETSc objects, for use with KSP and the like. The elasticity must outlive them. Collective. */
 PETSC_EXTERN PetscErrorCode SamElasticityCreateMat(SamElasticity elasticity, PetscInt components, Mat *mat);

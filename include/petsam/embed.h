@@ -65,6 +65,22 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6]);
 /*
+  petsam_history - solves the steps of a history and commits each: `values` (rows, columns), and `columns` their names
+  with commas between them, as in the first line of the program's file: "time,load_n,load_tx". The first row's change
+  begins from the committed loads and displacements, or from none; -steps divides each row's change. Options -output,
+  -checkpoint and the like write files as the program does. Ends early where a step has no solution, did not converge or
+  is at the edge of the grid, with that code; the step is then tried and not committed.
+  petsam_live - so many cycles of wear; the rows are one closed cycle. Options -wear_rtol and the like count.
+  The monitor is called after each step (`cycle` 0) and after each computed cycle (1), whose numbers are
+  "wear/depth_max1" and so on; it may ask for fields and numbers, and ends the run where it returns anything but 0.
+  NULL: none.
+*/
+typedef int (*petsam_monitor)(void *context, petsam_contact *c, int cycle);
+int petsam_history(petsam_contact *c, const char *columns, int rows, const double *values, petsam_monitor monitor,
+                   void *context);
+int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows, const double *values,
+                petsam_monitor monitor, void *context);
+/*
   petsam_commit - the tried step becomes the state from which the next one goes on; bodies wear by it, if they do. A
   warning of petsam_message() then says that the step wears more than one may.
   petsam_reject - forgets a tried step, if there is one: later steps are, to the last bit, as if it had not been tried.
@@ -74,7 +90,8 @@ int petsam_reject(petsam_contact *c);
 /*
   petsam_stiffness - d(loads)/d(displacements) of the tried step, k[6 i + j] of load i and displacement j. `reversal` 0:
   cells that slip go on slipping; the derivative of petsam_try() at fixed committed state, not symmetric. 1: at the
-  instant at which the motion reverses: all cells in contact stick; symmetric. NaN for components that do not exist.
+  instant at which the motion reverses: all cells in contact stick; symmetric; without a tried step that of the
+  committed one. NaN for components that do not exist.
   10: the step or the linear systems did not converge.
 */
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
@@ -83,10 +100,37 @@ int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
   (examples/RESULTS.md): "pressure", "shear_x", "slip_x", "state", "gap" (of the deformed bodies), "wear_depth1" ...
   This rank's rows.
   petsam_get_number - a number of the last step that was tried, or after petsam_reject() of the committed one, by its
-  name in /history: "contact_area", "dissipated_energy", "stored_energy", "status", "load_n" ...
+  name in /history: "contact_area", "dissipated_energy", "stored_energy", "status", "load_n" ...; with "wear/" before
+  it one of the cycle that petsam_live() computed last, by its name in /wear.
 */
 int petsam_get_field(petsam_contact *c, const char *name, double *values);
 int petsam_get_number(petsam_contact *c, const char *name, double *value);
+/*
+  petsam_field_name, petsam_number_name - the name of the k-th field and number that can be asked for, k = 0, 1, ...;
+  NULL after the last one. It lives as long as the contact.
+*/
+const char *petsam_field_name(petsam_contact *c, int k);
+const char *petsam_number_name(petsam_contact *c, int k);
+/*
+  petsam_stress - evaluates the stresses in a body under the tried step, else the committed one. `options`: those of the
+  program petsam-stress (examples/stresses), "-body 2 -depths 0:1e-4:20 -section y=0 -quantities stress,mises".
+  shape[4]: numbers of times, z, y and x of the results; of maps each rank has its rows, of a section all have all.
+  petsam_record - 1: each step that is committed from now on is recorded, 40 bytes a cell; also those of
+  petsam_history(), and of petsam_live() those of the last computed cycle. 0: no more. Both forget earlier ones.
+  petsam_fatigue - evaluates fatigue parameters over the recorded steps, taken as one closed cycle, "-fatigue findley
+  -fatigue_findley_k 0.3", and the same options; without -quantities none of these. A warning of petsam_message() then
+  says that the cycle is not closed: the last step has not the tractions of the state in which recording began.
+  petsam_get_stress - a result of the last of these calls by its name in the program's file: "time", "z", "y", "x" are
+  the coordinates (s, m); "stress_xx" ..., "mises" ... (Pa) have the whole shape, in this order; fatigue parameters,
+  "findley", "findley_normal_x" ..., have no times. To the last bit those of petsam-stress on the same steps.
+  petsam_stress_name - the k-th name that petsam_get_stress() knows, NULL: there are no more; and the number of its
+  dimensions, 1, 3 or 4 (NULL: not wanted). Not collective.
+*/
+int         petsam_stress(petsam_contact *c, const char *options, int shape[4]);
+int         petsam_record(petsam_contact *c, int on);
+int         petsam_fatigue(petsam_contact *c, const char *options, int shape[4]);
+int         petsam_get_stress(petsam_contact *c, const char *name, double *values);
+const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
 /*
   petsam_save - writes the committed state to a file, safely: an older file of the name becomes name.1.
   petsam_load - gives a contact of the same options, and with the same gap and friction if these have been given, the
@@ -95,6 +139,13 @@ int petsam_get_number(petsam_contact *c, const char *name, double *value);
 */
 int petsam_save(petsam_contact *c, const char *file);
 int petsam_load(petsam_contact *c, const char *file);
+/*
+  petsam_copy - gives a contact the committed state of another one of the same options, gap and friction.
+  petsam_reset - bodies that have never touched, of the same options, gap and friction.
+  Both forget a tried step.
+*/
+int petsam_copy(petsam_contact *c, petsam_contact *from);
+int petsam_reset(petsam_contact *c);
 /* petsam_message - what was wrong with the last call, or a warning; empty: nothing. NULL asks for petsam_create()'s. */
 const char *petsam_message(const petsam_contact *c);
 /* petsam_destroy - frees a contact and sets the handle to NULL. */

@@ -29,14 +29,34 @@ PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*c
 /* SamGapSetOptionsPrefix - the prefix of its options, before `gap_`; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
 /*
-  SamGapSetType - chooses the shape; its parameters are zero until options are read. Option -gap_type. Collective.
+  SamGapSetType - chooses the shape; its parameters are not set then. Option -gap_type. Collective.
   Errors: SAM_ERR_USER for an unknown type, with the list of those known.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 /*
-  SamGapSetFromOptions - reads -gap_type (required unless a type has been set), the options of that type, which are all
-  required, and -gap_rough_file, -gap_rough_dataset (default /height) for a roughness (m) that is added to the shape.
-  Datasets are separations in m unless their attributes units and quantity say otherwise (examples/SURFACES.md).
+  SamGapSetParameter - a number that defines the shape, by the name of its option; `gap_` before it may be left out:
+  "radius1" for -gap_radius1. Not collective, the same on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a name that
+  the type does not have, or a value out of its range.
+*/
+PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value);
+/*
+  SamGapSetFile, SamGapSetRoughness - the HDF5 file of the type `file`, and of a roughness (m) that is added to any type
+  (NULL: none), and the dataset in it (NULL: /height). Options -gap_file, -gap_dataset, and -gap_rough_file,
+  -gap_rough_dataset. Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say
+  otherwise (examples/SURFACES.md). Not collective, the same on all ranks.
+*/
+PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, const char file[], const char dataset[]);
+PETSC_EXTERN PetscErrorCode SamGapSetRoughness(SamGap gap, const char file[], const char dataset[]);
+/*
+  SamGapGetFileGrid - the grid that the file of the gap or of the roughness is given on, from the setters or options:
+  cells and full widths (m) in x and y, all 0 without a file. Does not look at files if there are -grid_n and
+  -grid_size; a width of 0, which the file does not tell, is an error unless there is -grid_size. Collective. Errors:
+  SAM_ERR_USER, SAM_ERR_FILE.
+*/
+PETSC_EXTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2]);
+/*
+  SamGapSetFromOptions - reads -gap_type (required unless a type has been set, or there is -gap_file, whose type is
+  `file`), the options of that type, which are all required unless they have been set, and those of a roughness.
   While the help is printed, the options of all types are listed, none is required, and the gap is left flat.
   Collective. Errors: SAM_ERR_USER for missing or wrong values.
 */

@@ -30,8 +30,12 @@ struct _n_SamGrid {
 */
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
-/* SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. Collective. Errors: SAM_ERR_USER. */
-PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid);
+/*
+  SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. `n` and `width` are what counts without the first
+  two, which are required where it is 0, and become those of the grid. Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], PetscReal width[2],
+                                                     SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridReference(SamGrid grid);
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 /* SamGridCoarsen - the same rectangle with half the cells in each direction, rounded up. Collective. */
@@ -59,6 +63,9 @@ PETSC_EXTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
   on any number of ranks. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm);
+
+/* SamGridChecksum - a checksum of a field's values by cell, the same on any number of ranks. Collective. */
+PETSC_EXTERN PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 
 /* Coordinates of the centre of column i and of row j (both global), m. */
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)

@@ -2,7 +2,7 @@
 #ifndef PETSAM_LIFE_H
 #define PETSAM_LIFE_H
 
-#include <petsam/wear.h>
+#include <petsam/contact.h>
 
 /*
   A closed cycle: its steps, 0 ... steps - 1; the last one is where the next cycle begins.
@@ -61,12 +61,19 @@ typedef struct _n_SamLife *SamLife;
 
 /*
   SamLifeCreate - begins where the contact is: at the end of the cycle's last step, on loads and displacements of which
-  a first cycle, which does not wear, makes a closed loop. Borrows the wear, and the contact that this belongs to.
-  Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a tolerance that is not positive, or a jump below 0.
+  a first cycle, which does not wear, makes a closed loop. Borrows the contact, whose steps do not wear from now on.
+  Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a tolerance that is not positive, or a jump below 0;
+  PETSC_ERR_ARG_INCOMP for a contact without a law of wear, or with a law that cycle jumps do not support.
 */
-PETSC_EXTERN PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, const SamLifeSettings *settings,
-                                          SamLife *life);
+PETSC_EXTERN PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle,
+                                          const SamLifeSettings *settings, SamLife *life);
 PETSC_EXTERN PetscErrorCode SamLifeDestroy(SamLife *life);
+/*
+  SamLifeGetSeries - the numbers of computed cycles, as a state that results may offer as a series beside /history, and
+  the name of that; borrowed. SamLifeRecord - sets its committed numbers. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamLifeGetSeries(SamLife life, SamState *series, const char **name);
+PETSC_EXTERN PetscErrorCode SamLifeRecord(SamLife life, const SamLifeReport *report);
 /*
   SamLifeCompute - a cycle on the wear so far. When a step of it has no solution or did not converge, the report says so
   in its step. Collective.

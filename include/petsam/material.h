@@ -2,7 +2,7 @@
 #ifndef PETSAM_MATERIAL_H
 #define PETSAM_MATERIAL_H
 
-#include <petsam/base.h>
+#include <petsam/parameters.h>
 
 /*
   SamPair - the elastic constants of two isotropic bodies, and the sums of them that the displacements of their surfaces
@@ -34,5 +34,13 @@ PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], 
   SAM_ERR_USER, as SamPairSet(), and for an option that is missing.
 */
 PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);
+/*
+  SamPairAddParameters - appends the constants by the names of these options. Not collective.
+  SamPairSetFromParameters - from what has been recorded so; `source` says in messages where that is. Collective.
+  Errors: SAM_ERR_FILE.
+*/
+PETSC_EXTERN PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *parameters);
+PETSC_EXTERN PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamParameters *parameters,
+                                                     const char source[]);
 
 #endif

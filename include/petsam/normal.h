@@ -5,22 +5,29 @@
 #include <petsam/solver.h>
 
 /*
-  SamNormal - the kind of SamSolver for the normal problem: find the pressure p with, in every cell,
+  SamNormal - a solver of the normal problem: find the pressure p with, in every cell,
       p >= 0,  g >= 0,  p g = 0,      g = S p + h - (d_z - y r_x + x r_y)
   where g is the gap, S the normal influence operator and h the separation of the undeformed bodies; the balance gives
   the loads or rigid displacements. With a pressure limit H (SamNormalSetPressureLimit()) p <= H, and where p = H the
-  bodies may overlap, g <= 0: by that much they yield. All functions of SamSolver apply to it.
+  bodies may overlap, g <= 0: by that much they yield.
 */
-typedef SamSolver SamNormal;
+typedef struct _n_SamNormal *SamNormal;
 
-#define SAM_NORMAL_ACTIVESET    "activeset"    /* preconditioned projected CG on an active set, nested grids */
-#define SAM_NORMAL_POLONSKYKEER "polonskykeer" /* the classical projected CG, on one grid */
+/* SamNormalAsSolver - the same object, for the functions of solver.h. Not collective. */
+static inline SamSolver SamNormalAsSolver(SamNormal normal)
+{
+  return (SamSolver)normal;
+}
+
+#define SAM_NORMAL_ACTIVESET "activeset" /* preconditioned projected CG on an active set, nested grids */
 
 /*
   SamNormalCreate - a solver of the default type, activeset, for the grid of this elasticity, which it references.
   Collective.
 */
 PETSC_EXTERN PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal);
+/* SamNormalDestroy - frees the solver and sets the handle to NULL. Collective. */
+PETSC_EXTERN PetscErrorCode SamNormalDestroy(SamNormal *normal);
 
 /*
   SamNormalRegister - adds a type of normal solver, or replaces the one of that name. `create` sets the solver's

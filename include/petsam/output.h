@@ -2,33 +2,8 @@
 #ifndef PETSAM_OUTPUT_H
 #define PETSAM_OUTPUT_H
 
-#include <petsam/life.h>
-
-/*
-  SamParameters - what defines a run, by the names of its options (without dash). Stored with results and checkpoints.
-  Where `fixed` is true, a stopped run can only go on with the same value.
-*/
-#define SAM_PARAMETERS 48 /* most parameters of a run */
-typedef struct {
-  char      name[32];
-  PetscBool fixed;
-  PetscInt  count; /* number of values, 1 or 2; 0: the parameter is a text */
-  PetscReal value[2];
-  char      text[64];
-} SamParameter;
-typedef struct {
-  PetscInt     count;
-  SamParameter list[SAM_PARAMETERS];
-} SamParameters;
-
-/*
-  SamParametersAddReals, SamParametersAddText - append a parameter: one or two numbers, or a text of at most 63
-  characters. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for another count, or a parameter too many.
-*/
-PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, const char name[], PetscBool fixed,
-                                                  PetscInt count, const PetscReal values[]);
-PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, const char name[], PetscBool fixed,
-                                                 const char text[]);
+#include <petsam/contact.h>
+#include <petsam/parameters.h>
 
 /*
   SamOutput - a results file, to which one load step at a time is appended (layout: examples/RESULTS.md). Every dataset
@@ -38,53 +13,32 @@ PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, cons
 */
 typedef struct _n_SamOutput *SamOutput;
 
-/* What a file has only when it is asked for: columns of /history, fields, groups. */
-typedef enum {
-  SAM_OUTPUT_FRICTION_SCALE, /* friction_scale */
-  SAM_OUTPUT_BULK_STRESS,    /* bulk1_stress_xx ... bulk2_stress_xy */
-  SAM_OUTPUT_WEAR,           /* wear_volume1, wear_volume2; the fields wear_depth1, wear_depth2 */
-  SAM_OUTPUT_LIFE,           /* cycle; the group /wear */
-  SAM_OUTPUT_STIFFNESS,      /* stiffness, stiffness_reversal */
-  SAM_OUTPUT_SPOTS,          /* contact_spots, gap_mean */
-  SAM_OUTPUT_PLASTIC,        /* plastic_cells ... plastic_energy; the field plastic_depth */
-  SAM_OUTPUT_OPTIONS
-} SamOutputOption;
-
 /* How a results file is written. */
-#define SAM_OUTPUT_MOST 64 /* most fields, and most columns */
+#define SAM_OUTPUT_NAME 48 /* characters of a field's name */
 typedef struct {
-  PetscBool  fields[SAM_OUTPUT_MOST]; /* which ones of the table of fields; SamOutputSettingsSetFields() */
-  PetscBool  named;                   /* each of them by its name */
-  PetscInt   compress;                /* deflate level of the fields, 0 (none) to 9 */
-  PetscInt   chunk[2];                /* most cells of an HDF5 chunk in x, y */
-  PetscBool  xdmf;                    /* write an XDMF file beside the results */
-  PetscBool  single;                  /* fields of cells in single precision */
-  PetscReal  flush;                   /* s that steps without fields may wait to be written together; 0: they do not */
-  PetscBool  with[SAM_OUTPUT_OPTIONS];
-  SamWear    wear;    /* whose depths are written; borrowed; NULL without wear */
-  SamContact contact; /* that keeps the sums over the steps among the fields; borrowed; NULL: not known */
+  char        names[SAM_STATE_MOST][SAM_OUTPUT_NAME]; /* fields to be saved by their names; */
+  PetscInt    count;                                  /* so many; negative: those that are usual */
+  PetscInt    compress;                               /* deflate level of the fields, 0 (none) to 9 */
+  PetscInt    chunk[2];                               /* most cells of an HDF5 chunk in x, y */
+  PetscBool   xdmf;                                   /* write an XDMF file beside the results */
+  PetscBool   single;                                 /* fields of cells in single precision */
+  PetscReal   flush;       /* s that steps without fields may wait to be written together; 0: they do not */
+  SamContact  contact;     /* whose state gives the fields and /history; borrowed */
+  SamState    cycles;      /* whose numbers give a second series, */
+  const char *cycles_name; /* this group; borrowed; NULL: none */
 } SamOutputSettings;
 /*
-  SamOutputSettingsSetFromOptions - sets the defaults (pressure, shear, slip, state, depths of wear and plastic depth,
-  no compression, chunks of 1024 x 256 cells, double precision, with XDMF file, each step written at once, no optional
-  columns), then reads -output_fields, -output_compress, -output_chunk, -output_single and -output_xdmf. Collective.
-  Errors: SAM_ERR_USER.
-  SamOutputSettingsSetFields - chooses `count` fields by their names in the results; "all" stands for all of them, a
-  single "none" for none; count < 0: the default. `unknown`: a name that there is not, or NULL. Not collective.
-  SamOutputSettingsCheck - refuses fields that are named and that these results do not have. Collective. Errors:
-  SAM_ERR_USER.
-  SamOutputSettingsHas - whether a field of that name is among them. Not collective.
-  SamOutputSettingsPrepare - makes a contact keep the sums over the steps that are among the fields; SamOutputContinue()
-  then refuses a file with sums that the contact does not keep. Collective.
-  SamOutputGetFieldNames - the names that there are, as a sentence has them. Not collective.
+  SamOutputSettingsSetFromOptions - sets the defaults (the usual fields, no compression, chunks of 1024 x 256 cells,
+  double precision, with XDMF file, each step written at once), then reads -output_fields, -output_compress,
+  -output_chunk, -output_single and -output_xdmf. Collective. Errors: SAM_ERR_USER.
+  SamOutputSettingsAddLaws - adds laws to a problem that only accumulate a field which is asked for. Collective.
+  SamOutputSettingsPrepare - the contact that is written. Collective. Errors: SAM_ERR_USER for a field that the contact
+  does not offer.
 */
-PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFields(SamOutputSettings *settings, PetscInt count,
-                                                       const char *const names[], const char **unknown);
-PETSC_EXTERN PetscErrorCode SamOutputSettingsCheck(const SamOutputSettings *settings, const SamOptions *from);
-PETSC_EXTERN PetscBool      SamOutputSettingsHas(const SamOutputSettings *settings, const char name[]);
-PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings, SamContact contact);
-PETSC_EXTERN PetscErrorCode SamOutputGetFieldNames(char names[], size_t size);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
+PETSC_EXTERN PetscErrorCode SamOutputSettingsAddLaws(const SamOutputSettings *settings, SamProblem problem);
+PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings, SamContact contact,
+                                                     const SamOptions *from);
 
 /*
   SamOutputCreate - creates the file with the coordinates of the grid and no step yet; replaces older results of that
@@ -107,15 +61,14 @@ PETSC_EXTERN PetscErrorCode SamOutputNames(const char filename[], char **xdmf, c
 typedef struct {
   PetscInt first;  /* load steps before those of the file */
   PetscInt steps;  /* of /history */
-  PetscInt cycles; /* of /wear */
+  PetscInt cycles; /* of the second series */
   uint64_t times;  /* checksum of the times of these steps */
 } SamOutputPoint;
 /* SamOutputAddTime - the checksum of some times (0 of none) and one more (s). Not collective. */
 PETSC_EXTERN uint64_t SamOutputAddTime(uint64_t times, PetscReal time);
 /*
-  SamOutputContinue - opens the results of a stopped run, to append to what it held at a point. A file that holds
-  exactly this and was closed properly is used as it is. Otherwise, as it may end in the middle of a step or hold more
-  steps, it is copied to a new file up to there, which takes its name. The XDMF file is written again. Collective.
+  SamOutputContinue - results that go on after those of a stopped run: what these held at a point is copied to a new
+  file (SamOutputNames()), which takes their name when it is complete. The XDMF file is written again. Collective.
   Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps, SAM_ERR_USER for one with
   other fixed parameters or other times; after an error the file is unchanged.
 */
@@ -132,8 +85,8 @@ PETSC_EXTERN PetscErrorCode SamOutputSetReals(SamOutput output, const char name[
                                               const PetscReal values[]);
 PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[], const char text[]);
 /*
-  SamOutputWriteStep - appends the numbers of a step to /history and, when `contact` is not NULL, its time and the
-  fields of the contact's solution (SamContactGetSolution()). Then the file is complete up to here, whatever happens
+  SamOutputWriteStep - appends the numbers of the contact's state (SamStateReadNumbers()) to /history and, with
+  `fields`, the time and the fields. Then the file is complete up to here, whatever happens
   later; but where the settings allow it, steps without fields wait in memory, since many are written in the time of
   one: for so long, if steps go on to be written, or until there is a chunk of them. Collective. Errors: SAM_ERR_FILE,
   also when another program has replaced the file, or changed its size, since it was written last. When there is no
@@ -142,28 +95,18 @@ PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
   should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
   SamOutputFlush - writes the steps that wait. Collective. Errors: as SamOutputWriteStep().
 */
-PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, const SamStep *step, SamContact contact);
+PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, PetscBool fields);
 PETSC_EXTERN PetscErrorCode SamOutputFlush(SamOutput output);
 /*
   SamOutputWriteFields - appends only the fields, of a step whose numbers are in the file already; `time` (s) is that of
   the step. Otherwise as SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal time, SamContact contact);
+PETSC_EXTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal time);
 /*
-  SamOutputWriteCycle - appends a computed cycle of a life to /wear, then flushes, as SamOutputWriteStep(). Collective.
-  Errors: SAM_ERR_FILE; PETSC_ERR_ORDER for a file without that group.
+  SamOutputWriteCycle - appends the committed numbers of the settings' `cycles` to the second series, then flushes, as
+  SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE; PETSC_ERR_ORDER for a file without that group.
 */
-PETSC_EXTERN PetscErrorCode SamOutputWriteCycle(SamOutput output, const SamLifeReport *cycle);
-/*
-  What results hold, by the names that it has there:
-  SamFieldGet - a field of a contact's solution (SamContactGetSolution()), and of its wear (NULL: none), into a vector
-  of one component; states as real numbers. Collective.
-  SamStepGetNumber - a number of a step. Not collective.
-  Both tell whether there is one of that name.
-*/
-PETSC_EXTERN PetscErrorCode SamFieldGet(SamContact contact, SamWear wear, const char name[], Vec field,
-                                        PetscBool *found);
-PETSC_EXTERN PetscBool      SamStepGetNumber(const SamStep *step, const char name[], PetscReal *value);
+PETSC_EXTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
 /*
   SamOutputGetSaved - the number of load steps in the file, the number of those with fields, and the time (s) of the
   last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.

@@ -3,7 +3,7 @@
 #define PETSAM_RESULTS_H
 
 #include <petsam/control.h>
-#include <petsam/material.h>
+#include <petsam/parameters.h>
 #include <petsam/grid.h>
 
 /* SamResults - a results file of petsam, open for reading, on any number of ranks. */
@@ -29,16 +29,14 @@ PETSC_EXTERN PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], c
 PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
 /*
   SamResultsGetGrid - the grid of the run, distributed over the ranks that are there now; borrowed.
-  SamResultsGetPair - the materials.
-  SamResultsGetElasticity - the type of the bodies, as -elasticity names it; borrowed.
+  SamResultsGetParameters - what defines the run, as SamSetupAddParameters() has recorded it; borrowed.
   SamResultsGetOptions - the options of the run, as far as they are known; borrowed.
   SamResultsGetSteps - number of load steps, also of those before the file's, and of those whose fields have been saved.
   SamResultsGetSaved - load step (from 1) and time (s) of the k-th saved one (from 0).
   None is collective.
 */
 PETSC_EXTERN PetscErrorCode SamResultsGetGrid(SamResults results, SamGrid *grid);
-PETSC_EXTERN PetscErrorCode SamResultsGetPair(SamResults results, SamPair *pair);
-PETSC_EXTERN PetscErrorCode SamResultsGetElasticity(SamResults results, const char **type);
+PETSC_EXTERN PetscErrorCode SamResultsGetParameters(SamResults results, const SamParameters **parameters);
 PETSC_EXTERN PetscErrorCode SamResultsGetOptions(SamResults results, const char **options);
 PETSC_EXTERN PetscErrorCode SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
 PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);

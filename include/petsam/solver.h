@@ -7,8 +7,9 @@
 
 /*
   SamSolver - a method for one of the two contact problems, with its tolerances, monitors and counts. Its kinds are
-  SamNormal and SamTangential: each has its own function to create a solver, to solve, and to register types; all other
-  functions are those of this file. Used like a KSP: create, set or read options, solve, ask for the reason.
+  SamNormal and SamTangential, types of their own: each has its functions to create, solve, destroy, and to register
+  methods. All else is done by the functions of this file, on SamNormalAsSolver(normal) or
+  SamTangentialAsSolver(tangential). Used like a KSP: create, set or read options, solve, ask for the reason.
 
   The names of options carry the kind, after the user's prefix: -normal_rtol, -tangential_rtol. Below, <kind> stands for
   `normal` or `tangential`.
@@ -30,9 +31,6 @@ typedef enum {
 } SamSolverReason;
 /* SamSolverReasonName - the reason as it is printed, CONVERGED_RTOL for instance. Not collective. */
 PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
-
-/* SamSolverDestroy - frees the solver and sets the handle to NULL. Collective. */
-PETSC_EXTERN PetscErrorCode SamSolverDestroy(SamSolver *solver);
 
 /*
   SamSolverSetType - chooses the method, one of those registered for the solver's kind. Option -<kind>_type. Collective.

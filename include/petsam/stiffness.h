@@ -27,16 +27,28 @@ typedef struct {
 } SamStiffness;
 
 /*
-  SamStiffnessCompute - the tangent stiffness of the tried step. Displacements are relative to infinity, as everywhere.
+  SamStiffnessCompute - the tangent stiffness of the tried step, if there is one, else at the reversal of the committed
+  one: its slip, which the motion that goes on needs, is no longer known. Displacements are relative to infinity.
   The boundaries of contact, stick and slip do not move to first order: pressure vanishes at the edge of contact, and
   where stick meets slip both |q| = mu p and ds = 0 hold. So the sets of cells are frozen, and a column solves
     normal      S dp + B' dq = n on cells in contact; dp = 0 on those that yield, if the motion goes on,
     tangential  C dq + B dp - t = d(ds), which is 0 on cells that stick; on cells that slip
                 dq = mu e dp - mu p/|ds| (I - e e') d(ds),  e = q/|q|,
   n and t being the unit motion of the column, and B the coupling of dissimilar bodies. Leaves the contact unchanged.
-  Collective. Errors: PETSC_ERR_ORDER without a tried step.
+  Collective. Errors: PETSC_ERR_ORDER without such a step.
 */
 PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction,
                                                 SamStiffness *stiffness);
+
+/*
+  SamStiffnessDeclare - makes both directions' stiffness numbers of a contact's steps: `stiffness`,
+  `stiffness_reversal`.
+  SamStiffnessRecord - computes them for the tried step, unless it has no solution; a failure becomes the step's
+  message. Both are collective.
+*/
+PETSC_EXTERN PetscErrorCode SamStiffnessDeclare(SamContact contact);
+PETSC_EXTERN PetscErrorCode SamStiffnessRecord(SamContact contact, SamStep *step);
+/* SamStiffnessDescribe - says how it did not converge; empty where it did. Not collective. */
+PETSC_EXTERN void SamStiffnessDescribe(const SamStiffness *stiffness, char text[], size_t size);
 
 #endif

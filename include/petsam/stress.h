@@ -2,7 +2,6 @@
 #ifndef PETSAM_STRESS_H
 #define PETSAM_STRESS_H
 
-#include <petsam/edges.h>
 #include <petsam/fourier.h>
 
 /* The components of the stress, tension positive, and the tractions that cause it, in the order used everywhere. */
@@ -18,54 +17,33 @@ typedef enum {
 typedef enum { SAM_STRESS_P, SAM_STRESS_QX, SAM_STRESS_QY, SAM_STRESS_TRACTIONS } SamStressTraction;
 
 /*
-  SamStressCell - the stress in a half-space z >= 0 by uniform tractions on a rectangle of its surface. Not collective.
-
-  Input:
-    side    - the rectangle's sides, m
-    poisson - Poisson's ratio
-    point   - where, from the rectangle's centre, m; z >= 0. At z = 0 the stress is infinite on the rectangle's edges.
-
-  Output:
-    stress  - of each component by a unit of each traction: by p, which presses in the direction of z, and by q_x and
-              q_y, which pull in the direction of x and y. On the surface zz is -p, xz is -q_x, yz is -q_y.
-
-  The error is below 1e-12 of the largest kernel at that point, up to 16384 sides away. Sources: Love 1929, Phil. Trans.
-  R. Soc. A 228, 377; Johnson 1985, Contact Mechanics, ch. 3.
-*/
-PETSC_EXTERN void SamStressCell(const PetscReal side[2], PetscReal poisson, const PetscReal point[3],
-                                PetscReal stress[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]);
-
-/*
   SamStress - the stresses on planes parallel to the surface. z points into the body; on the surface of body 2 zz is -p,
   xz is -q_x and yz is -q_y, of body 1 zz is -p, xz is q_x and yz is q_y.
 */
 typedef struct _n_SamStress *SamStress;
 
-/*
-  SamStressCreate - for body 1 or 2 (`body`) of that Poisson's ratio; `settings` of the transforms may be NULL.
-  Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
-                                            PetscReal poisson, SamStress *stress);
+/* SamStressDestroy - of what SamElasticityCreateStress() has made; sets the handle to NULL. Collective. */
 PETSC_EXTERN PetscErrorCode SamStressDestroy(SamStress *stress);
 /* SamStressSetDepth - the plane z = depth (m, >= 0). Takes the time of some ten SamStressApply(). Collective. */
 PETSC_EXTERN PetscErrorCode SamStressSetDepth(SamStress stress, PetscReal depth);
 /*
   SamStressApply - the stresses (Pa, SAM_STRESS_COMPONENTS components) at the cells' centres, in place of the tractions:
   on entry the components zz, xz and yz of `field` are the pressure and the two components of the shear (Pa). These are
-  uniform in each cell; the result is corrected to that of tractions that are smooth (src/stress/cell.c). Bulk stress is
-  not in it. Collective. Errors: PETSC_ERR_ORDER before the depth is set.
+  uniform in each cell; the result is corrected to that of tractions that are smooth (stresscell.c of the half-space).
+  Bulk stress is not in it. Collective. Errors: PETSC_ERR_ORDER before the depth is set.
 */
 PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 
 /*
   SamStressAtEdge - the stresses xx, yy and xy (Pa, three a point) on the surface at the points of the contact's edge,
   of a reconstruction of the pressure's square: the largest tension lies there, and the values of the map approach it
-  only like the root of the cell (src/stress/edge.c). `field`: the map of SamStressApply() at depth 0. NaN within six
-  cells of the grid's border. Collective.
+  only like the root of the cell (src/elasticity/halfspace/stressedge.c). `field`: the map of SamStressApply() at
+  depth 0. NaN within six cells of the grid's border, and where the type of elasticity does not know them. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamStressAtEdge(SamGrid grid, PetscReal poisson, Vec field, const SamEdge *edge,
-                                            double stress[]);
+typedef struct _n_SamEdge   SamEdge;
+PETSC_EXTERN PetscErrorCode SamStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
+/* SamStressGetConstants - Young's modulus (Pa) and Poisson's ratio of the body at a depth (m). Not collective. */
+PETSC_EXTERN void SamStressGetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson);
 
 /*
   SamSection - the stresses on a plane across the surface, through a row or a column of cells, at many depths: much
@@ -77,11 +55,11 @@ typedef struct _n_SamSection *SamSection;
 typedef enum { SAM_SECTION_X, SAM_SECTION_Y } SamSectionAxis;
 
 /*
-  SamSectionCreate - through the row or column `index` of the grid, at n depths (m, >= 0); body and poisson as for
-  SamStressCreate(). Collective.
+  SamSectionCreate - through the row or column `index` of the grid, at n depths (m, >= 0). The stress must outlive it.
+  Collective.
 */
-PETSC_EXTERN PetscErrorCode SamSectionCreate(SamGrid grid, PetscInt body, PetscReal poisson, SamSectionAxis axis,
-                                             PetscInt index, PetscInt n, const PetscReal depths[], SamSection *section);
+PETSC_EXTERN PetscErrorCode SamSectionCreate(SamStress stress, SamSectionAxis axis, PetscInt index, PetscInt n,
+                                             const PetscReal depths[], SamSection *section);
 PETSC_EXTERN PetscErrorCode SamSectionDestroy(SamSection *section);
 /* SamSectionGetDepths - the first of the depths of this rank, their number, and the cells along. Not collective. */
 PETSC_EXTERN PetscErrorCode SamSectionGetDepths(SamSection section, PetscInt *first, PetscInt *count, PetscInt *length);

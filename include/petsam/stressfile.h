@@ -2,35 +2,8 @@
 #ifndef PETSAM_STRESSFILE_H
 #define PETSAM_STRESSFILE_H
 
+#include <petsam/evaluation.h>
 #include <petsam/output.h>
-#include <petsam/stress.h>
-
-/* The quantities of a file, each of one or more datasets. */
-typedef enum {
-  SAM_QUANTITY_STRESS,    /* stress_xx ... stress_yz, Pa */
-  SAM_QUANTITY_MISES,     /* mises, Pa */
-  SAM_QUANTITY_PRINCIPAL, /* principal_1 >= principal_2 >= principal_3, Pa */
-  SAM_QUANTITY_SHEAR_MAX, /* shear_max, Pa: half the difference of the largest and the smallest principal stress */
-  SAM_QUANTITY_STRAIN,    /* strain_xx ... strain_yz, tensor shear strains */
-  /* of all steps together, in the order of SamFatigueParameter: */
-  SAM_QUANTITY_CROSSLAND,    /* crossland, Pa */
-  SAM_QUANTITY_DANG_VAN,     /* dang_van, Pa */
-  SAM_QUANTITY_FINDLEY,      /* findley, Pa; findley_normal_x, _y, _z of the critical plane, as the next two have */
-  SAM_QUANTITY_SWT,          /* swt, Pa */
-  SAM_QUANTITY_FATEMI_SOCIE, /* fatemi_socie */
-  SAM_QUANTITY_RUIZ,         /* ruiz_1, J/m2; ruiz_2, Pa J/m2; on the surface, else NaN */
-  SAM_QUANTITIES
-} SamQuantity;
-
-/* What a file holds. The arrays are the caller's. */
-typedef struct {
-  PetscInt         steps, depths;
-  const PetscReal *times, *depth; /* s, m */
-  PetscBool        section;       /* only one line of cells: */
-  SamSectionAxis   axis;
-  PetscInt         index;
-  PetscBool        wants[SAM_QUANTITIES];
-} SamStressLayout;
 
 /*
   SamStressFile - an HDF5 file with the datasets of the quantities, of shape (time, z, y, x), or (z, y, x) for those of
@@ -70,8 +43,5 @@ PETSC_EXTERN PetscErrorCode SamStressFileFinish(SamStressFile file);
 PETSC_EXTERN void SamStressFileAbandon(SamStressFile file);
 /* SamStressFileDestroy - removes a file that has not been finished. Collective. */
 PETSC_EXTERN PetscErrorCode SamStressFileDestroy(SamStressFile *file);
-
-/* SamQuantityComponents - number of the datasets of a quantity. Not collective. */
-PETSC_EXTERN PetscInt SamQuantityComponents(SamQuantity quantity);
 
 #endif

@@ -5,24 +5,30 @@
 #include <petsam/solver.h>
 
 /*
-  SamTangential - the kind of SamSolver for one increment of the tangential problem: find the shear q, |q| <= b, b the
+  SamTangential - a solver of one increment of the tangential problem: find the shear q, |q| <= b, b the
   friction coefficient times the pressure, so that with
       s  = C q + w - (d_x - y r_z, d_y + x r_z),       ds = s - S,
   ds = 0 where |q| < b (stick), and ds = -lambda q with lambda >= 0 where |q| = b (slip). C is the tangential influence
   operator, w a given displacement (that of the pressure, for dissimilar materials), S the slip at the end of the step
   before; the balance gives the loads or rigid displacements. The problem is strictly convex, so it has one solution.
-  All functions of SamSolver apply to it.
 */
-typedef SamSolver SamTangential;
+typedef struct _n_SamTangential *SamTangential;
 
-#define SAM_TANGENTIAL_NEWTON   "newton"   /* Newton on stick and slip with preconditioned projected CG, nested grids */
-#define SAM_TANGENTIAL_GRADIENT "gradient" /* accelerated projected gradient: slow but sure, for comparison */
+/* SamTangentialAsSolver - the same object, for the functions of solver.h. Not collective. */
+static inline SamSolver SamTangentialAsSolver(SamTangential tangential)
+{
+  return (SamSolver)tangential;
+}
+
+#define SAM_TANGENTIAL_NEWTON "newton" /* Newton on stick and slip with preconditioned projected CG, nested grids */
 
 /*
   SamTangentialCreate - a solver of the default type, newton, for the grid of this elasticity, which it references.
   Collective.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential);
+/* SamTangentialDestroy - frees the solver and sets the handle to NULL. Collective. */
+PETSC_EXTERN PetscErrorCode SamTangentialDestroy(SamTangential *tangential);
 
 /*
   SamTangentialRegister - adds a type of tangential solver, or replaces the one of that name. `create` sets the solver's

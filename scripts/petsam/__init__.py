@@ -4,7 +4,7 @@
     results = petsam.open("sphere.h5")
     print(results.history["stick_area"][-1], results.field("pressure").max())
 
-Contact         a contact in this process: steps, stiffness, fields (contact.py)
+Contact         a contact in this process: steps, stiffness, fields, stresses, fatigue (contact.py)
 open            reading of files: Results of petsam (results.py), Stresses of petsam-stress (stresses.py), the table of
                 petsam-study (studies.py)
 cycles          cycles of a load history and their energies
@@ -28,6 +28,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Contact",
     "ContactError",
+    "CycleWarning",
     "EdgeContactWarning",
     "Error",
     "Missing",
@@ -47,6 +48,7 @@ __all__ = [
 _HOMES = {
     "Contact": ".contact",
     "ContactError": ".contact",
+    "CycleWarning": ".contact",
     "EdgeContactWarning": ".contact",
     "NoEquilibrium": ".contact",
     "NotConverged": ".contact",

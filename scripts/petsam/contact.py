@@ -13,6 +13,7 @@ The life of a contact, and what each number means: include/petsam/embed.h and ex
 
 import ctypes
 import os
+import re
 import shutil
 import sys
 import threading
@@ -26,22 +27,13 @@ from .errors import Error, Missing, short, there_are
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
 RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # m, rad
-# further numbers of a step, by their names in /history
-NUMBERS = (
-    "contact_area", "stick_area", "contact_fraction", "contact_cells", "stick_cells", "pressure_max", "shear_max",
-    "slip_max", "dissipated_energy", "stored_energy", "friction_scale", "bulk1_stress_xx", "bulk1_stress_yy",
-    "bulk1_stress_xy", "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy", "contact_spots", "gap_mean",
-    "wear_volume1", "wear_volume2", "plastic_cells", "plastic_area", "plastic_depth_max", "plastic_energy",
-    "edge_accepted", "normal_residual", "tangential_residual", "equilibrium_residual", "edge_passes", "stick_passes",
-    "normal_iterations", "tangential_iterations", "normal_applies", "tangential_applies", "normal_preconditions",
-    "tangential_preconditions", "coupling_iterations",
-)  # fmt: skip
-# fields, the last ones of contacts that wear or yield only
-FIELDS = (
-    "pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "displacement_x", "displacement_y", "displacement_z",
-    "state", "pressure_center", "shear_center_x", "shear_center_y", "wear_depth1", "wear_depth2", "plastic_depth",
+# of a computed cycle, by their names in /wear
+CYCLE = (
+    "cycle", "jump", "error", "volume1", "volume2", "depth_max1", "depth_max2", "dissipated_energy", "contact_area",
+    "pressure_max", "computed",
 )  # fmt: skip
 NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
+_MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
 
 class ContactError(Error):
@@ -75,9 +67,13 @@ class WearWarning(UserWarning):
     """A step wears so much that the pressure of the next ones is uneven from cell to cell, and wrong."""
 
 
+class CycleWarning(UserWarning):
+    """The recorded steps are not a closed cycle, or not a steady one."""
+
+
 class Step:
     """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, each of them by its name, and the
-    further NUMBERS of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none.
+    further numbers of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none.
 
     numbers   {name: value} of loads, displacements and the further numbers
     """
@@ -91,6 +87,20 @@ class Step:
     def __repr__(self):
         pairs = [f"{name}={value:.6g}" for name, value in zip(LOADS + RIGIDS, [*self.load, *self.rigid])]
         return f"Step(time={self.time:g}, status={self.status}, {', '.join(pairs)})"
+
+
+class Cycle:
+    """A computed cycle of a life: its numbers by their names in /wear, cycle.depth_max1, cycle.jump, ...
+
+    numbers   {name: value}
+    """
+
+    def __init__(self, numbers):
+        self.numbers = numbers
+        self.__dict__.update(numbers)
+
+    def __repr__(self):
+        return f"Cycle({', '.join(f'{name}={value:.6g}' for name, value in self.numbers.items())})"
 
 
 # ---------------------------------------------------------------- the library
@@ -127,7 +137,8 @@ def _find():
     for name in _candidates():
         try:
             found = ctypes.CDLL(name)
-            found.petsam_message.restype = ctypes.c_char_p
+            for text in ("message", "field_name", "number_name", "stress_name"):
+                getattr(found, f"petsam_{text}").restype = ctypes.c_char_p
             found.petsam_destroy.restype = None
             return found
         except OSError as error:
@@ -190,6 +201,7 @@ class Contact:
 
     def __init__(self, *, comm=None, **options):
         self._contact = ctypes.c_void_p()
+        self._made, self._given = dict(comm=comm, **options), {}
         self._c = _load()
         with _lock:
             code = self._c.petsam_create(
@@ -197,6 +209,7 @@ class Contact:
             )
             self._check(code)
         self._read_grid()
+        self._further = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
 
     def _read_grid(self):
         n, size, center = (ctypes.c_int * 2)(), (ctypes.c_double * 2)(), (ctypes.c_double * 2)()
@@ -226,6 +239,14 @@ class Contact:
             code = getattr(self._c, f"petsam_{name}")(self._contact, *arguments)
             self._check(code)
         return code
+
+    def _names(self, what):
+        """Of the fields ("field") or numbers ("number") that can be asked for."""
+        ask, found = getattr(self._c, f"petsam_{what}_name"), []
+        with _lock:
+            while name := ask(self._contact, len(found)):
+                found.append(name.decode())
+        return found
 
     # ------------------------------------------------------------ steps
 
@@ -262,7 +283,7 @@ class Contact:
         """{name: value} of the further numbers of the last step: a microsecond each."""
         found, value = {}, ctypes.c_double()
         with _lock:
-            for name in NUMBERS:
+            for name in self._further:
                 if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
                     found[name] = value.value
         return found
@@ -284,11 +305,72 @@ class Contact:
     def stiffness(self, reversal=False):
         """d(loads)/d(displacements) of the tried step, (6, 6): N/m, N/rad, N, N m/rad.
 
-        Cells that slip go on slipping: the derivative of try_step(); or, with reversal, all cells in contact stick.
+        Cells that slip go on slipping: the derivative of try_step(); or, with reversal, all cells in contact stick,
+        without a tried step those of the committed one.
         """
         k = np.empty((6, 6))
         self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
         return k
+
+    # ------------------------------------------------------------ histories and lives
+
+    def run(self, history, each=None):
+        """Solve a history from the committed state on and commit each step: a list of Step.
+
+        history is a file as the option -history has it, or {column: values}: time, load_n, load_tx, disp_x, ... The
+        option steps of the contact divides the change to each row. each(contact, step) is called after each step, may
+        ask for fields, and ends the run by returning True. Where a step has no solution: NoEquilibrium or NotConverged,
+        with the step, and in error.steps those before it. An EdgeContactWarning where the run ends because the contact
+        has reached the edge of the grid.
+        """
+        return self._run("history", (), history, each)
+
+    def live(self, cycles, history, each=None):
+        """Wear over so many cycles of a closed history (see run()), most of them jumped over: a list of Cycle.
+
+        The options wear_rtol, wear_type, wear_jump of the contact count. each(contact, cycle) as in run().
+        """
+        return self._run("live", (ctypes.c_double(cycles),), history, each)
+
+    def _run(self, name, first, history, each):
+        columns, values = _table(history)
+        found, failed = [], []
+
+        def tell(_context, _contact, cycle):
+            try:
+                if bool(cycle) != (name == "live"):
+                    return 0
+                found.append(Cycle({n: self.number(f"wear/{n}") for n in CYCLE}) if cycle else self._last_step())
+                return int(bool(each and each(self, found[-1])))
+            except BaseException as error:  # it cannot pass through the library
+                failed.append(error)
+                return 1
+
+        try:
+            code = self._call(
+                name,
+                *first,
+                ",".join(columns).encode(),
+                ctypes.c_int(len(values)),
+                _pointer(values),
+                _MONITOR(tell),
+                None,
+            )
+        except (NotConverged, NoEquilibrium) as error:
+            error.steps = found[:-1] if name == "history" else found  # a step that fails is told of too
+            error.step = self._last_step(error.code, str(error))
+            raise
+        if failed:
+            raise failed[0]
+        message = self._message()
+        if message:
+            warnings.warn(message, EdgeContactWarning if code == EDGE else UserWarning, stacklevel=3)
+        return found
+
+    def _last_step(self, status=0, message=""):
+        values = {name: self.number(name) for name in ("time", *LOADS, *RIGIDS)}
+        load, rigid = (np.array([values[name] for name in names]) for names in (LOADS, RIGIDS))
+        return Step(values["time"], load, rigid, status, message, self._numbers())
 
     # ------------------------------------------------------------ fields and numbers
 
@@ -304,7 +386,7 @@ class Contact:
             raise ValueError(f"out is not a contiguous array of doubles of shape {shape} that can be written to")
         if not isinstance(name, str):
             raise TypeError(f"{name!r} is no name of a field")
-        self._ask("get_field", name, FIELDS, _pointer(out))
+        self._ask("get_field", name, _pointer(out))
         return out
 
     __getitem__ = field
@@ -317,24 +399,26 @@ class Contact:
         value = ctypes.c_double()
         if not isinstance(name, str):
             raise TypeError(f"{name!r} is no name of a number")
-        self._ask("get_number", name, ("time", "status", *LOADS, *RIGIDS, *NUMBERS), ctypes.byref(value))
+        self._ask("get_number", name, ctypes.byref(value))
         return value.value
 
-    def _ask(self, function, name, names, target):
+    def _ask(self, function, name, target):
         """Call a function that is asked for something by name; an unknown name is an error with those there are."""
         try:
             self._call(function, name.encode(), target)
         except ContactError as error:
-            if error.code != 2 or name in names or not self._contact:
-                raise
             what = function.split("_")[1]
+            names = self._names(what) if self._contact else [name]
+            if error.code != 2 or name in names:
+                raise
             text = f"{short(name)}: there is no {what} of this name{there_are(name, names)}"
             raise ContactError(error.code, text) from None
 
     def set_field(self, name, values):
         """Give the gap (separation of the undeformed, unworn bodies, m) or the friction: (rows, n[0]) or a number."""
-        values = np.ascontiguousarray(np.broadcast_to(values, (self.rows, self.n[0])), dtype=float)
+        values = np.array(np.broadcast_to(values, (self.rows, self.n[0])), dtype=float, order="C")
         self._call("set_field", name.encode(), _pointer(values))
+        self._given[name] = values
 
     __setitem__ = set_field
 
@@ -349,6 +433,58 @@ class Contact:
 
     friction = property(None, _set_friction, doc="The coefficient of friction, a number or a field; to be set.")
 
+    # ------------------------------------------------------------ stresses
+
+    def stress(self, depths=0.0, section=None, body=2, quantities=("stress", "mises")):
+        """Stresses in a body under the tried step, else the committed one: {name: array}, as in petsam-stress's file.
+
+        depths      m below the surface: a number, several, or "first:last:number"
+        section     "y=0" or "x=1e-4" (m): only the line of cells nearest to it, not whole maps
+        quantities  of stress, mises, principal, shear_max, strain
+
+        stress_xx, mises, ... have the shape (1, z, y, x), "time", "z", "y" and "x" are the coordinates. Of maps each
+        rank has its rows, of sections all. To the last bit what petsam-stress finds of this step.
+        """
+        return self._evaluate("stress", depths=depths, section=section, body=body, quantities=quantities)
+
+    def record(self, on=True):
+        """Record each step that is committed from now on, for fatigue(): 40 bytes a cell. Forgets earlier ones.
+
+        Steps of a history too; of a life those of the last computed cycle.
+        """
+        self._call("record", ctypes.c_int(bool(on)))
+
+    def fatigue(self, parameters, depths=0.0, section=None, body=2, quantities=(), **constants):
+        """Fatigue parameters over the recorded steps, taken as one closed cycle: {name: array}, as stress().
+
+        parameters  of crossland, dang_van, findley, swt, fatemi_socie, ruiz; their arrays have the shape (z, y, x)
+        constants   fatigue_crossland_alpha, fatigue_dang_van_alpha, fatigue_findley_k, fatigue_fatemi_socie_k,
+                    fatigue_yield (Pa): the options of petsam-stress
+        quantities  those of stress() that are wanted too, of all steps: (time, z, y, x)
+
+        CycleWarning where the last step has not the tractions of the state in which recording began.
+        """
+        given = dict(depths=depths, section=section, body=body, quantities=quantities)
+        return self._evaluate("fatigue", fatigue=parameters, **given, **constants)
+
+    def _evaluate(self, function, **options):
+        """Call petsam_stress() or petsam_fatigue(); all its results."""
+        if np.size(options["quantities"]) == 0:
+            options["quantities"] = "none"
+        words = _words({name: value for name, value in options.items() if value is not None})
+        shape, dimensions, found = (ctypes.c_int * 4)(), ctypes.c_int(), {}
+        with _lock:
+            self._call(function, words.encode(), shape)
+            message = self._message()
+            sizes = dict(zip(("time", "z", "y", "x"), shape))
+            while name := self._c.petsam_stress_name(self._contact, len(found), ctypes.byref(dimensions)):
+                one = sizes[name.decode()] if dimensions.value == 1 else tuple(shape)[-dimensions.value :]
+                found[name.decode()] = np.empty(one)
+                self._call("get_stress", name, _pointer(found[name.decode()]))
+        if message:
+            warnings.warn(message, CycleWarning, stacklevel=3)
+        return found
+
     # ------------------------------------------------------------ files, end
 
     def save(self, file):
@@ -359,6 +495,18 @@ class Contact:
         """Take over the state in a file, which a contact of the same options has saved."""
         self._call("load", os.fsencode(file))
 
+    def copy(self):
+        """Another contact of the same options, gap and friction, in the committed state of this one."""
+        other = Contact(**self._made)
+        for name, values in self._given.items():
+            other.set_field(name, values)
+        other._call("copy", self._contact)
+        return other
+
+    def reset(self):
+        """Go back to bodies that have never touched."""
+        self._call("reset")
+
     def close(self):
         """Free the contact."""
         if self._contact:
@@ -366,7 +514,7 @@ class Contact:
                 self._c.petsam_destroy(ctypes.byref(self._contact))
 
     def __copy__(self):
-        raise TypeError("a contact cannot be copied or pickled; save() and load() pass its state on")
+        raise TypeError("a contact is copied by its copy(), and cannot be pickled; save() and load() pass its state on")
 
     __reduce__ = __copy__
 
@@ -382,6 +530,19 @@ class Contact:
     def __del__(self):
         if getattr(self, "_contact", None) and sys is not None and not sys.is_finalizing():
             self.close()
+
+
+def _table(history):
+    """Columns and values of a history: a file, or {column: values}."""
+    if isinstance(history, (str, os.PathLike)):
+        lines = [line.split("#")[0].strip() for line in Path(history).read_text(encoding="utf-8-sig").splitlines()]
+        lines = [re.split(r"\s*[,;]\s*|\s+", line) for line in lines if line]
+        columns, rows = [name.strip('"') for name in lines[0]], lines[1:]
+        if any(len(row) != len(columns) for row in rows):
+            raise ValueError(f"{history}: not all rows have {len(columns)} fields")
+        return columns, np.array(rows, dtype=float)
+    columns = list(history)
+    return columns, np.ascontiguousarray(np.column_stack([np.asarray(history[name], dtype=float) for name in columns]))
 
 
 def _pointer(array):

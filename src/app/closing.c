@@ -114,19 +114,19 @@ static PetscErrorCode PrintExtent(SamReport r)
 /* What of the edges is not found, or not corrected where that is asked for. */
 static PetscErrorCode PrintEdges(SamReport r)
 {
-  const PetscBool corrects  = r->edge_way == SAM_CONTACT_EDGES_DEFERRED;
-  char            where[48] = "";
+  char where[48] = "";
 
   PetscFunctionBegin;
   if (!r->touching) PetscFunctionReturn(PETSC_SUCCESS);
-  if (corrects)
-    PetscCall(PetscPrintf(r->comm, "  %-10s  corrected in %" PetscInt_FMT " of %" PetscInt_FMT " steps\n", "edges",
-                          r->corrected, r->touching));
-  if (r->edges.residual >= FOUND) PetscFunctionReturn(PETSC_SUCCESS);
+  if (r->uncorrected)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  not corrected in %" PetscInt_FMT " of %" PetscInt_FMT " steps\n", "edges",
+                          r->uncorrected, r->touching));
+  if (!r->edges.step || r->edges.residual >= FOUND) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->steps > 1)
     PetscCall(PetscSNPrintf(where, sizeof(where), " (step %" PetscInt_FMT ", the least)", r->edges.step));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %.0f %% of them smooth and resolved%s: the areas of the rest are of cells\n",
-                        corrects ? "" : "edges", 100 * (double)r->edges.residual, where));
+  PetscCall(PetscPrintf(r->comm,
+                        "  %-10s  %.0f %% of them smooth and resolved%s: other areas are estimated from cells\n",
+                        r->uncorrected ? "" : "edges", 100 * (double)r->edges.residual, where));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

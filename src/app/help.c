@@ -1,61 +1,55 @@
 /* The help: the options list themselves while the program's set-up reads them; then what was asked for is printed. */
-#include "helpimpl.h"
+#include "help.h"
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/help.h>
 #include <ctype.h>
 #include <string.h>
-#include <strings.h>
 
 #define WIDTH 120
 #define MOST  64 /* topics */
 
 /* ---- the list ---- */
 
-/* Makes room for one more. */
-static PetscErrorCode Grow(void *array, size_t item, PetscInt count, PetscInt *room)
-{
-  PetscFunctionBegin;
-  if (count < *room) PetscFunctionReturn(PETSC_SUCCESS);
-  *room = 2 * *room + 16;
-  PetscCall(PetscRealloc((size_t)*room * item, array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+enum { TITLE, NAME, ARGUMENT, TEXT, VALUE, WORDS, TEXTS };
 
-/* Keeps the title of a group, or an option of the last group. */
+/* The title of a group, or one of the options after it, as in SamOptionHelp; what it is not is NULL. */
+typedef struct {
+  char *text[TEXTS];
+} Line;
+
+typedef struct {
+  PetscInt count, room;
+  Line    *line;
+} List;
+
 static PetscErrorCode Keep(void *context, MPI_Comm comm, const char title[], const SamOptionHelp *o)
 {
-  SamHelpList *list = (SamHelpList *)context;
+  const SamOptionHelp none = {NULL, NULL, NULL, NULL, NULL}, *of = o ? o : &none;
+  const char *const   texts[TEXTS] = {title, of->name, of->argument, of->text, of->value, of->words};
+  List               *list         = (List *)context;
 
   PetscFunctionBegin;
   (void)comm;
-  if (title) {
-    PetscCall(Grow(&list->group, sizeof(*list->group), list->groups, &list->room_groups));
-    PetscCall(PetscStrallocpy(title, &list->group[list->groups++]));
+  if (list->count == list->room) {
+    list->room = 2 * list->room + 64;
+    PetscCall(PetscRealloc((size_t)list->room * sizeof(*list->line), &list->line));
   }
-  if (o) {
-    const char *const texts[SAM_HELP_TEXTS] = {o->name, o->argument, o->text, o->value, o->words};
-    SamListedOption  *kept;
-
-    PetscCall(Grow(&list->option, sizeof(*list->option), list->options, &list->room_options));
-    kept        = &list->option[list->options++];
-    kept->group = list->groups - 1;
-    for (int k = 0; k < SAM_HELP_TEXTS; k++) PetscCall(PetscStrallocpy(texts[k], &kept->text[k]));
-  }
+  for (int k = 0; k < TEXTS; k++) PetscCall(PetscStrallocpy(texts[k], &list->line[list->count].text[k]));
+  list->count++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Free(SamHelpList *list)
+static PetscErrorCode Free(List *list)
 {
   PetscFunctionBegin;
-  for (PetscInt g = 0; g < list->groups; g++) PetscCall(PetscFree(list->group[g]));
-  for (PetscInt o = 0; o < list->options; o++)
-    for (int k = 0; k < SAM_HELP_TEXTS; k++) PetscCall(PetscFree(list->option[o].text[k]));
-  PetscCall(PetscFree(list->group));
-  PetscCall(PetscFree(list->option));
+  for (PetscInt l = 0; l < list->count; l++)
+    for (int k = 0; k < TEXTS; k++) PetscCall(PetscFree(list->line[l].text[k]));
+  PetscCall(PetscFree(list->line));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What every program has: of this frame, and the most useful of PETSc's. */
-static PetscErrorCode DescribeFrame(void)
+/* Lists the options of a program, and those that every program has: of this frame, and the most useful of PETSc's. */
+static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arguments)
 {
   static const SamOptionHelp all[] = {
     {"help", "[<topic>]", "this list, or more about a topic, or an option named without its dash", "", ""},
@@ -65,79 +59,152 @@ static PetscErrorCode DescribeFrame(void)
   const SamOptions from = {PETSC_COMM_WORLD, NULL};
 
   PetscFunctionBegin;
+  PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
+  PetscCall(program->setup(program->context, arguments));
   PetscCall(SamOptionsHeading(&from, "Of every program and of PETSc"));
   for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) PetscCall(SamOptionsDescribe(&from, &all[k]));
+  PetscCall(PetscOptionsClearValue(NULL, "-help")); /* else PetscFinalize() would print PETSc's help */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- printing ---- */
 
-static PetscErrorCode PrintOption(const SamListedOption *o)
+static PetscErrorCode PrintLine(const Line *l)
 {
-  const SamOptionHelp option = {o->text[0], o->text[1], o->text[2], o->text[3], o->text[4]};
+  const SamOptionHelp option = {l->text[NAME], l->text[ARGUMENT], l->text[TEXT], l->text[VALUE], l->text[WORDS]};
 
   PetscFunctionBegin;
-  PetscCall(SamHelpPrint(NULL, PETSC_COMM_WORLD, NULL, &option));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode PrintGroup(const SamHelpList *list, PetscInt g)
-{
-  PetscFunctionBegin;
-  PetscCall(SamHelpPrint(NULL, PETSC_COMM_WORLD, list->group[g], NULL));
-  for (PetscInt o = 0; o < list->options; o++)
-    if (list->option[o].group == g) PetscCall(PrintOption(&list->option[o]));
+  PetscCall(SamHelpPrint(NULL, PETSC_COMM_WORLD, l->text[TITLE], l->text[TITLE] ? NULL : &option));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The names of the topics with commas between them, in lines that are not too long; `first` columns are taken. */
-static void ListTopics(const SamProgram *program, size_t first, char text[], size_t size)
+static void ListTopics(const SamTopic *topics, size_t first, char text[], size_t size)
 {
   size_t column = first, used = 0;
 
   text[0] = '\0';
-  for (PetscInt t = 0; program->topics[t].name; t++) {
-    const char  *name = program->topics[t].name, *end = program->topics[t + 1].name ? "," : "";
-    const size_t wide = strlen(name) + 2;
-    const char  *gap  = !t ? "" : column + wide > WIDTH ? "\n" : " ";
+  for (const SamTopic *t = topics; t->name; t++) {
+    const size_t wide = strlen(t->name) + 2;
+    const char  *gap  = t == topics ? "" : column + wide > WIDTH ? "\n" : " ";
 
     column = *gap == '\n' ? wide : column + wide;
-    used += (size_t)snprintf(text + used, size - used, "%s%s%s", gap, name, end);
+    used += (size_t)snprintf(text + used, size - used, "%s%s%s", gap, t->name, t[1].name ? "," : "");
     if (used >= size) return;
   }
 }
 
-static PetscErrorCode PrintAll(const SamProgram *program, const SamHelpList *list)
+static PetscErrorCode PrintAll(const SamProgram *program, const List *list)
 {
   static const char before[] = "More about one of these by -help and its name: ";
   char              topics[1024];
 
   PetscFunctionBegin;
-  ListTopics(program, strlen(before), topics, sizeof(topics));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s%s.\n", program->usage, before, topics));
-  for (PetscInt g = 0; g < list->groups; g++) PetscCall(PrintGroup(list, g));
+  ListTopics(program->topics + 1, strlen(before), topics, sizeof(topics));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s%s.\n", program->topics->text, before, topics));
+  for (PetscInt l = 0; l < list->count; l++) PetscCall(PrintLine(&list->line[l]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode PrintTopic(const SamTopic *topic, const SamHelpList *list)
+/* Whether the group of this title belongs to a topic. */
+static PetscBool HasGroup(const SamTopic *topic, const char title[])
 {
+  for (int k = 0; k < SAM_TOPIC_GROUPS && topic->group[k]; k++)
+    if (!strcmp(topic->group[k], title)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+static PetscErrorCode PrintTopic(const SamTopic *topic, const List *list)
+{
+  PetscBool within = PETSC_FALSE;
+
   PetscFunctionBegin;
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", topic->text));
-  for (PetscInt g = 0; g < list->groups; g++)
-    for (int k = 0; k < SAM_TOPIC_GROUPS && topic->group[k]; k++)
-      if (!strcmp(topic->group[k], list->group[g])) PetscCall(PrintGroup(list, g));
+  for (PetscInt l = 0; l < list->count; l++) {
+    if (list->line[l].text[TITLE]) within = HasGroup(topic, list->line[l].text[TITLE]);
+    if (within) PetscCall(PrintLine(&list->line[l]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- as JSON ---- */
+
+/*
+  A text in quotes, or null for NULL, between others:
+
+    {"program": ..., "version": ..., "usage": ...,
+     "topics": [{"name": ..., "text": ..., "groups": [...]}, ...],
+     "groups": [{"name": ..., "topic": ..., "options": [
+       {"name": "-grid_n", "argument": ..., "text": ..., "default": ... or null, "words": [...]}, ...]}, ...]}
+*/
+static PetscErrorCode PrintText(const char before[], const char text[], const char after[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s", before, text ? "\"" : "null"));
+  while (text && *text) {
+    const int plain = (int)strcspn(text, "\"\\\n");
+
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%.*s", plain, text));
+    text += plain;
+    if (*text) PetscCall(PetscPrintf(PETSC_COMM_WORLD, *text == '\n' ? "\\n" : *text == '"' ? "\\\"" : "\\\\"));
+    if (*text) text++;
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s", text ? "\"" : "", after));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintJsonOption(const char before[], const Line *o)
+{
+  char **word;
+  int    words;
+
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n    {\"name\": \"-%s\"", before, o->text[NAME]));
+  PetscCall(PrintText(", \"argument\": ", o->text[ARGUMENT], ""));
+  PetscCall(PrintText(", \"text\": ", o->text[TEXT], ""));
+  PetscCall(PrintText(", \"default\": ", o->text[VALUE][0] ? o->text[VALUE] : NULL, ", \"words\": ["));
+  PetscCall(PetscStrToArray(o->text[WORDS], ',', &words, &word));
+  for (int w = 0; w < words; w++) PetscCall(PrintText(w ? ", " : "", word[w], ""));
+  PetscCall(PetscStrToArrayDestroy(words, word));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "]}"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintJsonTopics(const SamTopic *topics)
+{
+  PetscFunctionBegin;
+  for (const SamTopic *t = topics; t->name; t++) {
+    PetscCall(PrintText(t == topics ? "\n  {\"name\": " : "]},\n  {\"name\": ", t->name, ""));
+    PetscCall(PrintText(", \"text\": ", t->text, ", \"groups\": ["));
+    for (int k = 0; k < SAM_TOPIC_GROUPS && t->group[k]; k++) PetscCall(PrintText(k ? ", " : "", t->group[k], ""));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintJson(const SamProgram *program, const List *list)
+{
+  PetscFunctionBegin;
+  PetscCall(PrintText("{\"program\": ", program->name, ",\n\"version\": \"" PETSAM_VERSION "\""));
+  PetscCall(PrintText(",\n\"usage\": ", program->topics->text, ",\n\"topics\": ["));
+  PetscCall(PrintJsonTopics(program->topics + 1));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "]}],\n\"groups\": ["));
+  for (PetscInt l = 0; l < list->count; l++) {
+    const char     *title = list->line[l].text[TITLE];
+    const SamTopic *topic = program->topics;
+
+    if (!title) {
+      PetscCall(PrintJsonOption(list->line[l - 1].text[TITLE] ? "" : ",", &list->line[l]));
+      continue;
+    }
+    while (topic->name && !HasGroup(topic, title)) topic++;
+    PetscCall(PrintText(l ? "]},\n  {\"name\": " : "\n  {\"name\": ", title, ""));
+    PetscCall(PrintText(", \"topic\": ", topic->name, ", \"options\": ["));
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "]}]}\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- what was asked for ---- */
-
-const SamTopic *SamHelpFindTopic(const SamProgram *program, const char group[])
-{
-  for (const SamTopic *t = program->topics; t->name; t++)
-    for (int k = 0; k < SAM_TOPIC_GROUPS && t->group[k]; k++)
-      if (!strcmp(t->group[k], group)) return t;
-  return NULL;
-}
 
 /* Whether a name is this one, or begins with it if `part`; _ and - count as spaces. */
 static PetscBool IsNamed(const char asked[], const char name[], PetscBool part)
@@ -158,7 +225,7 @@ static const SamTopic *FindAsked(const SamProgram *program, const char asked[], 
 {
   const SamTopic *found = NULL;
 
-  for (const SamTopic *t = program->topics; t->name; t++) {
+  for (const SamTopic *t = program->topics + 1; t->name; t++) {
     if (!IsNamed(asked, t->name, part)) continue;
     if (found) return NULL;
     found = t;
@@ -170,28 +237,28 @@ static const SamTopic *FindAsked(const SamProgram *program, const char asked[], 
   Prints the options whose names go on after `asked` with a further word, with one of just this name. Unless `part`,
   only if there is one of just this name.
 */
-static PetscErrorCode PrintOptions(const SamHelpList *list, const char asked[], PetscBool part, PetscBool *found)
+static PetscErrorCode PrintOptions(const List *list, const char asked[], PetscBool part, PetscBool *found)
 {
-  PetscInt group = -1;
-  char     more[80];
+  const Line *group = NULL, *printed = NULL;
+  char        more[80];
 
   PetscFunctionBegin;
-  *found = part;
-  for (PetscInt o = 0; o < list->options && !*found; o++)
-    *found = IsNamed(asked, list->option[o].text[SAM_HELP_NAME], PETSC_FALSE);
-  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(more, sizeof(more), "%s_", asked);
-  for (PetscInt o = 0; o < list->options; o++) {
-    const SamListedOption *option = &list->option[o];
-    const char            *name   = option->text[SAM_HELP_NAME];
+  *found = part;
+  for (PetscInt l = 0; l < list->count && !*found; l++)
+    *found = list->line[l].text[NAME] && IsNamed(asked, list->line[l].text[NAME], PETSC_FALSE);
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt l = 0; l < list->count; l++) {
+    const Line *line = &list->line[l];
+    const char *name = line->text[NAME];
 
-    if (!IsNamed(asked, name, PETSC_FALSE) && !IsNamed(more, name, PETSC_TRUE)) continue;
-    if (option->group != group)
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", group < 0 ? "" : "\n", list->group[option->group]));
-    PetscCall(PrintOption(option));
-    group = option->group;
+    if (!name) group = line;
+    if (!name || (!IsNamed(asked, name, PETSC_FALSE) && !IsNamed(more, name, PETSC_TRUE))) continue;
+    if (group != printed) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", printed ? "\n" : "", group->text[TITLE]));
+    PetscCall(PrintLine(line));
+    printed = group;
   }
-  *found = group < 0 ? PETSC_FALSE : PETSC_TRUE;
+  *found = printed != NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -202,9 +269,9 @@ static PetscErrorCode RefuseTopic(const SamProgram *program, const char asked[])
   size_t      count = 0;
 
   PetscFunctionBegin;
-  for (const SamTopic *t = program->topics; t->name && count < MOST; t++) names[count++] = t->name;
+  for (const SamTopic *t = program->topics + 1; t->name && count < MOST; t++) names[count++] = t->name;
   nearest = SamNearestName(asked, count, names);
-  ListTopics(program, 0, topics, sizeof(topics));
+  ListTopics(program->topics + 1, 0, topics, sizeof(topics));
   for (char *c = topics; *c; c++) *c = *c == '\n' ? ' ' : *c;
   PetscCheck(!nearest, PETSC_COMM_WORLD, SAM_ERR_USER, "-help %s: no such topic: is %s meant? There are %s", asked,
              nearest, topics);
@@ -213,11 +280,10 @@ static PetscErrorCode RefuseTopic(const SamProgram *program, const char asked[])
 }
 
 /* A topic, an option, the beginning of a topic, the beginning of options: the first of these that there is. */
-static PetscErrorCode PrintAsked(const SamProgram *program, const SamHelpList *list, const char asked[])
+static PetscErrorCode PrintAsked(const SamProgram *program, const List *list, const char asked[])
 {
   PetscFunctionBegin;
-  for (int k = 0; k < 2; k++) {
-    const PetscBool part  = k ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscBool part = PETSC_FALSE;; part = PETSC_TRUE) {
     const SamTopic *topic = FindAsked(program, asked, part);
     PetscBool       found = PETSC_FALSE;
 
@@ -226,26 +292,15 @@ static PetscErrorCode PrintAsked(const SamProgram *program, const SamHelpList *l
     else
       PetscCall(PrintOptions(list, asked, part, &found));
     if (topic || found) PetscFunctionReturn(PETSC_SUCCESS);
+    if (part) PetscCall(RefuseTopic(program, asked));
   }
-  PetscCall(RefuseTopic(program, asked));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arguments)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
-  PetscCall(program->setup(program->context, arguments));
-  PetscCall(DescribeFrame());
-  PetscCall(PetscOptionsClearValue(NULL, "-help")); /* else PetscFinalize() would print PETSc's help */
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode PrintList(const SamProgram *program, const SamHelpList *list, const char asked[])
+static PetscErrorCode PrintList(const SamProgram *program, const List *list, const char asked[])
 {
   PetscFunctionBegin;
   if (!strcmp(asked, "json"))
-    PetscCall(SamHelpPrintJson(program, list));
+    PetscCall(PrintJson(program, list));
   else if (asked[0])
     PetscCall(PrintAsked(program, list, asked));
   else
@@ -255,7 +310,7 @@ static PetscErrorCode PrintList(const SamProgram *program, const SamHelpList *li
 
 PetscErrorCode SamProgramHelp(const SamProgram *program, const SamArguments *arguments)
 {
-  SamHelpList    list = {.groups = 0};
+  List           list = {.count = 0};
   PetscErrorCode code;
 
   PetscFunctionBegin;

@@ -1,6 +1,7 @@
 /* The memory that a run needs, and whether each node has it. */
 #include "memory.h"
 #include "runimpl.h"
+#include <petsam/private/baseimpl.h>
 
 /*
   Bytes per cell at the peak, shared memory counted once, without the program and its libraries. Measured at 1024 cells
@@ -12,26 +13,23 @@
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
 
-/*
-  Of the correction for edges, [several steps][friction], of plastic depth, wear, a life and the tangent stiffness,
-  bytes per cell; all but wear and life measured.
-*/
-static const double deferred_bytes[2][2] = {{135, 480}, {135, 950}};
-#define PLASTIC_BYTES   40
-#define WEAR_BYTES      (6 * 8)
-#define LIFE_BYTES      (15 * 8)
+/* Of a life and of the tangent stiffness, bytes per cell; the latter measured. */
+#define LIFE_BYTES      (16 * 8)
 #define STIFFNESS_BYTES 215
-#define SUM_BYTES       8 /* of each field that is a sum over the steps */
 
-double SamRunMemory(SamGrid grid, const SamRunNeeds *needs)
+PetscErrorCode SamRunMemory(SamSimulation simulation, double *bytes)
 {
-  const double more = (needs->deferred ? deferred_bytes[needs->steps > 1][needs->friction] : 0) +
-                      (needs->plastic ? PLASTIC_BYTES : 0) + (needs->wear ? WEAR_BYTES : 0) +
-                      (needs->life ? LIFE_BYTES : 0) + (needs->stiffness ? STIFFNESS_BYTES : 0) +
-                      (double)needs->sums * (needs->life ? 2 : 1) * SUM_BYTES;
+  const SamSetup    *setup;
+  SamSimulationNeeds needs;
+  double             cell;
 
-  return SAM_MEMORY_PROGRAM +
-         (bytes_per_cell[needs->steps > 1][needs->friction][needs->coupled] + more) * (double)grid->cells;
+  PetscFunctionBegin;
+  PetscCall(SamSimulationGetSetup(simulation, &setup));
+  PetscCall(SamSimulationGetNeeds(simulation, &needs));
+  cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
+         (needs.life ? LIFE_BYTES : 0) + (needs.stiffness ? STIFFNESS_BYTES : 0);
+  *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Available memory of this node, bytes; 0 if that is not known. */
@@ -70,12 +68,17 @@ PetscErrorCode SamMemoryRefuse(MPI_Comm comm, double bytes, const char option[],
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamRunRefuseTooLarge(SamGrid grid, const SamRunNeeds *needs, const SamOptions *from)
+PetscErrorCode SamRunRefuseTooLarge(SamSimulation simulation, const SamOptions *from)
 {
-  char cells[64];
+  const SamSetup *setup;
+  double          bytes;
+  char            cells[64];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(cells, sizeof(cells), "%" PetscInt_FMT ",%" PetscInt_FMT, grid->nx, grid->ny));
-  PetscCall(SamMemoryRefuse(grid->comm, SamRunMemory(grid, needs), "-grid_n", cells, from));
+  PetscCall(SamSimulationGetSetup(simulation, &setup));
+  PetscCall(SamRunMemory(simulation, &bytes));
+  PetscCall(PetscSNPrintf(cells, sizeof(cells), "%" PetscInt_FMT ",%" PetscInt_FMT, setup->grid->nx, setup->grid->ny));
+  PetscCall(SamOptionsHeading(from, "Memory"));
+  PetscCall(SamMemoryRefuse(setup->grid->comm, bytes, "-grid_n", cells, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

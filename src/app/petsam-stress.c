@@ -4,18 +4,10 @@
   Exit codes: 0 done; 2 bad usage; 3 a file cannot be used; others are PETSc's.
 */
 #include "program.h"
+#include "help/petsam-stress.h" /* from petsam-stress.help */
 #include "stress/stressrun.h"
 #include <petsam/private/baseimpl.h>
 #include <signal.h>
-
-static const char usage[] =
-  "petsam-stress " PETSAM_VERSION ": stresses in a body under the tractions that petsam has found.\n"
-  "\n"
-  "  petsam-stress -input sphere.h5 -output stress.h5 [-option value ...]\n"
-  "  mpirun -n 4 petsam-stress -input sphere.h5 -output section.h5 -section y=0 -depths 0:1e-3:64 -steps all\n"
-  "\n"
-  "All quantities in SI units, tension positive, z into the body; defaults in parentheses. Required: -input, -output.\n"
-  "Exit codes: 0 done, 2 bad usage, 3 a file cannot be used.\n";
 
 static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 {
@@ -77,8 +69,7 @@ static void Abandon(void *context)
 int main(int argc, char **argv)
 {
   const SamProgram program = {.name     = "petsam-stress",
-                              .usage    = usage,
-                              .topics   = SamStressTopics,
+                              .topics   = topics,
                               .setup    = SetUp,
                               .run      = Compute,
                               .teardown = TearDown,

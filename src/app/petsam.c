@@ -1,79 +1,128 @@
 /*
-  The program petsam: a run (run.c) in the frame of program.c.
+  The program petsam: a simulation in the frame of program.c, and the report of it.
 
   Exit codes: 0 converged and checked; 2 bad usage; 3 a file cannot be used; 10 not converged; 11 no equilibrium; 12
   contact at the grid's edge; 75 stopped with a checkpoint; others are PETSc's. Nothing is written before all input has
   been read and checked.
 */
 #include "program.h"
+#include "help/petsam.h" /* from petsam.help */
 #include "runimpl.h"
+#include <petsam/private/baseimpl.h>
+#include <string.h>
 
 enum { EXIT_STOPPED = 75 };
 
-static const char usage[] =
-  "petsam " PETSAM_VERSION ": partial-slip contact of elastic bodies by the semi-analytical method.\n"
-  "\n"
-  "  petsam [-option value ...]\n"
-  "  mpirun -n 4 petsam -options_file study.opts [-option value ...]\n"
-  "\n"
-  "All quantities in SI units; defaults in parentheses. Required: -grid_n, -grid_size, -body1_young, -body1_poisson,\n"
-  "-body2_young, -body2_poisson, -gap_type with its radii, and one of -load_n, -disp_z. For example, two steel "
-  "spheres\n"
-  "pressed together and pushed sideways:\n"
-  "\n"
-  "  petsam -grid_n 256 -grid_size 2.6e-3 -body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 \\\n"
-  "    -body2_poisson 0.3 -gap_type sphere -gap_radius1 0.2 -gap_radius2 0.2 -friction 0.1 -load_n 1000 -load_tx 60 "
-  "\\\n"
-  "    -output sphere.h5\n"
-  "\n"
-  "Exit codes: 0 converged, 2 bad usage, 3 a file cannot be used, 10 not converged, 11 no equilibrium,\n"
-  "12 contact at the grid's edge, 75 stopped with a checkpoint.\n";
+/* ---- signals ---- */
+
+static volatile sig_atomic_t signaled[2] = {0, 0}; /* to write a checkpoint; to write one and stop */
+
+static void NoteSignal(int number)
+{
+  signaled[number == SIGUSR1] = 1;
+}
+
+static void CatchSignals(void)
+{
+  struct sigaction action;
+
+  memset(&action, 0, sizeof(action));
+  action.sa_handler = NoteSignal;
+  action.sa_flags   = SA_RESTART;
+  (void)sigemptyset(&action.sa_mask);
+  (void)sigaction(SIGUSR1, &action, NULL);
+  (void)sigaction(SIGUSR2, &action, NULL);
+}
+
+/* ---- the run ---- */
 
 static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 {
+  SamRun *const    run  = (SamRun *)context;
+  const SamOptions from = {PETSC_COMM_WORLD, NULL};
+
   PetscFunctionBegin;
-  PetscCall(SamRunSetUp((SamRun *)context, arguments));
+  CatchSignals();
+  PetscCall(SamSimulationCreate(from.comm, &run->simulation));
+  PetscCall(SamSimulationSetSignals(run->simulation, signaled));
+  PetscCall(SamSimulationSetFromOptions(run->simulation, &from, arguments));
+  PetscCall(SamReportCreateFromOptions(&from, &run->report));
+  PetscCall(SamRunCheckFiles(run, from.comm, arguments));
+  PetscCall(SamRunRefuseTooLarge(run->simulation, &from));
+  PetscCall(SamSimulationSetUp(run->simulation, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Passes the news of the simulation on to the report. */
+static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationNews *news)
+{
+  const SamRun *run = (const SamRun *)context;
+
+  PetscFunctionBegin;
+  if (news->kind == SAM_NEWS_BEGIN) {
+    const SamSetup *setup;
+    double          bytes;
+
+    PetscCall(SamSimulationGetSetup(run->simulation, &setup));
+    PetscCall(SamRunMemory(run->simulation, &bytes));
+    PetscCall(SamReportBanner(run->report, setup->grid, bytes, news->start));
+  } else {
+    PetscCall(SamReportNews(run->report, contact, news));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Solve(void *context)
 {
+  SamRun *const run = (SamRun *)context;
+
   PetscFunctionBegin;
-  PetscCall(SamRunSolve((SamRun *)context));
+  PetscCall(SamSimulationSetMonitor(run->simulation, Tell, run));
+  PetscCall(SamSimulationRun(run->simulation));
+  PetscCall(SamReportClosing(run->report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode TearDown(void *context)
 {
+  SamRun *const run = (SamRun *)context;
+
   PetscFunctionBegin;
-  PetscCall(SamRunTearDown((SamRun *)context));
+  PetscCall(SamSimulationDestroy(&run->simulation));
+  PetscCall(SamReportDestroy(&run->report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static int GetStatus(const void *context)
 {
-  const SamRun *run = (const SamRun *)context;
+  const SamRun *run     = (const SamRun *)context;
+  SamStatus     worst   = SAM_STATUS_CONVERGED;
+  PetscBool     stopped = PETSC_FALSE;
 
-  return run->stopped ? EXIT_STOPPED : (int)run->point.worst;
+  /* -version makes no simulation */
+  if (run->simulation) (void)SamSimulationGetStatus(run->simulation, &worst, &stopped);
+  return stopped ? EXIT_STOPPED : (int)worst;
 }
 
 static PetscBool IsWriting(const void *context)
 {
-  return ((const SamRun *)context)->writing;
+  const SamSimulation simulation = ((const SamRun *)context)->simulation;
+
+  return simulation && SamSimulationIsWriting(simulation);
 }
 
-/* Leaves no temporary file. */
 static void Abandon(void *context)
 {
-  (void)SamCheckpointsDestroy(&((SamRun *)context)->checkpoints);
+  const SamSimulation simulation = ((const SamRun *)context)->simulation;
+
+  if (simulation) SamSimulationAbandon(simulation);
 }
 
 int main(int argc, char **argv)
 {
   static SamRun    run;
   const SamProgram petsam = {.name     = "petsam",
-                             .usage    = usage,
-                             .topics   = SamPetsamTopics,
+                             .topics   = topics,
                              .prepare  = SamHistoryClaimOption,
                              .setup    = SetUp,
                              .run      = Solve,

@@ -3,14 +3,22 @@
 #define PETSAM_APP_PROGRAM_H
 
 #include <petsam/private/arguments.h>
-#include "topics.h"
+
+#define SAM_TOPIC_GROUPS 4 /* most groups of a topic */
+
+/* A topic of the help; scripts/maintain/help.awk makes an array of them from src/app/<program>.help. */
+typedef struct {
+  const char *name;
+  const char *group[SAM_TOPIC_GROUPS]; /* titles of the groups of options that belong to it; NULL: no more */
+  const char *text;                    /* lines that begin with two spaces are kept as they are in the man page */
+} SamTopic;
 
 /*
   A program, its help, and its functions, which are called with its context; all but the last three may raise errors.
 */
 typedef struct {
-  const char     *name, *usage;    /* usage: what -help prints before the options */
-  const SamTopic *topics;          /* of -help; every group of options belongs to one */
+  const char     *name;
+  const SamTopic *topics;          /* of -help, first what it prints before the options; a name of NULL ends them */
   PetscErrorCode (*prepare)(void); /* before PETSc starts; NULL: nothing */
   PetscErrorCode (*setup)(void *context, const SamArguments *arguments); /* reads all options; writes nothing */
   PetscErrorCode (*run)(void *context);

@@ -98,7 +98,7 @@ static PetscErrorCode Watch(SamSolver solver, PetscInt it, PetscReal error, void
 
   PetscFunctionBegin;
   PetscCall(SamContactGetNormal(r->contact, &normal));
-  Show(r, solver == normal ? "normal" : "tangential", it, error);
+  Show(r, solver == SamNormalAsSolver(normal) ? "normal" : "tangential", it, error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -110,9 +110,9 @@ PetscErrorCode SamProgressWatch(SamReport r, SamContact contact)
   PetscFunctionBegin;
   if (!r->progress.active || r->contact == contact) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNormal(contact, &normal));
-  PetscCall(SamSolverMonitorSet(normal, Watch, r));
+  PetscCall(SamSolverMonitorSet(SamNormalAsSolver(normal), Watch, r));
   PetscCall(SamContactGetTangential(contact, &tangential));
-  PetscCall(SamSolverMonitorSet(tangential, Watch, r));
+  PetscCall(SamSolverMonitorSet(SamTangentialAsSolver(tangential), Watch, r));
   r->contact = contact;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -91,57 +91,27 @@ static PetscErrorCode CountNodes(MPI_Comm comm, double *nodes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportSetRestart(SamReport r, const char checkpoint[], const SamRunPoint *point)
-{
-  SamLifeState life;
-
-  PetscFunctionBegin;
-  r->restart = checkpoint;
-  PetscCall(PetscSNPrintf(r->restart_at, sizeof(r->restart_at), "step %" PetscInt_FMT, point->steps));
-  if (!point->life) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamLifeGetState(point->life, &life));
-  (void)snprintf(r->restart_at, sizeof(r->restart_at), "%.10g cycles", (double)life.cycles);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamReportSetBranch(SamReport r, const char results[], PetscBool gap)
-{
-  PetscFunctionBegin;
-  r->branch = PETSC_TRUE;
-  r->gap    = gap;
-  PetscCall(PetscStrncpy(r->followed, results, sizeof(r->followed)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* From where the run goes on. */
-static PetscErrorCode PrintRestart(SamReport r)
+static PetscErrorCode PrintRestart(SamReport r, const SamSimulationStart *s)
 {
   PetscFunctionBegin;
-  if (!r->restart) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(r->comm, "  %-10s  after %s, from %s\n", "restart", r->restart_at, r->restart));
-  if (!r->branch) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(r->comm, "  %-10s  the results begin after %s%s%s%s\n", "branch", r->restart_at,
-                        r->followed[0] ? ", of " : "", r->followed,
-                        r->gap ? ", with another gap and the slip so far" : ""));
+  if (!s->restart) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  after %s, from %s\n", "restart", s->after, s->restart));
+  if (!s->branch) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  the results begin after %s%s%s%s\n", "branch", s->after,
+                        s->followed[0] ? ", of " : "", s->followed,
+                        s->gap ? ", with another gap and the slip so far" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportSetCheckpoints(SamReport r, const char when[])
-{
-  PetscFunctionBegin;
-  r->checkpoints = when;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt steps, const char output[],
-                               const char size[])
+PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const SamSimulationStart *start)
 {
   PetscMPIInt ranks;
   double      nodes;
   char        libraries[512];
 
   PetscFunctionBegin;
-  r->steps = steps;
+  r->steps = start->steps;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
   PetscCall(CountNodes(r->comm, &nodes));
@@ -153,23 +123,23 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, PetscInt
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid",
                         grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %.3g MB a rank\n", "memory", 1e-6 * bytes));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s\n", "steps", steps,
-                        output ? "in " : "not kept (no -output)", output ? output : ""));
-  if (output) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", size));
-  if (r->checkpoints) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "checkpoint", r->checkpoints));
-  PetscCall(PrintRestart(r));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s%s\n", "steps", start->steps,
+                        start->results ? "in " : "not kept (no -output)", start->results ? start->results : "",
+                        start->replaced ? ", replacing those there" : ""));
+  if (start->results) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", start->size));
+  if (start->when[0]) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "checkpoint", start->when));
+  PetscCall(PrintRestart(r, start));
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- steps ---- */
 
-PetscErrorCode SamReportBeginStep(SamReport r, PetscInt number, SamContact contact)
+static PetscErrorCode BeginStep(SamReport r, PetscInt number, SamContact contact)
 {
   PetscFunctionBegin;
   r->number = number;
   r->begin  = MPI_Wtime();
-  PetscCall(SamContactGetEdges(contact, &r->edge_way));
   if (!r->done) {
     PetscCall(SamReportGetOutputTime(r, &r->output_before));
     r->first = r->begin;
@@ -201,32 +171,30 @@ static void KeepWorst(SamReport r, const SamStep *step)
   }
 }
 
-static void KeepEdges(SamReport r, const SamStep *step)
+static PetscErrorCode KeepEdges(SamReport r, SamContact contact, const SamStep *step)
 {
-  if (r->edge_way == SAM_CONTACT_EDGES_NONE || !(step->contact_area > 0)) return;
+  PetscReal area, accepted;
+  PetscBool edges;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetEdges(contact, &edges));
+  PetscCall(SamContactGetNumber(contact, "contact_area", &area));
+  PetscCall(SamContactGetNumber(contact, "edge_accepted", &accepted));
+  if (!edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   r->touching++;
-  r->corrected += step->edge_passes > 0 ? 1 : 0;
-  if (!r->edges.step || step->edge_accepted < r->edges.residual)
-    r->edges = (SamReportWorst){step->edge_accepted, r->number + 1};
+  r->uncorrected += !strcmp(step->setting, "edges");
+  if (!r->edges.step || accepted < r->edges.residual) r->edges = (SamReportWorst){accepted, r->number + 1};
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Whether a warning of an edge that is not corrected is left out: of many steps it is printed once for each edge. The
-  kind of a warning is what it says before the reason.
-*/
+/* Whether a warning of an edge that is not corrected is left out: of many steps it is printed once. */
 static PetscBool IsRepeated(SamReport r, const SamStep *step)
 {
-  const size_t length = strcspn(step->message, ":");
-  PetscInt     k      = 0;
+  const PetscBool told = r->uncorrected_told;
 
   if (step->status || strcmp(step->setting, "edges")) return PETSC_FALSE;
-  while (k < r->edges_told &&
-         (strlen(r->edge_told_of[k]) != length || strncmp(r->edge_told_of[k], step->message, length)))
-    k++;
-  if (k < r->edges_told) return PETSC_TRUE;
-  if (k < SAM_REPORT_EDGES && length < sizeof(r->edge_told_of[0]))
-    (void)snprintf(r->edge_told_of[r->edges_told++], sizeof(r->edge_told_of[0]), "%.*s", (int)length, step->message);
-  return PETSC_FALSE;
+  r->uncorrected_told = PETSC_TRUE;
+  return told;
 }
 
 /* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
@@ -244,35 +212,28 @@ static void PrintMessage(SamReport r, const char where[], const SamStep *step)
           option);
 }
 
-void SamReportWarn(SamReport r, const char text[], const char option[])
+static void Warn(SamReport r, const char text[], const char option[])
 {
   SamStep said = {.status = SAM_STATUS_CONVERGED};
 
   (void)snprintf(said.message, sizeof(said.message), "%s", text);
   (void)snprintf(said.setting, sizeof(said.setting), "%s", option);
-  SamProgressErase(r);
   PrintMessage(r, "", &said);
 }
 
-void SamReportSetExtent(SamReport r, PetscInt step, const SamExtent *extent)
-{
-  r->extent      = *extent;
-  r->extent_step = step;
-}
-
-PetscErrorCode SamReportCountStep(SamReport r, PetscInt number, const SamStep *step)
+static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number, const SamStep *step)
 {
   PetscFunctionBegin;
-  r->number = number - 1;
+  r->number = number;
   r->done++;
   if (step->status != SAM_STATUS_NO_EQUILIBRIUM) {
     KeepWorst(r, step);
-    KeepEdges(r, step);
+    PetscCall(KeepEdges(r, contact, step));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
+static PetscErrorCode EndStep(SamReport r, SamContact contact, const SamStep *step)
 {
   const double seconds   = MPI_Wtime() - r->begin;
   char         where[32] = "";
@@ -281,13 +242,13 @@ PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
   PetscFunctionBegin;
   if (r->steps > 1) PetscCall(PetscSNPrintf(where, sizeof(where), "step %" PetscInt_FMT, r->number + 1));
   SamProgressErase(r);
-  PetscCall(SamReportCountStep(r, r->number + 1, step));
+  PetscCall(CountStep(r, contact, r->number, step));
   if (!r->quiet) {
     PetscCall(PetscViewerASCIIGetStdout(r->comm, &viewer));
     if (r->done == 1) PetscCall(SamStepViewHeading(viewer));
-    PetscCall(SamStepViewLine(step, r->number + 1, seconds,
+    PetscCall(SamStepViewLine(step, contact, r->number + 1, seconds,
                               MeanTime(r, r->done, seconds) * (double)(r->steps - r->number - 1), viewer));
-    if (r->steps == 1) PetscCall(SamStepView(step, viewer));
+    if (r->steps == 1) PetscCall(SamStepView(step, contact, viewer));
   }
   PrintMessage(r, where, step);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -295,7 +256,7 @@ PetscErrorCode SamReportEndStep(SamReport r, const SamStep *step)
 
 /* ---- cycles of a life ---- */
 
-PetscErrorCode SamReportBeginCycle(SamReport r, SamContact contact)
+static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
 {
   PetscFunctionBegin;
   r->living = PETSC_TRUE;
@@ -316,7 +277,7 @@ static double JumpsLeft(const SamLifeReport *c, PetscReal before, PetscReal left
                         : log(1 + (double)(left / c->jump) * (growth - 1) / growth) / log(growth);
 }
 
-PetscErrorCode SamReportEndCycle(SamReport r, const SamLifeReport *c, PetscReal cycles)
+static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cycles)
 {
   const double now = MPI_Wtime(), seconds = now - r->begin;
   double       left;
@@ -342,15 +303,9 @@ PetscErrorCode SamReportEndCycle(SamReport r, const SamLifeReport *c, PetscReal 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportMessage(SamReport r, const char where[], const SamStep *step)
-{
-  PetscFunctionBegin;
-  SamProgressErase(r);
-  PrintMessage(r, where, step);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+/* ---- all news ---- */
 
-PetscErrorCode SamReportAddFile(SamReport r, const char name[], const char content[])
+static PetscErrorCode AddFile(SamReport r, const char name[], const char content[])
 {
   PetscFunctionBegin;
   PetscCheck(r->files < SAM_REPORT_FILES, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d files",
@@ -358,5 +313,56 @@ PetscErrorCode SamReportAddFile(SamReport r, const char name[], const char conte
   PetscCall(PetscStrallocpy(name, &r->name[r->files]));
   PetscCall(PetscStrallocpy(content, &r->content[r->files]));
   r->files++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What is said in words. */
+static PetscErrorCode Say(SamReport r, const SamSimulationNews *news)
+{
+  PetscFunctionBegin;
+  SamProgressErase(r);
+  if (news->kind == SAM_NEWS_MESSAGE)
+    PrintMessage(r, news->text, news->result);
+  else if (news->kind == SAM_NEWS_ADVICE)
+    Warn(r, news->text, news->setting);
+  else if (!r->rank)
+    fprintf(stderr, "petsam: %s\n", news->text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulationNews *news)
+{
+  PetscFunctionBegin;
+  switch (news->kind) {
+  case SAM_NEWS_BEGIN:
+    break;
+  case SAM_NEWS_STEP_BEGINS:
+    PetscCall(BeginStep(r, news->step, contact));
+    break;
+  case SAM_NEWS_STEP:
+    PetscCall(EndStep(r, contact, news->result));
+    break;
+  case SAM_NEWS_CYCLE_BEGINS:
+    PetscCall(BeginCycle(r, contact));
+    break;
+  case SAM_NEWS_CYCLE_STEP:
+    PetscCall(CountStep(r, contact, news->step, news->result));
+    break;
+  case SAM_NEWS_CYCLE:
+    PetscCall(EndCycle(r, news->cycle, news->cycles));
+    break;
+  case SAM_NEWS_EXTENT:
+    r->extent      = *news->extent;
+    r->extent_step = news->step + 1;
+    break;
+  case SAM_NEWS_FILE:
+    PetscCall(AddFile(r, news->text, news->setting));
+    break;
+  case SAM_NEWS_MESSAGE:
+  case SAM_NEWS_ADVICE:
+  case SAM_NEWS_STOPPED:
+    PetscCall(Say(r, news));
+    break;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -24,38 +24,29 @@ typedef struct {
   PetscInt  step;
 } SamReportWorst;
 
-enum { SAM_REPORT_EDGES = 4 };
-
 struct _n_SamReport {
   /* what the user set */
-  MPI_Comm    comm;
-  PetscBool   quiet;
-  const char *restart;                      /* the checkpoint from which the run goes on; NULL: none */
-  char        restart_at[64];               /* "step 7" or "1e5 cycles" */
-  PetscBool   branch, gap;                  /* results begin there; with a gap that has changed */
-  char        followed[PETSC_MAX_PATH_LEN]; /* file of the results before a branch; empty: none */
-  const char *checkpoints;                  /* when they are written; NULL: never */
+  MPI_Comm  comm;
+  PetscBool quiet;
   /* status */
-  PetscMPIInt     rank;
-  PetscBool       logging;             /* whether PETSc's log has the times */
-  double          start, first, begin; /* MPI_Wtime() at the start of the report, of the first step, of this one */
-  double          output_before;       /* seconds spent on results and checkpoints before the first step */
-  double          recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
-  PetscInt        steps, number, done;
-  PetscInt        cycles;   /* lines printed for computed cycles */
-  PetscReal       jump;     /* cycles, of the last of these */
-  PetscBool       living;   /* the run is a life */
-  SamReportWorst  worst[3]; /* normal, tangential, equilibrium */
-  SamContactEdges edge_way; /* what is done for the edges */
-  SamReportWorst  edges;    /* the least share of the edges that is reconstructed; step 0: none is asked for */
-  PetscInt        corrected, touching; /* steps corrected for their edges; in contact */
-  SamProgress     progress;
-  SamContact      contact;                     /* whose monitors are set; borrowed */
-  SamExtent       extent;                      /* of the contact in step `extent_step`, */
-  PetscInt        extent_step;                 /* from 1; 0: not known */
-  PetscBool       edge_told;                   /* that the contact is at the edge, which is allowed */
-  char     edge_told_of[SAM_REPORT_EDGES][96]; /* edges that are not corrected, whose warnings have been printed */
-  PetscInt edges_told;
+  PetscMPIInt    rank;
+  PetscBool      logging;                   /* whether PETSc's log has the times */
+  double         start, first, begin;       /* MPI_Wtime() at the start of the report, of the first step, of this one */
+  double         output_before;             /* seconds spent on results and checkpoints before the first step */
+  double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
+  PetscInt       steps, number, done;
+  PetscInt       cycles;   /* lines printed for computed cycles */
+  PetscReal      jump;     /* cycles, of the last of these */
+  PetscBool      living;   /* the run is a life */
+  SamReportWorst worst[3]; /* normal, tangential, equilibrium */
+  SamReportWorst edges;    /* the least share of the edges that is reconstructed; step 0: none is asked for */
+  PetscInt       uncorrected, touching; /* steps that could not be corrected for their edges; in contact */
+  SamProgress    progress;
+  SamContact     contact;          /* whose monitors are set; borrowed */
+  SamExtent      extent;           /* of the contact in step `extent_step`, */
+  PetscInt       extent_step;      /* from 1; 0: not known */
+  PetscBool      edge_told;        /* that the contact is at the edge, which is allowed */
+  PetscBool      uncorrected_told; /* that an edge is not corrected */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;

@@ -4,6 +4,9 @@
 */
 #include "files.h"
 #include "runimpl.h"
+#include <petsam/private/baseimpl.h>
+#include <petsam/checkpoint.h>
+#include <petsam/output.h>
 
 static PetscErrorCode AddRead(SamFiles *files)
 {
@@ -38,19 +41,19 @@ static PetscErrorCode AddDerived(SamFiles *files, const char option[], char *one
 
 static PetscErrorCode AddWritten(const SamRun *run, SamFiles *files)
 {
-  const char *checkpoint, *restart;
-  char       *one, *other;
+  SamSimulationFiles f;
+  char              *one, *other;
 
   PetscFunctionBegin;
-  PetscCall(SamCheckpointsGetNames(run->checkpoints, &checkpoint, &restart));
-  if (run->has_output) {
-    PetscCall(SamFilesAdd(files, SAM_FILE_WRITTEN, "-output", run->filename, PETSC_FALSE));
-    PetscCall(SamOutputNames(run->filename, &one, &other));
-    PetscCall(AddDerived(files, "-output", one, run->output_settings.xdmf, other, restart ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(SamSimulationGetFiles(run->simulation, &f));
+  if (f.output) {
+    PetscCall(SamFilesAdd(files, SAM_FILE_WRITTEN, "-output", f.output, PETSC_FALSE));
+    PetscCall(SamOutputNames(f.output, &one, &other));
+    PetscCall(AddDerived(files, "-output", one, f.xdmf, other, f.restart != NULL));
   }
-  if (checkpoint) {
-    PetscCall(SamFilesAdd(files, SAM_FILE_WRITTEN, "-checkpoint", checkpoint, PETSC_FALSE));
-    PetscCall(SamCheckpointNames(checkpoint, &one, &other));
+  if (f.checkpoint) {
+    PetscCall(SamFilesAdd(files, SAM_FILE_WRITTEN, "-checkpoint", f.checkpoint, PETSC_FALSE));
+    PetscCall(SamCheckpointNames(f.checkpoint, &one, &other));
     PetscCall(AddDerived(files, "-checkpoint", one, PETSC_TRUE, other, PETSC_TRUE));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -42,31 +42,30 @@ static void Complain(SamArguments *a, PetscErrorCode code, const char format[], 
   va_end(values);
 }
 
-/* Options of PETSc that this program refuses; a star stands for any ending. */
+/* Options of PETSc that this program refuses, with spaces between them; a star stands for any ending. */
 static const struct {
-  const char *name, *reason;
+  const char *names, *reason;
 } refused[] = {{"-python*", "petsam does not run other programs"},
                {"-dll_*", "petsam does not load other code"},
-               {"-start_in_debugger", "petsam does not start other programs"},
-               {"-on_error_attach_debugger", "petsam does not start other programs"},
-               {"-on_error_emacs", "petsam does not start other programs"},
+               {"-start_in_debugger -on_error_attach_debugger -on_error_emacs", "petsam does not start other programs"},
                {"-stop_for_debugger", "petsam would wait for ever"},
                {"-saws*", "petsam does not serve the web"},
                {"-mpi_linear_solver_server", "petsam has no linear solver to serve"},
-               {"-prefix_push", "petsam's options have no prefix"},
-               {"-prefix_pop", "petsam's options have no prefix"},
+               {"-prefix_push -prefix_pop", "petsam's options have no prefix"},
                {"-fp_trap", "petsam computes with infinite numbers, for rigid bodies and flat surfaces"},
-               {"-log_trace", "not supported: it writes a file for each rank"},
-               {"-log_mpe*", "not supported: it writes a file for each rank"},
+               {"-log_trace -log_mpe*", "not supported: it writes a file for each rank"},
                {"-citations", "not supported: petsam's sources are in src/README.md"},
-               {"-options_file_yaml", "not supported: use -options_file"},
-               {"-options_string_yaml", "not supported: use -options_file"}};
+               {"-options_file_yaml -options_string_yaml", "not supported: use -options_file"}};
 
-static PetscBool IsNamed(const char word[], const char name[])
+static PetscBool IsNamed(const char word[], const char names[])
 {
-  const size_t length = strlen(name);
+  for (const char *name = names; *name; name += strspn(name, " ")) {
+    const size_t length = strcspn(name, " "), part = name[length - 1] == '*' ? length - 1 : length;
 
-  return name[length - 1] == '*' ? !strncasecmp(word, name, length - 1) : !strcasecmp(word, name);
+    if (!strncasecmp(word, name, part) && (part < length || !word[part])) return PETSC_TRUE;
+    name += length;
+  }
+  return PETSC_FALSE;
 }
 
 static void ExamineFile(SamArguments *a, const char where[], const char file[], int depth);
@@ -75,7 +74,7 @@ static void ExamineFile(SamArguments *a, const char where[], const char file[], 
 static void ExamineName(SamArguments *a, const char where[], const char option[])
 {
   for (size_t k = 0; k < sizeof(refused) / sizeof(refused[0]); k++)
-    if (IsNamed(option, refused[k].name)) Complain(a, SAM_ERR_USER, "%s%s: %s", where, option, refused[k].reason);
+    if (IsNamed(option, refused[k].names)) Complain(a, SAM_ERR_USER, "%s%s: %s", where, option, refused[k].reason);
 }
 
 /* An equals sign between an option and its value, as other programs have it. */
@@ -276,7 +275,7 @@ void SamArgumentsSeparate(char text[])
   PetscBool quoted = PETSC_FALSE;
 
   for (; *text; text++) {
-    if (*text == '"') quoted = quoted ? PETSC_FALSE : PETSC_TRUE;
+    if (*text == '"') quoted = !quoted;
     if (!quoted && strchr("\t\r\n\v\f", *text)) *text = ' ';
   }
 }
@@ -298,7 +297,7 @@ static PetscBool IsOpen(const char text[])
   int quotes = 0;
 
   for (; *text; text++) quotes += *text == '"';
-  return quotes % 2 ? PETSC_TRUE : PETSC_FALSE;
+  return quotes % 2 != 0;
 }
 
 /* The words of a text, NULL: none. */
@@ -395,7 +394,7 @@ PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *a, const char 
   for (int k = 0; k < a->givens && rank == 0; k++)
     if (!strcasecmp(a->given[k], name)) found = 1;
   PetscCallMPI(MPI_Bcast(&found, 1, MPI_INT, 0, comm));
-  *has = found ? PETSC_TRUE : PETSC_FALSE;
+  *has = found != 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,7 +3,7 @@
 #include <fftw3-mpi.h>
 
 PetscLogEvent SamEvents[SAM_EVENT_COUNT];
-PetscClassId  SAM_CLASSID;
+PetscClassId  SamClassId;
 
 static PetscBool    initialized = PETSC_FALSE;
 static MPI_Datatype total_type  = MPI_DATATYPE_NULL;
@@ -36,8 +36,8 @@ PetscErrorCode SamInitialize(void)
   PetscCallMPI(MPI_Op_create(AddTotals, 1, &add_totals));
   fftw_mpi_init();
   fftwf_mpi_init();
-  PetscCall(PetscClassIdRegister("petsam", &SAM_CLASSID));
-  for (PetscInt e = 0; e < SAM_EVENT_COUNT; e++) PetscCall(PetscLogEventRegister(names[e], SAM_CLASSID, &SamEvents[e]));
+  PetscCall(PetscClassIdRegister("petsam", &SamClassId));
+  for (PetscInt e = 0; e < SAM_EVENT_COUNT; e++) PetscCall(PetscLogEventRegister(names[e], SamClassId, &SamEvents[e]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

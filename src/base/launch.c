@@ -29,7 +29,7 @@ PetscBool SamPrepareMPI(void)
   (void)setenv("OMPI_MCA_sharedfp", "^sm", 0); /* its semaphores fail where /dev/shm is full */
   if (IsLaunched()) return PETSC_TRUE;
   for (int k = 0; k < ALONE; k++) {
-    alone[k].set = getenv(alone[k].name) ? PETSC_FALSE : PETSC_TRUE;
+    alone[k].set = !getenv(alone[k].name);
     (void)setenv(alone[k].name, alone[k].value, 0);
   }
   return PETSC_FALSE;

@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TEXT_SIZE PETSC_MAX_PATH_LEN
+#define TEXT_SIZE  PETSC_MAX_PATH_LEN
+#define MOST_WHOLE (1LL << 53) /* doubles hold whole numbers exactly up to this */
 
 PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
 {
@@ -54,7 +55,7 @@ static PetscErrorCode GetText(const SamOptions *from, const char name[], const c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *DescribeRange(SamRange range)
+const char *SamRangeDescribe(SamRange range)
 {
   switch (range) {
   case SAM_RANGE_NONNEGATIVE:
@@ -70,7 +71,7 @@ static const char *DescribeRange(SamRange range)
   }
 }
 
-static PetscBool InRange(SamRange range, double value)
+PetscBool SamRangeHas(SamRange range, double value)
 {
   if (isnan(value)) return PETSC_FALSE;
   if (isinf(value)) return range == SAM_RANGE_POSITIVE_INF && value > 0;
@@ -79,16 +80,29 @@ static PetscBool InRange(SamRange range, double value)
   return value > 0 && (range != SAM_RANGE_PART || value < 1);
 }
 
-/* Reads one number at *text and moves past it; the character after it must be `,` or the end. */
-static PetscBool ReadReal(const char **text, double *value)
-{
-  char *end;
+/* What is read: one number, or two, real ones in a range, or whole ones from `least` on. */
+typedef struct {
+  PetscBool pair, whole;
+  SamRange  range;
+  PetscInt  least;
+} Kind;
 
-  errno  = 0;
-  *value = strtod(*text, &end);
-  if (end == *text || (errno == ERANGE && isinf(*value)) || (*end && *end != ',')) return PETSC_FALSE;
-  *text = *end == ',' ? end + 1 : end;
-  return (*end == ',' && !*(end + 1)) ? PETSC_FALSE : PETSC_TRUE;
+/* Reads one number at *text and moves past it and a comma behind it; whether it is one of the kind. */
+static PetscBool ReadNumber(const Kind *kind, const char **text, double *value)
+{
+  long long number = 0;
+  char     *end;
+
+  errno = 0;
+  if (kind->whole)
+    *value = (double)(number = strtoll(*text, &end, 10));
+  else
+    *value = strtod(*text, &end);
+  if (end == *text || (errno == ERANGE && (kind->whole || isinf(*value))) || (*end && *end != ',')) return PETSC_FALSE;
+  *text = *end ? end + 1 : end;
+  if (*end && !end[1]) return PETSC_FALSE;
+  return kind->whole ? number >= kind->least && number <= PETSC_MAX_INT && number <= MOST_WHOLE
+                     : SamRangeHas(kind->range, *value);
 }
 
 /*
@@ -111,121 +125,74 @@ static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name
           SamOptionsPrefix(from), name, text, numbers, point);
 }
 
-/* Reads one or two numbers separated by a comma; one stands for both. */
-static PetscErrorCode GetReals(const SamOptions *from, const char name[], const char expected[], PetscInt most,
-                               SamRange range, double value[], PetscBool *set)
+/* Describes an option of one or two numbers, and reads it; one number stands for both. */
+static PetscErrorCode ReadNumbers(const SamOptions *from, const char name[], const char help[], const Kind *kind,
+                                  double value[], PetscBool *set)
 {
-  char        text[TEXT_SIZE];
-  const char *rest = text;
-  double      v[2] = {0, 0};
-  PetscInt    n    = 0;
-  PetscBool   good = PETSC_TRUE;
+  const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"}, {"<whole>", "<whole>[,<whole>]"}};
+  const int         digits         = kind->whole ? 17 : 6;
+  char              shown[64], expected[96], text[TEXT_SIZE];
+  const char       *rest = text;
+  double            v[2] = {0, 0};
+  PetscInt          n    = 0;
+  PetscBool         good = PETSC_TRUE, found;
 
   PetscFunctionBegin;
-  PetscCall(GetText(from, name, expected, text, sizeof(text), set));
-  if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
-  while (good && *rest && n < most) {
-    good = ReadReal(&rest, &v[n]);
-    good = good && InRange(range, v[n]);
-    n++;
-  }
+  (void)snprintf(shown, sizeof(shown), kind->pair ? "%.*g,%.*g" : "%.*g", digits, value[0], digits, value[kind->pair]);
+  PetscCall(Describe(from, name, help, argument[kind->whole][kind->pair], shown));
+  if (kind->whole)
+    (void)snprintf(expected, sizeof(expected), "a whole number from %lld", (long long)kind->least);
+  else
+    (void)snprintf(expected, sizeof(expected), "%s", SamRangeDescribe(kind->range));
+  if (kind->pair) PetscCall(PetscStrlcat(expected, ", or two separated by a comma", sizeof(expected)));
+  PetscCall(GetText(from, name, expected, text, sizeof(text), &found));
+  if (set) *set = found;
+  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
+  while (good && *rest && n < 1 + (PetscInt)kind->pair) good = ReadNumber(kind, &rest, &v[n++]);
   PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name,
              text, expected, SamExplainNumber(text));
-  if (n == 2 && range == SAM_RANGE_POSITIVE) PetscCall(RefuseDecimalComma(from, name, text, v));
+  if (n == 2 && kind->range == SAM_RANGE_POSITIVE) PetscCall(RefuseDecimalComma(from, name, text, v));
   value[0] = v[0];
-  if (most > 1) value[1] = n > 1 ? v[1] : v[0];
+  if (kind->pair) value[1] = v[n - 1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                               PetscReal *value, PetscBool *set)
 {
-  char      shown[64];
-  PetscBool found;
-
   PetscFunctionBegin;
-  snprintf(shown, sizeof(shown), "%g", (double)*value);
-  PetscCall(Describe(from, name, help, "<number>", shown));
-  PetscCall(GetReals(from, name, DescribeRange(range), 1, range, value, &found));
-  if (set) *set = found;
+  PetscCall(ReadNumbers(from, name, help, &(Kind){.range = range}, value, set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[], SamRange range,
                                   PetscReal value[2], PetscBool *set)
 {
-  char      shown[64], expected[96];
-  PetscBool found;
-
   PetscFunctionBegin;
-  snprintf(shown, sizeof(shown), "%g,%g", (double)value[0], (double)value[1]);
-  PetscCall(Describe(from, name, help, "<number>[,<number>]", shown));
-  PetscCall(PetscSNPrintf(expected, sizeof(expected), "%s, or two separated by a comma", DescribeRange(range)));
-  PetscCall(GetReals(from, name, expected, 2, range, value, &found));
-  if (set) *set = found;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetInts(const SamOptions *from, const char name[], const char expected[], PetscInt most,
-                              PetscInt least, PetscInt value[], PetscBool *set)
-{
-  char        text[TEXT_SIZE];
-  const char *rest = text;
-  PetscInt    n    = 0;
-  PetscInt    v[2] = {0, 0};
-  PetscBool   good = PETSC_TRUE;
-
-  PetscFunctionBegin;
-  PetscCall(GetText(from, name, expected, text, sizeof(text), set));
-  if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
-  while (good && *rest && n < most) {
-    char     *end;
-    long long number;
-
-    errno  = 0;
-    number = strtoll(rest, &end, 10);
-    good =
-      end != rest && !errno && (!*end || (*end == ',' && *(end + 1))) && number >= least && number <= PETSC_MAX_INT;
-    if (good) {
-      v[n++] = (PetscInt)number;
-      rest   = *end ? end + 1 : end;
-    }
-  }
-  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name,
-             text, expected, SamExplainNumber(text));
-  value[0] = v[0];
-  if (most > 1) value[1] = n > 1 ? v[1] : v[0];
+  PetscCall(ReadNumbers(from, name, help, &(Kind){.pair = PETSC_TRUE, .range = range}, value, set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
                              PetscInt *value, PetscBool *set)
 {
-  char      shown[64], expected[96];
-  PetscBool found;
+  double number = (double)*value;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT, *value));
-  PetscCall(Describe(from, name, help, "<whole>", shown));
-  PetscCall(PetscSNPrintf(expected, sizeof(expected), "a whole number from %" PetscInt_FMT, least));
-  PetscCall(GetInts(from, name, expected, 1, least, value, &found));
-  if (set) *set = found;
+  PetscCall(ReadNumbers(from, name, help, &(Kind){.whole = PETSC_TRUE, .least = least}, &number, set));
+  *value = (PetscInt)number;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], const char help[], PetscInt least,
                                  PetscInt value[2], PetscBool *set)
 {
-  char      shown[64], expected[96];
-  PetscBool found;
+  const Kind kind      = {.pair = PETSC_TRUE, .whole = PETSC_TRUE, .least = least};
+  double     number[2] = {(double)value[0], (double)value[1]};
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(shown, sizeof(shown), "%" PetscInt_FMT ",%" PetscInt_FMT, value[0], value[1]));
-  PetscCall(Describe(from, name, help, "<whole>[,<whole>]", shown));
-  PetscCall(PetscSNPrintf(expected, sizeof(expected),
-                          "a whole number from %" PetscInt_FMT ", or two separated by a comma", least));
-  PetscCall(GetInts(from, name, expected, 2, least, value, &found));
-  if (set) *set = found;
+  PetscCall(ReadNumbers(from, name, help, &kind, number, set));
+  for (int k = 0; k < 2; k++) value[k] = (PetscInt)number[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -243,15 +210,11 @@ PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const c
   PetscCall(PetscOptionsGetString(NULL, from->prefix, dashed, text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  good = text[0] ? PETSC_FALSE : PETSC_TRUE; /* the bare option means yes */
+  good = !text[0]; /* the bare option means yes */
   if (good) *value = PETSC_TRUE;
   for (PetscInt w = 0; yes[w] && !good; w++) {
-    if (!strcmp(text, yes[w])) {
-      *value = PETSC_TRUE, good = PETSC_TRUE;
-    }
-    if (!strcmp(text, no[w])) {
-      *value = PETSC_FALSE, good = PETSC_TRUE;
-    }
+    *value = !strcmp(text, yes[w]);
+    good   = *value || !strcmp(text, no[w]);
   }
   PetscCheck(good, from->comm, SAM_ERR_USER, "-%s%s %s: expected true or false", SamOptionsPrefix(from), name, text);
   PetscFunctionReturn(PETSC_SUCCESS);

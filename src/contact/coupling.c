@@ -4,7 +4,7 @@
 
   Algorithm; unknown is the lift d, the normal displacement by the shear. A pass:
     1. The normal problem with the separation h + d gives p.
-    2. The tangential problem with the bound mu p and the displacement by p gives q.
+    2. The tangential problem with the bound mu p (bound.c) and the displacement by p gives q.
     3. The lift by q should be d. If it is, up to the error of the normal problem with it, the step is solved: then both
        problems are, with one and the same p and q.
     4. Else Anderson's method makes the next d of this and the last passes (mixing.c).
@@ -55,8 +55,8 @@ static PetscErrorCode Create(SamSolve *s, const SamStepStart *start, Passes *p)
   *p = (Passes){.s = s, .looks = PETSC_TRUE, .error = start->shear ? GUESS : FIRST};
   PetscCall(SamMixingCreate(s->c->grid, &p->mixing));
   PetscCall(SamGridCreateVec(s->c->grid, 1, &p->lift));
-  PetscCall(SamSolverGetTolerances(s->c->normal, &p->rtol[0], NULL));
-  PetscCall(SamSolverGetTolerances(s->c->tangential, &p->rtol[1], NULL));
+  PetscCall(SamSolverGetTolerances(SamNormalAsSolver(s->c->normal), &p->rtol[0], NULL));
+  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(s->c->tangential), &p->rtol[1], NULL));
   if (start->shear) PetscCall(SamElasticityApplyTangentialToNormal(s->c->elasticity, s->s->shear, s->lift));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -64,8 +64,8 @@ static PetscErrorCode Create(SamSolve *s, const SamStepStart *start, Passes *p)
 static PetscErrorCode Destroy(Passes *p)
 {
   PetscFunctionBegin;
-  SamSolverSetEffort(p->s->c->normal, 0, SAM_EFFORT_FULL);
-  SamSolverSetEffort(p->s->c->tangential, 0, SAM_EFFORT_FULL);
+  SamSolverSetEffort(SamNormalAsSolver(p->s->c->normal), 0, SAM_EFFORT_FULL);
+  SamSolverSetEffort(SamTangentialAsSolver(p->s->c->tangential), 0, SAM_EFFORT_FULL);
   PetscCall(SamMixingDestroy(&p->mixing));
   PetscCall(VecDestroy(&p->lift));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -80,26 +80,27 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : start->shear;
   const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE;
   const PetscReal error     = PetscMin(p->error, FIRST);
+  const PetscReal rtol      = PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error);
+  const SamEffort effort    = brief ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL;
   SamSolverReason reason;
   PetscReal       limit;
 
   PetscFunctionBegin;
-  SamSolverSetEffort(s->c->normal, PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
+  SamSolverSetEffort(SamNormalAsSolver(s->c->normal), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
                      p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_GLANCE);
   /* of a pressure that is not smooth yet, Newton's method may get stuck on the shear; that is not worth its while */
-  SamSolverSetEffort(s->c->tangential, PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error),
-                     brief ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL);
+  SamSolverSetEffort(SamTangentialAsSolver(s->c->tangential), rtol, effort);
   PetscCall(VecCopy(s->lift, s->h));
   PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear));
   PetscCall(SamSolveJudgeNormal(s));
-  PetscCall(SamProblemComputeBound(s->c->problem, s->s->control.friction_scale, s->s->pressure, s->s->bound));
+  PetscCall(SamSolveBound(s, s->s->bound));
   p->slides = PETSC_FALSE;
   if (s->step->status != SAM_STATUS_CONVERGED) {
     PetscCall(SamSolveSkipTangential(s));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamSolveTangential(s, has_shear));
-  PetscCall(SamSolverGetReason(s->c->tangential, &reason));
+  PetscCall(SamSolveShear(s, has_shear, rtol, effort));
+  PetscCall(SamSolverGetReason(SamTangentialAsSolver(s->c->tangential), &reason));
   PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
   p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0;
@@ -118,12 +119,12 @@ static PetscErrorCode Measure(Passes *p, PetscBool *solved)
   PetscFunctionBegin;
   PetscCall(SamElasticityApplyTangentialToNormal(s->c->elasticity, s->s->shear, p->lift));
   PetscCall(VecCopy(p->lift, s->h));
-  SamSolverSetEffort(s->c->normal, NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
+  SamSolverSetEffort(SamNormalAsSolver(s->c->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
   PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
-  PetscCall(SamSolverGetReason(s->c->normal, &reason));
+  PetscCall(SamSolverGetReason(SamNormalAsSolver(s->c->normal), &reason));
   if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudgeNormal(s));
-  PetscCall(SamSolverGetStatistics(s->c->normal, &p->error, NULL, NULL, NULL));
-  PetscCall(SamSolverGetStatistics(s->c->tangential, &error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamNormalAsSolver(s->c->normal), &p->error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->c->tangential), &error, NULL, NULL, NULL));
   p->looks = p->error > LOOK * before;
   *solved  = reason > 0 && (p->slides || error <= p->rtol[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -180,7 +181,7 @@ PetscErrorCode SamSolveCoupled(SamSolve *s, const SamStepStart *start)
     PetscBool solved = PETSC_FALSE;
 
     PetscCall(Pass(&p, pass, start));
-    s->step->coupling_iterations = pass;
+    s->counts[SAM_COUNT_COUPLING] = (double)pass;
     if (s->step->status != SAM_STATUS_CONVERGED) break;
     PetscCall(Measure(&p, &solved));
     if (s->step->status != SAM_STATUS_CONVERGED) break;

@@ -70,28 +70,37 @@ static double Continuation(const SamControl *before, const SamControl *now, cons
 
 /* ---- extrapolation ---- */
 
-/* p, bound, q_x and q_y one step back, in the last step and in the next one; friction of the next one. */
+/* p, bound, q_x and q_y one step back, in the last step and in the next one. */
 enum { P, B, X, Y, FIELDS };
 typedef struct {
   const double *before[FIELDS], *now[FIELDS];
-  double       *next[FIELDS]; /* without the bound */
-  const double *friction;     /* a field; NULL: the number `coefficient` */
-  double        coefficient, scale;
+  double       *next[FIELDS];
 } Tractions;
 
-/* The next p and q of n cells from index k on; `mu`: their coefficients of friction, scaled. */
-SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, ptrdiff_t k, PetscInt n, const double *mu)
+/* The next p of n cells from index k on. */
+SAM_VECTORIZED static void ExtrapolatePressure(const Tractions *t, double alpha, ptrdiff_t k, PetscInt n)
 {
-  const double *restrict p0 = t->before[P] + k, *restrict b0 = t->before[B] + k, *restrict qx0 = t->before[X] + k,
-                         *restrict qy0 = t->before[Y] + k;
-  const double *restrict p1 = t->now[P] + k, *restrict b1 = t->now[B] + k, *restrict qx1 = t->now[X] + k,
-                         *restrict qy1 = t->now[Y] + k, *restrict friction = mu;
-  double *restrict p = t->next[P] + k, *restrict qx = t->next[X] + k, *restrict qy = t->next[Y] + k;
+  const double *restrict p0 = t->before[P] + k, *restrict p1 = t->now[P] + k;
+  double *restrict p = t->next[P] + k;
 
 #pragma omp simd
   for (PetscInt i = 0; i < n; i++) {
-    const double square = (1 + alpha) * p1[i] * p1[i] - alpha * p0[i] * p0[i], root = sqrt(square > 0 ? square : 0),
-                 pressure = p1[i] == p0[i] ? p1[i] : root;
+    const double square = (1 + alpha) * p1[i] * p1[i] - alpha * p0[i] * p0[i], root = sqrt(square > 0 ? square : 0);
+
+    p[i] = p1[i] == p0[i] ? p1[i] : root;
+  }
+}
+
+/* The next q of n cells from index k on, from the next bound. */
+SAM_VECTORIZED static void ExtrapolateShear(const Tractions *t, double alpha, ptrdiff_t k, PetscInt n)
+{
+  const double *restrict b0 = t->before[B] + k, *restrict qx0 = t->before[X] + k, *restrict qy0 = t->before[Y] + k;
+  const double *restrict b1 = t->now[B] + k, *restrict qx1 = t->now[X] + k, *restrict qy1 = t->now[Y] + k;
+  const double *restrict bound = t->next[B] + k;
+  double *restrict qx = t->next[X] + k, *restrict qy = t->next[Y] + k;
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) {
     const double known = (b0[i] < b1[i] ? b0[i] : b1[i]) > 0 ? 1 : 0, bound0 = b0[i] + (1 - known),
                  bound1 = b1[i] + (1 - known);
     const double rx = qx1[i] / bound1, ry = qy1[i] / bound1, x = rx - qx0[i] / bound0, y = ry - qy0[i] / bound0,
@@ -103,34 +112,46 @@ SAM_VECTORIZED static void ExtrapolateCells(const Tractions *t, double alpha, pt
                  go    = left - sqrt(left2 > 0 ? left2 : 0);
     const double part = inside > 0 ? moves * go / (way + (1 - moves)) : alpha, vx = rx + part * x, vy = ry + part * y,
                  v2    = vx * vx + vy * vy;
-    const double scale = friction[i] * pressure * (inside > 0 ? 1 : 1 / sqrt(v2 > 0 ? v2 : 1));
+    const double scale = bound[i] * (inside > 0 ? 1 : 1 / sqrt(v2 > 0 ? v2 : 1));
 
-    p[i]  = pressure;
     qx[i] = known > 0 ? scale * vx : qx1[i];
     qy[i] = known > 0 ? scale * vy : qy1[i];
   }
 }
 
-/* Extrapolates row j where there is or was pressure, and zeroes the rest. Returns the largest pressure of the row. */
-static double ExtrapolateRow(const Tractions *t, SamGrid grid, double alpha, PetscInt j, double mu[])
+/* The columns first ... last - 1 of row j where there is or was pressure. */
+static void FindRange(const Tractions *t, PetscInt nx, PetscInt j, PetscInt *first, PetscInt *last)
 {
-  const PetscInt  nx = grid->nx;
-  const ptrdiff_t k  = (ptrdiff_t)j * nx;
-  PetscInt        a[2], b[2], first, last;
-  double          most = 0;
+  const ptrdiff_t k = (ptrdiff_t)j * nx;
+  PetscInt        a[2], b[2];
 
   SamBoundRange(nx, t->before[P] + k, &a[0], &b[0]);
   SamBoundRange(nx, t->now[P] + k, &a[1], &b[1]);
-  first = PetscMin(a[0], a[1]); /* nx where there is none */
-  last  = PetscMax(first, PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0));
-  for (PetscInt i = first; i < last; i++) mu[i] = t->scale * (t->friction ? t->friction[k + i] : t->coefficient);
-  ExtrapolateCells(t, alpha, k + first, last - first, mu + first);
-  for (PetscInt f = 0; f < FIELDS; f++) {
-    if (f == B) continue;
-    SamZero(first, t->next[f] + k);
-    SamZero(nx - last, t->next[f] + k + last);
+  *first = PetscMin(a[0], a[1]); /* nx where there is none */
+  *last  = PetscMax(*first, PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0));
+}
+
+/* Extrapolates the pressure (P), or the shear (X), and zeroes the rest. Returns the largest pressure. */
+static double ExtrapolateRows(const Tractions *t, SamGrid grid, double alpha, PetscInt field)
+{
+  const PetscInt nx = grid->nx, end = field == P ? P : Y;
+  double         most = 0;
+
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * nx;
+    PetscInt        first, last;
+
+    FindRange(t, nx, j, &first, &last);
+    if (field == P)
+      ExtrapolatePressure(t, alpha, k + first, last - first);
+    else
+      ExtrapolateShear(t, alpha, k + first, last - first);
+    for (PetscInt f = field; f <= end; f++) {
+      SamZero(first, t->next[f] + k);
+      SamZero(nx - last, t->next[f] + k + last);
+    }
+    for (PetscInt i = first; i < last; i++) most = PetscMax(most, t->next[P][k + i]);
   }
-  for (PetscInt i = first; i < last; i++) most = PetscMax(most, t->next[P][k + i]);
   return most;
 }
 
@@ -153,30 +174,40 @@ static PetscErrorCode RestoreTractions(const SamSolution *s, const double *field
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Extrapolates pressure and shear by alpha times their last change; `found`: there is contact. */
-static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_scale, PetscBool *found)
+/* Extrapolates pressure or shear of the tried solution by alpha times their last change; `most`: largest pressure. */
+static PetscErrorCode ExtrapolateField(SamContact c, double alpha, PetscInt field, double *most)
 {
-  const SamSolution *before = &c->before, *now = &c->committed.solution, *next = &c->tried.solution;
-  Tractions          t    = {.friction = NULL, .scale = friction_scale};
-  double             most = 0, *mu;
-  Vec                field;
+  const SamSolution *before = &c->generation[SAM_BEFORE], *now = &c->generation[SAM_COMMITTED],
+                    *next = &c->generation[SAM_TRIED];
+  Tractions t;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetFriction(c->problem, &t.coefficient, &field));
-  if (field) PetscCall(VecGetArrayRead(field, &t.friction));
   PetscCall(ReadTractions(c->grid, before, t.before));
   PetscCall(ReadTractions(c->grid, now, t.now));
   PetscCall(VecGetArray(next->pressure, &t.next[P]));
+  PetscCall(VecGetArray(next->bound, &t.next[B]));
   PetscCall(VecGetArray(next->shear, &t.next[X]));
   t.next[Y] = t.next[X] + c->grid->cells;
-  PetscCall(PetscMalloc1(c->grid->nx, &mu));
-  for (PetscInt j = 0; j < c->grid->rows; j++) most = PetscMax(most, ExtrapolateRow(&t, c->grid, alpha, j, mu));
-  PetscCall(PetscFree(mu));
+  *most     = ExtrapolateRows(&t, c->grid, alpha, field);
   PetscCall(VecRestoreArray(next->shear, &t.next[X]));
+  PetscCall(VecRestoreArray(next->bound, &t.next[B]));
   PetscCall(VecRestoreArray(next->pressure, &t.next[P]));
   PetscCall(RestoreTractions(now, t.now));
   PetscCall(RestoreTractions(before, t.before));
-  if (field) PetscCall(VecRestoreArrayRead(field, &t.friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Extrapolates the pressure, and the shear under its bound; `found`: there is contact. */
+static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_scale, PetscBool *found)
+{
+  const SamSolution *next = &c->generation[SAM_TRIED];
+  const SamBoundAt   at   = {c->state, friction_scale, next->pressure, NULL};
+  double             most = 0;
+
+  PetscFunctionBegin;
+  PetscCall(ExtrapolateField(c, alpha, P, &most));
+  PetscCall(SamProblemComputeBound(c->problem, &at, &(SamBound){.value = next->bound}));
+  PetscCall(ExtrapolateField(c, alpha, X, &most));
   PetscCall(SamMax(c->grid->comm, 1, &most));
   *found = most > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -190,26 +221,28 @@ static PetscErrorCode StartFromLastPressure(SamContact c, SamStepStart *start)
   PetscReal most;
 
   PetscFunctionBegin;
-  PetscCall(VecMax(c->committed.solution.pressure, NULL, &most));
+  PetscCall(VecMax(c->generation[SAM_COMMITTED].pressure, NULL, &most));
   if (most <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamVecCopyNonzero(c->committed.solution.pressure, c->tried.solution.pressure));
+  PetscCall(SamVecCopyNonzero(c->generation[SAM_COMMITTED].pressure, c->generation[SAM_TRIED].pressure));
   start->pressure = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamStepStart *start)
 {
-  const SamSolution *now   = &c->committed.solution;
+  const SamSolution *now = &c->generation[SAM_COMMITTED], *before = &c->generation[SAM_BEFORE];
   double             alpha = 0;
+  PetscInt           steps;
   PetscBool          found = PETSC_FALSE;
 
   PetscFunctionBegin;
   *start = (SamStepStart){.pressure = PETSC_FALSE};
-  if (c->steps > 1 && c->warm) alpha = Continuation(&c->before.control, &now->control, control);
+  PetscCall(SamContactGetSteps(c, &steps));
+  if (steps > 1 && c->warm) alpha = Continuation(&before->control, &now->control, control);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
-    start->rigid[k] = now->rigid[n] + alpha * (now->rigid[n] - c->before.rigid[n]);
+    start->rigid[k] = now->rigid[n] + alpha * (now->rigid[n] - before->rigid[n]);
   }
   if (alpha > 0) PetscCall(Extrapolate(c, alpha, control->friction_scale, &found));
   start->pressure = start->shear = found;

@@ -1,5 +1,7 @@
 /*
-  The solution of one load step.
+  The solution of one load step: what all laws add to the separation and their limits, the normal problem and its
+  corrections, the bound of the shear, the tangential problem. Then contact.c has the solution checked, and lets the
+  laws advance their tried state.
 
   Similar materials: the pressure does not depend on the shear, so the normal and then the tangential problem solve the
   step. Dissimilar materials: see coupling.c.
@@ -10,16 +12,16 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
                             SamSolve *w)
 {
   PetscFunctionBegin;
-  *w                = (SamSolve){.c = c, .s = &c->tried.solution, .step = step, .same_pressure = same_pressure};
-  w->s->passes      = 0;
-  w->coupled        = SamContactIsCoupled(c);
-  w->before         = SamContactPlainBefore(c);
-  w->s->sheared.has = PETSC_FALSE;
-  w->normal         = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
-  w->tangential     = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  *w            = (SamSolve){.c = c, .s = &c->generation[SAM_TRIED], .step = step, .same_pressure = same_pressure};
+  w->coupled    = SamContactIsCoupled(c);
+  w->before     = SamContactBefore(c);
+  w->counts     = SamStateNumbers(c->state, c->counts, SAM_TRIED);
+  w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
-  if (w->coupled || (w->before && w->before->plastic)) PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
+  PetscCall(SamSolutionCreateSeparation(c->problem, c->state, SAM_COMMITTED, &w->separation));
   if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->lift));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->pressure_product.field));
   PetscCall(SamGridCreateVec(c->grid, 2, &w->shear_product.field));
@@ -31,6 +33,8 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
 static PetscErrorCode End(SamSolve *w)
 {
   PetscFunctionBegin;
+  PetscCall(SamSolutionDestroySeparation(w->c->problem, &w->separation));
+  PetscCall(VecDestroy(&w->slip));
   PetscCall(VecDestroy(&w->lift));
   PetscCall(VecDestroy(&w->h));
   PetscCall(VecDestroy(&w->pressure_product.field));
@@ -40,23 +44,14 @@ static PetscErrorCode End(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the counts of a solver's last solve to those of the step. */
-static PetscErrorCode Count(SamSolver solver, PetscInt *iterations, PetscInt *applies, PetscInt *preconditions)
+/* Adds the counts of a solver's last solve to three numbers of the step. */
+static PetscErrorCode Count(SamSolver solver, double counts[3])
 {
-  PetscInt its, products, others;
+  PetscInt last[3];
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetStatistics(solver, NULL, &its, &products, &others));
-  *iterations += its;
-  *applies += products;
-  *preconditions += others;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSolveCountNormal(SamSolve *w)
-{
-  PetscFunctionBegin;
-  PetscCall(Count(w->c->normal, &w->step->normal_iterations, &w->step->normal_applies, &w->step->normal_preconditions));
+  PetscCall(SamSolverGetStatistics(solver, NULL, &last[0], &last[1], &last[2]));
+  for (int k = 0; k < 3; k++) counts[k] += (double)last[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -96,7 +91,7 @@ PetscErrorCode SamSolveJudgeNormal(SamSolve *w)
   char            message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetReason(w->c->normal, &reason));
+  PetscCall(SamSolverGetReason(SamNormalAsSolver(w->c->normal), &reason));
   if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
     PetscCall(DescribeImpossible(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
@@ -108,48 +103,35 @@ PetscErrorCode SamSolveJudgeNormal(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamSolveStoreNormal(SamSolve *w, const SamSolution *from)
+/* Copies the pressure of the committed state, where nothing that it depends on has changed. */
+static PetscErrorCode TakePressure(SamSolve *w)
 {
+  const SamSolution *from = w->before;
+
+  PetscFunctionBegin;
+  PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_NORMAL][k];
 
     w->s->load[n]  = from->load[n];
     w->s->rigid[n] = from->rigid[n];
   }
-}
-
-/* Copies the pressure of the committed state, where nothing that it depends on has changed. */
-static PetscErrorCode TakePressure(SamSolve *w)
-{
-  const SamSolution *from = &w->c->committed.solution;
-
-  PetscFunctionBegin;
-  PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
-  PetscCall(SamSolutionCopyCorrection(w->c->grid, from, w->s));
-  w->step->edge_passes = from->passes;
-  SamSolveStoreNormal(w, from);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The separation for the normal problem: the gap, plus the lift, which w->h holds, and the plastic depth so far. */
+/* The separation for the normal problem: that of the bodies, plus the lift, which w->h holds, of coupled ones. */
 static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGap(w->c->problem, h));
-  if (!w->h) PetscFunctionReturn(PETSC_SUCCESS);
-  if (w->coupled)
-    PetscCall(VecAXPY(w->h, 1, *h));
-  else
-    PetscCall(VecCopy(*h, w->h));
-  PetscCall(SamSolutionAddPlastic(w->before, w->h));
-  *h = w->h;
+  if (w->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
+  *h = w->coupled ? w->h : w->separation;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has_shear)
 {
   SamBalance balance   = w->normal;
-  Vec        predicted = NULL, h;
+  Vec        predicted = NULL, h = NULL;
 
   PetscFunctionBegin;
   if (w->same_pressure) {
@@ -168,7 +150,7 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
   if (has_shear) PetscCall(SamFollowPressure(w->c->grid, predicted, w->s->pressure, w->s->shear));
   PetscCall(VecDestroy(&predicted));
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(SamSolveCountNormal(w));
+  PetscCall(Count(SamNormalAsSolver(w->c->normal), w->counts + SAM_COUNT_NORMAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -206,7 +188,7 @@ PetscErrorCode SamSolveJudgeTangential(SamSolve *w)
   char            message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetReason(w->c->tangential, &reason));
+  PetscCall(SamSolverGetReason(SamTangentialAsSolver(w->c->tangential), &reason));
   if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
     PetscCall(DescribeSliding(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
@@ -255,7 +237,7 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
   PetscCall(SamElasticityGetPair(c->elasticity, &pair));
   e         = SamStretchOf(pair, &w->s->control);
   stretched = e.xx != 0 || e.yy != 0 || e.xy != 0;
-  if (!w->coupled && !w->before && !stretched && !w->s->sheared.has) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!w->coupled && !w->before && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 2, offset));
   if (w->before) {
     PetscCall(VecGetArray(*offset, &slip));
@@ -271,31 +253,24 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
     PetscCall(VecDestroy(&more));
   }
   if (stretched) PetscCall(AddStretch(c->grid, &e, *offset));
-  if (w->s->sheared.has) PetscCall(VecAXPY(*offset, 1, w->s->sheared.displacement));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
 {
   SamBalance balance = w->tangential;
-  Vec        offset, bound = w->s->bound;
+  Vec        offset;
 
   PetscFunctionBegin;
   PetscCall(CreateOffset(w, &offset));
-  if (w->s->sheared.has) {
-    PetscCall(VecDuplicate(w->s->bound, &bound));
-    PetscCall(VecWAXPY(bound, -1, w->s->sheared.rim, w->s->bound));
-  }
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
-  PetscCall(SamTangentialSolveKeeping(w->c->tangential, bound, offset, &balance, has_shear, w->s->shear,
+  PetscCall(SamTangentialSolveKeeping(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
                                       w->coupled ? &w->shear_product : NULL));
-  if (bound != w->s->bound) PetscCall(VecDestroy(&bound));
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(Count(w->c->tangential, &w->step->tangential_iterations, &w->step->tangential_applies,
-                  &w->step->tangential_preconditions));
+  PetscCall(Count(SamTangentialAsSolver(w->c->tangential), w->counts + SAM_COUNT_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -314,17 +289,46 @@ PetscErrorCode SamSolveSkipTangential(SamSolve *w)
 
 /* ---- both ---- */
 
-PetscErrorCode SamSolveShearOnce(SamSolve *w, PetscBool has_shear)
+/* The bound, and the tangential problem with it, unless the normal one has failed. */
+static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
+  PetscReal rtol;
+
   PetscFunctionBegin;
-  PetscCall(SamProblemComputeBound(w->c->problem, w->s->control.friction_scale, w->s->pressure, w->s->bound));
-  w->step->coupling_iterations = 1;
+  PetscCall(SamSolveBound(w, w->s->bound));
+  w->counts[SAM_COUNT_COUPLING] = 1;
   if (w->step->status != SAM_STATUS_CONVERGED) {
     PetscCall(SamSolveSkipTangential(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamSolveTangential(w, has_shear));
+  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->c->tangential), &rtol, NULL));
+  PetscCall(SamSolveShear(w, has_shear, rtol, SAM_EFFORT_FULL));
   PetscCall(SamSolveJudgeTangential(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Lets the laws correct the solution of the normal problem. */
+static PetscErrorCode Correct(SamSolve *w)
+{
+  SamCorrection c = {.state         = w->c->state,
+                     .normal        = w->c->normal,
+                     .separation    = w->separation,
+                     .given         = w->normal,
+                     .pressure      = w->s->pressure,
+                     .found         = w->normal,
+                     .same_pressure = w->same_pressure,
+                     .message       = w->step->message,
+                     .size          = sizeof(w->step->message)};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3; k++) {
+    c.found.load[k]  = w->s->load[SamComponentsOf[SAM_BALANCE_NORMAL][k]];
+    c.found.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]];
+  }
+  PetscCall(SamProblemCorrect(w->c->problem, &c));
+  for (int k = 0; k < 3; k++) w->counts[SAM_COUNT_NORMAL + k] += (double)c.counts[k];
+  if (c.message[0]) PetscCall(PetscStrncpy(w->step->setting, "edges", sizeof(w->step->setting)));
+  SamBalanceStore(&c.found, w->s->load, w->s->rigid);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -334,9 +338,8 @@ static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
   if (w->coupled) PetscCall(VecSet(w->h, 0));
   PetscCall(SamSolveNormal(w, start->pressure, start->shear));
   if (!w->same_pressure) PetscCall(SamSolveJudgeNormal(w));
-  if (!w->same_pressure && w->step->status == SAM_STATUS_CONVERGED && w->c->edges == SAM_CONTACT_EDGES_DEFERRED)
-    PetscCall(SamSolveDeferred(w));
-  PetscCall(SamSolveShearOnce(w, start->shear));
+  if (w->step->status == SAM_STATUS_CONVERGED) PetscCall(Correct(w));
+  PetscCall(SolveShear(w, start->shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -350,8 +353,6 @@ PetscErrorCode SamContactSolveStep(SamContact c, const SamStepStart *start, Pets
   PetscCall(SamProblemHasFriction(c->problem, &friction));
   if (w.coupled && friction)
     PetscCall(SamSolveCoupled(&w, start));
-  else if (friction && c->edges == SAM_CONTACT_EDGES_DEFERRED)
-    PetscCall(SamSolveCorrected(&w, start));
   else
     PetscCall(SolveOnce(&w, start));
   PetscCall(End(&w));

@@ -15,8 +15,11 @@ typedef struct {
   PetscBool          coupled, same_pressure;
   SamBalance         normal, tangential; /* as prescribed */
   double             rigid[3];           /* guess of the tangential rigid displacements */
-  Vec                h;                  /* separation plus lift and plastic depth; NULL where it is the gap */
+  double            *counts;             /* of the solvers, in the state */
+  Vec                separation;         /* of the bodies as they were after the step before */
+  Vec                slip;               /* the length of the slip of this step, by the last shear; NULL: none yet */
   /* coupled only */
+  Vec        h;                                 /* separation plus lift */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
   SamProduct pressure_product, shear_product;   /* S p and C q of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
@@ -27,40 +30,13 @@ typedef struct {
   shear too, which then follows the pressure. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
-/* SamSolveCountNormal - adds the counts of the normal solver's last solve to those of the step. Not collective. */
-PETSC_INTERN PetscErrorCode SamSolveCountNormal(SamSolve *solve);
-/* SamSolveDeferred - corrects the solution of the normal problem for the edge of contact (deferred.c). Collective. */
-PETSC_INTERN PetscErrorCode SamSolveDeferred(SamSolve *solve);
 /*
-  SamSolveCorrected - both problems of similar bodies with friction, corrected for their edges (deferredshear.c).
-  Collective.
+  SamSolveBound - a bound of the shear, from the pressure and the slip that is known.
+  SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
+  with it; `rtol` is what both are solved to then (bound.c). Collective.
 */
-PETSC_INTERN PetscErrorCode SamSolveCorrected(SamSolve *solve, const SamStepStart *start);
-
-/* The least share of an edge that must be smooth and resolved for its correction, and what is said where less is. */
-#define SAM_SMOOTH_EDGE 0.95
-PETSC_INTERN PetscErrorCode SamEdgeTooRough(PetscReal share, char why[], size_t size);
-/*
-  SamSolveLeaveEdge - the step says that the edge `of` "contact" or "stick" is not corrected, and why; `plain`: and that
-  nothing is for it.
-*/
-PETSC_INTERN PetscErrorCode SamSolveLeaveEdge(SamSolve *solve, const char of[], PetscBool plain, const char why[]);
-
-/*
-  What has changed since the step before, `before` being its plain solution (changes.c). Collective.
-  SamSolveIsHeld - nothing has, so that its corrected solution is that of this step.
-  SamSolveFindTurn - the load has turned back: most cells that slipped do not go on in the same direction.
-  SamSolveFindGrowth - the edge of contact has moved out over a shear that sticks: the shear keeps that edge, within the
-    stick zone, where no profile knows of it.
-*/
-PETSC_INTERN PetscErrorCode SamSolveIsHeld(SamSolve *solve, PetscBool *held);
-PETSC_INTERN PetscErrorCode SamSolveFindTurn(SamSolve *solve, const SamSolution *before, PetscBool *turned);
-PETSC_INTERN PetscErrorCode SamSolveFindGrowth(SamSolve *solve, const SamSolution *before, PetscBool *grows);
-
-/* SamSolveStoreNormal - copies the loads and displacements of the normal problem of a solution. Not collective. */
-PETSC_INTERN void SamSolveStoreNormal(SamSolve *solve, const SamSolution *from);
-/* SamSolveShearOnce - the bound, and the tangential problem with it, unless the normal one has failed. Collective. */
-PETSC_INTERN PetscErrorCode SamSolveShearOnce(SamSolve *solve, PetscBool has_shear);
+PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
+PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
 /* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 /* SamSolveJudge... - puts down in the step whether that failed. Collective. */

@@ -93,32 +93,24 @@ PETSC_INTERN void   SamRootsTakeLinearPart(const SamRoots *roots, double mean, d
   SamNear - tractions in the sub-cells of a cell, and what they displace: the cells within SAM_NEAR of it in both
   directions. A cell that an edge cuts or nearly cuts has fine sub-cells, others coarse ones (near.c).
   SamNearInitialize - borrows the elasticity. Not collective.
-  SamNearSetUp - makes the tables of a kernel, at the first call. Collective.
-  SamNearAdd - adds to the component u (this rank's cells) what a cell's sub-cells displace by that kernel. Not
-  collective.
+  SamNearSetUp - makes the tables, at the first call. Collective.
+  SamNearAdd - adds to u_z (this rank's cells) what a cell's sub-cells displace. Not collective.
 */
-enum { SAM_NEAR = 3, SAM_NEAR_KERNELS = SAM_ELASTICITY_XY + 1 };
+enum { SAM_NEAR = 3 };
 typedef enum { SAM_NEAR_FINE, SAM_NEAR_COARSE } SamNearSub;
 typedef struct {
   SamElasticity elasticity;
   SamRoots      roots[2];
-  double       *table[2][SAM_NEAR_KERNELS];
+  double       *table[2];
 } SamNear;
 typedef struct {
   PetscInt      i, j; /* the cell */
   const double *traction;
 } SamNearPart;
 PETSC_INTERN void           SamNearInitialize(SamElasticity elasticity, SamNear *near);
-PETSC_INTERN PetscErrorCode SamNearSetUp(SamNear *near, SamElasticityKernel kernel);
+PETSC_INTERN PetscErrorCode SamNearSetUp(SamNear *near);
 PETSC_INTERN PetscErrorCode SamNearDestroy(SamNear *near);
-PETSC_INTERN void           SamNearAdd(const SamNear *near, SamNearSub sub, SamElasticityKernel kernel, SamGrid grid,
-                                       const SamNearPart *part, double u[]);
-
-/*
-  SamProfileFunction - the function of a cell of this rank's rows or SAM_NEAR more, NULL outside of the band. Not
-  collective.
-*/
-PETSC_INTERN const double *SamProfileFunction(SamProfile profile, PetscInt i, PetscInt j);
+PETSC_INTERN void SamNearAdd(const SamNear *near, SamNearSub sub, SamGrid grid, const SamNearPart *part, double u[]);
 
 #define SAM_EDGE_LAST   6 /* largest squared distance of cells that the layer of an edge makes wrong */
 #define SAM_EDGE_WINDOW 5 /* half width of the window that they are reconstructed from, cells */

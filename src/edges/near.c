@@ -10,12 +10,12 @@ void SamNearInitialize(SamElasticity elasticity, SamNear *n)
   SamRootsInitialize(SAM_ROOTS_COARSE, &n->roots[SAM_NEAR_COARSE]);
 }
 
-PetscErrorCode SamNearSetUp(SamNear *n, SamElasticityKernel kernel)
+PetscErrorCode SamNearSetUp(SamNear *n)
 {
   PetscFunctionBegin;
-  for (int k = 0; k < 2 && !n->table[k][kernel]; k++) {
-    PetscCall(PetscMalloc1(LAGS * LAGS * n->roots[k].cells, &n->table[k][kernel]));
-    PetscCall(SamElasticityGetNear(n->elasticity, kernel, SAM_NEAR, n->roots[k].sub, n->table[k][kernel]));
+  for (int k = 0; k < 2 && !n->table[k]; k++) {
+    PetscCall(PetscMalloc1(LAGS * LAGS * n->roots[k].cells, &n->table[k]));
+    PetscCall(SamElasticityGetNear(n->elasticity, SAM_NEAR, n->roots[k].sub, n->table[k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -23,8 +23,7 @@ PetscErrorCode SamNearSetUp(SamNear *n, SamElasticityKernel kernel)
 PetscErrorCode SamNearDestroy(SamNear *n)
 {
   PetscFunctionBegin;
-  for (int k = 0; k < 2; k++)
-    for (int kernel = 0; kernel < SAM_NEAR_KERNELS; kernel++) PetscCall(PetscFree(n->table[k][kernel]));
+  for (int k = 0; k < 2; k++) PetscCall(PetscFree(n->table[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -38,11 +37,10 @@ SAM_VECTORIZED static double Product(int n, const double *restrict influence, co
   return sum;
 }
 
-void SamNearAdd(const SamNear *n, SamNearSub sub, SamElasticityKernel kernel, SamGrid grid, const SamNearPart *part,
-                double u[])
+void SamNearAdd(const SamNear *n, SamNearSub sub, SamGrid grid, const SamNearPart *part, double u[])
 {
   const int     cells = n->roots[sub].cells;
-  const double *table = n->table[sub][kernel];
+  const double *table = n->table[sub];
 
   for (PetscInt b = -SAM_NEAR; b <= SAM_NEAR; b++)
     for (PetscInt a = -SAM_NEAR; a <= SAM_NEAR; a++) {

@@ -108,18 +108,6 @@ static double *FunctionOf(SamProfile s, ptrdiff_t k)
   return s->slot[k] < 0 ? NULL : s->fit + SAM_FIT_TERMS * (ptrdiff_t)s->slot[k];
 }
 
-const double *SamProfileFunction(SamProfile s, PetscInt i, PetscInt j)
-{
-  return s->zone.grid && SamZoneHas(&s->zone, i, j) ? FunctionOf(s, SamZoneAt(&s->zone, i, j)) : NULL;
-}
-
-PetscReal SamProfileRootAt(SamProfile s, PetscInt i, PetscInt j, PetscReal x, PetscReal y)
-{
-  const double *fit = SamProfileFunction(s, i, j);
-
-  return fit ? sqrt(PetscMax(SamFitAt(fit, x, y), 0)) : 0;
-}
-
 /* The sub-cells of a cell of the band. */
 static SamNearSub SubOf(SamProfile s, ptrdiff_t k)
 {
@@ -419,7 +407,7 @@ static void AddCell(SamProfile s, PetscInt i, PetscInt j, ptrdiff_t k, void *u)
 
   if (whole <= 0) return;
   SamRootsTakeLinearPart(roots, whole, part, slopes);
-  SamNearAdd(&s->near, SubOf(s, k), SAM_ELASTICITY_ZZ, s->grid, &(SamNearPart){i, j, part}, (double *)u);
+  SamNearAdd(&s->near, SubOf(s, k), s->grid, &(SamNearPart){i, j, part}, (double *)u);
 }
 
 PetscErrorCode SamProfileComputeDisplacement(SamProfile s, Vec u_z)
@@ -432,7 +420,7 @@ PetscErrorCode SamProfileComputeDisplacement(SamProfile s, Vec u_z)
   PetscCall(SamProfileComputeSlopes(s, slopes));
   PetscCall(SamElasticityApplyNormalSlopes(s->elasticity, slopes, u_z));
   PetscCall(VecDestroy(&slopes));
-  PetscCall(SamNearSetUp(&s->near, SAM_ELASTICITY_ZZ));
+  PetscCall(SamNearSetUp(&s->near));
   PetscCall(VecGetArray(u_z, &u));
   PetscCall(VisitBand(s, AddCell, u));
   PetscCall(VecRestoreArray(u_z, &u));

@@ -1,5 +1,6 @@
 /* The class of influence operators: types, options, and the operators on coarser grids. */
 #include <petsam/private/elasticityimpl.h>
+#include <math.h>
 #include <string.h>
 
 /* Grids with fewer cells than this in a direction are solved directly, without a coarser one. */
@@ -55,6 +56,7 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElastic
   PetscCall(PetscNew(&e));
   e->references = 1;
   e->pair       = *pair;
+  for (PetscInt k = 0; k < 2; k++) e->factor[k] = 1;
   PetscCall(SamGridReference(grid));
   e->grid = grid;
   PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_HALFSPACE));
@@ -72,6 +74,7 @@ static PetscErrorCode Reset(SamElasticity e)
   PetscCall(SamTransferDestroy(&e->transfer));
   PetscCall(SamElasticityDestroy(&e->coarse));
   PetscCall(SamElasticityDestroyParts(e));
+  PetscCall(SamElasticityDestroy(&e->inner));
   PetscCall(PetscMemzero(&e->ops, sizeof(e->ops)));
   e->is_set_up = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -108,10 +111,31 @@ PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The help lists the options of the other types, too. */
+static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
+{
+  const char  **types;
+  int           count;
+  SamElasticity other;
+
+  PetscFunctionBegin;
+  PetscCall(SamTypesGet(SamElasticityList, &types, &count));
+  for (int k = 0; k < count; k++) {
+    if (!strcmp(types[k], e->type)) continue;
+    PetscCall(SamElasticityCreate(e->grid, &e->pair, &other));
+    PetscCall(SamElasticitySetType(other, types[k]));
+    if (other->ops.setfromoptions) PetscCall((*other->ops.setfromoptions)(other, from));
+    PetscCall(SamElasticityDestroy(&other));
+  }
+  PetscCall(PetscFree(types));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
 {
   const SamOptions from = {e->grid->comm, e->prefix};
   char             type[sizeof(e->type)], types[256];
+  PetscBool        help;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
@@ -120,8 +144,14 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCall(SamTypesOption(SamElasticityList, &from, "elasticity", types, type, sizeof(type), NULL));
   PetscCall(SamTypesCheckOption(SamElasticityList, &from, "elasticity", type));
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
-  if (strcmp(type, e->type) || e->is_set_up) PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
-  if (e->ops.setfromoptions) PetscCall((*e->ops.setfromoptions)(e, &from));
+  if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
+    PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
+  for (SamElasticity o = e; o; o = o->inner) {
+    o->fft = e->fft;
+    if (o->ops.setfromoptions) PetscCall((*o->ops.setfromoptions)(o, &from));
+  }
+  PetscCall(SamPrintHelp(&help));
+  if (help) PetscCall(DescribeOthers(e, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -130,6 +160,7 @@ PetscErrorCode SamElasticitySetUp(SamElasticity e)
   PetscFunctionBegin;
   if (e->is_set_up) PetscFunctionReturn(PETSC_SUCCESS);
   e->is_set_up = PETSC_TRUE;
+  if (e->inner) PetscCall(SamElasticitySetUp(e->inner));
   if (e->ops.setup) PetscCall((*e->ops.setup)(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -157,7 +188,8 @@ PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity)
 PetscErrorCode SamElasticityTrim(SamElasticity e)
 {
   PetscFunctionBegin;
-  if (e->fourier) PetscCall(SamFourierTrim(e->fourier));
+  for (; e; e = e->inner)
+    if (e->fourier) PetscCall(SamFourierTrim(e->fourier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -179,6 +211,8 @@ PetscErrorCode SamElasticityGetTraits(SamElasticity e, SamElasticityTraits *trai
 {
   PetscFunctionBegin;
   *traits = e->traits;
+  SamElasticityWith(e, createstress);
+  traits->stress = e->ops.createstress != NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -194,21 +228,97 @@ PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal,
 
   PetscFunctionBegin;
   PetscCall(SamElasticitySetUp(e));
+  SamElasticityWith(e, getselfinfluence);
   PetscCall((*e->ops.getselfinfluence)(e, &of_normal, &of_tangential));
   if (normal) *normal = of_normal;
   if (tangential) *tangential = of_tangential;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, SamElasticity *child)
+PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
+                                         SamStress *stress)
 {
+  PetscFunctionBegin;
+  SamElasticityWith(e, createstress);
+  PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are known of it",
+             e->type);
+  PetscCheck((body == 1 || body == 2) && !isinf(e->pair.young[body - 1]), e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Body %" PetscInt_FMT ": expected 1 or 2, and not a rigid one", body);
+  PetscCall((*e->ops.createstress)(e, body, settings ? settings : &e->fft, stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityAddParameters(SamElasticity e, SamParameters *p)
+{
+  PetscFunctionBegin;
+  PetscCall(SamPairAddParameters(&e->pair, p));
+  PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, e->type));
+  if (e->inner) PetscCall(SamParametersAddText(p, "elasticity_inner", PETSC_TRUE, e->inner->type));
+  for (; e; e = e->inner)
+    if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *p, const char source[],
+                                                 SamElasticity *elasticity)
+{
+  const SamParameter *type = SamParametersFind(p, "elasticity");
+  PetscErrorCode (*create)(SamElasticity);
+  SamPair pair;
+  char    types[256];
+
+  PetscFunctionBegin;
+  PetscCall(SamPairSetFromParameters(&pair, grid->comm, p, source));
+  PetscCheck(type, grid->comm, SAM_ERR_FILE, "%s: cannot be read: it lacks the attribute elasticity", source);
+  PetscCall(SamElasticityGetTypes(types, sizeof(types)));
+  PetscCall(PetscFunctionListFind(SamElasticityList, type->text, &create));
+  PetscCheck(create, grid->comm, SAM_ERR_FILE, "%s: cannot be read: its elasticity is of type %s: expected %s", source,
+             type->text, types);
+  PetscCall(SamElasticityCreate(grid, &pair, elasticity));
+  PetscCall(SamElasticitySetType(*elasticity, type->text));
+  for (SamElasticity e = *elasticity; e; e = e->inner)
+    if (e->ops.setparameters) PetscCall((*e->ops.setparameters)(e, p, source));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticitySetInner(SamElasticity e, SamElasticityType type)
+{
+  SamElasticity inner;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate(e->grid, &e->pair, &inner));
+  inner->fft = e->fft;
+  PetscCall(SamElasticitySetOptionsPrefix(inner, e->prefix));
+  PetscCall(PetscArraycpy(inner->first, e->first, 2));
+  PetscCall(PetscArraycpy(inner->factor, e->factor, 2));
+  PetscCall(SamElasticitySetType(inner, type));
+  PetscCall(SamElasticityDestroy(&e->inner));
+  e->inner  = inner;
+  e->traits = inner->traits;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
+                                       SamElasticity *child)
+{
+  const PetscReal ratio[2] = {first ? 1 : (PetscReal)parent->grid->nx / (PetscReal)grid->nx,
+                              first ? 1 : (PetscReal)parent->grid->ny / (PetscReal)grid->ny};
   SamElasticity e;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityCreate(grid, &parent->pair, &e));
   e->fft = parent->fft;
+  for (PetscInt k = 0; k < 2; k++) {
+    e->first[k]  = parent->first[k] + (first ? (PetscReal)first[k] * parent->factor[k] : 0);
+    e->factor[k] = parent->factor[k] * ratio[k];
+  }
   PetscCall(SamElasticitySetOptionsPrefix(e, parent->prefix));
   PetscCall(SamElasticitySetType(e, parent->type));
+  if (parent->inner) {
+    PetscCall(SamElasticityDestroy(&e->inner));
+    PetscCall(SamElasticityCreateLike(parent->inner, grid, first, &e->inner));
+  }
+  e->traits = parent->traits;
   if (parent->ops.inherit) PetscCall((*parent->ops.inherit)(parent, e));
   *child = e;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -221,7 +331,7 @@ PetscErrorCode SamElasticityGetCoarse(SamElasticity e, SamElasticity *coarse, Sa
     SamGrid grid;
 
     PetscCall(SamGridCoarsen(e->grid, &grid));
-    PetscCall(SamElasticityCreateLike(e, grid, &e->coarse));
+    PetscCall(SamElasticityCreateLike(e, grid, NULL, &e->coarse));
     PetscCall(SamTransferCreate(e->grid, grid, &e->transfer));
     PetscCall(SamGridDestroy(&grid));
   }

@@ -51,10 +51,40 @@ PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Options and parameters: of both bodies Young's moduli, then Poisson's ratios. */
+static const char *const names[] = {"body1_young", "body2_young", "body1_poisson", "body2_poisson"};
+
+PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    PetscCall(SamParametersAddReals(p, names[b], PETSC_TRUE, 1, &pair->young[b]));
+    PetscCall(SamParametersAddReals(p, names[2 + b], PETSC_TRUE, 1, &pair->poisson[b]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamParameters *p, const char source[])
+{
+  PetscReal value[4];
+  char      message[256];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 4; k++) {
+    const SamParameter *found = SamParametersFind(p, names[k]);
+
+    PetscCheck(found && found->count == 1, comm, SAM_ERR_FILE, "%s: cannot be read: it lacks the attribute %s", source,
+               names[k]);
+    value[k] = found->value[0];
+  }
+  PetscCall(FindFault(value, value + 2, "", message, sizeof(message)));
+  PetscCheck(!message[0], comm, SAM_ERR_FILE, "%s: cannot be read: %s", source, message);
+  PetscCall(SamPairSet(pair, value, value + 2));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
 {
-  static const char *const names[] = {"body1_young", "body2_young", "body1_poisson", "body2_poisson"};
-
   PetscReal young[2] = {0, 0}, poisson[2] = {0, 0};
   PetscBool has_young, has_poisson, help;
   char      message[256], prefix[80];

@@ -71,7 +71,7 @@ PetscErrorCode SamElasticitySetPart(SamElasticity e, const PetscInt first[2], co
     PetscCall(DestroyPart(older));
     PetscCall(SamWindowCreate(e->grid, first, n, &older->window));
     PetscCall(SamWindowGetGrid(older->window, &grid));
-    PetscCall(SamElasticityCreateLike(e, grid, &older->elasticity));
+    PetscCall(SamElasticityCreateLike(e, grid, first, &older->elasticity));
   }
   e->in_part = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -70,92 +70,40 @@ static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityApplyNormal(SamElasticity e, Vec p, Vec u_z)
+/* The public functions: a product of fields, or of arrays in single precision, by a method and under an event. */
+#define PRODUCT(Name, method, event) \
+  PetscErrorCode Name(SamElasticity e, Vec in, Vec out) \
+  { \
+    PetscFunctionBegin; \
+    SamElasticityWith(e, method); \
+    PetscCall(Apply(e, e->ops.method, event, in, out)); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+#define PRODUCT_SINGLE(Name, method, event) \
+  PetscErrorCode Name(SamElasticity e, double factor, const float in[], float out[]) \
+  { \
+    PetscFunctionBegin; \
+    SamElasticityWith(e, method); \
+    PetscCall(ApplySingle(e, e->ops.method, event, factor, in, out)); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+
+PRODUCT(SamElasticityApplyNormal, applynormal, SAM_EVENT_APPLY_NORMAL)
+PRODUCT(SamElasticityApplyTangential, applytangential, SAM_EVENT_APPLY_TANGENTIAL)
+PRODUCT(SamElasticityApplyNormalToTangential, applynormaltotangential, SAM_EVENT_APPLY_COUPLING)
+PRODUCT(SamElasticityApplyTangentialToNormal, applytangentialtonormal, SAM_EVENT_APPLY_COUPLING)
+PRODUCT(SamElasticityApplyNormalSlopes, applynormalslopes, SAM_EVENT_APPLY_NORMAL)
+PRODUCT_SINGLE(SamElasticityApplyNormalSingle, applynormalsingle, SAM_EVENT_APPLY_NORMAL)
+PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EVENT_APPLY_TANGENTIAL)
+PRODUCT_SINGLE(SamElasticityPreconditionNormalSingle, preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL)
+PRODUCT_SINGLE(SamElasticityPreconditionTangentialSingle, preconditiontangential, SAM_EVENT_PRECONDITION_TANGENTIAL)
+
+PetscErrorCode SamElasticityGetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
 {
   PetscFunctionBegin;
-  PetscCall(Apply(e, e->ops.applynormal, SAM_EVENT_APPLY_NORMAL, p, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityApplyTangential(SamElasticity e, Vec q, Vec u_t)
-{
-  PetscFunctionBegin;
-  PetscCall(Apply(e, e->ops.applytangential, SAM_EVENT_APPLY_TANGENTIAL, q, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity e, Vec p, Vec u_t)
-{
-  PetscFunctionBegin;
-  PetscCall(Apply(e, e->ops.applynormaltotangential, SAM_EVENT_APPLY_COUPLING, p, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity e, Vec q, Vec u_z)
-{
-  PetscFunctionBegin;
-  PetscCall(Apply(e, e->ops.applytangentialtonormal, SAM_EVENT_APPLY_COUPLING, q, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityApplyNormalSlopes(SamElasticity e, Vec slopes, Vec u_z)
-{
-  PetscFunctionBegin;
-  PetscCall(Apply(e, e->ops.applynormalslopes, SAM_EVENT_APPLY_NORMAL, slopes, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityApplyTangentialSlopes(SamElasticity e, int axis, Vec slopes, Vec u_t)
-{
-  Arrays a;
-
-  PetscFunctionBegin;
-  PetscCheck(e->ops.applytangentialslopes, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no such product",
-             e->type);
-  PetscCall(SamElasticitySetUp(e));
-  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
-  PetscCall(GetArrays(e, slopes, u_t, &a));
-  PetscCall(e->ops.applytangentialslopes(e, axis, a.in, a.out));
-  PetscCall(RestoreArrays(slopes, u_t, &a));
-  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_APPLY_TANGENTIAL], 0, 0, 0, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityGetNear(SamElasticity e, SamElasticityKernel kernel, PetscInt reach, PetscInt sub,
-                                    double table[])
-{
-  PetscFunctionBegin;
+  SamElasticityWith(e, getnear);
   PetscCheck(e->ops.getnear, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no sub-cells", e->type);
-  PetscCall(e->ops.getnear(e, kernel, reach, sub, table));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityApplyNormalSingle(SamElasticity e, double factor, const float p[], float u_z[])
-{
-  PetscFunctionBegin;
-  PetscCall(ApplySingle(e, e->ops.applynormalsingle, SAM_EVENT_APPLY_NORMAL, factor, p, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity e, double factor, const float q[], float u_t[])
-{
-  PetscFunctionBegin;
-  PetscCall(ApplySingle(e, e->ops.applytangentialsingle, SAM_EVENT_APPLY_TANGENTIAL, factor, q, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity e, double factor, const float residual[], float p[])
-{
-  PetscFunctionBegin;
-  PetscCall(ApplySingle(e, e->ops.preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL, factor, residual, p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity e, double factor, const float residual[],
-                                                         float q[])
-{
-  PetscFunctionBegin;
-  PetscCall(ApplySingle(e, e->ops.preconditiontangential, SAM_EVENT_PRECONDITION_TANGENTIAL, factor, residual, q));
+  PetscCall(e->ops.getnear(e, reach, sub, table));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -29,7 +29,7 @@ PetscBool SamEmbedEnter(petsam_contact *c)
   if (!IsAlive()) return PETSC_FALSE;
   c->message[0] = '\0';
   (void)PetscPushErrorHandler(SamKeepMessage, c->message);
-  (void)PetscOptionsPush(c->options);
+  if (!c->depth++) (void)PetscOptionsPush(c->options); /* a database must not be pushed twice */
   return PETSC_TRUE;
 }
 
@@ -52,7 +52,7 @@ static int CodeOf(PetscErrorCode code)
 
 int SamEmbedLeave(petsam_contact *c, PetscErrorCode code)
 {
-  (void)PetscOptionsPop();
+  if (!--c->depth) (void)PetscOptionsPop();
   (void)PetscPopErrorHandler();
   if (code == PETSC_ERR_MEM) (void)snprintf(c->message, sizeof(c->message), "not enough memory");
   if (code && !c->message[0]) (void)snprintf(c->message, sizeof(c->message), "error %d of PETSc", (int)code);
@@ -79,24 +79,20 @@ const char *petsam_message(const petsam_contact *c)
 /* Options that only the program has; their names deserve to be told so. Loads are given to petsam_try(). */
 static PetscErrorCode RefuseOthers(const petsam_contact *c)
 {
-  static const char *const asks[] = {"-help", "-h", "-version"};
+  static const char *const others[] = {"load_history", "wear_cycles"};
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < 3; k++) {
-    PetscBool set;
-
-    PetscCall(PetscOptionsHasName(NULL, NULL, asks[k], &set));
-    PetscCheck(!set, c->comm, SAM_ERR_USER, "%s is for the program petsam", asks[k]);
-  }
-  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) {
-    const char *name = k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load;
+  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS + 2; k++) {
+    const char *name = k >= 2 * SAM_COMPONENTS ? others[k - 2 * SAM_COMPONENTS]
+                       : k % 2                 ? SamComponentNames[k / 2].rigid
+                                               : SamComponentNames[k / 2].load;
     char        option[32];
     PetscBool   set;
 
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsHasName(NULL, NULL, option, &set));
-    PetscCheck(!set, c->comm, SAM_ERR_USER, "-%s: loads and displacements are given with each try, not as options",
-               name);
+    PetscCheck(!set, c->comm, SAM_ERR_USER,
+               "-%s: loads, displacements and cycles are given with each call, not as options", name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -112,9 +108,10 @@ static PetscErrorCode ReadBulkStress(petsam_contact *c, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rank 0's options count. */
-static PetscErrorCode InsertOptions(petsam_contact *c, const char options[])
+PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[])
 {
+  static const char *const asks[] = {"-help", "-h", "-version"};
+
   SamArguments arguments;
   int          length = (int)strlen(options) + 1, rank;
   char        *copy;
@@ -128,9 +125,28 @@ static PetscErrorCode InsertOptions(petsam_contact *c, const char options[])
   SamArgumentsSeparate(copy);
   SamArgumentsExamineText(c->comm, copy, &arguments);
   SamArgumentsFree(&arguments);
-  if (!arguments.code) PetscCall(PetscOptionsInsertString(c->options, copy));
+  if (!arguments.code) PetscCall(PetscOptionsInsertString(database, copy));
   PetscCall(PetscFree(copy));
   PetscCheck(!arguments.code, c->comm, arguments.code, "%s", arguments.message);
+  for (PetscInt k = 0; k < 3; k++) {
+    PetscBool set;
+
+    PetscCall(PetscOptionsHasName(database, NULL, asks[k], &set));
+    PetscCheck(!set, c->comm, SAM_ERR_USER, "%s is for the programs", asks[k]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What else is given with a step may be asked for, as if it varied. */
+static PetscErrorCode OfferGiven(petsam_contact *c)
+{
+  SamState state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(c->setup->contact, &state));
+  PetscCall(SamStateOfferNumber(state, "friction_scale", 1));
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
+    PetscCall(SamStateOfferNumber(state, SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -140,24 +156,26 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
-  PetscCall(InsertOptions(c, options));
+  PetscCall(SamEmbedInsertOptions(c, c->options, options));
   PetscCall(RefuseOthers(c));
-  PetscCall(SamSetupReadOptions(&c->setup, &from));
-  PetscCall(SamWearLawsSetFromOptions(&c->laws, &from));
+  PetscCall(SamSimulationCreate(c->comm, &c->simulation));
+  PetscCall(SamSimulationGetSetup(c->simulation, &c->setup));
+  PetscCall(SamSimulationSetContactFromOptions(c->simulation, &from));
+  PetscCall(SamHistoryReadIncrements(&from, &c->increments));
   PetscCall(ReadBulkStress(c, &from));
-  PetscCall(SamSetupCreateContact(&c->setup, &from));
+  PetscCall(SamSimulationSetUp(c->simulation, &from));
+  PetscCall(OfferGiven(c));
   PetscCall(SamArgumentsRefuseUnknown(c->comm, PETSC_FALSE));
-  PetscCall(SamGridCreateVec(c->setup.grid, 1, &c->work));
-  if (c->laws.on) PetscCall(SamWearCreate(c->setup.contact, c->laws.law, c->laws.coefficient, &c->wear));
+  PetscCall(SamGridCreateVec(c->setup->grid, 1, &c->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Destroy(petsam_contact *c)
 {
   PetscFunctionBegin;
+  PetscCall(SamEmbedDestroyStress(c));
   PetscCall(VecDestroy(&c->work));
-  PetscCall(SamWearDestroy(&c->wear));
-  PetscCall(SamSetupDestroy(&c->setup));
+  PetscCall(SamSimulationDestroy(&c->simulation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -219,7 +237,7 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
 
 int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], int *first_row, int *rows)
 {
-  const SamGrid grid = c ? c->setup.grid : NULL;
+  const SamGrid grid = c ? c->setup->grid : NULL;
 
   if (!c) return SAM_EMBED_USAGE;
   c->message[0] = '\0';
@@ -236,32 +254,21 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
 PetscErrorCode SamEmbedForget(petsam_contact *c)
 {
   PetscFunctionBegin;
-  PetscCall(SamContactReject(c->setup.contact));
+  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "a monitor can ask for fields and numbers only");
+  PetscCall(SamContactReject(c->setup->contact));
   c->last      = c->committed;
   c->has_last  = c->has_committed;
   c->has_tried = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The gap of the unworn bodies; what has been removed stays. */
+/* The gap of the bodies as they were before any step. */
 static PetscErrorCode SetGap(petsam_contact *c, Vec gap)
 {
-  Vec load;
-
   PetscFunctionBegin;
   c->has_gap = PETSC_TRUE;
-  PetscCall(SamCheckpointChecksum(c->setup.grid, gap, &c->gap));
-  if (!c->wear) {
-    PetscCall(SamProblemSetGap(c->setup.problem, gap));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamGridCreateVec(c->setup.grid, 1, &load));
-  PetscCall(SamWearGetLoad(c->wear, load));
-  PetscCall(SamWearDestroy(&c->wear));
-  PetscCall(SamProblemSetGap(c->setup.problem, gap));
-  PetscCall(SamWearCreate(c->setup.contact, c->laws.law, c->laws.coefficient, &c->wear));
-  PetscCall(SamWearSetLoad(c->wear, load));
-  PetscCall(VecDestroy(&load));
+  PetscCall(SamGridChecksum(c->setup->grid, gap, &c->gap));
+  PetscCall(SamProblemSetGap(c->setup->problem, gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -274,54 +281,42 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
   PetscFunctionBegin;
   PetscCheck(gap || !strcmp(name, "friction"), c->comm, SAM_ERR_USER, "%s: expected gap or friction", name);
   PetscCall(VecGetArrayWrite(c->work, &cells));
-  PetscCall(PetscArraycpy(cells, values, c->setup.grid->cells));
+  PetscCall(PetscArraycpy(cells, values, c->setup->grid->cells));
   PetscCall(VecRestoreArrayWrite(c->work, &cells));
-  PetscCall(SamGridIsFinite(c->setup.grid, c->work, &finite));
+  PetscCall(SamGridIsFinite(c->setup->grid, c->work, &finite));
   PetscCheck(finite, c->comm, SAM_ERR_USER, "%s: not all values are finite numbers", name);
   PetscCall(SamEmbedForget(c));
   if (gap)
     PetscCall(SetGap(c, c->work));
   else
-    PetscCall(SamProblemSetFrictionField(c->setup.problem, c->work));
+    PetscCall(SamProblemSetFrictionField(c->setup->problem, c->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 {
   if (!c) return SAM_EMBED_USAGE;
-  if (!name || (!values && c->setup.grid->cells)) return SamEmbedRefuse(c, "petsam_set_field: a pointer is NULL");
+  if (!name || (!values && c->setup->grid->cells)) return SamEmbedRefuse(c, "petsam_set_field: a pointer is NULL");
   if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
   return SamEmbedLeave(c, SetField(c, name, values));
 }
 
 /* ---- steps ---- */
 
-/* Appends to the message of a step at the grid's edge a grid that is large enough for it. */
-static PetscErrorCode AdviseEdge(petsam_contact *c)
-{
-  const size_t used = strlen(c->last.message);
-  SamLoadsMost most = {.open = c->wear || c->has_gap};
-  char         text[400];
-
-  PetscFunctionBegin;
-  if (!SamStepIsSolved(&c->last) || !(c->last.check.edge > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  SamLoadsMostAdd(&most, &c->last.control);
-  PetscCall(SamAdviseEdge(&c->setup, &c->last, &most, text, sizeof(text)));
-  (void)snprintf(c->last.message + used, sizeof(c->last.message) - used, "; %s", text);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
 {
-  PetscReal depth[2];
+  SamLoadsMost most = {.open = c->has_gap};
+  PetscBool    moves;
 
   PetscFunctionBegin;
   PetscCall(SamEmbedForget(c));
-  PetscCall(SamContactTry(c->setup.contact, control, &c->last));
+  PetscCall(SamContactTry(c->setup->contact, control, &c->last));
   c->has_last  = PETSC_TRUE;
   c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM;
-  if (c->wear) PetscCall(SamWearGetVolumes(c->wear, c->last.wear_volume, depth));
-  PetscCall(AdviseEdge(c));
+  PetscCall(SamProblemMoves(c->setup->problem, &moves));
+  if (moves) most.open = PETSC_TRUE;
+  SamLoadsMostAdd(&most, control);
+  PetscCall(SamAdviseEdge(c->setup, &most, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -337,7 +332,7 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
   control      = c->control;
   control.time = time;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
-    control.force[k] = force[k] ? PETSC_TRUE : PETSC_FALSE;
+    control.force[k] = force[k] != 0;
     control.value[k] = value[k];
   }
   if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
@@ -353,26 +348,21 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
 
 static PetscErrorCode Commit(petsam_contact *c)
 {
-  PetscReal depth[2], excess = 0;
+  PetscInt law = 0;
 
   PetscFunctionBegin;
+  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor");
   PetscCheck(!c->has_last || c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
              "the last try has no solution, and cannot be committed: %s", c->last.message);
   PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
   PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and cannot be committed: %s", c->last.message);
-  if (c->wear) PetscCall(SamWearCountStep(c->wear));
-  if (c->wear) PetscCall(SamWearGetExcess(c->wear, &excess));
-  PetscCall(SamContactCommit(c->setup.contact));
-  if (c->wear) {
-    PetscCall(SamWearApply(c->wear, 1));
-    PetscCall(SamWearMoveGap(c->wear));
-    PetscCall(SamWearGetVolumes(c->wear, c->last.wear_volume, depth));
-  }
+  PetscCall(SamContactAdvise(c->setup->contact, &law, c->message, sizeof(c->message)));
+  PetscCall(SamContactCommit(c->setup->contact));
   c->has_tried     = PETSC_FALSE;
   c->has_committed = PETSC_TRUE;
   c->committed     = c->last;
-  PetscCall(SamAdviseWear(excess, c->message, sizeof(c->message)));
+  PetscCall(SamEmbedRecord(c, &c->committed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -393,16 +383,16 @@ int petsam_reject(petsam_contact *c)
 static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[])
 {
   SamStiffness s;
+  char         text[SAM_MESSAGE];
 
   PetscFunctionBegin;
-  PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to compute a stiffness of");
-  PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
+  PetscCheck(!c->has_tried || SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and has no stiffness: %s", c->last.message);
-  PetscCall(SamStiffnessCompute(c->setup.contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, &s));
+  PetscCall(SamStiffnessCompute(c->setup->contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, &s));
   for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
     for (PetscInt j = 0; j < SAM_COMPONENTS; j++) k[SAM_COMPONENTS * i + j] = (double)s.k[i][j];
-  PetscCheck(s.converged, c->comm, PETSC_ERR_NOT_CONVERGED,
-             "the tangent stiffness did not converge: relative residual %.2g", (double)s.error);
+  SamStiffnessDescribe(&s, text, sizeof(text));
+  PetscCheck(s.converged, c->comm, PETSC_ERR_NOT_CONVERGED, "%s", text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -411,7 +401,7 @@ int petsam_stiffness(petsam_contact *c, int reversal, double k[36])
   if (!c) return SAM_EMBED_USAGE;
   if (!k) return SamEmbedRefuse(c, "petsam_stiffness: a pointer is NULL");
   if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, Stiffness(c, reversal ? PETSC_TRUE : PETSC_FALSE, k));
+  return SamEmbedLeave(c, Stiffness(c, reversal != 0, k));
 }
 
 /* ---- what is found ---- */
@@ -423,10 +413,11 @@ static PetscErrorCode GetField(petsam_contact *c, const char name[], double valu
 
   PetscFunctionBegin;
   PetscCheck(c->has_tried || c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been solved yet", name);
-  PetscCall(SamFieldGet(c->setup.contact, c->wear, name, c->work, &found));
+  PetscCall(SamContactHasField(c->setup->contact, name, &found));
   PetscCheck(found, c->comm, SAM_ERR_USER, "%s: there is no field of this name", name);
+  PetscCall(SamContactGetField(c->setup->contact, name, c->work));
   PetscCall(VecGetArrayRead(c->work, &cells));
-  PetscCall(PetscArraycpy(values, cells, c->setup.grid->cells));
+  PetscCall(PetscArraycpy(values, cells, c->setup->grid->cells));
   PetscCall(VecRestoreArrayRead(c->work, &cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -434,20 +425,63 @@ static PetscErrorCode GetField(petsam_contact *c, const char name[], double valu
 int petsam_get_field(petsam_contact *c, const char *name, double *values)
 {
   if (!c) return SAM_EMBED_USAGE;
-  if (!name || (!values && c->setup.grid->cells)) return SamEmbedRefuse(c, "petsam_get_field: a pointer is NULL");
+  if (!name || (!values && c->setup->grid->cells)) return SamEmbedRefuse(c, "petsam_get_field: a pointer is NULL");
   if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
   return SamEmbedLeave(c, GetField(c, name, values));
 }
 
+const char *petsam_field_name(petsam_contact *c, int k)
+{
+  SamState state;
+
+  if (!c || SamContactGetState(c->setup->contact, &state)) return NULL;
+  for (PetscInt n = 0; n < SamStateCountResults(state); n++)
+    if (SamStateResultOf(state, n)->kind != SAM_FIELD_POINTS && k-- == 0) return SamStateResultOf(state, n)->name;
+  return NULL;
+}
+
+/* The k-th number that may be asked for by its name, or the first of this name (not NULL); its place, -1: none. */
+static PetscInt FindNumber(SamState state, PetscInt k, const char wanted[], const char **name)
+{
+  for (PetscInt n = 0; n < SamStateCountNumbers(state); n++) {
+    PetscInt              id;
+    const SamStateNumber *number = SamStateNumberOf(state, n, &id);
+
+    *name = number->name;
+    if (number->result && number->count == 1 && (wanted ? !strcmp(wanted, number->name) : k-- == 0)) return id;
+  }
+  return -1;
+}
+
+const char *petsam_number_name(petsam_contact *c, int k)
+{
+  const char *name;
+  SamState    state;
+
+  if (!c || SamContactGetState(c->setup->contact, &state)) return NULL;
+  return FindNumber(state, k, NULL, &name) < 0 ? NULL : name;
+}
+
 int petsam_get_number(petsam_contact *c, const char *name, double *value)
 {
-  PetscReal number;
+  static const char cycle[] = "wear/";
+
+  const char *found;
+  SamState    state;
+  PetscInt    id;
 
   if (!c) return SAM_EMBED_USAGE;
   if (!name || !value) return SamEmbedRefuse(c, "petsam_get_number: a pointer is NULL");
   if (!c->has_last) return SamEmbedRefuse(c, "%s: no step has been tried yet", name);
-  if (!SamStepGetNumber(&c->last, name, &number)) return SamEmbedRefuse(c, "%s: there is no number of this name", name);
+  if (SamContactGetState(c->setup->contact, &state)) return SamEmbedRefuse(c, "%s: no state", name);
+  if (!strncmp(name, cycle, strlen(cycle))) {
+    (void)SamSimulationGetSeries(c->simulation, &state);
+    if (!state) return SamEmbedRefuse(c, "%s: no cycles have been computed", name);
+    name += strlen(cycle);
+  }
+  id = FindNumber(state, 0, name, &found);
+  if (id < 0) return SamEmbedRefuse(c, "%s: there is no number of this name", name);
   c->message[0] = '\0';
-  *value        = (double)number;
+  *value        = *SamStateReadNumbers(state, id);
   return 0;
 }

@@ -6,25 +6,31 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/advice.h>
 #include <petsam/checkpoint.h>
-#include <petsam/setup.h>
+#include <petsam/simulation.h>
 #include <petsam/stiffness.h>
 
 enum { SAM_EMBED_USAGE = 2, SAM_EMBED_FILE = 3 };
 
+/* The steps that are recorded, and the results of petsam_stress() and petsam_fatigue() (stress.c). */
+typedef struct _n_SamEmbedStress *SamEmbedStress;
+
 struct petsam_contact {
-  MPI_Comm     comm;
-  PetscOptions options; /* its own database */
-  SamSetup     setup;
-  SamWearLaws  laws;
-  SamWear      wear;    /* NULL: none */
-  SamControl   control; /* bulk stresses */
-  SamStep      committed, last;
-  PetscBool    has_committed, has_last; /* whether these hold numbers */
-  PetscBool    has_tried;               /* a tried step */
-  Vec          work;
-  PetscBool    has_gap; /* a gap has been given, */
-  uint64_t     gap;     /* of this checksum */
-  char         message[SAM_MESSAGE];
+  MPI_Comm        comm;
+  PetscOptions    options; /* its own database */
+  SamSimulation   simulation;
+  const SamSetup *setup;      /* its own */
+  SamControl      control;    /* bulk stresses */
+  PetscInt        increments; /* of each row of a history */
+  SamStep         committed, last;
+  PetscBool       has_committed, has_last; /* whether these hold numbers */
+  PetscBool       has_tried;               /* a tried step */
+  Vec             work;
+  PetscBool       has_gap; /* a gap has been given, */
+  uint64_t        gap;     /* of this checksum */
+  int             depth;   /* calls under way: 2 for one from a monitor */
+  char            message[SAM_MESSAGE], advice[SAM_MESSAGE];
+
+  SamEmbedStress stress; /* NULL: nothing yet */
 };
 
 /*
@@ -45,5 +51,14 @@ PETSC_INTERN int       SamEmbedLeave(petsam_contact *c, PetscErrorCode code);
 PETSC_INTERN int       SamEmbedRefuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 /* SamEmbedForget - forgets the tried step. Collective. */
 PETSC_INTERN PetscErrorCode SamEmbedForget(petsam_contact *c);
+/* SamEmbedInsertOptions - puts options, rank 0's, into a database. Collective. Errors: those of the text. */
+PETSC_INTERN PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[]);
+/*
+  SamEmbedRecord - keeps the tried step, else the committed one, if steps are recorded. SamEmbedForgetSteps - forgets
+  those that are. SamEmbedDestroyStress - with all of stress.c. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step);
+PETSC_INTERN PetscErrorCode SamEmbedForgetSteps(petsam_contact *c);
+PETSC_INTERN PetscErrorCode SamEmbedDestroyStress(petsam_contact *c);
 
 #endif

@@ -21,9 +21,8 @@ static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parameters)
 {
   PetscFunctionBegin;
-  parameters->count = 0;
-  PetscCall(SamSetupAddParameters(&c->setup, parameters));
-  PetscCall(SamWearLawsAddParameters(&c->laws, "steps", parameters));
+  *parameters = (SamParameters){.count = 0};
+  PetscCall(SamSetupAddParameters(c->setup, parameters));
   if (c->has_gap)
     PetscCall(SamParametersAddChecksum(parameters, "given_gap", c->gap));
   else
@@ -44,8 +43,8 @@ static PetscErrorCode Save(petsam_contact *c, const char file[])
   PetscFunctionBegin;
   PetscCheck(c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been committed yet", file);
   PetscCall(CollectParameters(c, &parameters));
-  PetscCall(SamCheckpointCreate(c->setup.grid, file, &checkpoint));
-  code = SamCheckpointWrite(checkpoint, c->setup.contact, c->wear, &parameters, 0, NULL);
+  PetscCall(SamCheckpointCreate(c->setup->grid, file, &checkpoint));
+  code = SamCheckpointWrite(checkpoint, c->setup->contact, &parameters, 0, NULL);
   PetscCall(SamCheckpointDestroy(&checkpoint));
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -59,24 +58,21 @@ int petsam_save(petsam_contact *c, const char *file)
   return LeaveFile(c, Save(c, file));
 }
 
-/* The numbers of the committed step that its state holds. */
+/* What the restored state says of its step. */
 static PetscErrorCode KnowState(petsam_contact *c)
 {
-  SamContactState state;
-  SamStep        *step = &c->committed;
-  PetscReal       depth[2];
+  const SamSolution *s;
+  SamStep           *step = &c->committed;
+  PetscInt           steps;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetState(c->setup.contact, &state));
-  *step              = (SamStep){.control = state.now.control};
-  step->check        = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
-  step->contact_area = step->stick_area = step->dissipated_energy = step->stored_energy = step->edge_accepted = NAN;
-  step->pressure_max = step->shear_max = NAN;
-  step->plastic_area = step->plastic_depth_max = step->plastic_energy = NAN;
-  PetscCall(PetscArraycpy(step->load, state.now.load, SAM_COMPONENTS));
-  PetscCall(PetscArraycpy(step->rigid, state.now.rigid, SAM_COMPONENTS));
-  if (c->wear) PetscCall(SamWearGetVolumes(c->wear, step->wear_volume, depth));
-  c->has_committed = state.steps > 0;
+  PetscCall(SamContactGetSolution(c->setup->contact, &s));
+  PetscCall(SamContactGetSteps(c->setup->contact, &steps));
+  *step       = (SamStep){.control = s->control};
+  step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
+  PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
+  c->has_committed = steps > 0;
   PetscCall(SamEmbedForget(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -87,7 +83,7 @@ static PetscErrorCode Load(petsam_contact *c, const char file[])
 
   PetscFunctionBegin;
   PetscCall(CollectParameters(c, &parameters));
-  PetscCall(SamCheckpointRead(file, c->setup.contact, c->wear, &parameters, 0, NULL));
+  PetscCall(SamCheckpointRead(file, c->setup->contact, &parameters, 0, NULL));
   PetscCall(KnowState(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

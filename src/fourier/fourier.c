@@ -65,7 +65,7 @@ PetscInt SamFourierFastLength(PetscInt n)
 PetscErrorCode SamFourierCheckPlan(const void *plan)
 {
   PetscFunctionBegin;
-  PetscCheck(plan, PETSC_COMM_SELF, PETSC_ERR_LIB, "FFTW could not make a plan");
+  PetscCheck(plan, PETSC_COMM_SELF, PETSC_ERR_LIB, SAM_NO_PLAN);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -118,7 +118,7 @@ PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *settings, const
                            "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges,
                            &exchange, NULL));
   settings->effort = effort == 2 ? SAM_FOURIER_PATIENT : (effort == 1 ? SAM_FOURIER_MEASURE : SAM_FOURIER_ESTIMATE);
-  settings->send   = exchange ? PETSC_TRUE : PETSC_FALSE;
+  settings->send   = exchange != 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

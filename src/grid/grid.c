@@ -91,10 +91,8 @@ static PetscErrorCode RefuseThin(const SamOptions *from, const PetscInt n[2], co
           SamOptionsPrefix(from), numbers, SamOptionsPrefix(from));
 }
 
-PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
+PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], PetscReal width[2], SamGrid *grid)
 {
-  PetscInt          n[2]      = {0, 0};
-  PetscReal         width[2]  = {0, 0};
   PetscReal         center[2] = {0, 0};
   PetscBool         has_n, has_width, help;
   char              message[256], options[3][96];
@@ -102,9 +100,9 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(from, "Grid"));
-  PetscCall(SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required", 2, n, &has_n));
-  PetscCall(
-    SamOptionsRealPair(from, "grid_size", "full width in x[,y] (m): required", SAM_RANGE_POSITIVE, width, &has_width));
+  PetscCall(SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required without a surface file", 2, n, &has_n));
+  PetscCall(SamOptionsRealPair(from, "grid_size", "full width in x[,y] (m): required without a surface file",
+                               SAM_RANGE_POSITIVE, width, &has_width));
   PetscCall(SamOptionsRealPair(from, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
   PetscCall(SamPrintHelp(&help));
   if (help) { /* the defaults are listed; any grid does */
@@ -115,8 +113,8 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, SamGrid *grid)
   PetscCall(PetscSNPrintf(options[0], sizeof(options[0]), "-%sgrid_n", SamOptionsPrefix(from)));
   PetscCall(PetscSNPrintf(options[1], sizeof(options[1]), "-%sgrid_size", SamOptionsPrefix(from)));
   PetscCall(PetscSNPrintf(options[2], sizeof(options[2]), "-%sgrid_center", SamOptionsPrefix(from)));
-  PetscCall(SamOptionsRequire(from, has_n, "grid_n", "the number of cells in x[,y], for example 256"));
-  PetscCall(SamOptionsRequire(from, has_width, "grid_size",
+  PetscCall(SamOptionsRequire(from, has_n || n[0], "grid_n", "the number of cells in x[,y], for example 256"));
+  PetscCall(SamOptionsRequire(from, has_width || width[0] > 0, "grid_size",
                               "the full width of the grid in x[,y], m: about 1.5 times that of the contact"));
   PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
@@ -299,5 +297,25 @@ PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_fi
   *components = n / (grid->nx * grid->ny);
   PetscCheck(m == *components * other->nx * other->ny, grid->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to %s",
              words);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
+PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum)
+{
+  const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,
+                 first = (uint64_t)grid->nx * (uint64_t)grid->row_start;
+  const PetscScalar *values;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  *checksum = 0;
+  PetscCall(VecGetLocalSize(field, &n));
+  PetscCall(VecGetArrayRead(field, &values));
+  for (PetscInt k = 0; k < n; k++)
+    *checksum += SamHashMix(SamHashBits(values[k]) +
+                            SamHashMix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
+  PetscCall(VecRestoreArrayRead(field, &values));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, checksum, 1, MPI_UINT64_T, MPI_SUM, grid->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,7 +1,9 @@
 /*
-  The state of a contact in a file: SamContactState, the parameters that define the contact, and a program's notes.
+  The state of a contact in a file: what its parts have declared as kept, the parameters that define the contact, and a
+  program's notes.
 
-  The fields are datasets (components, ny, nx), all else attributes of the root group; all is sealed (seal.c).
+  The fields are datasets (components, ny, nx), all else attributes of the root group; all is sealed (seal.c). What is
+  one step back has `before_` in front of its name.
 */
 #include "ioimpl.h"
 #include <petsam/checkpoint.h>
@@ -9,55 +11,6 @@
 #include <unistd.h>
 
 #define OPTION "checkpoint"
-
-/* The fields and their names in the file, and which states have them. */
-/* SECOND: from the second step on; YIELDING, SUM: if it is kept */
-typedef enum { ALWAYS, CORRECTED, SHEARED, PLAIN, YIELDING, SECOND, SUM } Condition;
-static const struct {
-  const char *name;
-  PetscInt    components;
-  size_t      offset; /* of the Vec in SamContactState */
-  Condition   when;
-} kept[] = {{"pressure", 1, offsetof(SamContactState, now.pressure), ALWAYS},
-            {"bound", 1, offsetof(SamContactState, now.bound), ALWAYS},
-            {"shear", 2, offsetof(SamContactState, now.shear), ALWAYS},
-            {"displacement_z", 1, offsetof(SamContactState, now.displacement_z), ALWAYS},
-            {"displacement_t", 2, offsetof(SamContactState, now.displacement_t), ALWAYS},
-            {"correction", 1, offsetof(SamContactState, now.correction), CORRECTED},
-            {"rim", 1, offsetof(SamContactState, now.rim), CORRECTED},
-            {"sheared_displacement", 2, offsetof(SamContactState, now.sheared.displacement), SHEARED},
-            {"sheared_rim", 1, offsetof(SamContactState, now.sheared.rim), SHEARED},
-            {"sheared_slopes", SAM_SHEAR_SLOPES, offsetof(SamContactState, now.sheared.within.slopes), SHEARED},
-            {"sheared_terms", SAM_SHEAR_TERMS, offsetof(SamContactState, now.sheared.within.terms), SHEARED},
-            {"sheared_reference", SAM_SHEAR_REFERENCE, offsetof(SamContactState, now.sheared.within.reference),
-             SHEARED},
-            {"plain_reference", 2, offsetof(SamContactState, now.sheared.plain_reference), SHEARED},
-            {"plain_pressure", 1, offsetof(SamContactState, plain.pressure), PLAIN},
-            {"plain_bound", 1, offsetof(SamContactState, plain.bound), PLAIN},
-            {"plain_shear", 2, offsetof(SamContactState, plain.shear), PLAIN},
-            {"plain_displacement_t", 2, offsetof(SamContactState, plain.displacement_t), PLAIN},
-            {"plastic_depth", 1, offsetof(SamContactState, now.plastic), YIELDING},
-            {"before_pressure", 1, offsetof(SamContactState, before.pressure), SECOND},
-            {"before_bound", 1, offsetof(SamContactState, before.bound), SECOND},
-            {"before_shear", 2, offsetof(SamContactState, before.shear), SECOND},
-            {"slip_path", 1, offsetof(SamContactState, sums[SAM_CONTACT_SLIP_PATH]), SUM},
-            {"friction_energy", 1, offsetof(SamContactState, sums[SAM_CONTACT_FRICTION_ENERGY]), SUM}};
-enum { KEPT = sizeof(kept) / sizeof(kept[0]) };
-
-static Vec *FieldOf(SamContactState *state, PetscInt k)
-{
-  return (Vec *)((char *)state + kept[k].offset);
-}
-
-static PetscBool IsKept(SamContactState *state, PetscInt k)
-{
-  if (kept[k].when == SUM) return *FieldOf(state, k) ? PETSC_TRUE : PETSC_FALSE;
-  if (kept[k].when == CORRECTED) return state->now.passes > 0;
-  if (kept[k].when == PLAIN) return state->now.sheared.has;
-  if (kept[k].when == SHEARED) return state->now.sheared.has || state->now.sheared.within.refers;
-  if (kept[k].when == YIELDING) return state->now.plastic ? PETSC_TRUE : PETSC_FALSE;
-  return kept[k].when == ALWAYS || state->steps > 1;
-}
 
 struct _n_SamCheckpoint {
   SamGrid grid;
@@ -88,25 +41,17 @@ static PetscErrorCode WriteField(SamFile f, const char name[], PetscInt componen
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadField(SamFile f, const char name[], PetscInt components, Vec *field)
+static PetscErrorCode ReadField(SamFile f, const char name[], PetscInt components, Vec field)
 {
   const hid_t  dataset = SamFileNote(f, H5Dopen2(f->id, name, H5P_DEFAULT));
   PetscScalar *values;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(f->grid, components, field));
-  PetscCall(VecGetArray(*field, &values));
+  PetscCall(VecGetArray(field, &values));
   for (PetscInt c = 0; c < components; c++)
     SamFileReadLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
-  PetscCall(VecRestoreArray(*field, &values));
+  PetscCall(VecRestoreArray(field, &values));
   if (dataset >= 0) (void)SamFileNote(f, H5Dclose(dataset));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode DestroyFields(SamContactState *state)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < KEPT; k++) PetscCall(VecDestroy(FieldOf(state, k)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -121,7 +66,7 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamProblemGetGap(problem, &gap));
-  PetscCall(SamCheckpointChecksum(grid, gap, checksum));
+  PetscCall(SamGridChecksum(grid, gap, checksum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -132,55 +77,112 @@ typedef struct {
   const SamParameters *parameters;
   PetscInt             n;
   const SamNote       *notes;
-  SamWear              wear; /* NULL: none */
 } Rest;
 
-static PetscErrorCode WriteWear(SamFile f, SamWear wear)
+/* A name in the file: of what is committed, or one step back. */
+static void NameOf(const char name[], SamGeneration generation, char text[96])
 {
-  Vec load;
+  (void)snprintf(text, 96, "%s%s", generation == SAM_BEFORE ? "before_" : "", name);
+}
+
+/* The fields that a state keeps, by their names with commas between them. */
+static void ListFields(SamState state, char list[], size_t size)
+{
+  list[0] = '\0';
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
+    const size_t used = strlen(list);
+
+    if (SamStateFieldOf(state, k)->kept)
+      (void)snprintf(list + used, size - used, "%s%s", used ? "," : "", SamStateFieldOf(state, k)->name);
+  }
+}
+
+static PetscErrorCode WriteFields(SamFile f, SamState state)
+{
+  char list[2048], name[96];
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(f->grid, 1, &load));
-  PetscCall(SamWearGetLoad(wear, load));
-  PetscCall(WriteField(f, "wear_load", 1, load));
-  PetscCall(VecDestroy(&load));
+  ListFields(state, list, sizeof(list));
+  SamFileWriteTextAttribute(f, f->id, "fields", list);
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
+    const SamStateField *field = SamStateFieldOf(state, k);
+
+    for (PetscInt g = SAM_COMMITTED; g < field->generations && field->kept; g++) {
+      const Vec values = SamStateGetField(state, k, (SamGeneration)g);
+
+      NameOf(field->name, (SamGeneration)g, name);
+      if (values) PetscCall(WriteField(f, name, field->components, values));
+    }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode WriteAll(SamFile f, SamContactState *state, uint64_t gap, const Rest *rest)
+/* What stands before the names of numbers, by their generation. */
+static const char *const generations[SAM_GENERATIONS] = {"tried", "committed", "before"};
+
+static void WriteNumbers(SamFile f, SamState state)
 {
-  off_t bytes = 0;
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    PetscInt              id;
+    const SamStateNumber *number = SamStateNumberOf(state, k, &id);
+    char                  name[96];
+
+    for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS && number->kept; g++) {
+      (void)snprintf(name, sizeof(name), "%s_%s", generations[g], number->name);
+      SamFileWriteAttribute(f, f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, number->count,
+                            SamStateNumbers(state, id, (SamGeneration)g));
+    }
+  }
+}
+
+static off_t CountBytes(SamGrid grid, SamState state)
+{
+  off_t values = 0;
+
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++)
+    for (PetscInt g = SAM_COMMITTED; g < SamStateFieldOf(state, k)->generations; g++)
+      if (SamStateFieldOf(state, k)->kept && SamStateGetField(state, k, (SamGeneration)g))
+        values += SamStateFieldOf(state, k)->components;
+  return values * (off_t)sizeof(double) * grid->nx * grid->ny;
+}
+
+static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
+{
+  SamState  state;
+  PetscBool is;
+  int8_t    current;
+  uint64_t  gap;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < KEPT; k++)
-    if (IsKept(state, k)) bytes += (off_t)sizeof(double) * kept[k].components * f->grid->nx * f->grid->ny;
-  if (rest->wear) bytes += (off_t)sizeof(double) * f->grid->nx * f->grid->ny;
-  PetscCall(SamFileReserve(f, bytes));
+  PetscCall(SamContactGetState(contact, &state));
+  PetscCall(SamContactIsGapCurrent(contact, &is));
+  PetscCall(GapChecksum(contact, &gap));
+  current = is;
+  PetscCall(SamFileReserve(f, CountBytes(f->grid, state)));
   PetscCall(SamFileBegin(f));
   SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
   SamParametersWrite(f, rest->parameters);
   SamFileWriteAttribute(f, f->id, "gap_checksum", H5T_STD_U64LE, H5T_NATIVE_UINT64, 1, &gap);
+  SamFileWriteAttribute(f, f->id, "gap_is_current", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &current);
   for (PetscInt k = 0; k < rest->n; k++)
     SamFileWriteAttribute(f, f->id, rest->notes[k].name, H5T_STD_U64LE, H5T_NATIVE_UINT64,
                           PetscAbsInt(rest->notes[k].count), rest->notes[k].values);
-  SamFileWriteState(f, state);
-  for (PetscInt k = 0; k < KEPT; k++)
-    if (IsKept(state, k)) PetscCall(WriteField(f, kept[k].name, kept[k].components, *FieldOf(state, k)));
-  if (rest->wear) PetscCall(WriteWear(f, rest->wear));
+  WriteNumbers(f, state);
+  PetscCall(WriteFields(f, state));
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Writes and seals the file, which has no name of its own yet. */
-static PetscErrorCode WriteFile(SamCheckpoint cp, SamContactState *state, uint64_t gap, const Rest *rest)
+static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const Rest *rest)
 {
   SamFile        f;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(SamFileOpen(cp->grid, SAM_EVENT_CHECKPOINT, OPTION, cp->temporary, SAM_FILE_CREATE_SEALED, &f));
-  ierr = WriteAll(f, state, gap, rest);
+  ierr = WriteAll(f, contact, rest);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
   PetscCall(SamFileDestroy(&f, PETSC_TRUE));
@@ -198,19 +200,15 @@ static PetscErrorCode CheckNames(SamCheckpoint cp)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, SamWear wear, const SamParameters *parameters,
-                                  PetscInt n, const SamNote notes[])
+PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamParameters *parameters, PetscInt n,
+                                  const SamNote notes[])
 {
-  const Rest      rest = {parameters, n, notes, wear};
-  SamContactState state;
-  uint64_t        gap;
-  PetscErrorCode  ierr;
+  const Rest     rest = {parameters, n, notes};
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(CheckNames(cp));
-  PetscCall(SamContactGetState(contact, &state));
-  PetscCall(GapChecksum(contact, &gap));
-  ierr = WriteFile(cp, &state, gap, &rest);
+  ierr = WriteFile(cp, contact, &rest);
   if (ierr && cp->hold.file >= 0) (void)!ftruncate(cp->hold.file, 0); /* gives back the space */
   PetscCall(ierr);
   PetscCall(SamFileReplace(cp->grid, OPTION, cp->temporary, cp->filename, cp->before));
@@ -292,31 +290,105 @@ static PetscErrorCode IsUsable(SamFile f, const SamParameters *parameters, char 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadFields(SamFile f, SamContactState *state)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < KEPT; k++) {
-    const PetscBool has = kept[k].when == SUM || kept[k].when == YIELDING
-                            ? SamFileNote(f, H5Lexists(f->id, kept[k].name, H5P_DEFAULT)) > 0
-                            : IsKept(state, k);
+/* What is read besides the notes. The caller destroys the state. */
+typedef struct {
+  SamState  state;
+  PetscBool current; /* solved with the gap */
+  uint64_t  gap;     /* of this checksum */
+} Content;
 
-    if (has) PetscCall(ReadField(f, kept[k].name, kept[k].components, FieldOf(state, k)));
+/* Lets the contact's problem accumulate what the file has accumulated, so that it goes on. */
+static PetscErrorCode AddSums(SamContact contact, const char list[])
+{
+  SamProblem problem;
+  char     **names;
+  int        count;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(PetscStrToArray(list, ',', &count, &names));
+  for (int k = 0; k < count; k++)
+    if (SamLawIsRegistered(names[k])) PetscCall(SamProblemAddSum(problem, names[k]));
+  PetscCall(PetscStrToArrayDestroy(count, names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool IsListed(const char list[], const char name[])
+{
+  const size_t length = strlen(name);
+
+  for (const char *at = list; (at = strstr(at, name)) != NULL; at += length)
+    if ((at == list || at[-1] == ',') && (at[length] == ',' || !at[length])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* What the contact remembers and the file lacks cannot begin in the middle; the message names it. */
+static void NameLacking(const char name[], char message[], size_t size)
+{
+  (void)snprintf(message, size, "it lacks %s, which has not been remembered since the start: omit it, or begin anew",
+                 name);
+}
+
+/* Reads the kept fields of a state. */
+static PetscErrorCode ReadFields(SamFile f, const char list[], SamState state, char message[], size_t size)
+{
+  char name[96];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
+    const SamStateField *field = SamStateFieldOf(state, k);
+
+    if (!field->kept) continue;
+    if (!IsListed(list, field->name) && !field->optional) NameLacking(field->name, message, size);
+    for (PetscInt g = SAM_COMMITTED; g < field->generations; g++) {
+      Vec values;
+
+      NameOf(field->name, (SamGeneration)g, name);
+      if (SamFileNote(f, H5Lexists(f->id, name, H5P_DEFAULT)) <= 0) continue;
+      PetscCall(SamStateRestoreField(state, k, (SamGeneration)g, &values));
+      PetscCall(ReadField(f, name, field->components, values));
+    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is read besides the notes. The caller destroys the vectors of the state, and the load. */
-typedef struct {
-  SamContactState state;
-  Vec             load; /* of wear; NULL: none */
-  uint64_t        gap;  /* checksum */
-} Content;
-
-static PetscErrorCode DestroyContent(Content *c)
+/* Reads its kept numbers. */
+static void ReadNumbers(SamFile f, SamState state, char message[], size_t size)
 {
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    PetscInt              id;
+    const SamStateNumber *number = SamStateNumberOf(state, k, &id);
+    char                  name[96];
+
+    for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS && number->kept; g++) {
+      (void)snprintf(name, sizeof(name), "%s_%s", generations[g], number->name);
+      if (SamFileHasAttribute(f, name))
+        SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, number->count,
+                             SamStateNumbers(state, id, (SamGeneration)g));
+      else
+        NameLacking(number->name, message, size);
+    }
+  }
+}
+
+/* Reads the state into a new one with the declarations of the contact's. */
+static PetscErrorCode ReadState(SamFile f, SamContact contact, Content *c, char message[], size_t size)
+{
+  char    *list    = NULL;
+  int8_t   current = 0;
+  SamState state;
+
   PetscFunctionBegin;
-  PetscCall(DestroyFields(&c->state));
-  PetscCall(VecDestroy(&c->load));
+  SamFileReadTextAttribute(f, f->id, "fields", &list);
+  SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, &c->gap);
+  SamFileReadAttribute(f, f->id, "gap_is_current", H5T_NATIVE_INT8, 1, &current);
+  c->current = current != 0;
+  PetscCall(AddSums(contact, list));
+  PetscCall(SamContactGetState(contact, &state));
+  PetscCall(SamStateCreateLike(state, &c->state));
+  ReadNumbers(f, c->state, message, size);
+  PetscCall(ReadFields(f, list, c->state, message, size));
+  PetscCall(PetscFree(list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -331,7 +403,7 @@ static PetscErrorCode ReadNote(SamFile f, const SamNote *note)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadAll(SamFile f, const Rest *rest, Content *c)
+static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, Content *c)
 {
   char      message[256] = "";
   PetscBool good         = PETSC_FALSE;
@@ -340,28 +412,27 @@ static PetscErrorCode ReadAll(SamFile f, const Rest *rest, Content *c)
   PetscCall(SamFileBegin(f));
   PetscCall(IsUsable(f, rest->parameters, message, sizeof(message), &good));
   if (!f->failed && good) {
-    SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, &c->gap);
     for (PetscInt k = 0; k < rest->n; k++) PetscCall(ReadNote(f, &rest->notes[k]));
-    SamFileReadState(f, &c->state);
-    PetscCall(ReadFields(f, &c->state));
-    if (rest->wear) PetscCall(ReadField(f, "wear_load", 1, &c->load));
+    PetscCall(ReadState(f, contact, c, message, sizeof(message)));
   }
   PetscCall(SamFileEnd(f));
-  PetscCheck(good, f->grid->comm, SAM_ERR_USER, "-restart %s: cannot go on from it: %s", f->filename, message);
+  PetscCheck(!message[0], f->grid->comm, SAM_ERR_USER, "-restart %s: cannot go on from it: %s", f->filename, message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The caller destroys the content, also after an error. */
-static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *rest, Content *c)
+/* The caller destroys the state, also after an error. */
+static PetscErrorCode ReadFile(SamContact contact, const char filename[], const Rest *rest, Content *c)
 {
+  SamGrid        grid;
   SamFile        f;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
+  PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(SamSealCheck(grid, "restart", filename));
   PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
-  ierr = ReadAll(f, rest, c);
+  ierr = ReadAll(f, contact, rest, c);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
   PetscCall(SamFileDestroy(&f, PETSC_TRUE));
@@ -369,7 +440,7 @@ static PetscErrorCode ReadFile(SamGrid grid, const char filename[], const Rest *
 }
 
 /* Advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
-static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *rest, char advice[], size_t size)
+static PetscErrorCode Advise(SamContact contact, const char filename[], const Rest *rest, char advice[], size_t size)
 {
   Content c;
   char    ignored[SAM_MESSAGE], *before, *temporary;
@@ -377,54 +448,22 @@ static PetscErrorCode Advise(SamGrid grid, const char filename[], const Rest *re
   PetscFunctionBegin;
   PetscCall(SamCheckpointNames(filename, &before, &temporary));
   PetscCall(PetscPushErrorHandler(SamKeepMessage, ignored));
-  if (!ReadFile(grid, before, rest, &c))
+  if (!ReadFile(contact, before, rest, &c))
     (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
   PetscCall(PetscPopErrorHandler());
-  PetscCall(DestroyContent(&c));
+  PetscCall(SamStateDestroy(&c.state));
   PetscCall(PetscFree(before));
   PetscCall(PetscFree(temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A sum over all steps cannot begin in the middle. */
-static PetscErrorCode CheckSums(const char filename[], SamContact contact, SamContactState *s)
+PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, const SamParameters *parameters, PetscInt n,
+                                 const SamNote notes[])
 {
-  SamGrid grid;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetGrid(contact, &grid));
-  for (PetscInt k = 0; k < KEPT; k++) {
-    Vec own;
-
-    if (kept[k].when != SUM) continue;
-    PetscCall(SamContactGetSum(contact, (SamContactSum)(FieldOf(s, k) - s->sums), &own));
-    PetscCheck(!own || *FieldOf(s, k), grid->comm, SAM_ERR_USER,
-               "-restart %s: cannot go on from it: %s is a sum over all steps, and has not been kept since the start: "
-               "leave it out, or begin anew",
-               filename, kept[k].name);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Gives contact and wear what was read: first the wear, which decides the gap. */
-static PetscErrorCode SetStates(SamContact contact, SamWear wear, Content *c)
-{
-  uint64_t gap;
-
-  PetscFunctionBegin;
-  if (wear) PetscCall(SamWearSetLoad(wear, c->load));
-  PetscCall(GapChecksum(contact, &gap));
-  if (gap != c->gap) c->state.gap_is_current = PETSC_FALSE;
-  PetscCall(SamContactSetState(contact, &c->state));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamWear wear,
-                                 const SamParameters *parameters, PetscInt n, const SamNote notes[])
-{
-  const Rest     rest = {parameters, n, notes, wear};
+  const Rest     rest = {parameters, n, notes};
   Content        c;
   SamGrid        grid;
+  uint64_t       gap;
   char           message[SAM_MESSAGE] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
   PetscErrorCode ierr;
 
@@ -432,12 +471,14 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, SamW
   PetscCall(SamInitialize());
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
-  ierr = ReadFile(grid, filename, &rest, &c);
+  ierr = ReadFile(contact, filename, &rest, &c);
   PetscCall(PetscPopErrorHandler());
-  if (!ierr) PetscCall(CheckSums(filename, contact, &c.state));
-  if (!ierr) PetscCall(SetStates(contact, wear, &c));
-  PetscCall(DestroyContent(&c));
-  if (ierr == SAM_ERR_FILE) PetscCall(Advise(grid, filename, &rest, advice, sizeof(advice)));
+  if (!ierr) {
+    PetscCall(GapChecksum(contact, &gap));
+    PetscCall(SamContactSetState(contact, c.state, c.current && gap == c.gap));
+  }
+  PetscCall(SamStateDestroy(&c.state));
+  if (ierr == SAM_ERR_FILE) PetscCall(Advise(contact, filename, &rest, advice, sizeof(advice)));
   PetscCheck(!ierr, grid->comm, ierr, "%s%s", message, advice);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

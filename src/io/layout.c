@@ -11,46 +11,34 @@
 
 #define CHUNK_STEPS SAM_OUTPUT_WAIT /* steps in a chunk of a series, which has one number a step */
 
-static const SamOutputLabel x_label        = {"x", "m", "x of the cell centres"};
-static const SamOutputLabel y_label        = {"y", "m", "y of the cell centres"};
-static const SamOutputLabel time_label     = {"time", "s", "time of the saved fields"};
-static const char           state_words[]  = "open stick slip"; /* SamState */
-static const char           status_words[] = "converged not_converged no_equilibrium edge_contact";
+static const SamLabel x_label        = {"x", "m", "x of the cell centres"};
+static const SamLabel y_label        = {"y", "m", "y of the cell centres"};
+static const SamLabel time_label     = {"time", "s", "time of the saved fields"};
+static const char     state_words[]  = "open stick slip"; /* SamCellState */
+static const char     status_words[] = "converged not_converged no_equilibrium edge_contact";
 
 #define CHUNK_MATRICES 16 /* of a series of matrices */
 #define EDGE           4  /* cells that an edge is expected to cross, over those along x and y */
 
-static const SamShape series   = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}};
+static const SamShape series   = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}, NULL};
 static const SamShape matrices = {3,
                                   {0, SAM_COMPONENTS, SAM_COMPONENTS},
                                   {H5S_UNLIMITED, SAM_COMPONENTS, SAM_COMPONENTS},
-                                  {CHUNK_MATRICES, SAM_COMPONENTS, SAM_COMPONENTS}};
+                                  {CHUNK_MATRICES, SAM_COMPONENTS, SAM_COMPONENTS},
+                                  NULL};
 
-/* A coordinate, marked by the CF attributes `axis` and `standard_name`. */
-static hid_t CreateScale(SamOutput o, hid_t where, const SamOutputLabel *label, const char axis[],
-                         const char standard_name[], const SamShape *shape)
+/* The coordinates of the cell centres along x (0) or y (1). */
+static PetscErrorCode CreateAxis(SamOutput o, const SamLabel *label, PetscInt direction, hid_t *scale)
 {
-  const hid_t scale = SamFileCreateDataset(o->f, where, label, H5T_IEEE_F64LE, shape, 0);
-
-  SamFileWriteTextAttribute(o->f, scale, "axis", axis);
-  SamFileWriteTextAttribute(o->f, scale, "standard_name", standard_name);
-  (void)SamFileNote(o->f, H5DSset_scale(scale, label->name));
-  return scale;
-}
-
-/* The coordinates of the cell centres along x (0) or y (1), written by rank 0. */
-static PetscErrorCode CreateAxis(SamOutput o, const SamOutputLabel *label, PetscInt direction, hid_t *scale)
-{
-  const PetscInt n     = direction ? o->f->grid->ny : o->f->grid->nx;
-  const SamShape shape = {1, {(hsize_t)n}, {(hsize_t)n}, {0}};
+  const PetscInt n     = direction ? o->grid->ny : o->grid->nx;
+  const SamShape shape = {1, {(hsize_t)n}, {(hsize_t)n}, {0}, NULL};
   double        *values;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &values));
-  for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->f->grid, k) : SamGridX(o->f->grid, k);
-  *scale = CreateScale(o, o->f->id, label, direction ? "Y" : "X",
-                       direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape);
-  SamFileWriteSeries(o->f, *scale, values);
+  for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->grid, k) : SamGridX(o->grid, k);
+  *scale = SamFileCreateScale(o->f, o->f->id, label, direction ? "Y" : "X",
+                              direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape, values);
   PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -74,26 +62,27 @@ static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
   return (SamShape){3,
                     {0, ny, nx},
                     {H5S_UNLIMITED, ny, nx},
-                    {1, ChunkSize(ny, (hsize_t)set->chunk[1]), ChunkSize(nx, (hsize_t)set->chunk[0])}};
+                    {1, ChunkSize(ny, (hsize_t)set->chunk[1]), ChunkSize(nx, (hsize_t)set->chunk[0])},
+                    NULL};
 }
 
-static hid_t StoredType(const SamOutputField *field, PetscBool single)
+static hid_t StoredType(const SamStateResult *field, PetscBool single)
 {
   return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
 }
 
-off_t SamOutputFieldBytes(SamGrid grid, const SamOutputSettings *set)
+off_t SamOutputFieldBytes(SamOutput o)
 {
-  const SamShape shape = FieldShape(grid, set);
+  const SamShape shape = FieldShape(o->grid, &o->set);
   hsize_t        cells = 1, bytes = 0, points = 0; /* cells in whole chunks; bytes of all fields in a cell; of edges */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
-    if (!SamOutputWantsField(set, f)) continue;
-    if (SamOutputFields[f].kind == SAM_FIELD_POINTS)
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
+    if (!o->wants[f]) continue;
+    if (SamOutputResult(o, f)->kind == SAM_FIELD_POINTS)
       points += EDGE * (shape.size[1] + shape.size[2]) * 2 * sizeof(double);
     else
-      bytes += H5Tget_size(StoredType(&SamOutputFields[f], set->single));
+      bytes += H5Tget_size(StoredType(SamOutputResult(o, f), o->set.single));
   }
   return (off_t)(cells * bytes + points);
 }
@@ -108,69 +97,77 @@ static double SeriesBytes(double rows, hsize_t chunk, hsize_t numbers)
 #define INDEX     64    /* bytes for a chunk in HDF5's indices */
 PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double *bytes)
 {
-  const SamOutputSettings *set   = &o->set;
-  const SamOutputSeries   *s     = &SamOutputAllSeries[SAM_SERIES_HISTORY];
-  const SamShape           shape = FieldShape(o->f->grid, set);
-  double                   index = INDEX;
+  const SamState state = o->state[SAM_SERIES_HISTORY];
+  const SamShape shape = FieldShape(o->grid, &o->set);
+  double         index = INDEX;
 
   PetscFunctionBegin;
   for (int d = 1; d < 3; d++) index *= (double)((shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d]);
-  *bytes = STRUCTURE + SeriesBytes(saved, CHUNK_STEPS, 1) + saved * (double)SamOutputFieldBytes(o->f->grid, set);
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    if (SamOutputWantsField(set, f)) *bytes += saved * index;
-  for (PetscInt c = 0; c < s->count; c++) {
-    const PetscBool matrix = s->columns[c].kind == SAM_COLUMN_MATRIX;
+  *bytes = STRUCTURE + SeriesBytes(saved, CHUNK_STEPS, 1) + saved * (double)SamOutputFieldBytes(o);
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) *bytes += o->wants[f] ? saved * index : 0;
+  for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
+    const SamStateNumber *n      = SamStateNumberOf(state, c, NULL);
+    const PetscBool       matrix = n->kind == SAM_NUMBER_MATRIX;
 
-    if (SamOutputWants(set, s->columns[c].option))
-      *bytes += SeriesBytes(steps, matrix ? CHUNK_MATRICES : CHUNK_STEPS, matrix ? SAM_COMPONENTS * SAM_COMPONENTS : 1);
+    if (n->result) *bytes += SeriesBytes(steps, matrix ? CHUNK_MATRICES : CHUNK_STEPS, (hsize_t)n->count);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static void WriteFlags(SamOutput o, hid_t dataset)
 {
-  const int8_t states[] = {SAM_STATE_OPEN, SAM_STATE_STICK, SAM_STATE_SLIP};
+  const int8_t states[] = {SAM_CELL_OPEN, SAM_CELL_STICK, SAM_CELL_SLIP};
 
   SamFileWriteAttribute(o->f, dataset, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8, 3, states);
   SamFileWriteTextAttribute(o->f, dataset, "flag_meanings", state_words);
 }
 
+/* Marks the file by its first coordinate, stored as it is in memory on little-endian machines only. */
+static void Mark(SamOutput o, hid_t x)
+{
+  const haddr_t at = x >= 0 ? H5Dget_offset(x) : HADDR_UNDEF;
+
+  o->hold.mark    = (double)SamGridX(o->grid, 0);
+  o->hold.mark_at = at != HADDR_UNDEF && H5Tequal(H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE) > 0 ? (off_t)at : 0;
+}
+
 static PetscErrorCode CreateFields(SamOutput o)
 {
-  const SamShape shape = FieldShape(o->f->grid, &o->set);
+  const SamShape shape = FieldShape(o->grid, &o->set);
   hid_t          scales[3]; /* of [time, y, x] */
   PetscBool      points = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
   PetscCall(CreateAxis(o, &y_label, 1, &scales[1]));
-  scales[0] = o->time = CreateScale(o, o->f->id, &time_label, "T", "time", &series);
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
-    const SamOutputField *field = &SamOutputFields[f];
+  scales[0] = o->time = SamFileCreateScale(o->f, o->f->id, &time_label, "T", "time", &series, NULL);
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
+    const SamStateResult *field = SamOutputResult(o, f);
+    const SamLabel        label = SamOutputLabel(o, f);
 
-    if (!SamOutputWantsField(&o->set, f)) continue;
+    if (!o->wants[f]) continue;
     if (field->kind == SAM_FIELD_POINTS) {
-      o->fields[f] = SamOutputCreatePoints(o, &field->label);
+      o->fields[f] = SamOutputCreatePoints(o, &label);
       points       = PETSC_TRUE;
       continue;
     }
     o->fields[f] =
-      SamFileCreateDataset(o->f, o->f->id, &field->label, StoredType(field, o->set.single), &shape, o->set.compress);
+      SamFileCreateDataset(o->f, o->f->id, &label, StoredType(field, o->set.single), &shape, o->set.compress);
     if (field->kind == SAM_FIELD_STATE) WriteFlags(o, o->fields[f]);
-    for (unsigned d = 0; d < 3; d++) (void)SamFileNote(o->f, H5DSattach_scale(o->fields[f], scales[d], d));
+    SamFileAttachScales(o->f, o->fields[f], 3, scales);
   }
   if (points) SamOutputCreatePointScales(o);
-  (void)SamFileNote(o->f, H5Dclose(scales[1]));
-  (void)SamFileNote(o->f, H5Dclose(scales[2]));
+  Mark(o, scales[2]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The rows or columns of matrices: the six loads, or the six rigid displacements, by name. */
 static hid_t CreateComponents(SamOutput o, PetscBool loads)
 {
-  static const SamOutputLabel load       = {"load_component", "1", "component of the load"},
-                              rigid      = {"rigid_component", "1", "component of the rigid displacement"};
-  const SamShape shape                   = {1, {SAM_COMPONENTS}, {SAM_COMPONENTS}, {0}};
+  static const SamLabel load             = {"load_component", "1", "component of the load"},
+                        rigid            = {"rigid_component", "1", "component of the rigid displacement"};
+  const SamShape shape                   = {1, {SAM_COMPONENTS}, {SAM_COMPONENTS}, {0}, NULL};
+  const SamBlock block                   = {1, {0}, {o->f->rank ? 0 : SAM_COMPONENTS}};
   double         numbers[SAM_COMPONENTS] = {0};
   char           names[128]              = "";
   hid_t          scale;
@@ -184,61 +181,52 @@ static hid_t CreateComponents(SamOutput o, PetscBool loads)
   (void)SamFileNote(o->f, H5DSset_scale(scale, loads ? load.name : rigid.name));
   SamFileWriteAttribute(o->f, scale, "flag_values", H5T_STD_I8LE, H5T_NATIVE_DOUBLE, SAM_COMPONENTS, numbers);
   SamFileWriteTextAttribute(o->f, scale, "flag_meanings", names);
-  SamFileWriteSeries(o->f, scale, numbers);
+  SamFileWriteBlock(o->f, scale, H5T_NATIVE_DOUBLE, &block, numbers);
   return scale;
 }
 
-/* Names the rows and columns of the matrices of a group of columns. */
-static void AttachComponents(SamOutput o, SamOutputSeriesKind kind)
-{
-  const SamOutputSeries *s     = &SamOutputAllSeries[kind];
-  const hid_t            loads = CreateComponents(o, PETSC_TRUE), rigid = CreateComponents(o, PETSC_FALSE);
-
-  for (PetscInt c = 0; c < s->count; c++) {
-    if (o->columns[kind][c] < 0 || s->columns[c].kind != SAM_COLUMN_MATRIX) continue;
-    (void)SamFileNote(o->f, H5DSattach_scale(o->columns[kind][c], loads, 1));
-    (void)SamFileNote(o->f, H5DSattach_scale(o->columns[kind][c], rigid, 2));
-  }
-  (void)SamFileNote(o->f, H5Dclose(loads));
-  (void)SamFileNote(o->f, H5Dclose(rigid));
-}
-
-static hid_t CreateColumn(SamOutput o, hid_t group, const SamOutputColumn *column)
+static hid_t CreateColumn(SamOutput o, hid_t group, const SamStateNumber *number)
 {
   const int64_t   statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM,
                                 SAM_STATUS_EDGE_CONTACT};
-  const PetscBool whole      = column->kind == SAM_COLUMN_INT || column->kind == SAM_COLUMN_STATUS;
-  const hid_t     dataset    = SamFileCreateDataset(o->f, group, &column->label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE,
-                                             column->kind == SAM_COLUMN_MATRIX ? &matrices : &series, 0);
+  const SamLabel  label      = {number->name, number->unit, number->text};
+  const PetscBool whole      = number->kind == SAM_NUMBER_INT || number->kind == SAM_NUMBER_STATUS;
+  const hid_t     dataset    = SamFileCreateDataset(o->f, group, &label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE,
+                                             number->kind == SAM_NUMBER_MATRIX ? &matrices : &series, 0);
 
-  if (column->kind == SAM_COLUMN_STATUS) {
+  if (number->kind == SAM_NUMBER_STATUS) {
     SamFileWriteAttribute(o->f, dataset, "flag_values", H5T_STD_I64LE, H5T_NATIVE_INT64, 4, statuses);
     SamFileWriteTextAttribute(o->f, dataset, "flag_meanings", status_words);
   }
   return dataset;
 }
 
-/* The first column is the dimension scale of the others. */
-static void CreateSeries(SamOutput o, SamOutputSeriesKind kind)
+/* The first column is the dimension scale of the others; matrices have two more, made with the first of them. */
+static void CreateSeries(SamOutput o, SamSeries kind)
 {
-  const SamOutputSeries *s  = &SamOutputAllSeries[kind];
-  hid_t                 *to = o->columns[kind], group;
+  const SamState  state   = o->state[kind];
+  const PetscBool history = kind == SAM_SERIES_HISTORY;
+  hid_t          *to = o->columns[kind], group, scales[3] = {-1, -1, -1};
 
-  if (!SamOutputWants(&o->set, s->columns[0].option)) return;
-  group = SamFileNote(o->f, H5Gcreate2(o->f->id, s->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  if (kind == SAM_SERIES_HISTORY) {
-    to[0] = CreateScale(o, group, &s->columns[0].label, "T", "time", &series);
-  } else {
-    to[0] = CreateColumn(o, group, &s->columns[0]);
-    (void)SamFileNote(o->f, H5DSset_scale(to[0], s->columns[0].label.name));
+  if (!state) return;
+  group = SamFileNote(o->f, H5Gcreate2(o->f->id, o->series[kind], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
+    const SamStateNumber *n     = SamStateNumberOf(state, c, NULL);
+    const SamLabel        label = {n->name, n->unit, n->text};
+
+    if (!n->result) continue;
+    if (c == 0) {
+      to[0] = scales[0] =
+        SamFileCreateScale(o->f, group, &label, history ? "T" : NULL, history ? "time" : NULL, &series, NULL);
+      continue;
+    }
+    if (n->kind == SAM_NUMBER_MATRIX && scales[1] < 0) {
+      scales[1] = CreateComponents(o, PETSC_TRUE);
+      scales[2] = CreateComponents(o, PETSC_FALSE);
+    }
+    to[c] = CreateColumn(o, group, n);
+    SamFileAttachScales(o->f, to[c], n->kind == SAM_NUMBER_MATRIX ? 3 : 1, scales);
   }
-  for (PetscInt c = 1; c < s->count; c++) {
-    if (!SamOutputWants(&o->set, s->columns[c].option)) continue;
-    to[c] = CreateColumn(o, group, &s->columns[c]);
-    (void)SamFileNote(o->f, H5DSattach_scale(to[c], to[0], 0));
-  }
-  if (kind == SAM_SERIES_HISTORY && o->set.with[SAM_OUTPUT_STIFFNESS]) AttachComponents(o, kind);
-  (void)SamFileNote(o->f, H5Gclose(group));
 }
 
 PetscErrorCode SamOutputCreateLayout(SamOutput o)
@@ -247,16 +235,15 @@ PetscErrorCode SamOutputCreateLayout(SamOutput o)
 
   PetscFunctionBegin;
   PetscCall(CreateFields(o));
-  for (PetscInt k = 0; k < SAM_SERIES; k++) CreateSeries(o, (SamOutputSeriesKind)k);
+  for (PetscInt k = 0; k < SAM_SERIES; k++) CreateSeries(o, (SamSeries)k);
   SamOutputCreateVTK(o);
-  SamFileWriteTextAttribute(o->f, o->f->id, "Conventions", "CF-1.8");
-  SamFileWriteTextAttribute(o->f, o->f->id, "title", "Partial-slip contact of elastic bodies");
-  SamFileWriteTextAttribute(o->f, o->f->id, "source", "petsam " PETSAM_VERSION ", semi-analytical method");
-  SamFileWriteTextAttribute(o->f, o->f->id, "petsam_version", PETSAM_VERSION);
+  SamFileWriteOrigin(o->f, "Partial-slip contact of elastic bodies", "petsam");
   SamFileWriteAttribute(o->f, o->f->id, "closed", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &open);
   o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* ---- reading ---- */
 
 /* Opens a dataset; an optional one may not be there, and stays closed then. */
 static void OpenDataset(SamOutput o, hid_t where, const char name[], PetscBool optional, hid_t *dataset)
@@ -265,110 +252,88 @@ static void OpenDataset(SamOutput o, hid_t where, const char name[], PetscBool o
   *dataset = SamFileNote(o->f, H5Dopen2(where, name, H5P_DEFAULT));
 }
 
-static void OpenSeries(SamOutput o, SamOutputSeriesKind kind)
+/* Declares a column that the file has and the state does not offer: it goes on without values. */
+static PetscErrorCode DeclareColumn(SamOutput o, SamState state, hid_t group, const char name[])
 {
-  const SamOutputSeries *s = &SamOutputAllSeries[kind];
-  hid_t                  group;
+  const hid_t    dataset = SamFileNote(o->f, H5Dopen2(group, name, H5P_DEFAULT));
+  const hid_t    type = dataset >= 0 ? H5Dget_type(dataset) : -1, space = dataset >= 0 ? H5Dget_space(dataset) : -1;
+  SamStateNumber number   = {name, "1", name, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE};
+  char           unit[32] = "1", text[96] = "";
+  PetscInt       id;
 
-  if (kind != SAM_SERIES_HISTORY && SamFileNote(o->f, H5Lexists(o->f->id, s->name, H5P_DEFAULT)) == 0) return;
-  group = SamFileNote(o->f, H5Gopen2(o->f->id, s->name, H5P_DEFAULT));
-  for (PetscInt c = 0; c < s->count; c++)
-    OpenDataset(o, group, s->columns[c].label.name,
-                kind == SAM_SERIES_HISTORY && s->columns[c].option < SAM_OUTPUT_OPTIONS, &o->columns[kind][c]);
-  if (group >= 0) (void)SamFileNote(o->f, H5Gclose(group));
+  PetscFunctionBegin;
+  if (dataset < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)SamTextRead(dataset, "units", unit, sizeof(unit));
+  (void)SamTextRead(dataset, "long_name", text, sizeof(text));
+  number.unit = unit;
+  number.text = text;
+  if (H5Tget_class(type) == H5T_INTEGER) number.kind = SAM_NUMBER_INT;
+  if (H5Sget_simple_extent_ndims(space) == 3) {
+    number.kind  = SAM_NUMBER_MATRIX;
+    number.count = SAM_COMPONENTS * SAM_COMPONENTS;
+  }
+  PetscCall(SamStateOfferNumber(state, name, NAN));
+  PetscCall(SamStateDeclareNumber(state, &number, &id));
+  (void)H5Sclose(space);
+  (void)H5Tclose(type);
+  (void)H5Dclose(dataset);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes over the fields, their precision and the chunk sizes that the file has. */
-static void ReadFields(SamOutput o)
+static PetscErrorCode OpenSeries(SamOutput o, SamSeries kind)
 {
-  PetscInt some = -1;
-  hid_t    creation, type;
-  hsize_t  chunk[3] = {1, 1, 1};
+  const SamState state = o->state[kind];
+  H5G_info_t     info;
+  hid_t          group;
+  char           name[64];
 
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
-    o->set.fields[f] = o->fields[f] >= 0;
-    if (!o->set.fields[f] || SamOutputFields[f].kind == SAM_FIELD_POINTS) continue;
-    some = f;
-    if (SamOutputFields[f].kind != SAM_FIELD_REAL) continue;
+  PetscFunctionBegin;
+  if (!state) PetscFunctionReturn(PETSC_SUCCESS);
+  if (kind != SAM_SERIES_HISTORY && SamFileNote(o->f, H5Lexists(o->f->id, o->series[kind], H5P_DEFAULT)) == 0)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  group = SamFileNote(o->f, H5Gopen2(o->f->id, o->series[kind], H5P_DEFAULT));
+  if (group < 0 || SamFileNote(o->f, H5Gget_info(group, &info)) < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (hsize_t k = 0; k < info.nlinks; k++)
+    if (H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof(name), H5P_DEFAULT) > 0)
+      PetscCall(DeclareColumn(o, state, group, name));
+  for (PetscInt c = 0; c < SamStateCountNumbers(state); c++)
+    if (SamStateNumberOf(state, c, NULL)->result)
+      OpenDataset(o, group, SamStateNumberOf(state, c, NULL)->name, c > 0, &o->columns[kind][c]);
+  (void)SamFileNote(o->f, H5Gclose(group));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputOpenLayout(SamOutput o)
+{
+  PetscFunctionBegin;
+  OpenDataset(o, o->f->id, "time", PETSC_FALSE, &o->time);
+  OpenDataset(o, o->f->id, "point", PETSC_TRUE, &o->point);
+  for (PetscInt k = 0; k < SAM_SERIES; k++) PetscCall(OpenSeries(o, (SamSeries)k));
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
+    hid_t type;
+
+    OpenDataset(o, o->f->id, SamOutputResult(o, f)->name, PETSC_TRUE, &o->fields[f]);
+    o->wants[f] = o->fields[f] >= 0;
+    if (!o->wants[f] || SamOutputResult(o, f)->kind != SAM_FIELD_REAL) continue;
     type          = SamFileNote(o->f, H5Dget_type(o->fields[f]));
     o->set.single = H5Tget_size(type) == sizeof(float);
     if (type >= 0) (void)SamFileNote(o->f, H5Tclose(type));
   }
-  if (some < 0) return;
-  creation = SamFileNote(o->f, H5Dget_create_plist(o->fields[some]));
-  (void)SamFileNote(o->f, H5Pget_chunk(creation, 3, chunk));
-  o->set.chunk[0] = (PetscInt)chunk[2];
-  o->set.chunk[1] = (PetscInt)chunk[1];
-  (void)SamFileNote(o->f, H5Pclose(creation));
-}
-
-void SamOutputOpenLayout(SamOutput o)
-{
-  OpenDataset(o, o->f->id, "time", PETSC_FALSE, &o->time);
-  OpenDataset(o, o->f->id, "point", PETSC_TRUE, &o->point);
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    OpenDataset(o, o->f->id, SamOutputFields[f].label.name, PETSC_TRUE, &o->fields[f]);
-  for (PetscInt k = 0; k < SAM_SERIES; k++) OpenSeries(o, (SamOutputSeriesKind)k);
-  ReadFields(o);
-  SamOutputOpenVTK(o);
-  o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
-}
-
-void SamOutputMark(SamOutput o)
-{
-  const hid_t   x  = SamFileNote(o->f, H5Dopen2(o->f->id, x_label.name, H5P_DEFAULT));
-  const haddr_t at = x >= 0 ? H5Dget_offset(x) : HADDR_UNDEF;
-
-  /* stored as it is in memory on little-endian machines only */
-  o->hold.mark    = (double)SamGridX(o->f->grid, 0);
-  o->hold.mark_at = at != HADDR_UNDEF && H5Tequal(H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE) > 0 ? (off_t)at : 0;
-  if (x >= 0) (void)SamFileNote(o->f, H5Dclose(x));
-}
-
-static void Close(SamOutput o, hid_t *dataset)
-{
-  if (*dataset >= 0) (void)SamFileNote(o->f, H5Dclose(*dataset));
-  *dataset = -1;
-}
-
-void SamOutputCloseLayout(SamOutput o)
-{
-  if (o->vtk_steps >= 0) (void)SamFileNote(o->f, H5Aclose(o->vtk_steps));
-  if (o->closed >= 0) (void)SamFileNote(o->f, H5Aclose(o->closed));
-  o->vtk_steps = o->closed = -1;
-  Close(o, &o->time);
-  Close(o, &o->point);
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) Close(o, &o->fields[f]);
-  for (PetscInt k = 0; k < SAM_SERIES; k++)
-    for (PetscInt c = 0; c < SamOutputAllSeries[k].count; c++) Close(o, &o->columns[k][c]);
-}
-
-/* ---- reading ---- */
-
-hsize_t SamOutputLength(SamOutput o, hid_t dataset)
-{
-  const hid_t space   = SamFileNote(o->f, H5Dget_space(dataset));
-  hsize_t     size[3] = {0, 0, 0};
-
-  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3)
-    (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
-  if (space >= 0) (void)SamFileNote(o->f, H5Sclose(space));
-  return size[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void SamOutputReadSeries(SamOutput o, hid_t dataset, hid_t type, hsize_t first, hsize_t count, void *values)
 {
-  const hid_t space    = SamFileNote(o->f, H5Dget_space(dataset));
-  hsize_t     start[3] = {first, 0, 0}, size[3] = {0, 1, 1}, all;
-  hid_t       memory;
+  const hid_t space = SamFileNote(o->f, H5Dget_space(dataset));
+  SamBlock    block = {.rank = H5Sget_simple_extent_ndims(space)};
 
-  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3)
-    (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
-  size[0] = count;
-  all     = count * size[1] * size[2];
-  memory  = SamFileNote(o->f, H5Screate_simple(1, &all, NULL));
-  if (count) (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, size, NULL));
-  if (count) (void)SamFileNote(o->f, H5Dread(dataset, type, memory, space, o->f->transfer, values));
-  (void)SamFileNote(o->f, H5Sclose(memory));
+  if (block.rank < 1 || block.rank > SAM_SHAPE_RANK) {
+    (void)SamFileNote(o->f, -1);
+    return;
+  }
+  (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, block.count, NULL));
   (void)SamFileNote(o->f, H5Sclose(space));
+  block.start[0] = first;
+  block.count[0] = count;
+  SamFileReadBlock(o->f, dataset, type, &block, values);
 }

@@ -8,30 +8,29 @@
 
 /* ---- options ---- */
 
+/* For the help, which is printed before there is a contact to ask. */
+#define WORDS \
+  "all,none,pressure,shear_x,shear_y,slip_x,slip_y,gap,displacement_x,displacement_y,displacement_z,state," \
+  "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge"
+
 /* -output_fields: names between commas, and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
 {
-  char        text[512] = "", names[512], words[512] = "all,none", **list;
-  const char *unknown;
-  PetscBool   given;
-  int         count;
+  char      text[1024] = "", **list;
+  PetscBool given;
+  int       count;
 
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
-    PetscCall(PetscStrlcat(words, ",", sizeof(words)));
-    PetscCall(PetscStrlcat(words, SamOutputFields[f].label.name, sizeof(words)));
-  }
-  PetscCall(SamOptionsWords(from, "output_fields", "fields to be saved by their names, all, or none", words, text,
+  set->count = -1;
+  PetscCall(SamOptionsWords(from, "output_fields", "fields to be saved by their names, all, or none", WORDS, text,
                             sizeof(text), &given));
+  if (!given) PetscFunctionReturn(PETSC_SUCCESS);
   for (char *c = text; *c; c++) *c = *c == ' ' ? ',' : *c;
   PetscCall(PetscStrToArray(text, ',', &count, &list));
-  PetscCall(SamOutputSettingsSetFields(set, given ? count : -1, (const char *const *)list, &unknown));
-  (void)snprintf(text, sizeof(text), "%s", unknown ? unknown : "");
+  set->count = PetscMin(count, SAM_STATE_MOST);
+  for (PetscInt k = 0; k < set->count; k++) (void)snprintf(set->names[k], sizeof(set->names[k]), "%s", list[k]);
+  if (set->count == 1 && !strcmp(set->names[0], "none")) set->count = 0;
   PetscCall(PetscStrToArrayDestroy(count, list));
-  PetscCall(SamOutputGetFieldNames(names, sizeof(names)));
-  PetscCheck(!text[0], from->comm, SAM_ERR_USER,
-             "-%soutput_fields: %s is no field%s: expected all, none, or some of %s, with commas between them",
-             SamOptionsPrefix(from), text, strcmp(text, "none") ? "" : ", and excludes them", names);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -56,74 +55,171 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool Names(const SamOutputSettings *set, const char name[])
+{
+  for (PetscInt k = 0; k < set->count; k++)
+    if (!strcmp(set->names[k], name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode SamOutputSettingsAddLaws(const SamOutputSettings *set, SamProblem problem)
+{
+  const SamLawType *types;
+  PetscInt          count;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawGetTypes(&count, &types));
+  for (PetscInt k = 0; k < count; k++)
+    if (Names(set, types[k]) || Names(set, "all")) PetscCall(SamProblemAddSum(problem, types[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The names that there are, as a sentence has them. */
+static void ListFields(SamState state, char names[], size_t size)
+{
+  const PetscInt count = SamStateCountResults(state);
+  size_t         used  = 0;
+
+  names[0] = '\0';
+  for (PetscInt f = 0; f < count && used < size; f++)
+    used += (size_t)snprintf(names + used, size - used, "%s%s", f ? f + 1 < count ? ", " : " or " : "",
+                             SamStateResultOf(state, f)->name);
+}
+
+PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact contact, const SamOptions *from)
+{
+  SamState state;
+  char     names[1024];
+
+  PetscFunctionBegin;
+  set->contact = contact;
+  PetscCall(SamContactGetState(contact, &state));
+  ListFields(state, names, sizeof(names));
+  for (PetscInt k = 0; k < set->count; k++)
+    PetscCheck(SamStateFindResult(state, set->names[k]) >= 0 || !strcmp(set->names[k], "all"), from->comm, SAM_ERR_USER,
+               "-%soutput_fields: unknown field %s; one or more of %s, separated by commas, or all, or none",
+               SamOptionsPrefix(from), set->names[k], names);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the file ---- */
 
-PetscErrorCode SamOutputAllocate(SamFile file, const SamOutputSettings *set, SamOutput *output)
+/* Which of the state's results are saved. */
+static void Choose(SamOutput o)
+{
+  const PetscBool all = Names(&o->set, "all");
+
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
+    const SamStateResult *r = SamOutputResult(o, f);
+
+    o->wants[f] = o->set.count < 0 ? r->use == SAM_RESULT_USUAL : all || Names(&o->set, r->name);
+  }
+}
+
+PetscErrorCode SamOutputAllocate(SamGrid grid, SamFile file, const SamOutputSettings *set, SamOutput *output)
 {
   SamOutput o;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&o));
-  o->f    = file;
-  o->set  = *set;
+  PetscCall(SamGridReference(grid));
+  o->grid                       = grid;
+  o->f                          = file;
+  o->set                        = *set;
+  o->series[SAM_SERIES_HISTORY] = "history";
+  o->series[SAM_SERIES_CYCLES]  = set->cycles_name;
+  o->state[SAM_SERIES_CYCLES]   = set->cycles;
+  PetscCall(SamContactGetState(set->contact, &o->state[SAM_SERIES_HISTORY]));
+  for (PetscInt k = 0; k < SAM_SERIES; k++)
+    if (o->state[k]) o->values[k] = SamStateCountValues(o->state[k]);
+  Choose(o);
   o->time = o->point = o->vtk_steps = o->closed = -1;
   o->hold.file                                  = -1;
   o->saved_time                                 = PETSC_NINFINITY;
   o->flushed                                    = MPI_Wtime();
-  for (PetscInt f = 0; f < SAM_OUTPUT_MOST; f++) o->fields[f] = -1;
+  for (PetscInt f = 0; f < SAM_STATE_MOST; f++) o->fields[f] = -1;
   for (PetscInt k = 0; k < SAM_SERIES; k++)
-    for (PetscInt c = 0; c < SAM_OUTPUT_MOST; c++) o->columns[k][c] = -1;
-  PetscCall(PetscMalloc1(file->grid->cells, &o->states));
+    for (PetscInt c = 0; c < SAM_STATE_DECLARED; c++) o->columns[k][c] = -1;
+  PetscCall(PetscMalloc1(grid->cells, &o->states));
   *output = o;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CreateDatasets(SamOutput o)
+PetscErrorCode SamOutputFree(SamOutput *output)
 {
+  SamOutput o = *output;
+
   PetscFunctionBegin;
-  PetscCall(SamFileBegin(o->f));
-  PetscCall(SamOutputCreateLayout(o));
-  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
-  SamOutputMark(o);
-  PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
+  *output = NULL;
+  PetscCall(SamXdmfDestroy(&o->xdmf));
+  PetscCall(SamGridDestroy(&o->grid));
+  PetscCall(VecDestroy(&o->work));
+  PetscCall(PetscFree(o->points.xy));
+  PetscCall(PetscFree(o->states));
+  PetscCall(PetscFree(o->singles));
+  PetscCall(PetscFree(o->waiting));
+  PetscCall(PetscFree(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates the files; what was opened before an error is closed by the caller. */
-static PetscErrorCode CreateFiles(SamGrid grid, const char filename[], SamFileUse use, const SamOutputSettings *set,
-                                  SamHold *hold, SamXdmf *xdmf, SamFile *file)
+PetscErrorCode SamOutputCreateXdmf(SamOutput o, const char filename[])
+{
+  const SamGrid g    = o->grid;
+  SamXdmfMesh   mesh = {.rank    = 2,
+                        .n       = {1, (hsize_t)g->ny, (hsize_t)g->nx},
+                        .origin  = {0, SamGridY(g, 0), SamGridX(g, 0)},
+                        .spacing = {PetscMax(g->dx, g->dy), g->dy, g->dx}};
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
+    const PetscBool state = SamOutputResult(o, f)->kind == SAM_FIELD_STATE;
+
+    if (!o->wants[f] || SamOutputResult(o, f)->kind == SAM_FIELD_POINTS) continue;
+    mesh.fields[mesh.count++] = (SamXdmfField){.name  = SamOutputResult(o, f)->name,
+                                               .type  = state ? "Char" : "Float",
+                                               .bytes = state           ? 1
+                                                        : o->set.single ? 4
+                                                                        : 8};
+  }
+  PetscCall(SamXdmfCreate(g, filename, &mesh, &o->xdmf));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Creates the files. */
+static PetscErrorCode CreateFiles(SamOutput o, const char filename[], SamFileUse use)
 {
   PetscFunctionBegin;
-  PetscCall(SamHoldTake(grid, "output", filename, use, hold));
-  if (set->xdmf) PetscCall(SamXdmfCreate(grid, filename, set, xdmf)); /* first: if it fails, old results are kept */
-  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, file));
+  PetscCall(SamHoldTake(o->grid, "output", filename, use, &o->hold));
+  if (o->set.xdmf) PetscCall(SamOutputCreateXdmf(o, filename)); /* first: if it fails, old results are kept */
+  PetscCall(SamFileOpen(o->grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &o->f));
+  PetscCall(SamHoldHadContent(o->grid, &o->hold, &o->replaced));
+  PetscCall(SamFileBegin(o->f));
+  PetscCall(SamOutputCreateLayout(o));
+  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[], SamFileUse use, const SamOutputSettings *set,
                                  SamOutput *output)
 {
-  SamFile        file = NULL;
-  SamXdmf        xdmf = NULL;
-  SamHold        hold = {.file = -1};
+  SamOutput      o;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   *output = NULL;
   PetscCall(SamInitialize());
-  ierr = CreateFiles(grid, filename, use, set, &hold, &xdmf, &file);
-  if (ierr) {
-    PetscCall(SamXdmfDestroy(&xdmf));
-    SamHoldRelease(filename, &hold);
-    PetscCall(ierr);
+  PetscCall(SamOutputAllocate(grid, NULL, set, &o));
+  ierr = CreateFiles(o, filename, use);
+  if (!ierr) {
+    *output = o;
+  } else if (o->f) {
+    (void)SamOutputDestroy(&o);
+  } else {
+    SamHoldRelease(filename, &o->hold);
+    PetscCall(SamOutputFree(&o));
   }
-  PetscCall(SamOutputAllocate(file, set, output));
-  (*output)->xdmf = xdmf;
-  (*output)->hold = hold;
-  PetscCall(SamHoldHadContent(grid, &hold, &(*output)->replaced));
-  ierr = CreateDatasets(*output);
-  if (ierr) (void)SamOutputDestroy(output);
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -140,8 +236,7 @@ static void MarkClosed(SamOutput o)
 {
   const int8_t closed = 1;
 
-  if (o->closed >= 0 && o->f->writing && !o->unchanged)
-    (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
+  if (o->closed >= 0) (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
 }
 
 PetscErrorCode SamOutputDestroy(SamOutput *output)
@@ -153,28 +248,18 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   *output = NULL;
   if (!o) PetscFunctionReturn(PETSC_SUCCESS);
   if (!o->broken && o->waits) changed = SamOutputFlush(o);
-  if (!changed && o->f->writing && !o->broken && !o->unchanged && !o->copying)
-    changed = SamHoldCheck(o->f->grid, "output", o->f->filename, &o->hold);
+  if (!changed && o->f->writing && !o->broken && !o->copying)
+    changed = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
   o->f->failed = PETSC_FALSE; /* earlier failures have been raised */
   PetscCall(SamFileBegin(o->f));
   if (!o->broken) {
     MarkClosed(o);
-    SamOutputCloseLayout(o);
     SamFileClose(o->f);
-    PetscCall(SamFileAgree(o->f)); /* all ranks have closed it */
-    if (o->hold.file >= 0 && !o->f->failed && !o->unchanged && !o->copying && !changed)
-      SamStructureSeal(o->f->filename);
   }
   ierr = SamFileEnd(o->f);
   SamHoldRelease(o->f->filename, &o->hold);
-  PetscCall(SamXdmfDestroy(&o->xdmf));
   PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
-  PetscCall(VecDestroy(&o->work));
-  PetscCall(PetscFree(o->points.xy));
-  PetscCall(PetscFree(o->states));
-  PetscCall(PetscFree(o->singles));
-  PetscCall(PetscFree(o->waiting));
-  PetscCall(PetscFree(o));
+  PetscCall(SamOutputFree(&o));
   PetscCall(changed);
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -202,15 +287,30 @@ PetscErrorCode SamOutputGetXdmf(SamOutput o, const char **filename)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputGetSpace(SamOutput o, double *bytes)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileGetSpace(o->f, bytes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- attributes ---- */
+
+/* After attributes have been written. */
+static PetscErrorCode End(SamOutput o)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode SamOutputSetReals(SamOutput o, const char name[], PetscInt count, const PetscReal values[])
 {
   PetscFunctionBegin;
   PetscCall(SamFileBegin(o->f));
   SamFileWriteAttribute(o->f, o->f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, values);
-  PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
+  PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -219,8 +319,7 @@ PetscErrorCode SamOutputSetParameters(SamOutput o, const SamParameters *paramete
   PetscFunctionBegin;
   PetscCall(SamFileBegin(o->f));
   SamParametersWrite(o->f, parameters);
-  PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
+  PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -229,7 +328,6 @@ PetscErrorCode SamOutputSetText(SamOutput o, const char name[], const char text[
   PetscFunctionBegin;
   PetscCall(SamFileBegin(o->f));
   SamFileWriteTextAttribute(o->f, o->f->id, name, text);
-  PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
+  PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

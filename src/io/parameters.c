@@ -1,45 +1,14 @@
-/* The parameters of a run, as attributes of its files. */
+/* The parameters of a run, as attributes of its files; fields among them stand for themselves by a checksum. */
 #include "ioimpl.h"
 #include <string.h>
 
-static PetscErrorCode Add(SamParameters *p, const char name[], PetscBool fixed, SamParameter **added)
-{
-  PetscFunctionBegin;
-  PetscCheck(p->count < SAM_PARAMETERS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "Parameter %s: there are %d parameters already, which is the most", name, SAM_PARAMETERS);
-  *added = &p->list[p->count++];
-  PetscCall(PetscMemzero(*added, sizeof(**added)));
-  PetscCall(PetscStrncpy((*added)->name, name, sizeof((*added)->name)));
-  (*added)->fixed = fixed;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamParametersAddReals(SamParameters *p, const char name[], PetscBool fixed, PetscInt count,
-                                     const PetscReal values[])
-{
-  SamParameter *added = NULL;
-
-  PetscFunctionBegin;
-  PetscCheck(count == 1 || count == 2, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "Parameter %s: count = %" PetscInt_FMT ": expected 1 or 2 values", name, count);
-  PetscCall(Add(p, name, fixed, &added));
-  added->count = count;
-  for (PetscInt k = 0; k < count; k++) added->value[k] = values[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamParametersAddText(SamParameters *p, const char name[], PetscBool fixed, const char text[])
-{
-  SamParameter *added = NULL;
-
-  PetscFunctionBegin;
-  PetscCall(Add(p, name, fixed, &added));
-  PetscCall(PetscStrncpy(added->text, text, sizeof(added->text)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+/* The attribute that names all fixed parameters of a file, with commas between them. */
+#define NAMES "fixed_parameters"
 
 void SamParametersWrite(SamFile f, const SamParameters *parameters)
 {
+  char names[SAM_PARAMETERS * 33] = "";
+
   for (PetscInt k = 0; k < parameters->count; k++) {
     const SamParameter *const p = &parameters->list[k];
 
@@ -47,7 +16,22 @@ void SamParametersWrite(SamFile f, const SamParameters *parameters)
       SamFileWriteAttribute(f, f->id, p->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, p->count, p->value);
     else
       SamFileWriteTextAttribute(f, f->id, p->name, p->text);
+    if (p->fixed)
+      (void)snprintf(names + strlen(names), sizeof(names) - strlen(names), "%s%s", names[0] ? "," : "", p->name);
   }
+  SamFileWriteTextAttribute(f, f->id, NAMES, names);
+}
+
+/* The number of values that an attribute has. */
+static PetscInt Count(SamFile f, const char name[])
+{
+  const hid_t attribute = SamFileNote(f, H5Aopen(f->id, name, H5P_DEFAULT)),
+              space     = SamFileNote(f, H5Aget_space(attribute));
+  const hssize_t count  = SamFileNote(f, H5Sget_simple_extent_npoints(space));
+
+  if (space >= 0) (void)SamFileNote(f, H5Sclose(space));
+  if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));
+  return (PetscInt)PetscMin(PetscMax(count, 1), SAM_PARAMETER_VALUES);
 }
 
 /* Reads the file's value of a parameter. */
@@ -57,9 +41,10 @@ static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *re
 
   PetscFunctionBegin;
   *read = *like;
-  if (like->count)
-    SamFileReadAttribute(f, f->id, like->name, H5T_NATIVE_DOUBLE, like->count, read->value);
-  else {
+  if (like->count) {
+    read->count = Count(f, like->name);
+    SamFileReadAttribute(f, f->id, like->name, H5T_NATIVE_DOUBLE, read->count, read->value);
+  } else {
     SamFileReadTextAttribute(f, f->id, like->name, &text);
     PetscCall(PetscStrncpy(read->text, text ? text : "", sizeof(read->text)));
     PetscCall(PetscFree(text));
@@ -69,29 +54,57 @@ static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *re
 
 static void Print(const SamParameter *p, char text[], size_t size)
 {
-  if (p->count == 0)
-    (void)snprintf(text, size, "%s", p->text);
-  else if (p->count == 1)
-    (void)snprintf(text, size, "%.15g", (double)p->value[0]);
-  else
-    (void)snprintf(text, size, "%.15g,%.15g", (double)p->value[0], (double)p->value[1]);
+  size_t at = 0;
+
+  (void)snprintf(text, size, "%s", p->text);
+  for (PetscInt k = 0; k < p->count && at < size; k++)
+    at += (size_t)snprintf(text + at, size - at, "%s%.15g", k ? "," : "", (double)p->value[k]);
 }
 
 static PetscBool Same(const SamParameter *a, const SamParameter *b)
 {
+  if (a->count != b->count) return PETSC_FALSE;
   for (PetscInt k = 0; k < a->count; k++)
     if (!(a->value[k] == b->value[k])) return PETSC_FALSE;
   return strcmp(a->text, b->text) ? PETSC_FALSE : PETSC_TRUE;
 }
 
+static PetscBool IsFree(const SamParameters *parameters, const char name[])
+{
+  return parameters->free && !strncmp(name, parameters->free, strlen(parameters->free));
+}
+
+/* Whether the file has a fixed parameter that this run does not have. */
+static PetscErrorCode FindOther(SamFile f, const SamParameters *parameters, char message[], size_t size,
+                                PetscBool *found)
+{
+  char *names = NULL, **list;
+  int   count;
+
+  PetscFunctionBegin;
+  *found = PETSC_FALSE;
+  if (!SamFileHasAttribute(f, NAMES)) PetscFunctionReturn(PETSC_SUCCESS);
+  SamFileReadTextAttribute(f, f->id, NAMES, &names);
+  PetscCall(PetscStrToArray(names ? names : "", ',', &count, &list));
+  for (int k = 0; k < count && !*found; k++) {
+    *found = !IsFree(parameters, list[k]) && !SamParametersFind(parameters, list[k]);
+    if (*found) (void)snprintf(message, size, "-%s is given there, and not here", list[k]);
+  }
+  PetscCall(PetscStrToArrayDestroy(count, list));
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char message[], size_t size)
 {
+  PetscBool other = PETSC_FALSE;
+
   for (PetscInt k = 0; k < parameters->count; k++) {
     const SamParameter *const now = &parameters->list[k];
     SamParameter              there;
-    char                      text[2][64];
+    char                      text[2][sizeof(now->text)];
 
-    if (!now->fixed) continue;
+    if (!now->fixed || IsFree(parameters, now->name)) continue;
     if (SamFileNote(f, H5Aexists(f->id, now->name)) <= 0) {
       (void)snprintf(message, size, "-%s is not given there", now->name);
       return PETSC_TRUE;
@@ -103,34 +116,34 @@ PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char m
     (void)snprintf(message, size, "-%s is %s there, not %s", now->name, text[0], text[1]);
     return PETSC_TRUE;
   }
-  return PETSC_FALSE;
+  if (FindOther(f, parameters, message, size, &other)) (void)SamFileNote(f, -1);
+  return other;
 }
 
 PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to)
 {
-  static const char *const texts[]   = {"options", "branch_checkpoint", "branch_results", "branch_gap", NULL};
-  static const char *const numbers[] = {SAM_OUTPUT_BRANCH, "branch_cycles", NULL};
+  static const char *const texts[]   = {"options", "branch_checkpoint", "branch_results", "branch_gap"};
+  static const char *const numbers[] = {SAM_OUTPUT_BRANCH, "branch_cycles"};
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; texts[k]; k++) {
+  PetscCall(SamFileBegin(from->f));
+  PetscCall(SamFileBegin(to->f));
+  for (size_t k = 0; k < sizeof(texts) / sizeof(texts[0]); k++) {
     char *text = NULL;
 
-    PetscCall(SamFileBegin(from->f));
-    if (SamFileNote(from->f, H5Aexists(from->f->id, texts[k])) > 0)
-      SamFileReadTextAttribute(from->f, from->f->id, texts[k], &text);
-    PetscCall(SamFileEnd(from->f));
-    if (text) PetscCall(SamOutputSetText(to, texts[k], text));
+    if (!SamFileHasAttribute(from->f, texts[k])) continue;
+    SamFileReadTextAttribute(from->f, from->f->id, texts[k], &text);
+    SamFileWriteTextAttribute(to->f, to->f->id, texts[k], text);
     PetscCall(PetscFree(text));
   }
-  for (PetscInt k = 0; numbers[k]; k++) {
-    double    number;
-    PetscBool has = PETSC_FALSE;
+  for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); k++) {
+    double number = 0;
 
-    PetscCall(SamFileBegin(from->f));
-    has = SamFileNote(from->f, H5Aexists(from->f->id, numbers[k])) > 0;
-    if (has) SamFileReadAttribute(from->f, from->f->id, numbers[k], H5T_NATIVE_DOUBLE, 1, &number);
-    PetscCall(SamFileEnd(from->f));
-    if (has) PetscCall(SamOutputSetReals(to, numbers[k], 1, &number));
+    if (!SamFileHasAttribute(from->f, numbers[k])) continue;
+    SamFileReadAttribute(from->f, from->f->id, numbers[k], H5T_NATIVE_DOUBLE, 1, &number);
+    SamFileWriteAttribute(to->f, to->f->id, numbers[k], H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &number);
   }
+  PetscCall(SamFileEnd(to->f));
+  PetscCall(SamFileEnd(from->f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,24 +1,23 @@
 /*
   Results of a run, read again.
 
-  Rank 0 examines the file in a child process, with the serial driver: parameters, shapes, and where the data lie. So a
-  damaged file ends in a message, on all ranks alike. Then all ranks open it and read their rows.
+  Rank 0 examines parameters, shapes, and where the data lie, so that a damaged file ends in a message, on all ranks
+  alike. Then all ranks open it and read their rows.
 */
 #include "ioimpl.h"
 #include <petsam/results.h>
-#include <stdarg.h>
 #include <string.h>
 
 static const char *const fields[SAM_RESULTS_FIELDS] = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
 
 /* What the file says of its run. */
 typedef struct {
-  double  n[2], width[2], center[2], young[2], poisson[2];
-  char    elasticity[64], options[4096]; /* options: empty if they are longer */
-  hsize_t steps, saved;
-  double  first; /* load steps before those of the file */
-  int     has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS], cycle;
-  char    problem[SAM_MESSAGE]; /* empty: none */
+  double        n[2], width[2], center[2];
+  char          options[4096]; /* empty if they are longer */
+  SamParameters parameters;
+  hsize_t       steps, saved;
+  double        first; /* load steps before those of the file */
+  int           has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS], cycle;
 } Facts;
 
 struct _n_SamResults {
@@ -32,112 +31,105 @@ struct _n_SamResults {
 
 /* ---- examination, by one rank ---- */
 
-static void Complain(Facts *f, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-static void Complain(Facts *f, const char format[], ...)
-{
-  va_list values;
-
-  if (f->problem[0]) return;
-  va_start(values, format);
-  (void)vsnprintf(f->problem, sizeof(f->problem), format, values);
-  va_end(values);
-}
+/* Refuses the file unless something is so; the text says what is not. */
+#define CHECK(f, is, ...) \
+  do { \
+    char fault[256]; \
+    (void)snprintf(fault, sizeof(fault), __VA_ARGS__); \
+    PetscCheck(is, (f)->comm, SAM_ERR_FILE, SAM_CANNOT_READ, (f)->option, (f)->filename, fault); \
+  } while (0)
 
 /* A root attribute of one or two numbers. */
-static void GetNumbers(Facts *f, hid_t file, const char name[], hssize_t count, double values[])
+static PetscErrorCode GetNumbers(SamFile f, const char name[], PetscInt count, double values[])
 {
-  const hid_t attribute = H5Aexists(file, name) > 0 ? H5Aopen(file, name, H5P_DEFAULT) : -1;
-  const hid_t space     = attribute >= 0 ? H5Aget_space(attribute) : -1;
-
-  if (space < 0 || H5Sget_simple_extent_npoints(space) != count || H5Aread(attribute, H5T_NATIVE_DOUBLE, values) < 0)
-    Complain(f, "it lacks the attribute %s of a results file of petsam", name);
-  if (space >= 0) (void)H5Sclose(space);
-  if (attribute >= 0) (void)H5Aclose(attribute);
+  PetscFunctionBegin;
+  CHECK(f, SamFileHasAttribute(f, name), "it lacks the attribute %s of a results file of petsam", name);
+  SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, count, values);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* A root attribute that is a text shorter than `size`; empty if it is not there. */
-static void GetText(hid_t file, const char name[], size_t size, char text[])
+static void GetText(SamFile f, const char name[], size_t size, char text[])
 {
-  const hid_t attribute = H5Aexists(file, name) > 0 ? H5Aopen(file, name, H5P_DEFAULT) : -1;
-  const hid_t type      = attribute >= 0 ? H5Aget_type(attribute) : -1;
-  char       *value     = NULL;
-  const int   variable  = type >= 0 && H5Tis_variable_str(type) > 0;
-
-  memset(text, 0, size);
-  if (type >= 0 && H5Tget_class(type) == H5T_STRING && !variable && H5Tget_size(type) < size)
-    (void)H5Aread(attribute, type, text);
-  else if (variable && H5Aread(attribute, type, &value) >= 0 && value)
-    (void)snprintf(text, size, "%s", strlen(value) < size ? value : "");
-  if (value) (void)H5free_memory(value);
-  if (type >= 0) (void)H5Tclose(type);
-  if (attribute >= 0) (void)H5Aclose(attribute);
+  if (!SamTextRead(f->id, name, text, size) || strlen(text) + 1 == size) text[0] = '\0';
 }
 
-/* The shape of a dataset of numbers; false, with a complaint, if it is not there or not of that rank. */
-static PetscBool GetShape(Facts *f, hid_t file, const char name[], int rank, hsize_t shape[])
+/* The root attributes that parameters are stored as: numbers, not too many, and short texts. */
+static void GetParameters(SamFile f, SamParameters *all)
 {
-  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), space = dataset >= 0 ? H5Dget_space(dataset) : -1,
-              type = dataset >= 0 ? H5Dget_type(dataset) : -1;
-  PetscBool good   = PETSC_FALSE;
 
-  if (space < 0 || type < 0)
-    Complain(f, "it has no dataset %s", name);
-  else if (H5Tget_class(type) != H5T_FLOAT || H5Sget_simple_extent_ndims(space) != rank ||
-           H5Sget_simple_extent_dims(space, shape, NULL) != rank)
-    Complain(f, "%s is not what petsam writes", name);
-  else
-    good = PETSC_TRUE;
-  if (type >= 0) (void)H5Tclose(type);
-  if (space >= 0) (void)H5Sclose(space);
-  if (dataset >= 0) (void)H5Dclose(dataset);
-  return good;
+  for (hsize_t k = 0; all->count < SAM_PARAMETERS; k++) {
+    SamParameter *const p         = &all->list[all->count];
+    const hid_t         attribute = H5Aopen_by_idx(f->id, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1, space = type >= 0 ? H5Aget_space(attribute) : -1;
+    const hssize_t count = space >= 0 ? H5Sget_simple_extent_npoints(space) : 0;
+
+    if (attribute < 0) break;
+    if (H5Aget_name(attribute, sizeof(p->name), p->name) < (ssize_t)sizeof(p->name)) {
+      if (H5Tget_class(type) == H5T_STRING) GetText(f, p->name, sizeof(p->text), p->text);
+      if (H5Tget_class(type) == H5T_FLOAT && count > 0 && count <= SAM_PARAMETER_VALUES &&
+          H5Aread(attribute, H5T_NATIVE_DOUBLE, p->value) >= 0)
+        p->count = (PetscInt)count;
+      if (p->count || p->text[0]) all->count++;
+    }
+    if (space >= 0) (void)H5Sclose(space);
+    if (type >= 0) (void)H5Tclose(type);
+    (void)H5Aclose(attribute);
+  }
 }
 
-static void ExamineFields(Facts *f, hid_t file)
+/* Opens a dataset of real numbers with that number of dimensions, and gets its shape. */
+static PetscErrorCode Open(SamFile f, const char name[], int rank, hsize_t shape[], hid_t *dataset)
 {
-  hsize_t steps[1] = {0}, saved[1] = {0}, shape[3] = {0, 0, 0};
+  PetscFunctionBegin;
+  *dataset = H5Dopen2(f->id, name, H5P_DEFAULT);
+  CHECK(f, *dataset >= 0, "it has no dataset %s", name);
+  CHECK(f,
+        H5Tget_class(H5Dget_type(*dataset)) == H5T_FLOAT && H5Sget_simple_extent_ndims(H5Dget_space(*dataset)) == rank,
+        "%s is not what petsam writes", name);
+  SamFileGetSize(f, *dataset, rank, shape);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-  if (!GetShape(f, file, "/history/time", 1, steps) || !GetShape(f, file, "/time", 1, saved)) return;
-  f->steps = steps[0];
-  f->saved = saved[0];
+static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
+{
+  hsize_t shape[3];
+  hid_t   dataset[SAM_RESULTS_FIELDS], times;
+
+  PetscFunctionBegin;
+  PetscCall(Open(f, "/history/time", 1, &facts->steps, &times));
+  PetscCall(Open(f, "/time", 1, &facts->saved, &times));
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++) {
-    f->has[k] = k < SAM_RESULTS_SLIP_X || H5Lexists(file, fields[k], H5P_DEFAULT) > 0;
-    if (!f->has[k]) continue;
-    if (!GetShape(f, file, fields[k], 3, shape)) return;
-    f->saved = PetscMin(f->saved, shape[0]);
-    if ((double)shape[1] != f->n[1] || (double)shape[2] != f->n[0])
-      Complain(f, "%s has %llu x %llu cells, not the %g x %g of -grid_n", fields[k], (unsigned long long)shape[2],
-               (unsigned long long)shape[1], f->n[0], f->n[1]);
+    facts->has[k] = k < SAM_RESULTS_SLIP_X || H5Lexists(f->id, fields[k], H5P_DEFAULT) > 0;
+    if (!facts->has[k]) continue;
+    PetscCall(Open(f, fields[k], 3, shape, &dataset[k]));
+    facts->saved = PetscMin(facts->saved, shape[0]);
+    CHECK(f, (double)shape[1] == facts->n[1] && (double)shape[2] == facts->n[0],
+          "%s has %llu x %llu cells, not the %g x %g of -grid_n", fields[k], (unsigned long long)shape[2],
+          (unsigned long long)shape[1], facts->n[0], facts->n[1]);
   }
-  shape[0] = f->saved;
-  for (int k = 0; k < SAM_RESULTS_FIELDS && !f->problem[0]; k++) {
-    if (!f->has[k]) continue;
-    const hid_t dataset = H5Dopen2(file, fields[k], H5P_DEFAULT);
-
-    if (!SamChunksAreWhole(file, dataset, 3, shape, PETSC_TRUE))
-      Complain(f, "it is damaged: %s is not in it as a whole", fields[k]);
-    if (dataset >= 0) (void)H5Dclose(dataset);
-  }
+  shape[0] = facts->saved;
+  for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
+    CHECK(f, !facts->has[k] || SamFileIsWhole(f, dataset[k], shape, PETSC_TRUE),
+          "it is damaged: %s is not in it as a whole", fields[k]);
+  CHECK(f, facts->saved > 0, "no step has been saved in it");
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* An optional column of the history, as far as it is there. */
-static int ExamineColumn(Facts *f, hid_t file, const char column[])
+/* An optional column of the history: whether it is there. */
+static PetscErrorCode ExamineColumn(SamFile f, const Facts *facts, const char column[], int *has)
 {
-  hsize_t shape[1] = {0};
+  hsize_t shape[1];
+  hid_t   dataset;
   char    name[64];
 
+  PetscFunctionBegin;
   (void)snprintf(name, sizeof(name), "/history/%s", column);
-  if (H5Lexists(file, name, H5P_DEFAULT) <= 0) return 0;
-  if (GetShape(f, file, name, 1, shape) && shape[0] < f->steps)
-    Complain(f, "%s has %llu values", name, (unsigned long long)shape[0]);
-  return 1;
-}
-
-static void ExamineColumns(Facts *f, hid_t file)
-{
-  for (int body = 0; body < 2; body++)
-    for (int k = 0; k < SAM_BULK_COMPONENTS; k++) f->bulk[body][k] = ExamineColumn(f, file, SamBulkNames[body][k].name);
-  f->cycle = ExamineColumn(f, file, "cycle");
+  *has = H5Lexists(f->id, name, H5P_DEFAULT) > 0;
+  if (!*has) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Open(f, name, 1, shape, &dataset));
+  CHECK(f, shape[0] >= facts->steps, "%s has %llu values", name, (unsigned long long)shape[0]);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscBool IsPlausible(const Facts *f)
@@ -146,61 +138,29 @@ static PetscBool IsPlausible(const Facts *f)
     if (!(f->n[k] >= 2 && f->n[k] <= 1e9 && f->n[k] == floor(f->n[k]) && f->width[k] > 0 && isfinite(f->width[k])))
       return PETSC_FALSE;
     if (!(f->first >= 0 && f->first <= 1e9 && f->first == floor(f->first))) return PETSC_FALSE;
-    if (!isfinite(f->center[k]) || !(f->young[k] > 0) || !(f->poisson[k] > -1 && f->poisson[k] <= 0.5))
-      return PETSC_FALSE;
+    if (!isfinite(f->center[k])) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }
 
-typedef struct {
-  const char *filename;
-  Facts       facts;
-} Case;
-
-static void ExamineInChild(void *data)
+static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 {
-  Case  *c = (Case *)data;
-  Facts *f = &c->facts;
-  hid_t  file;
-
-  (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  file = H5Fopen(c->filename, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) {
-    Complain(f, "it is damaged");
-    return;
-  }
-  GetNumbers(f, file, "grid_n", 2, f->n);
-  GetNumbers(f, file, "grid_size", 2, f->width);
-  GetNumbers(f, file, "grid_center", 2, f->center);
-  GetNumbers(f, file, "body1_young", 1, &f->young[0]);
-  GetNumbers(f, file, "body2_young", 1, &f->young[1]);
-  GetNumbers(f, file, "body1_poisson", 1, &f->poisson[0]);
-  GetNumbers(f, file, "body2_poisson", 1, &f->poisson[1]);
-  GetText(file, "elasticity", sizeof(f->elasticity), f->elasticity);
-  GetText(file, "options", sizeof(f->options), f->options);
-  if (H5Aexists(file, SAM_OUTPUT_BRANCH) > 0) GetNumbers(f, file, SAM_OUTPUT_BRANCH, 1, &f->first);
-  if (!f->elasticity[0]) Complain(f, "it lacks the attribute elasticity of a results file of petsam");
-  if (!f->problem[0] && !IsPlausible(f)) Complain(f, "its parameters are not those of a run of petsam");
-  if (!f->problem[0]) ExamineFields(f, file);
-  if (!f->problem[0]) ExamineColumns(f, file);
-  if (!f->problem[0] && f->saved == 0) Complain(f, "no step has been saved in it");
-  (void)H5Fclose(file);
-}
-
-static PetscErrorCode Examine(MPI_Comm comm, const char option[], const char filename[], Facts *facts)
-{
-  Case        c = {.filename = filename};
-  PetscMPIInt rank;
+  Facts *facts = (Facts *)answer;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0 && !SamCallInChild(ExamineInChild, &c, sizeof(c))) {
-    c.facts.problem[0] = '\0';
-    Complain(&c.facts, "it is damaged");
-  }
-  *facts = c.facts;
-  PetscCallMPI(MPI_Bcast(facts, (PetscMPIInt)sizeof(*facts), MPI_BYTE, 0, comm));
-  PetscCheck(!facts->problem[0], comm, SAM_ERR_FILE, "-%s %s: cannot be read: %s", option, filename, facts->problem);
+  (void)question;
+  PetscCall(GetNumbers(f, "grid_n", 2, facts->n));
+  PetscCall(GetNumbers(f, "grid_size", 2, facts->width));
+  PetscCall(GetNumbers(f, "grid_center", 2, facts->center));
+  GetParameters(f, &facts->parameters);
+  GetText(f, "options", sizeof(facts->options), facts->options);
+  if (SamFileHasAttribute(f, SAM_OUTPUT_BRANCH)) PetscCall(GetNumbers(f, SAM_OUTPUT_BRANCH, 1, &facts->first));
+  CHECK(f, IsPlausible(facts), "its parameters are not those of a run of petsam");
+  PetscCall(ExamineFields(f, facts));
+  for (int n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
+    PetscCall(ExamineColumn(f, facts, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name,
+                            &facts->bulk[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS]));
+  PetscCall(ExamineColumn(f, facts, "cycle", &facts->cycle));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -208,14 +168,10 @@ static PetscErrorCode Examine(MPI_Comm comm, const char option[], const char fil
 
 static void ReadSeries(SamFile file, const char name[], hsize_t first, hsize_t count, double values[])
 {
-  const hid_t dataset = SamFileNote(file, H5Dopen2(file->id, name, H5P_DEFAULT)),
-              space   = SamFileNote(file, H5Dget_space(dataset)),
-              memory  = SamFileNote(file, H5Screate_simple(1, &count, NULL));
+  const hid_t    dataset = SamFileNote(file, H5Dopen2(file->id, name, H5P_DEFAULT));
+  const SamBlock block   = {1, {first}, {count}};
 
-  (void)SamFileNote(file, H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, NULL, &count, NULL));
-  (void)SamFileNote(file, H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, file->transfer, values));
-  (void)SamFileNote(file, H5Sclose(memory));
-  (void)SamFileNote(file, H5Sclose(space));
+  SamFileReadBlock(file, dataset, H5T_NATIVE_DOUBLE, &block, values);
   (void)SamFileNote(file, H5Dclose(dataset));
 }
 
@@ -255,11 +211,9 @@ PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char fil
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
-  PetscCall(SamFileExamine(comm, option, filename, PETSC_FALSE));
   PetscCall(PetscNew(&r));
   *results = r;
-  for (int k = 0; k < SAM_RESULTS_FIELDS; k++) r->field[k] = -1;
-  PetscCall(Examine(comm, option, filename, &r->facts));
+  PetscCall(SamFileExamine(comm, option, filename, Look, NULL, &r->facts, sizeof(r->facts)));
   for (int k = 0; k < 2; k++) {
     n[k]      = (PetscInt)r->facts.n[k];
     width[k]  = (PetscReal)r->facts.width[k];
@@ -280,13 +234,7 @@ PetscErrorCode SamResultsDestroy(SamResults *results)
   PetscFunctionBegin;
   *results = NULL;
   if (!r) PetscFunctionReturn(PETSC_SUCCESS);
-  if (r->file) {
-    PetscCall(SamFileBegin(r->file));
-    for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
-      if (r->field[k] >= 0) (void)SamFileNote(r->file, H5Dclose(r->field[k]));
-    PetscCall(SamFileEnd(r->file));
-    PetscCall(SamFileDestroy(&r->file, PETSC_TRUE));
-  }
+  PetscCall(SamFileDestroy(&r->file, PETSC_TRUE));
   PetscCall(PetscFree(r->saved_time));
   PetscCall(PetscFree(r->saved_step));
   PetscCall(SamGridDestroy(&r->grid));
@@ -303,20 +251,10 @@ PetscErrorCode SamResultsGetGrid(SamResults r, SamGrid *grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsGetPair(SamResults r, SamPair *pair)
-{
-  const PetscReal young[2]   = {(PetscReal)r->facts.young[0], (PetscReal)r->facts.young[1]};
-  const PetscReal poisson[2] = {(PetscReal)r->facts.poisson[0], (PetscReal)r->facts.poisson[1]};
-
-  PetscFunctionBegin;
-  PetscCall(SamPairSet(pair, young, poisson));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamResultsGetElasticity(SamResults r, const char **type)
+PetscErrorCode SamResultsGetParameters(SamResults r, const SamParameters **parameters)
 {
   PetscFunctionBegin;
-  *type = r->facts.elasticity;
+  *parameters = &r->facts.parameters;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

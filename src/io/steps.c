@@ -65,7 +65,7 @@ static PetscErrorCode Flush(SamOutput o)
   PetscCall(SamFileAgree(o->f)); /* a step that failed on any rank must not be flushed */
   if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
   if (o->f->rank == 0) error = MoveEnd(o->f->filename, -1);
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->f->grid->comm)); /* no rank flushes before the end is set */
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, o->grid->comm)); /* no rank flushes before the end is set */
   if (error) {
     o->f->failed = PETSC_TRUE;
     (void)snprintf(o->f->reason, sizeof(o->f->reason), "%s", strerror(error));
@@ -80,67 +80,81 @@ static PetscErrorCode Flush(SamOutput o)
 /* Appends `count` numbers to a series, or square matrices of n rows; rank 0 writes them. */
 static void Append(SamOutput o, hid_t dataset, hid_t type, hsize_t index, hsize_t count, hsize_t n, const void *numbers)
 {
-  const hsize_t size[3] = {index + count, n, n}, start[3] = {index, 0, 0}, block[3] = {count, n, n};
-  const hsize_t all    = count * n * n;
-  const hid_t   memory = SamFileNote(o->f, H5Screate_simple(1, &all, NULL));
-  hid_t         space;
+  const hsize_t  size[3] = {index + count, n, n};
+  const SamBlock block   = {n > 1 ? 3 : 1, {index, 0, 0}, {o->f->rank ? 0 : count, n, n}};
 
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
-  space = SamFileNote(o->f, H5Dget_space(dataset));
-  if (o->f->rank == 0) {
-    (void)SamFileNote(o->f, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL));
-  } else {
-    (void)SamFileNote(o->f, H5Sselect_none(space));
-    (void)SamFileNote(o->f, H5Sselect_none(memory));
-  }
-  (void)SamFileNote(o->f, H5Dwrite(dataset, type, memory, space, o->f->transfer, numbers));
-  (void)SamFileNote(o->f, H5Sclose(space));
-  (void)SamFileNote(o->f, H5Sclose(memory));
+  SamFileWriteBlock(o->f, dataset, type, &block, numbers);
 }
 
-/* The values of a column in `count` rows, each of so many bytes: real numbers, or whole ones of 64 bits. */
-static void GatherColumn(const SamOutputColumn *column, const void *rows, size_t bytes, PetscInt count, double values[])
+/* The values of a column in `count` rows of the state's numbers: real numbers, or whole ones of 64 bits. */
+static void GatherColumn(const SamStateNumber *number, PetscInt id, const double *rows, PetscInt values, PetscInt count,
+                         double column[])
 {
-  int64_t *const whole = (int64_t *)values;
+  int64_t *const whole = (int64_t *)column;
 
   for (PetscInt k = 0; k < count; k++) {
-    const char *const place = (const char *)rows + (size_t)k * bytes + column->offset;
+    const double *const place = rows + k * values + id;
 
-    switch (column->kind) {
-    case SAM_COLUMN_REAL:
-      values[k] = (double)*(const PetscReal *)place;
-      break;
-    case SAM_COLUMN_INT:
-      whole[k] = (int64_t) * (const PetscInt *)place;
-      break;
-    case SAM_COLUMN_STATUS:
-      whole[k] = (int64_t) * (const SamStatus *)place;
-      break;
-    case SAM_COLUMN_MATRIX:
-      memcpy(values + k * SAM_COMPONENTS * SAM_COMPONENTS, place, sizeof(double) * SAM_COMPONENTS * SAM_COMPONENTS);
-      break;
-    }
+    if (number->kind == SAM_NUMBER_INT || number->kind == SAM_NUMBER_STATUS)
+      whole[k] = (int64_t)*place;
+    else
+      memcpy(column + k * number->count, place, sizeof(double) * (size_t)number->count);
   }
 }
 
-/* Appends rows to a series: an array of SamStep or SamLifeReport. */
-static PetscErrorCode AppendRows(SamOutput o, SamOutputSeriesKind kind, const void *rows, size_t bytes, PetscInt count)
+/*
+  Appends rows of all numbers of its state to a series; or, with `from`, those of another file from `first` on, of which
+  the one row given has the columns that are not there.
+*/
+static PetscErrorCode AppendRows(SamOutput o, SamSeries kind, const double rows[], PetscInt count, SamOutput from,
+                                 hsize_t first)
 {
-  const SamOutputSeries *s = &SamOutputAllSeries[kind];
-  double                *values;
+  const SamState state = o->state[kind];
+  double        *values;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(count * SAM_COMPONENTS * SAM_COMPONENTS, &values));
-  for (PetscInt c = 0; c < s->count; c++) {
-    const SamOutputColumn *column = &s->columns[c];
-    const PetscBool        real   = column->kind == SAM_COLUMN_REAL || column->kind == SAM_COLUMN_MATRIX;
+  for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
+    PetscInt              id;
+    const SamStateNumber *n     = SamStateNumberOf(state, c, &id);
+    const PetscBool       whole = n->kind == SAM_NUMBER_INT || n->kind == SAM_NUMBER_STATUS;
+    const hid_t           type  = whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
 
-    if (o->columns[kind][c] < 0) continue; /* an optional column that this file does not have */
-    GatherColumn(column, rows, bytes, count, values);
-    Append(o, o->columns[kind][c], real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64, o->rows[kind], (hsize_t)count,
-           column->kind == SAM_COLUMN_MATRIX ? SAM_COMPONENTS : 1, values);
+    if (o->columns[kind][c] < 0) continue; /* no result, or a column that this file does not have */
+    if (from && from->columns[kind][c] >= 0)
+      SamOutputReadSeries(from, from->columns[kind][c], type, first, (hsize_t)count, values);
+    else
+      GatherColumn(n, id, rows, from ? 0 : o->values[kind], count, values);
+    Append(o, o->columns[kind][c], type, o->rows[kind], (hsize_t)count,
+           n->kind == SAM_NUMBER_MATRIX ? SAM_COMPONENTS : 1, values);
   }
+  o->rows[kind] += (hsize_t)count;
   PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCopySeries(SamOutput o, SamSeries kind, SamOutput from, hsize_t count)
+{
+  const SamState state = o->state[kind];
+  double         missing[SAM_STATE_NUMBERS];
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; state && c < SamStateCountNumbers(state); c++) {
+    PetscInt              id;
+    const SamStateNumber *n = SamStateNumberOf(state, c, &id);
+
+    for (PetscInt k = 0; k < n->count; k++) missing[id + k] = SamStateMissingNumber(state, c);
+  }
+  PetscCall(SamFileBegin(o->f));
+  PetscCall(SamFileBegin(from->f));
+  for (hsize_t k = 0; k < count; k += SAM_OUTPUT_WAIT)
+    PetscCall(AppendRows(o, kind, missing, (PetscInt)PetscMin((hsize_t)SAM_OUTPUT_WAIT, count - k), from, k));
+  PetscCall(SamFileEnd(from->f));
+  ierr = SamFileEnd(o->f);
+  if (ierr) o->broken = PETSC_TRUE;
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,7 +162,7 @@ static PetscErrorCode AppendRows(SamOutput o, SamOutputSeriesKind kind, const vo
 
 static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *values)
 {
-  const hsize_t size[3] = {o->saved + 1, (hsize_t)o->f->grid->ny, (hsize_t)o->f->grid->nx};
+  const hsize_t size[3] = {o->saved + 1, (hsize_t)o->grid->ny, (hsize_t)o->grid->nx};
 
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
   SamFileWriteLayer(o->f, dataset, type, o->saved, values);
@@ -157,20 +171,20 @@ static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *valu
 /* In single precision, made here: HDF5 would have each rank write by itself, which compressed fields do not allow. */
 static void AppendSingle(SamOutput o, hid_t dataset, const double values[])
 {
-  for (PetscInt k = 0; k < o->f->grid->cells; k++) o->singles[k] = (float)values[k];
+  for (PetscInt k = 0; k < o->grid->cells; k++) o->singles[k] = (float)values[k];
   AppendField(o, dataset, H5T_NATIVE_FLOAT, o->singles);
 }
 
 static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *context)
 {
   PetscFunctionBegin;
-  if (o->set.single && !o->singles) PetscCall(PetscMalloc1(o->f->grid->cells, &o->singles));
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++) {
+  if (o->set.single && !o->singles) PetscCall(PetscMalloc1(o->grid->cells, &o->singles));
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
     const void *cells;
 
     if (o->fields[f] < 0) continue;
     PetscCall(values(o, f, context, &cells));
-    switch (SamOutputFields[f].kind) {
+    switch (SamOutputResult(o, f)->kind) {
     case SAM_FIELD_POINTS:
       SamOutputAppendPoints(o, o->fields[f], o->saved, (const SamOutputPoints *)cells);
       break;
@@ -199,7 +213,7 @@ static PetscErrorCode Begin(SamOutput o, off_t bytes)
   PetscErrorCode ierr = 0;
 
   PetscFunctionBegin;
-  if (!o->copying) ierr = SamHoldCheck(o->f->grid, "output", o->f->filename, &o->hold);
+  if (!o->copying) ierr = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
   if (!o->copying && !ierr) ierr = SamFileReserve(o->f, bytes);
   if (ierr) o->waits = 0;
   PetscCall(ierr);
@@ -212,8 +226,7 @@ static PetscErrorCode WriteWaiting(SamOutput o)
 {
   PetscFunctionBegin;
   if (!o->waits) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AppendRows(o, SAM_SERIES_HISTORY, o->waiting, sizeof(*o->waiting), o->waits));
-  o->rows[SAM_SERIES_HISTORY] += (hsize_t)o->waits;
+  PetscCall(AppendRows(o, SAM_SERIES_HISTORY, o->waiting, o->waits, NULL, 0));
   o->waits = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -238,34 +251,35 @@ static PetscErrorCode IsDue(SamOutput o, PetscBool *due)
   int late = o->waits == SAM_OUTPUT_WAIT;
 
   PetscFunctionBegin;
-  if (!late && !o->copying) {
+  if (!late) {
     late = MPI_Wtime() - o->flushed >= (double)o->set.flush;
-    PetscCallMPI(MPI_Bcast(&late, 1, MPI_INT, 0, o->f->grid->comm));
+    PetscCallMPI(MPI_Bcast(&late, 1, MPI_INT, 0, o->grid->comm));
   }
-  *due = late ? PETSC_TRUE : PETSC_FALSE;
+  *due = late != 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode CheckWhole(SamOutput o)
 {
   PetscFunctionBegin;
-  PetscCheck(!o->broken, o->f->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename,
+  PetscCheck(!o->broken, o->grid->comm, SAM_ERR_FILE, "-output %s: cannot be written: %s", o->f->filename,
              o->f->reason);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time, SamOutputValues values, void *context)
+PetscErrorCode SamOutputAppend(SamOutput o, const double step[], PetscReal time, SamOutputValues values, void *context)
 {
-  const double now = (double)time;
-  PetscBool    due = values ? PETSC_TRUE : PETSC_FALSE;
+  const PetscInt n   = o->values[SAM_SERIES_HISTORY];
+  const double   now = (double)time;
+  PetscBool      due = values != NULL;
 
   PetscFunctionBegin;
   PetscCall(CheckWhole(o));
-  if (step && !o->waiting) PetscCall(PetscMalloc1(SAM_OUTPUT_WAIT, &o->waiting));
-  if (step) o->waiting[o->waits++] = *step;
+  if (step && !o->waiting) PetscCall(PetscMalloc1(SAM_OUTPUT_WAIT * n, &o->waiting));
+  if (step) PetscCall(PetscArraycpy(o->waiting + n * o->waits++, step, n));
   if (!due) PetscCall(IsDue(o, &due));
   if (!due) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Begin(o, values ? SamOutputFieldBytes(o->f->grid, &o->set) : 0));
+  PetscCall(Begin(o, values ? SamOutputFieldBytes(o) : 0));
   PetscCall(WriteWaiting(o));
   if (values) {
     Append(o, o->time, H5T_NATIVE_DOUBLE, o->saved, 1, 1, &now);
@@ -279,15 +293,12 @@ PetscErrorCode SamOutputAppend(SamOutput o, const SamStep *step, PetscReal time,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputAppendCycle(SamOutput o, const SamLifeReport *cycle)
+PetscErrorCode SamOutputEndCopy(SamOutput o)
 {
   PetscFunctionBegin;
-  PetscCall(CheckWhole(o));
-  PetscCall(Begin(o, 0));
-  PetscCall(WriteWaiting(o));
-  PetscCall(AppendRows(o, SAM_SERIES_WEAR, cycle, sizeof(*cycle), 1));
+  PetscCall(SamFileBegin(o->f));
+  o->copying = PETSC_FALSE;
   PetscCall(End(o));
-  o->rows[SAM_SERIES_WEAR]++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -306,7 +317,6 @@ PetscErrorCode SamOutputFlush(SamOutput o)
 
 /* Gives SamOutputAppend() the fields of a contact. */
 typedef struct {
-  SamContact    contact;
   Vec           field; /* whose array is in use; NULL: none */
   const double *array;
 } ContactFields;
@@ -321,23 +331,25 @@ static PetscErrorCode Release(ContactFields *from)
 
 static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, const void **values)
 {
-  const SamOutputField *field = &SamOutputFields[f];
-  const PetscInt        cells = o->f->grid->cells;
+  const SamStateResult *field = SamOutputResult(o, f);
+  const PetscInt        cells = o->grid->cells;
   ContactFields        *from  = (ContactFields *)context;
+  const SamSolution    *solution;
   PetscInt              component;
   SamEdge               edge;
 
   PetscFunctionBegin;
   PetscCall(Release(from));
   if (field->kind == SAM_FIELD_POINTS) {
-    PetscCall(SamContactFindEdge(from->contact, (SamContactEdge)field->component, NULL, &edge));
+    PetscCall(SamContactFindEdge(o->set.contact, (SamEdgeOf)field->component, NULL, &edge));
     PetscCall(SamOutputGatherPoints(o, &edge));
     PetscCall(SamEdgeDestroy(&edge));
     *values = &o->points;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (field->compute && !o->work) PetscCall(SamGridCreateVec(o->f->grid, 1, &o->work));
-  PetscCall(SamOutputFindField(field, from->contact, o->set.wear, o->work, &from->field, &component));
+  PetscCall(SamContactGetSolution(o->set.contact, &solution)); /* makes the displacements */
+  if (!o->work) PetscCall(SamGridCreateVec(o->grid, 1, &o->work));
+  PetscCall(SamStateFindValues(o->state[SAM_SERIES_HISTORY], f, o->work, &from->field, &component));
   PetscCall(VecGetArrayRead(from->field, &from->array));
   *values = from->array + component * cells;
   if (field->kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
@@ -346,35 +358,42 @@ static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Write(SamOutput o, const SamStep *step, PetscReal time, SamContact contact)
+static PetscErrorCode Write(SamOutput o, const double step[], PetscReal time, PetscBool fields)
 {
-  ContactFields from = {.contact = contact};
+  ContactFields from = {.field = NULL};
 
   PetscFunctionBegin;
-  PetscCall(SamOutputAppend(o, step, time, contact ? GetContactValues : NULL, &from));
+  PetscCall(SamOutputAppend(o, step, time, fields ? GetContactValues : NULL, &from));
   PetscCall(Release(&from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputWriteStep(SamOutput o, const SamStep *step, SamContact contact)
+PetscErrorCode SamOutputWriteStep(SamOutput o, PetscBool fields)
 {
+  const double *step = SamStateReadNumbers(o->state[SAM_SERIES_HISTORY], 0);
+
   PetscFunctionBegin;
-  PetscCall(Write(o, step, step->control.time, contact));
+  PetscCall(Write(o, step, (PetscReal)step[0], fields));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time, SamContact contact)
+PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time)
 {
   PetscFunctionBegin;
-  PetscCall(Write(o, NULL, time, contact));
+  PetscCall(Write(o, NULL, time, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputWriteCycle(SamOutput o, const SamLifeReport *cycle)
+PetscErrorCode SamOutputWriteCycle(SamOutput o)
 {
   PetscFunctionBegin;
-  PetscCheck(o->columns[SAM_SERIES_WEAR][0] >= 0, o->f->grid->comm, PETSC_ERR_ORDER, "The file has no group wear");
-  PetscCall(SamOutputAppendCycle(o, cycle));
+  PetscCheck(o->columns[SAM_SERIES_CYCLES][0] >= 0, o->grid->comm, PETSC_ERR_ORDER, "The file has no series of cycles");
+  PetscCall(CheckWhole(o));
+  PetscCall(Begin(o, 0));
+  PetscCall(WriteWaiting(o));
+  PetscCall(
+    AppendRows(o, SAM_SERIES_CYCLES, SamStateNumbers(o->state[SAM_SERIES_CYCLES], 0, SAM_COMMITTED), 1, NULL, 0));
+  PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

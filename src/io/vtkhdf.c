@@ -21,7 +21,7 @@ static void WriteType(SamOutput o, hid_t group)
 
 static void WriteGeometry(SamOutput o, hid_t group)
 {
-  const SamGrid grid         = o->f->grid;
+  const SamGrid grid         = o->grid;
   const int64_t version[2]   = {2, 0};
   const int64_t extent[6]    = {0, grid->nx, 0, grid->ny, 0, 0};
   const double  origin[3]    = {SamGridX(grid, 0) - 0.5 * grid->dx, SamGridY(grid, 0) - 0.5 * grid->dy, 0};
@@ -57,23 +57,15 @@ void SamOutputCreateVTK(SamOutput o)
   const int64_t none = 0;
 
   WriteGeometry(o, group);
-  for (PetscInt f = 0; f < SamOutputFieldCount; f++)
-    if (o->fields[f] >= 0 && SamOutputFields[f].kind != SAM_FIELD_POINTS)
-      Link(o, cells, SamOutputFields[f].label.name, SamOutputFields[f].label.name);
+  for (PetscInt f = 0; f < SamOutputCount(o); f++)
+    if (o->fields[f] >= 0 && SamOutputResult(o, f)->kind != SAM_FIELD_POINTS)
+      Link(o, cells, SamOutputResult(o, f)->name, SamOutputResult(o, f)->name);
   Link(o, steps, "Values", "time");
   SamFileWriteAttribute(o->f, steps, "NSteps", H5T_STD_I64LE, H5T_NATIVE_INT64, 1, &none);
   o->vtk_steps = SamFileNote(o->f, H5Aopen(steps, "NSteps", H5P_DEFAULT));
   (void)SamFileNote(o->f, H5Gclose(steps));
   (void)SamFileNote(o->f, H5Gclose(cells));
   (void)SamFileNote(o->f, H5Gclose(group));
-}
-
-void SamOutputOpenVTK(SamOutput o)
-{
-  const hid_t steps = SamFileNote(o->f, H5Gopen2(o->f->id, "VTKHDF/Steps", H5P_DEFAULT));
-
-  o->vtk_steps = SamFileNote(o->f, H5Aopen(steps, "NSteps", H5P_DEFAULT));
-  if (steps >= 0) (void)SamFileNote(o->f, H5Gclose(steps));
 }
 
 void SamOutputCountVTK(SamOutput o, hsize_t saved)

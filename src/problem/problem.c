@@ -1,19 +1,17 @@
-/* The problem of a contact (elasticity, gap, friction), and the bound of the shear that follows from the friction. */
-#include <petsam/private/baseimpl.h>
-#include <petsam/private/fieldfile.h>
-#include <petsam/problem.h>
+/* The problem of a contact: elasticity, gap and laws, and what follows from all laws together. */
+#include <petsam/private/problemimpl.h>
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
-#include <math.h>
 
 struct _n_SamProblem {
   PetscInt      references;
   SamElasticity elasticity;
   SamGrid       grid; /* of the elasticity; borrowed */
   Vec           gap;  /* its revision is PETSc's object state, which grows with every change */
-  PetscReal     friction;
-  Vec           field; /* coefficients of friction by cell; NULL: the number counts */
-  PetscReal     limit; /* of the pressure, Pa; infinite: none */
+  PetscInt      laws;
+  SamLaw        law[SAM_LAWS]; /* in the order in which their types were registered */
 };
+
+/* ---- creation ---- */
 
 PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
 {
@@ -22,11 +20,11 @@ PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
   PetscFunctionBegin;
   PetscCall(PetscNew(&p));
   p->references = 1;
-  p->limit      = INFINITY; /* PETSC_INFINITY is a finite number */
   PetscCall(SamElasticityReference(elasticity));
   p->elasticity = elasticity;
   PetscCall(SamElasticityGetGrid(elasticity, &p->grid));
   PetscCall(SamGridCreateVec(p->grid, 1, &p->gap));
+  PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, NULL));
   *problem = p;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -45,8 +43,8 @@ PetscErrorCode SamProblemDestroy(SamProblem *problem)
   PetscFunctionBegin;
   *problem = NULL;
   if (!p || --p->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < p->laws; k++) PetscCall(SamLawDestroy(&p->law[k]));
   PetscCall(VecDestroy(&p->gap));
-  PetscCall(VecDestroy(&p->field));
   PetscCall(SamElasticityDestroy(&p->elasticity));
   PetscCall(PetscFree(p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -66,6 +64,8 @@ PetscErrorCode SamProblemGetGrid(SamProblem p, SamGrid *grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- the gap ---- */
+
 PetscErrorCode SamProblemSetGap(SamProblem p, Vec h)
 {
   PetscFunctionBegin;
@@ -81,155 +81,260 @@ PetscErrorCode SamProblemGetGap(SamProblem p, Vec *h)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemGetGapRevision(SamProblem p, PetscObjectState *revision)
+PetscErrorCode SamProblemGetRevision(SamProblem p, PetscObjectState *revision)
 {
   PetscFunctionBegin;
   PetscCall(PetscObjectStateGet((PetscObject)p->gap, revision));
+  for (PetscInt k = 0; k < p->laws; k++) *revision += p->law[k]->revision;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemSetFriction(SamProblem p, PetscReal friction)
+/* ---- laws ---- */
+
+PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
+{
+  SamLaw   known;
+  PetscInt k;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetLaw(p, law->type, &known));
+  PetscCheck(!known, p->grid->comm, PETSC_ERR_ARG_WRONG, "The problem has a law %s already", law->type);
+  PetscCall(SamLawReference(law));
+  for (k = p->laws++; k > 0 && SamLawOrder(p->law[k - 1]->type) > SamLawOrder(law->type); k--)
+    p->law[k] = p->law[k - 1];
+  p->law[k] = law;
+  PetscCall(PetscObjectStateIncrease((PetscObject)p->gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddLawOfType(SamProblem p, SamLawType type, SamLaw *law)
+{
+  SamLaw found;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetLaw(p, type, &found));
+  if (!found) {
+    SamLaw made;
+
+    PetscCall(SamLawCreate(p->elasticity, type, &made));
+    PetscCall(SamProblemAddLaw(p, made));
+    found = made;
+    PetscCall(SamLawDestroy(&made));
+  }
+  if (law) *law = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddSum(SamProblem p, SamLawType type)
+{
+  SamLaw known, law;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetLaw(p, type, &known));
+  if (known) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamLawCreate(p->elasticity, type, &law));
+  if (law->accumulates) PetscCall(SamProblemAddLaw(p, law));
+  PetscCall(SamLawDestroy(&law));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetLaw(SamProblem p, SamLawType type, SamLaw *law)
 {
   PetscFunctionBegin;
-  PetscCheck(friction >= 0 && isfinite(friction), p->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "coefficient of friction %g: expected a finite number >= 0", (double)friction);
-  p->friction = friction;
-  PetscCall(VecDestroy(&p->field));
+  *law = NULL;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (!strcmp(p->law[k]->type, type)) *law = p->law[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetLaws(SamProblem p, PetscInt *count, const SamLaw **laws)
+{
+  PetscFunctionBegin;
+  *count = p->laws;
+  *laws  = p->law;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemSetLawsFromOptions(SamProblem p, const SamOptions *from)
+{
+  const SamLawType *types;
+  PetscInt          count;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawGetTypes(&count, &types));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscErrorCode ierr;
+    PetscBool      asked = PETSC_FALSE;
+    SamLaw         known, law;
+
+    PetscCall(SamProblemGetLaw(p, types[k], &known));
+    if (known) {
+      PetscCall(SamLawSetFromOptions(known, from, &asked));
+      continue;
+    }
+    PetscCall(SamLawCreate(p->elasticity, types[k], &law));
+    ierr = SamLawSetFromOptions(law, from, &asked);
+    if (!ierr && asked) PetscCall(SamProblemAddLaw(p, law));
+    PetscCall(SamLawDestroy(&law));
+    PetscCall(ierr);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetBytes(SamProblem p, PetscInt *bytes)
+{
+  PetscFunctionBegin;
+  *bytes = 0;
+  for (PetscInt k = 0; k < p->laws; k++) *bytes += p->law[k]->bytes;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemMoves(SamProblem p, PetscBool *moves)
+{
+  PetscFunctionBegin;
+  *moves = PETSC_FALSE;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.separation) *moves = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- friction ---- */
+
+PetscErrorCode SamProblemSetFriction(SamProblem p, PetscReal friction)
+{
+  SamLaw law;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, &law));
+  PetscCall(SamLawSetFriction(law, friction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamProblemSetFrictionField(SamProblem p, Vec friction)
 {
-  const double *mu;
-  double        bad = 0;
+  SamLaw law;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCheckVec(p->grid, 1, friction, "The friction"));
-  PetscCall(VecGetArrayRead(friction, &mu));
-  for (PetscInt k = 0; k < p->grid->cells; k++) bad += mu[k] >= 0 && isfinite(mu[k]) ? 0 : 1;
-  PetscCall(VecRestoreArrayRead(friction, &mu));
-  PetscCall(SamSum(p->grid->comm, 1, &bad));
-  PetscCheck(bad == 0, p->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "%.0f cells have a coefficient of friction that is not a finite number >= 0", bad);
-  if (!p->field) PetscCall(SamGridCreateVec(p->grid, 1, &p->field));
-  PetscCall(VecCopy(friction, p->field));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamProblemSetFrictionFromOptions(SamProblem p, const SamOptions *from)
-{
-  SamFieldFile source = {
-    .file_option = "friction_file", .dataset_option = "friction_dataset", .default_dataset = "/friction", .unit = "1"};
-  PetscReal      friction = p->friction;
-  PetscBool      set, help;
-  PetscErrorCode ierr = 0;
-  Vec            field;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(from, "Friction"));
-  PetscCall(SamOptionsReal(from, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &friction, &set));
-  PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient for each cell, instead"));
-  PetscCall(SamPrintHelp(&help));
-  PetscCheck(!set || !source.file[0], from->comm, SAM_ERR_USER, "-%sfriction and -%sfriction_file: give one of them",
-             source.prefix, source.prefix);
-  if (set) PetscCall(SamProblemSetFriction(p, friction));
-  if (!source.file[0] || help) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(p->grid, 1, &field));
-  ierr = SamFieldFileRead(&source, p->grid, field);
-  if (!ierr) PetscCall(SamProblemSetFrictionField(p, field));
-  PetscCall(VecDestroy(&field));
-  PetscCall(ierr);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamProblemGetFriction(SamProblem p, PetscReal *friction, Vec *field)
-{
-  PetscFunctionBegin;
-  if (friction) *friction = p->friction;
-  if (field) *field = p->field;
+  PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, &law));
+  PetscCall(SamLawSetFrictionField(law, friction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamProblemHasFriction(SamProblem p, PetscBool *has)
 {
-  PetscReal most = p->friction;
-
   PetscFunctionBegin;
-  if (p->field) PetscCall(VecMax(p->field, NULL, &most));
-  *has = most > 0;
+  *has = PETSC_FALSE;
+  for (PetscInt k = 0; k < p->laws && !*has; k++)
+    if (p->law[k]->ops.hasfriction) PetscCall(p->law[k]->ops.hasfriction(p->law[k], has));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemSetPressureLimit(SamProblem p, PetscReal limit)
+PetscErrorCode SamProblemComputeBound(SamProblem p, const SamBoundAt *at, const SamBound *bound)
 {
   PetscFunctionBegin;
-  PetscCheck(limit > 0, p->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "pressure limit %g: expected a number > 0, or inf",
-             (double)limit);
-  if (limit != p->limit) PetscCall(PetscObjectStateIncrease((PetscObject)p->gap));
-  p->limit = limit;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.bound) PetscCall(p->law[k]->ops.bound(p->law[k], at, bound));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemSetPressureLimitFromOptions(SamProblem p, const SamOptions *from)
+PetscBool SamProblemFollowsSlip(SamProblem p)
 {
-  PetscReal limit = p->limit;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(from, "Plastic deformation"));
-  PetscCall(SamOptionsReal(from, "pressure_limit", "hardness: the largest pressure, where the surfaces yield (Pa)",
-                           SAM_RANGE_POSITIVE_INF, &limit, NULL));
-  PetscCall(SamProblemSetPressureLimit(p, limit));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->follows_slip) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
+
+/* ---- all else ---- */
 
 PetscErrorCode SamProblemGetPressureLimit(SamProblem p, PetscReal *limit)
 {
   PetscFunctionBegin;
-  *limit = p->limit;
+  *limit = INFINITY; /* PETSC_INFINITY is a finite number */
+  for (PetscInt k = 0; k < p->laws; k++) {
+    PetscReal most = INFINITY;
+
+    if (p->law[k]->ops.limit) PetscCall(p->law[k]->ops.limit(p->law[k], &most));
+    *limit = PetscMin(*limit, most);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* b = scale * mu * p for n cells. Returns the sum of b, to find rows without a bound. */
-SAM_VECTORIZED static double BoundRow(PetscInt n, const double *restrict p, const double *restrict mu, double scale,
-                                      double *restrict b)
+PetscErrorCode SamProblemDeclare(SamProblem p, SamState state)
 {
-  double sum = 0;
-
-#pragma omp simd reduction(+ : sum)
-  for (PetscInt i = 0; i < n; i++) {
-    b[i] = scale * mu[i] * p[i];
-    sum += b[i];
-  }
-  return sum;
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.declare) PetscCall(p->law[k]->ops.declare(p->law[k], state));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemComputeBound(SamProblem p, PetscReal scale, Vec pressure, Vec bound)
+PetscErrorCode SamProblemAddSeparation(SamProblem p, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
 {
-  const PetscInt nx = p->grid->nx;
-  const double  *pressures, *field = NULL;
-  double        *bounds, *number, *row;
+  PetscBool any = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(nx, &number, nx, &row));
-  for (PetscInt i = 0; i < nx; i++) number[i] = p->friction;
-  if (p->field) PetscCall(VecGetArrayRead(p->field, &field));
-  PetscCall(VecGetArray(bound, &bounds));
-  if (pressure == bound)
-    pressures = bounds;
-  else
-    PetscCall(VecGetArrayRead(pressure, &pressures));
-  for (ptrdiff_t k = 0; k < p->grid->cells; k += nx) {
-    const double sum = BoundRow(nx, pressures + k, field ? field + k : number, scale, row);
+  for (PetscInt k = 0; k < p->laws && state; k++)
+    if (p->law[k]->ops.separation) PetscCall(p->law[k]->ops.separation(p->law[k], state, generation, h, &any));
+  if (adds) *adds = any;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    /* a row without a bound is not written to, so that untouched pages take no memory */
-    if (sum != 0)
-      PetscCall(PetscArraycpy(bounds + k, row, nx));
-    else
-      SamZero(nx, bounds + k);
-  }
-  if (pressure != bound) PetscCall(VecRestoreArrayRead(pressure, &pressures));
-  PetscCall(VecRestoreArray(bound, &bounds));
-  if (p->field) PetscCall(VecRestoreArrayRead(p->field, &field));
-  PetscCall(PetscFree2(number, row));
+PetscErrorCode SamProblemAddOverlap(SamProblem p, SamState state, Vec overlap)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.overlap) PetscCall(p->law[k]->ops.overlap(p->law[k], state, overlap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAdvance(SamProblem p, SamLawStep *step)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.advance) PetscCall(p->law[k]->ops.advance(p->law[k], step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- corrections ---- */
+
+PetscErrorCode SamProblemCorrect(SamProblem p, SamCorrection *correction)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.correct) PetscCall(p->law[k]->ops.correct(p->law[k], correction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddDisplacement(SamProblem p, SamState state, Vec u_z)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws && state; k++)
+    if (p->law[k]->ops.displace) PetscCall(p->law[k]->ops.displace(p->law[k], state, u_z));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetLeast(SamProblem p, SamState state, Vec *least)
+{
+  PetscFunctionBegin;
+  *least = NULL;
+  for (PetscInt k = 0; k < p->laws && state && !*least; k++)
+    if (p->law[k]->ops.least) PetscCall(p->law[k]->ops.least(p->law[k], state, least));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemFindEdge(SamProblem p, SamState state, Vec pressure, Vec point, SamEdge *edge,
+                                  PetscBool *found)
+{
+  PetscFunctionBegin;
+  *found = PETSC_FALSE;
+  for (PetscInt k = 0; k < p->laws && state && !*found; k++)
+    if (p->law[k]->ops.edge) PetscCall(p->law[k]->ops.edge(p->law[k], state, pressure, point, edge, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddEnergy(SamProblem p, SamState state, Vec pressure, Vec u_z, PetscReal *energy)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws && state; k++)
+    if (p->law[k]->ops.energy) PetscCall(p->law[k]->ops.energy(p->law[k], state, pressure, u_z, energy));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

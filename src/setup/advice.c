@@ -7,6 +7,7 @@
 #include <petsam/advice.h>
 #include <petsam/private/baseimpl.h>
 #include <math.h>
+#include <stdarg.h>
 
 #define NARROW    0.1   /* part of the contact's cells whose zones, the narrowest, do not count */
 #define ROOM      1.5   /* width of a good grid over that of the contact */
@@ -21,9 +22,7 @@
 
 void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
 {
-  const PetscReal normal = control->value[SAM_COMPONENT_N];
-
-  const PetscReal *v     = control->value;
+  const PetscReal *v = control->value, normal = v[SAM_COMPONENT_N];
   const PetscBool *force = control->force;
   const PetscReal  x     = force[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
   const PetscReal  y     = force[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
@@ -36,10 +35,9 @@ void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
   for (PetscInt k = 0; k < 2; k++) {
     const SamComponent c = k ? SAM_COMPONENT_MX : SAM_COMPONENT_MY; /* My tips along x */
 
-    if (!control->force[c] && control->value[c] != 0) most->open = PETSC_TRUE;
-    if (!control->force[c] || control->value[c] == 0) continue;
-    if (most->force && normal > 0)
-      most->lever[k] = PetscMax(most->lever[k], fabs(control->value[c]) / normal);
+    if (v[c] == 0) continue;
+    if (force[c] && most->force && normal > 0)
+      most->lever[k] = PetscMax(most->lever[k], fabs(v[c]) / normal);
     else
       most->open = PETSC_TRUE;
   }
@@ -77,9 +75,7 @@ PetscErrorCode SamSetupMeasure(const SamSetup *s, SamExtent *extent)
   PetscCall(SamElasticityGetTraits(s->elasticity, &traits));
   PetscCall(SamContactGetSolution(s->contact, &solution));
   PetscCall(SamGridMeasureZones(s->grid, solution->pressure, NARROW, &extent->across));
-  /* bodies that cannot rotate are periodic */
-  PetscCall(
-    SamGridCountZones(s->grid, solution->pressure, traits.rotations ? PETSC_FALSE : PETSC_TRUE, &extent->zones));
+  PetscCall(SamGridCountZones(s->grid, solution->pressure, traits.periodic, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
   for (int k = 0; k < 2; k++) extent->half[k] = 0.5 * (PetscReal)n[k] * cell[k];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -98,7 +94,7 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- few cells ---- */
+/* ---- what would be better ---- */
 
 /* Grids that resolve a contact of these half widths: as large as now, and as many cells as now. Empty: none. */
 static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double factor, char cells[], char width[])
@@ -128,49 +124,17 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
 static PetscErrorCode GetWidths(const SamSetup *s, const SamStep *step, const SamExtent *extent, PetscReal half[2],
                                 PetscReal *across)
 {
-  const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
-  PetscBool       known;
+  PetscReal closed[2], cells;
+  PetscBool known;
 
   PetscFunctionBegin;
-  PetscCall(Estimate(s, step->control.force[SAM_COMPONENT_N], step->control.value[SAM_COMPONENT_N], half, &known));
-  if (known) *across = 2 * PetscMin(half[0] / cell[0], half[1] / cell[1]);
-  if (known && fabs(*across - extent->across) <= SAME) PetscFunctionReturn(PETSC_SUCCESS);
-  *across = extent->across;
-  for (int k = 0; k < 2; k++) half[k] = extent->half[k];
+  PetscCall(Estimate(s, step->control.force[SAM_COMPONENT_N], step->control.value[SAM_COMPONENT_N], closed, &known));
+  cells   = 2 * PetscMin(closed[0] / s->grid->dx, closed[1] / s->grid->dy);
+  known   = known && fabs(cells - extent->across) <= SAME;
+  *across = known ? cells : extent->across;
+  for (int k = 0; k < 2; k++) half[k] = known ? closed[k] : extent->half[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-PetscErrorCode SamAdviseCells(const SamSetup *s, const SamStep *step, const SamExtent *extent, char text[], size_t size)
-{
-  PetscReal half[2], across;
-  char      cells[AT_A_TIME], width[AT_A_TIME], found[160];
-
-  PetscFunctionBegin;
-  text[0] = '\0';
-  if (!extent->zones || extent->across >= SAM_FEW_CELLS) PetscFunctionReturn(PETSC_SUCCESS);
-  /* of periodic bodies all cells may be in contact, and have no width */
-  if (extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetWidths(s, step, extent, half, &across));
-  AdviseGrids(s, half, (SAM_FEW_CELLS + SAME) / (double)across, cells, width);
-  if (extent->zones == 1)
-    (void)snprintf(found, sizeof(found), "the contact is %.3g cells across", (double)extent->across);
-  else
-    (void)snprintf(found, sizeof(found), "the contact is in %lld zones, the narrow ones %.3g cells across",
-                   (long long)extent->zones, (double)extent->across);
-  (void)snprintf(text, size, "%s (%.3g m by %.3g m on a grid of %.3g m by %.3g m): expected %d or more", found,
-                 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0], (double)s->grid->width[1],
-                 SAM_FEW_CELLS);
-  if (s->from_file[0] || s->from_file[1])
-    (void)snprintf(text + strlen(text), size - strlen(text), ": a file with %s",
-                   cells[0] ? "heights at smaller distances, and " : "heights at smaller distances");
-  else if (cells[0] || width[0])
-    (void)snprintf(text + strlen(text), size - strlen(text), ": %s%s%s", width, width[0] ? " (in m)" : "",
-                   width[0] && cells[0] ? " or " : "");
-  if (!width[0] || cells[0]) (void)snprintf(text + strlen(text), size - strlen(text), "%s", cells);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- curvature ---- */
 
 /* Says by how much a contact is too large for half-spaces; empty: it is not. */
 static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char text[], size_t size)
@@ -192,55 +156,94 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamAdviseCurvature(const SamSetup *s, const SamStep *step, const SamExtent *extent, char text[],
-                                  size_t size)
+/* ---- a step ---- */
+
+/* Who receives the advice, and the first error there. */
+typedef struct {
+  SamAdviceFunction receive;
+  void             *context;
+  PetscErrorCode    error;
+} Receiver;
+
+static void Advise(Receiver *to, const char setting[], const char format[], ...)
 {
-  PetscReal half[2], across;
+  char    text[512];
+  va_list values;
+
+  va_start(values, format);
+  (void)vsnprintf(text, sizeof(text), format, values);
+  va_end(values);
+  if (!to->error) to->error = to->receive(to->context, text, setting);
+}
+
+/* Displacements and rotations that are not small, as the theory has them. */
+static void AdviseMotion(Receiver *to, const SamExtent *extent, const SamLoadsMost *most)
+{
+  const double width = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
+
+  if (most->rotation > SAM_STEEPEST)
+    Advise(to, "", "a rotation of %g is prescribed: they are in rad, and small, up to about %g (a degree is 0.0175)",
+           (double)most->rotation, SAM_STEEPEST);
+  else if (extent->zones && (double)most->slide > width)
+    Advise(
+      to, "",
+      "a displacement of %g m along the surfaces is prescribed, more than the width of the contact, %.3g m: bodies "
+      "keep their places, so they must be small; check the unit, m",
+      (double)most->slide, width);
+}
+
+static void AdviseTouch(Receiver *to, const SamControl *control)
+{
+  const PetscBool force = control->force[SAM_COMPONENT_N];
+
+  Advise(to, force ? "load_n" : "disp_z",
+         "the bodies do not touch in any step: the %s is %g %s at most, and has to be larger than %s",
+         force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N], force ? "N" : "m",
+         force ? "0" : "0, or than the smallest separation");
+}
+
+/* A contact that is few cells across; grids on which it is not. */
+static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent, const PetscReal half[2],
+                        PetscReal across)
+{
+  char cells[AT_A_TIME], width[AT_A_TIME], zones[AT_A_TIME] = "", better[3 * AT_A_TIME];
+
+  if (extent->across >= SAM_FEW_CELLS) return;
+  /* of periodic bodies all cells may be in contact, and have no width */
+  if (extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) return;
+  AdviseGrids(s, half, (SAM_FEW_CELLS + SAME) / (double)across, cells, width);
+  if (extent->zones > 1)
+    (void)snprintf(zones, sizeof(zones), "in %lld zones, the narrow ones ", (long long)extent->zones);
+  if (s->from_file[0] || s->from_file[1])
+    (void)snprintf(better, sizeof(better), ": a file with heights at smaller distances%s%s", cells[0] ? ", and " : "",
+                   cells);
+  else
+    (void)snprintf(better, sizeof(better), "%s%s%s%s%s", cells[0] || width[0] ? ": " : "", width,
+                   width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
+  Advise(to, "",
+         "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m): expected %d or more%s",
+         zones, (double)extent->across, 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0],
+         (double)s->grid->width[1], SAM_FEW_CELLS, better);
+}
+
+PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,
+                             SamAdviceFunction receive, void *context)
+{
+  Receiver  to = {.receive = receive, .context = context};
+  PetscReal half[2], across = extent->across;
   char      ratio[192];
 
   PetscFunctionBegin;
-  text[0] = '\0';
-  if (!extent->zones) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetWidths(s, step, extent, half, &across));
-  PetscCall(Compare(s, half, ratio, sizeof(ratio)));
-  if (ratio[0]) (void)snprintf(text, size, "the contact is large for its radius: its half width %s", ratio);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- motion ---- */
-
-PetscErrorCode SamAdviseMotion(const SamExtent *extent, const SamLoadsMost *most, char text[], size_t size)
-{
-  const double half = (double)PetscMax(extent->half[0], extent->half[1]);
-
-  PetscFunctionBegin;
-  text[0] = '\0';
-  if (most->rotation > SAM_STEEPEST)
-    (void)snprintf(text, size,
-                   "a rotation of %g is prescribed: they are in rad, and small, up to about %g (a degree is 0.0175)",
-                   (double)most->rotation, SAM_STEEPEST);
-  else if (extent->zones && (double)most->slide > 2 * half)
-    (void)snprintf(
-      text, size,
-      "a displacement of %g m along the surfaces is prescribed, more than the width of the contact, %.3g m: "
-      "bodies keep their places, so they must be small; check the unit, m",
-      (double)most->slide, 2 * half);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- wear ---- */
-
-PetscErrorCode SamAdviseWear(PetscReal excess, char text[], size_t size)
-{
-  PetscFunctionBegin;
-  text[0] = '\0';
-  if (excess > 1)
-    (void)snprintf(
-      text, size,
-      "the step wears %.2g times as much as one step may, 1.16 (p/E*) h deep, h being the width of a cell: the "
-      "pressure becomes uneven from cell to cell, and wrong; expected so many times more steps, or less "
-      "wear: check the unit of the coefficient, 1/Pa or m3/J",
-      (double)excess);
+  AdviseMotion(&to, extent, most);
+  if (!extent->zones) AdviseTouch(&to, &step->control);
+  /* at the grid's edge it is the grid that decides how large the contact is */
+  if (extent->zones && step->check.edge <= 0) {
+    PetscCall(GetWidths(s, step, extent, half, &across));
+    AdviseCells(&to, s, extent, half, across);
+    PetscCall(Compare(s, half, ratio, sizeof(ratio)));
+    if (ratio[0]) Advise(&to, "", "the contact is large for its radius: its half width %s", ratio);
+  }
+  PetscCall(to.error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -283,32 +286,36 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     (void)snprintf(text, size, "%s", one);
 }
 
-PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamStep *step, const SamLoadsMost *most, char text[], size_t size)
+PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamStep *step)
 {
-  PetscReal half[2];
-  PetscBool known, flat;
-  char      grid[3 * AT_A_TIME], ratio[192] = "";
+  const size_t used = strlen(step->message), size = sizeof(step->message) - used;
+  char *const  text = step->message + used;
+  PetscReal    half[2];
+  PetscBool    known;
+  char         grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
+  if (!SamStepIsSolved(step) || !(step->check.edge > 0) || !most->steps) PetscFunctionReturn(PETSC_SUCCESS);
+  step->setting[0] = '\0'; /* the text names the options */
   PetscCall(Estimate(s, most->force, most->normal, half, &known));
-  flat = isinf(half[0]) || isinf(half[1]);
-  if (flat) {
+  if (isinf(half[0]) || isinf(half[1])) {
     (void)snprintf(text, size,
-                   "the bodies are straight along %s, and touch up to the edge of any grid: periodic bodies "
+                   "; the bodies are straight along %s, and touch up to the edge of any grid: periodic bodies "
                    "(-elasticity periodic) have none, or -allow_edge_contact",
                    isinf(half[0]) && isinf(half[1]) ? "x and y"
                    : isinf(half[0])                 ? "x"
                                                     : "y");
   } else if (s->from_file[0] || s->from_file[1]) {
-    (void)snprintf(text, size,
-                   "a surface from a file cannot be made larger by it: expected a file of a larger area, or less load");
+    (void)snprintf(
+      text, size,
+      "; a surface from a file cannot be made larger by it: expected a file of a larger area, or less load");
   } else {
     known = known && !most->open;
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
     if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio)));
-    (void)snprintf(text, size, "%s %s%s%s", known ? "it needs" : "it needs about", grid,
-                   ratio[0] ? "; its half width " : "", ratio);
+    (void)snprintf(text, size, "; it needs %s%s%s%s", known ? "" : "about ", grid, ratio[0] ? "; its half width " : "",
+                   ratio);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

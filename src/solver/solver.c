@@ -8,23 +8,11 @@ static SamSolverKind *kinds = NULL; /* those whose registries are in use */
 
 const char *SamSolverReasonName(SamSolverReason reason)
 {
-  switch (reason) {
-  case SAM_SOLVER_CONVERGED_RTOL:
-    return "CONVERGED_RTOL";
-  case SAM_SOLVER_CONVERGED_TRIVIAL:
-    return "CONVERGED_TRIVIAL";
-  case SAM_SOLVER_ITERATING:
-    return "ITERATING";
-  case SAM_SOLVER_DIVERGED_ITS:
-    return "DIVERGED_ITS";
-  case SAM_SOLVER_DIVERGED_NAN:
-    return "DIVERGED_NAN";
-  case SAM_SOLVER_DIVERGED_STAGNATED:
-    return "DIVERGED_STAGNATED";
-  case SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM:
-    return "DIVERGED_NO_EQUILIBRIUM";
-  }
-  return "unknown";
+  static const char *const names[] = {
+    "DIVERGED_NO_EQUILIBRIUM", "DIVERGED_STAGNATED", "DIVERGED_NAN", "DIVERGED_ITS", "ITERATING",
+    "CONVERGED_RTOL",          "CONVERGED_TRIVIAL"};
+
+  return names[reason - SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM];
 }
 
 /* ---- registries ---- */
@@ -47,7 +35,8 @@ static PetscErrorCode RegisterAll(SamSolverKind *kind)
   if (!kinds) PetscCall(PetscRegisterFinalize(FreeRegistries));
   kind->next = kinds;
   kinds      = kind;
-  PetscCall(kind->registerall());
+  for (PetscInt t = 0; kind->own[t].name; t++)
+    PetscCall(PetscFunctionListAdd(&kind->types, kind->own[t].name, kind->own[t].create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -90,18 +79,18 @@ PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, Sa
   s->rtol       = kind->rtol;
 
   s->pressure_limit = INFINITY;
-  PetscCall(SamSolverSetType(s, kind->default_type));
+  PetscCall(SamSolverSetType(s, kind->own[0].name));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolverDestroy(SamSolver *solver)
+PetscErrorCode SamSolverDestroy(SamSolver s)
 {
   PetscFunctionBegin;
-  if (!*solver) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(DestroyType(*solver));
-  PetscCall(SamElasticityDestroy(&(*solver)->elasticity));
-  PetscCall(PetscFree(*solver));
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DestroyType(s));
+  PetscCall(SamElasticityDestroy(&s->elasticity));
+  PetscCall(PetscFree(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -227,14 +216,13 @@ static PetscErrorCode CheckFields(const SamLevel *level, const SamSolverKind *ki
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolverSolve(SamSolver s, const SamSolverKind *kind, const SamLevel *problem, PetscBool guess)
+PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool guess)
 {
-  SamLevel  level  = *problem;
-  PetscBool finite = PETSC_FALSE;
+  const SamSolverKind *kind   = s->kind;
+  SamLevel             level  = *problem;
+  PetscBool            finite = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCheck(s->kind == kind, s->comm, PETSC_ERR_ARG_WRONG, "A %s solver cannot solve the %s problem", s->kind->name,
-             kind->name);
   PetscCheck(level.balance->kind == kind->balance, s->comm, PETSC_ERR_ARG_WRONG, "The %s solver wants a %s balance",
              kind->name, kind->name);
   PetscCall(PetscLogEventBegin(SamEvents[kind->event], 0, 0, 0, 0));

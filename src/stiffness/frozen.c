@@ -21,15 +21,13 @@
 
 /* ---- creation ---- */
 
-/* A contact's fields, or the part of them in a window. */
+/* A contact's fields, or the part of them in a window; the last three only for continued motion, else NULL. */
 typedef struct {
-  Vec pressure, bound, shear, path, overlap;
+  Vec pressure, bound, shear, slope, path, overlap;
 } Fields;
 
-static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec *field)
+static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec whole, Vec *field)
 {
-  Vec whole = *field;
-
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(grid, components, field));
   if (window)
@@ -39,47 +37,70 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes the pressure off cells on the rim of a corrected edge, whose centres are not in contact. */
-static PetscErrorCode LeaveRim(SamWindow window, SamGrid grid, Vec whole, Vec pressure)
+/* Takes the pressure off cells that bear no more than their least pressure: their centres are not in contact. */
+static PetscErrorCode LeaveLeast(SamWindow window, SamGrid grid, Vec whole, Vec pressure)
 {
-  Vec           rim = whole;
+  Vec           least;
   const double *r;
   double       *p;
 
   PetscFunctionBegin;
-  PetscCall(TakeField(window, grid, 1, &rim));
-  PetscCall(VecGetArrayRead(rim, &r));
+  PetscCall(TakeField(window, grid, 1, whole, &least));
+  PetscCall(VecGetArrayRead(least, &r));
   PetscCall(VecGetArray(pressure, &p));
   for (PetscInt k = 0; k < grid->cells; k++)
     if (p[k] <= r[k]) p[k] = 0;
   PetscCall(VecRestoreArray(pressure, &p));
-  PetscCall(VecRestoreArrayRead(rim, &r));
-  PetscCall(VecDestroy(&rim));
+  PetscCall(VecRestoreArrayRead(least, &r));
+  PetscCall(VecDestroy(&least));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CreateFields(SamContact contact, SamWindow window, SamGrid grid, Fields *f)
+/* What the law of friction and yielding say of a motion that continues that of the tried step. */
+static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Fields *f)
 {
-  const SamSolution *s;
-  Vec                path, overlap;
-  SamGrid            whole;
+  SamBoundAt at = {NULL, s->control.friction_scale, s->pressure, NULL};
+  SamProblem problem;
+  SamGrid    whole;
+  Vec        field;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetSolution(contact, &s));
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamContactGetState(contact, &at.state));
   PetscCall(SamContactGetGrid(contact, &whole));
-  PetscCall(SamGridCreateVec(whole, 1, &path));
-  PetscCall(SamContactComputeFriction(contact, path, NULL, NULL));
-  PetscCall(SamGridCreateVec(whole, 1, &overlap));
-  PetscCall(SamContactComputeOverlap(contact, overlap));
-  *f = (Fields){s->pressure, s->bound, s->shear, path, overlap};
-  PetscCall(TakeField(window, grid, 1, &f->pressure));
-  PetscCall(TakeField(window, grid, 1, &f->bound));
-  PetscCall(TakeField(window, grid, 2, &f->shear));
-  if (s->passes) PetscCall(LeaveRim(window, grid, s->rim, f->pressure));
-  PetscCall(TakeField(window, grid, 1, &f->path));
-  PetscCall(TakeField(window, grid, 1, &f->overlap));
-  PetscCall(VecDestroy(&path));
-  PetscCall(VecDestroy(&overlap));
+  PetscCall(SamGridCreateVec(whole, 1, &at.slip));
+  PetscCall(SamGridCreateVec(whole, 1, &field));
+  PetscCall(SamContactComputeFriction(contact, at.slip, NULL, NULL));
+  PetscCall(TakeField(window, grid, 1, at.slip, &f->path));
+  PetscCall(SamProblemComputeBound(problem, &at, &(SamBound){.by_pressure = field}));
+  PetscCall(TakeField(window, grid, 1, field, &f->slope));
+  PetscCall(VecSet(field, 0));
+  PetscCall(SamProblemAddOverlap(problem, at.state, field));
+  PetscCall(TakeField(window, grid, 1, field, &f->overlap));
+  PetscCall(VecDestroy(&field));
+  PetscCall(VecDestroy(&at.slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateFields(SamContact contact, SamStiffnessDirection direction, SamWindow window, SamGrid grid,
+                                   Fields *f)
+{
+  const SamSolution *s;
+  SamProblem         problem;
+  SamState           state;
+  Vec                least;
+
+  PetscFunctionBegin;
+  *f = (Fields){.path = NULL};
+  PetscCall(SamContactGetSolution(contact, &s));
+  PetscCall(TakeField(window, grid, 1, s->pressure, &f->pressure));
+  PetscCall(TakeField(window, grid, 1, s->bound, &f->bound));
+  PetscCall(TakeField(window, grid, 2, s->shear, &f->shear));
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamContactGetState(contact, &state));
+  PetscCall(SamProblemGetLeast(problem, state, &least));
+  if (least) PetscCall(LeaveLeast(window, grid, least, f->pressure));
+  if (direction == SAM_STIFFNESS_FORWARD) PetscCall(CreateMotion(contact, s, window, grid, f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -89,6 +110,7 @@ static PetscErrorCode DestroyFields(Fields *f)
   PetscCall(VecDestroy(&f->pressure));
   PetscCall(VecDestroy(&f->bound));
   PetscCall(VecDestroy(&f->shear));
+  PetscCall(VecDestroy(&f->slope));
   PetscCall(VecDestroy(&f->path));
   PetscCall(VecDestroy(&f->overlap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -114,53 +136,68 @@ static PetscErrorCode FindCells(SamFrozen *f, const double p[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether each cell sticks or slips, and how stiff it is then; a slip is more than `still` (m). */
-static void SetCells(SamFrozen *f, double still, const double p[], const double bound[], const double q[],
-                     const double path[])
+/* All cells stick and bear. */
+static void SetReversal(SamFrozen *f, const double bound[])
+{
+  for (PetscInt m = 0; m < f->count; m++) {
+    f->free[m] = bound[f->cell[m]] > 0 ? 1 : 0;
+    f->e[0][m] = f->e[1][m] = f->follow[m] = f->stiff[m] = 0;
+    f->bears[m]                                          = 1;
+  }
+}
+
+/* Which cells slip, and how stiff they are then; a slip is more than `still` (m). */
+static void SetSlip(SamFrozen *f, double still, const double p[], const double bound[], const double slope[],
+                    const double q[], const double path[])
 {
   const ptrdiff_t cells = f->grid->cells;
 
   for (PetscInt m = 0; m < f->count; m++) {
-    const PetscInt  k = f->cell[m];
-    const double    b = bound[k], size = hypot(q[k], q[k + cells]);
-    const PetscBool slips = path[k] > still && size > 0 && SamStateOf(p[k], q[k], q[k + cells], b) == SAM_STATE_SLIP;
+    const PetscInt k = f->cell[m];
+    const double   b = bound[k], size = hypot(q[k], q[k + cells]);
 
-    f->free[m]   = b > 0 ? 1 : 0;
-    f->e[0][m]   = slips && b > 0 ? q[k] / size : 0;
-    f->e[1][m]   = slips && b > 0 ? q[k + cells] / size : 0;
-    f->follow[m] = slips && b > 0 ? b / p[k] : 0;
-    f->stiff[m]  = slips && b > 0 ? path[k] / b : 0;
+    if (!(path[k] > still && size > 0 && b > 0) || SamCellStateOf(p[k], q[k], q[k + cells], b) != SAM_CELL_SLIP)
+      continue;
+    f->e[0][m]   = q[k] / size;
+    f->e[1][m]   = q[k + cells] / size;
+    f->follow[m] = slope[k];
+    f->stiff[m]  = path[k] / b;
   }
 }
 
-/* Which cells do not yield in the step; an overlap is more than `still` (m). */
+/* Which cells yield in the step, and keep their pressure; an overlap is more than `still` (m). */
 static void SetYielding(SamFrozen *f, double still, const double overlap[])
 {
-  for (PetscInt m = 0; m < f->count; m++) f->bears[m] = overlap[f->cell[m]] > still ? 0 : 1;
+  for (PetscInt m = 0; m < f->count; m++)
+    if (overlap[f->cell[m]] > still) f->bears[m] = 0;
 }
 
-static PetscErrorCode PackCells(SamFrozen *f, SamStiffnessDirection direction, const Fields *from)
+static PetscErrorCode PackCells(SamFrozen *f, const Fields *from)
 {
-  const PetscBool forward = direction == SAM_STIFFNESS_FORWARD;
-  const double   *p, *b, *q, *path, *overlap;
-  PetscReal       most[2];
+  const double *p, *b, *mu, *q, *path, *overlap;
+  PetscReal     most[2];
 
   PetscFunctionBegin;
-  PetscCall(VecMax(from->pressure, NULL, &most[0]));
-  PetscCall(VecMax(from->bound, NULL, &most[1]));
   PetscCall(VecGetArrayRead(from->pressure, &p));
   PetscCall(VecGetArrayRead(from->bound, &b));
-  PetscCall(VecGetArrayRead(from->shear, &q));
-  PetscCall(VecGetArrayRead(from->path, &path));
-  PetscCall(VecGetArrayRead(from->overlap, &overlap));
   PetscCall(FindCells(f, p));
   PetscCall(PetscMalloc6(f->count, &f->e[0], f->count, &f->e[1], f->count, &f->follow, f->count, &f->stiff, f->count,
                          &f->free, f->count, &f->bears));
-  SetCells(f, forward ? STILL * f->self[1] * (double)most[1] : INFINITY, p, b, q, path);
-  SetYielding(f, forward ? STILL * f->self[0] * (double)most[0] : INFINITY, overlap);
-  PetscCall(VecRestoreArrayRead(from->overlap, &overlap));
-  PetscCall(VecRestoreArrayRead(from->path, &path));
-  PetscCall(VecRestoreArrayRead(from->shear, &q));
+  SetReversal(f, b);
+  if (from->path) {
+    PetscCall(VecMax(from->pressure, NULL, &most[0]));
+    PetscCall(VecMax(from->bound, NULL, &most[1]));
+    PetscCall(VecGetArrayRead(from->shear, &q));
+    PetscCall(VecGetArrayRead(from->slope, &mu));
+    PetscCall(VecGetArrayRead(from->path, &path));
+    PetscCall(VecGetArrayRead(from->overlap, &overlap));
+    SetSlip(f, STILL * f->self[1] * (double)most[1], p, b, mu, q, path);
+    SetYielding(f, STILL * f->self[0] * (double)most[0], overlap);
+    PetscCall(VecRestoreArrayRead(from->overlap, &overlap));
+    PetscCall(VecRestoreArrayRead(from->path, &path));
+    PetscCall(VecRestoreArrayRead(from->slope, &mu));
+    PetscCall(VecRestoreArrayRead(from->shear, &q));
+  }
   PetscCall(VecRestoreArrayRead(from->bound, &b));
   PetscCall(VecRestoreArrayRead(from->pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -181,14 +218,20 @@ static PetscErrorCode CreateWork(SamFrozen *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The frames of the grid, for their coordinates. */
-static PetscErrorCode SetFrames(SamFrozen *f)
+/* Without a tried step there must be a committed one, at which the motion reverses. */
+static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direction)
 {
-  const SamBalance normal = {.kind = SAM_BALANCE_NORMAL}, tangential = {.kind = SAM_BALANCE_TANGENTIAL};
+  PetscBool tried, committed;
+  SamGrid   grid;
 
   PetscFunctionBegin;
-  PetscCall(SamFrameSetGiven(&f->normal, f->grid, &normal));
-  PetscCall(SamFrameSetGiven(&f->tangential, f->grid, &tangential));
+  PetscCall(SamContactGetGrid(contact, &grid));
+  PetscCall(SamContactHasStep(contact, &tried, &committed));
+  PetscCheck(tried || committed, grid->comm, PETSC_ERR_ORDER,
+             "there is no tried step, and no committed one, whose stiffness could be computed");
+  PetscCheck(tried || direction == SAM_STIFFNESS_REVERSAL, grid->comm, PETSC_ERR_ORDER,
+             "the forward stiffness needs the slip of the step, which is not kept after its commit: compute it before, "
+             "or that of the reversal");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -205,6 +248,7 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   Fields              fields;
 
   PetscFunctionBegin;
+  PetscCall(CheckStep(contact, direction));
   *f = (SamFrozen){.part = SAM_FROZEN_BOTH};
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamContactGetGrid(contact, &whole));
@@ -222,9 +266,10 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
     PetscCall(SamWindowGetGrid(window, &f->grid));
   }
   PetscCall(SamElasticityGetSelfInfluence(f->elasticity, &f->self[0], &f->self[1]));
-  PetscCall(SetFrames(f));
-  PetscCall(CreateFields(contact, window, f->grid, &fields));
-  PetscCall(PackCells(f, direction, &fields));
+  PetscCall(SamFrameSet(&f->normal, f->grid, &(SamBalance){.kind = SAM_BALANCE_NORMAL}));
+  PetscCall(SamFrameSet(&f->tangential, f->grid, &(SamBalance){.kind = SAM_BALANCE_TANGENTIAL}));
+  PetscCall(CreateFields(contact, direction, window, f->grid, &fields));
+  PetscCall(PackCells(f, &fields));
   PetscCall(DestroyFields(&fields));
   PetscCall(CreateWork(f));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -244,236 +289,5 @@ PetscErrorCode SamFrozenDestroy(SamFrozen *f)
   PetscCall(VecDestroy(&f->w_t));
   SamFree(f->r);
   SamFree(f->z);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- fields ---- */
-
-static PetscInt Components(const SamFrozen *f)
-{
-  return f->part == SAM_FROZEN_BOTH ? 3 : f->part == SAM_FROZEN_TANGENTIAL ? 2 : 1;
-}
-
-PetscInt SamFrozenSize(const SamFrozen *f)
-{
-  return Components(f) * f->count;
-}
-
-/* The pressure of a field, and its shear; NULL where the system has none. */
-static PetscInt PressureAt(const SamFrozen *f)
-{
-  return f->part == SAM_FROZEN_TANGENTIAL ? -1 : 0;
-}
-static PetscInt ShearAt(const SamFrozen *f)
-{
-  return f->part == SAM_FROZEN_NORMAL ? -1 : f->part == SAM_FROZEN_BOTH ? f->count : 0;
-}
-
-/* Takes off the parts of a packed shear along e, and all of it where there is no friction. */
-static void Project(const SamFrozen *f, double y[])
-{
-  double *x = y, *z = y + f->count;
-
-  for (PetscInt m = 0; m < f->count; m++) {
-    const double part = x[m] * f->e[0][m] + z[m] * f->e[1][m];
-
-    x[m] = f->free[m] * (x[m] - part * f->e[0][m]);
-    z[m] = f->free[m] * (z[m] - part * f->e[1][m]);
-  }
-}
-
-/* Takes off a packed pressure what lies on cells that yield. */
-static void Bear(const SamFrozen *f, double p[])
-{
-  for (PetscInt m = 0; m < f->count; m++) p[m] *= f->bears[m];
-}
-
-void SamFrozenMotion(const SamFrozen *f, PetscInt k, double values[])
-{
-  const SamGrid   grid  = f->grid;
-  const SamFrame *frame = k < 3 ? &f->normal : &f->tangential;
-  double          a[3]  = {0, 0, 0};
-
-  a[k % 3] = 1;
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    const double eta = SamFrameEta(frame, j);
-
-    for (PetscInt m = f->start[j]; m < f->start[j + 1]; m++) {
-      const double xi = frame->xi0 + (double)(f->cell[m] - j * grid->nx) * frame->dxi;
-
-      if (k < 3) {
-        values[m] = SamFrameNormal(a, xi, eta);
-      } else {
-        values[m]            = SamFrameX(a, eta);
-        values[m + f->count] = SamFrameY(a, xi);
-      }
-    }
-  }
-}
-
-void SamFrozenColumn(const SamFrozen *f, PetscInt k, double column[])
-{
-  const PetscInt at = k < 3 ? PressureAt(f) : ShearAt(f);
-
-  for (PetscInt m = 0; m < SamFrozenSize(f); m++) column[m] = 0;
-  if (at < 0) return;
-  SamFrozenMotion(f, k, column + at);
-  if (k >= 3)
-    Project(f, column + at);
-  else
-    Bear(f, column + at);
-}
-
-void SamFrozenFollow(const SamFrozen *f, const double p[], double q[])
-{
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++) q[m + c * f->count] += f->follow[m] * f->e[c][m] * p[m];
-}
-
-PetscErrorCode SamFrozenTakeSlip(const SamFrozen *f, PetscInt k, double slip[])
-{
-  const double *u;
-
-  PetscFunctionBegin;
-  SamFrozenMotion(f, k, slip);
-  PetscCall(VecGetArrayRead(f->u_t, &u));
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++)
-      slip[m + c * f->count] = u[f->cell[m] + c * f->grid->cells] - slip[m + c * f->count];
-  PetscCall(VecRestoreArrayRead(f->u_t, &u));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamFrozenDots(const SamFrozen *f, PetscInt n, double *const fields[], const double field[],
-                             double dots[])
-{
-  PetscFunctionBegin;
-  for (PetscInt from = 0; from < n; from += SAM_TOTALS) {
-    const PetscInt some               = PetscMin(n - from, SAM_TOTALS);
-    SamTotal       totals[SAM_TOTALS] = {{0}};
-
-    for (PetscInt k = 0; k < some; k++)
-      for (PetscInt j = 0; j < f->grid->rows; j++) {
-        double row = 0;
-
-        for (PetscInt c = 0; c < Components(f); c++)
-          for (PetscInt m = f->start[j] + c * f->count; m < f->start[j + 1] + c * f->count; m++)
-            row += fields[from + k][m] * field[m];
-        SamAdd(&totals[k], row);
-      }
-    PetscCall(SamSumTotals(f->grid->comm, some, totals, dots + from));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- the matrix ---- */
-
-/* Writes packed components to a field, which is zero elsewhere. */
-static PetscErrorCode Unpack(const SamFrozen *f, PetscInt components, const double values[], Vec field)
-{
-  double *to;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(field, &to));
-  for (PetscInt c = 0; c < components; c++)
-    for (PetscInt m = 0; m < f->count; m++) to[f->cell[m] + c * f->grid->cells] = values[m + c * f->count];
-  PetscCall(VecRestoreArray(field, &to));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Pack(const SamFrozen *f, PetscInt components, Vec field, double values[])
-{
-  const double *from;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(field, &from));
-  for (PetscInt c = 0; c < components; c++)
-    for (PetscInt m = 0; m < f->count; m++) values[m + c * f->count] = from[f->cell[m] + c * f->grid->cells];
-  PetscCall(VecRestoreArrayRead(field, &from));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* u_z and u_t of the tractions p and q, as far as the system has them. */
-static PetscErrorCode ComputeDisplacements(SamFrozen *f)
-{
-  PetscFunctionBegin;
-  f->applies++;
-  if (f->part != SAM_FROZEN_TANGENTIAL) PetscCall(SamElasticityApplyNormal(f->elasticity, f->p, f->u_z));
-  if (f->part != SAM_FROZEN_NORMAL) PetscCall(SamElasticityApplyTangential(f->elasticity, f->q, f->u_t));
-  if (f->part != SAM_FROZEN_BOTH) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamElasticityApplyTangentialToNormal(f->elasticity, f->q, f->w_z));
-  PetscCall(VecAXPY(f->u_z, 1, f->w_z));
-  PetscCall(SamElasticityApplyNormalToTangential(f->elasticity, f->p, f->w_t));
-  PetscCall(VecAXPY(f->u_t, 1, f->w_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
-{
-  const PetscInt p = PressureAt(f), y = ShearAt(f);
-
-  PetscFunctionBegin;
-  if (p >= 0) PetscCall(Unpack(f, 1, x + p, f->p));
-  if (p >= 0 && y >= 0) { /* Ax is room for the whole shear */
-    PetscCall(PetscArraycpy(Ax, x + y, 2 * f->count));
-    SamFrozenFollow(f, x + p, Ax);
-    PetscCall(Unpack(f, 2, Ax, f->q));
-  } else if (y >= 0) {
-    PetscCall(Unpack(f, 2, x + y, f->q));
-  }
-  PetscCall(ComputeDisplacements(f));
-  if (p >= 0) PetscCall(Pack(f, 1, f->u_z, Ax + p));
-  if (p >= 0) Bear(f, Ax + p);
-  if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Pack(f, 2, f->u_t, Ax + y));
-  Project(f, Ax + y);
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++) Ax[y + m + c * f->count] += f->stiff[m] * x[y + m + c * f->count];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- its approximate inverse ---- */
-
-static PetscErrorCode PreconditionNormal(SamFrozen *f, const double r[], double z[])
-{
-  PetscFunctionBegin;
-  for (PetscInt m = 0; m < f->count; m++) f->r[f->cell[m]] = (float)r[m];
-  PetscCall(SamElasticityPreconditionNormalSingle(f->elasticity, f->self[0], f->r, f->z));
-  for (PetscInt m = 0; m < f->count; m++) z[m] = (double)f->z[f->cell[m]] / f->self[0];
-  Bear(f, z);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode PreconditionTangential(SamFrozen *f, const double r[], double z[])
-{
-  const double    self  = f->self[1];
-  const ptrdiff_t cells = f->grid->cells;
-
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++)
-      f->r[f->cell[m] + c * cells] = (float)(sqrt(self / (self + f->stiff[m])) * r[m + c * f->count]);
-  PetscCall(SamElasticityPreconditionTangentialSingle(f->elasticity, self, f->r, f->z));
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++) {
-      const double h = self / (self + f->stiff[m]);
-
-      z[m + c * f->count] =
-        (sqrt(h) * (double)f->z[f->cell[m] + c * cells] + 0.5 * (1 - h) * h * r[m + c * f->count]) / self;
-    }
-  Project(f, z);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamFrozenPrecondition(SamFrozen *f, const double r[], double z[])
-{
-  const PetscInt p = PressureAt(f), y = ShearAt(f);
-
-  PetscFunctionBegin;
-  f->preconditions++;
-  if (p >= 0) PetscCall(PreconditionNormal(f, r + p, z + p));
-  if (p >= 0 && y >= 0) /* they share the array of residuals, which is zero outside of the contact */
-    PetscCall(PetscArrayzero(f->r + f->grid->cells, f->grid->cells));
-  if (y >= 0) PetscCall(PreconditionTangential(f, r + y, z + y));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -15,79 +15,21 @@ enum { HALF = 3 }; /* normal or tangential motions */
 typedef struct {
   SamFrozen f;
   PetscInt  count; /* of systems */
-  double   *b[SAM_COMPONENTS], *x[SAM_COMPONENTS], *r[SAM_COMPONENTS];
+  double   *b[SAM_COMPONENTS], *x[SAM_COMPONENTS];
   double   *slip[HALF];                        /* of the tangential motions, without coupling; NULL: not wanted */
   double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* in the phi of the grid's frames, normal ones first */
   PetscReal error;
 } Systems;
 
-/* Solves `count` systems of a part, for the motions from `first` on. */
-static PetscErrorCode Solve(Systems *s, SamFrozenPart part, PetscInt first, PetscInt count)
-{
-  PetscFunctionBegin;
-  s->f.part = part;
-  s->count  = count;
-  for (PetscInt i = 0; i < count; i++) {
-    const PetscInt n = SamFrozenSize(&s->f);
-    PetscReal      error;
-
-    PetscCall(PetscMalloc3(n, &s->b[i], n, &s->x[i], n, &s->r[i]));
-    SamFrozenColumn(&s->f, first + i, s->b[i]);
-    PetscCall(SamKrylovSolve(&s->f, s->b[i], s->x[i], s->r[i], &error));
-    s->error = SamLarger(s->error, error);
-    if (part != SAM_FROZEN_TANGENTIAL) continue;
-    PetscCall(PetscMalloc1(n, &s->slip[i]));
-    PetscCall(SamFrozenTakeSlip(&s->f, first + i, s->slip[i]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Free(Systems *s)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < s->count; i++) PetscCall(PetscFree3(s->b[i], s->x[i], s->r[i]));
-  for (PetscInt i = 0; i < HALF; i++) PetscCall(PetscFree(s->slip[i]));
-  s->count = 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The block of the stiffness that symmetric systems give, of the motions from `first` on. */
-static PetscErrorCode AddSymmetric(Systems *s, PetscInt first)
+/* The part of the stiffness that symmetric systems give: of motion j with those before it, r being its residual. */
+static PetscErrorCode AddSymmetric(Systems *s, PetscInt first, PetscInt j, const double r[])
 {
   double some[SAM_COMPONENTS], more[SAM_COMPONENTS];
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < s->count; j++) {
-    PetscCall(SamFrozenDots(&s->f, j + 1, s->b, s->x[j], some));
-    PetscCall(SamFrozenDots(&s->f, j + 1, s->x, s->r[j], more));
-    for (PetscInt i = 0; i <= j; i++) s->k[first + i][first + j] = s->k[first + j][first + i] = some[i] + more[i];
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Without coupling: the pressure, then the shear, and how the one changes with the other. */
-static PetscErrorCode ComputeUncoupled(Systems *s)
-{
-  double *follow[HALF];
-
-  PetscFunctionBegin;
-  PetscCall(Solve(s, SAM_FROZEN_NORMAL, 0, HALF));
-  PetscCall(AddSymmetric(s, 0));
-  for (PetscInt j = 0; j < HALF; j++) {
-    PetscCall(PetscCalloc1(2 * s->f.count, &follow[j]));
-    SamFrozenFollow(&s->f, s->x[j], follow[j]);
-  }
-  PetscCall(Free(s));
-  PetscCall(Solve(s, SAM_FROZEN_TANGENTIAL, HALF, HALF));
-  PetscCall(AddSymmetric(s, HALF));
-  for (PetscInt j = 0; j < HALF; j++) {
-    double dots[HALF];
-
-    PetscCall(SamFrozenDots(&s->f, HALF, s->slip, follow[j], dots));
-    for (PetscInt i = 0; i < HALF; i++) s->k[HALF + i][j] = -dots[i];
-    PetscCall(PetscFree(follow[j]));
-  }
-  PetscCall(Free(s));
+  PetscCall(SamFrozenDots(&s->f, j + 1, s->b, s->x[j], some));
+  PetscCall(SamFrozenDots(&s->f, j + 1, s->x, r, more));
+  for (PetscInt i = 0; i <= j; i++) s->k[first + i][first + j] = s->k[first + j][first + i] = some[i] + more[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -114,16 +56,64 @@ static PetscErrorCode AddLoads(Systems *s, PetscInt j)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Both at once. */
-static PetscErrorCode ComputeCoupled(Systems *s, SamStiffnessDirection direction)
+/* Solves `count` systems of a part, for the motions from `first` on, and adds what they give. */
+static PetscErrorCode Solve(Systems *s, SamFrozenPart part, PetscInt first, PetscInt count, PetscBool symmetric)
+{
+  double *r;
+
+  PetscFunctionBegin;
+  s->f.part = part;
+  s->count  = count;
+  PetscCall(PetscMalloc1(SamFrozenSize(&s->f), &r));
+  for (PetscInt i = 0; i < count; i++) {
+    const PetscInt n = SamFrozenSize(&s->f);
+    PetscReal      error;
+
+    PetscCall(PetscMalloc2(n, &s->b[i], n, &s->x[i]));
+    SamFrozenColumn(&s->f, first + i, s->b[i]);
+    PetscCall(SamKrylovSolve(&s->f, s->b[i], s->x[i], r, &error));
+    s->error = SamLarger(s->error, error);
+    if (symmetric)
+      PetscCall(AddSymmetric(s, first, i, r));
+    else
+      PetscCall(AddLoads(s, i));
+    if (part != SAM_FROZEN_TANGENTIAL) continue;
+    PetscCall(PetscMalloc1(n, &s->slip[i]));
+    PetscCall(SamFrozenTakeSlip(&s->f, first + i, s->slip[i]));
+  }
+  PetscCall(PetscFree(r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Free(Systems *s)
 {
   PetscFunctionBegin;
-  PetscCall(Solve(s, SAM_FROZEN_BOTH, 0, SAM_COMPONENTS));
-  if (direction == SAM_STIFFNESS_REVERSAL)
-    PetscCall(AddSymmetric(s, 0));
-  else
-    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) PetscCall(AddLoads(s, j));
+  for (PetscInt i = 0; i < s->count; i++) PetscCall(PetscFree2(s->b[i], s->x[i]));
+  for (PetscInt i = 0; i < HALF; i++) PetscCall(PetscFree(s->slip[i]));
+  s->count = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Without coupling: the pressure, then the shear, and how the one changes with the other. */
+static PetscErrorCode ComputeUncoupled(Systems *s)
+{
+  double *follow[HALF];
+
+  PetscFunctionBegin;
+  PetscCall(Solve(s, SAM_FROZEN_NORMAL, 0, HALF, PETSC_TRUE));
+  for (PetscInt j = 0; j < HALF; j++) {
+    PetscCall(PetscCalloc1(2 * s->f.count, &follow[j]));
+    SamFrozenFollow(&s->f, s->x[j], follow[j]);
+  }
   PetscCall(Free(s));
+  PetscCall(Solve(s, SAM_FROZEN_TANGENTIAL, HALF, HALF, PETSC_TRUE));
+  for (PetscInt j = 0; j < HALF; j++) {
+    double dots[HALF];
+
+    PetscCall(SamFrozenDots(&s->f, HALF, s->slip, follow[j], dots));
+    for (PetscInt i = 0; i < HALF; i++) s->k[HALF + i][j] = -dots[i];
+    PetscCall(PetscFree(follow[j]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -139,12 +129,15 @@ static void SetMotions(SamGrid grid, double to[SAM_COMPONENTS][SAM_COMPONENTS])
     }
 }
 
-/* The stiffness of the six components. */
-static void Transform(const Systems *s, PetscBool rotations, SamStiffness *stiffness)
+/* The stiffness of the six components, NaN of rotations that the bodies do not have. */
+static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffness *stiffness)
 {
   double       to[SAM_COMPONENTS][SAM_COMPONENTS] = {{0}};
   const double area                               = s->f.grid->dx * s->f.grid->dy;
 
+  PetscBool has[SAM_COMPONENTS] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+
+  for (PetscInt k = 0; k < 3; k++) has[SAM_COMPONENT_MX + k] = rotations[k];
   SetMotions(s->f.grid, to);
   for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
     for (PetscInt j = 0; j < SAM_COMPONENTS; j++) {
@@ -152,9 +145,31 @@ static void Transform(const Systems *s, PetscBool rotations, SamStiffness *stiff
 
       for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
         for (PetscInt l = 0; l < SAM_COMPONENTS; l++) sum += to[k][i] * s->k[k][l] * to[l][j];
-      stiffness->k[i][j] =
-        !stiffness->converged || (!rotations && PetscMax(i, j) >= SAM_COMPONENT_MX) ? NAN : sum * area;
+      stiffness->k[i][j] = stiffness->converged && has[i] && has[j] ? sum * area : NAN;
     }
+}
+
+/*
+  Refuses the forward stiffness with friction that follows the slip of the step: there the shear along the slip changes
+  with the slip, and is no unknown of the frozen contact.
+*/
+static PetscErrorCode CheckLaws(SamContact contact)
+{
+  SamProblem    problem;
+  SamGrid       grid;
+  const SamLaw *laws;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetGrid(contact, &grid));
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamProblemGetLaws(problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++)
+    PetscCheck(!laws[k]->follows_slip, grid->comm, SAM_ERR_USER,
+               "the stiffness for a step that goes on is not known with the law %s, whose friction changes with the "
+               "slip of the step: compute that of the reversal only",
+               laws[k]->type);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
@@ -167,14 +182,16 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
+  if (direction == SAM_STIFFNESS_FORWARD) PetscCall(CheckLaws(contact));
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SamFrozenCreate(contact, direction, &s.f));
   if (s.f.coupled)
-    PetscCall(ComputeCoupled(&s, direction));
+    PetscCall(Solve(&s, SAM_FROZEN_BOTH, 0, SAM_COMPONENTS, direction == SAM_STIFFNESS_REVERSAL));
   else
     PetscCall(ComputeUncoupled(&s));
+  PetscCall(Free(&s));
   stiffness->error         = s.error;
   stiffness->converged     = s.error <= SAM_STIFFNESS_RTOL;
   stiffness->columns       = SAM_COMPONENTS;
@@ -183,5 +200,50 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   Transform(&s, traits.rotations, stiffness);
   PetscCall(SamFrozenDestroy(&s.f));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- among the numbers of a step ---- */
+
+static const SamStateNumber numbers[SAM_STIFFNESS_DIRECTIONS] = {
+  {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid displacements) for continued motion", SAM_NUMBER_MATRIX,
+   SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE},
+  {"stiffness_reversal", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid displacements) at the reversal of the motion",
+   SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE}};
+
+PetscErrorCode SamStiffnessDeclare(SamContact contact)
+{
+  SamState state;
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(CheckLaws(contact));
+  PetscCall(SamContactGetState(contact, &state));
+  for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamStiffnessDescribe(const SamStiffness *s, char text[], size_t size)
+{
+  text[0] = '\0';
+  if (!s->converged)
+    (void)snprintf(text, size, "the tangent stiffness did not converge: relative residual %.2g", (double)s->error);
+}
+
+PetscErrorCode SamStiffnessRecord(SamContact contact, SamStep *step)
+{
+  SamState state;
+
+  PetscFunctionBegin;
+  if (!SamStepIsSolved(step)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetState(contact, &state));
+  for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) {
+    SamStiffness s;
+
+    PetscCall(SamStiffnessCompute(contact, (SamStiffnessDirection)k, &s));
+    PetscCall(PetscArraycpy(SamStateNumbers(state, SamStateFindNumber(state, numbers[k].name), SAM_TRIED), &s.k[0][0],
+                            SAM_COMPONENTS * SAM_COMPONENTS));
+    if (!s.converged && !step->message[0]) SamStiffnessDescribe(&s, step->message, sizeof(step->message));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,6 +3,7 @@
 #define PETSAM_STIFFNESSIMPL_H
 
 #include <petsam/private/balanceimpl.h>
+#include <petsam/private/problemimpl.h>
 #include <petsam/elasticity.h>
 #include <petsam/stiffness.h>
 
@@ -35,7 +36,7 @@ typedef struct {
   PetscInt      applies, preconditions;
 } SamFrozen;
 
-/* SamFrozenCreate, SamFrozenDestroy - of the tried step of a contact. Collective. Errors: PETSC_ERR_ORDER. */
+/* SamFrozenCreate, SamFrozenDestroy - of a contact; errors as those of SamStiffnessCompute(). Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection direction, SamFrozen *frozen);
 PETSC_INTERN PetscErrorCode SamFrozenDestroy(SamFrozen *frozen);
 /* SamFrozenSize - the number of a field's values on this rank in the system that is solved. Not collective. */
@@ -59,7 +60,7 @@ PETSC_INTERN PetscErrorCode SamFrozenDots(const SamFrozen *frozen, PetscInt n, d
 /* Of the residual of a system, relative. Symmetric parts of the stiffness are then right to 1e-8, others to 1e-5. */
 #define SAM_STIFFNESS_RTOL 1e-4
 /*
-  SamKrylovSolve - x from A x = b, and the residual b - A x, by GMRES, preconditioned from the right. `error` is the
+  SamKrylovSolve - x from A x = b, and the residual b - A x, by generalised conjugate residuals. `error` is the
   residual's norm relative to that of b. Collective.
 */
 PETSC_INTERN PetscErrorCode SamKrylovSolve(SamFrozen *frozen, const double b[], double x[], double residual[],

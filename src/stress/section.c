@@ -29,23 +29,24 @@ typedef struct {
   PetscInt first, count;
   Complex *lines;                         /* (count, SAM_STRESS_TRACTIONS, n) */
   double  *surface[SAM_STRESS_TRACTIONS]; /* on the section */
+  double  *sums;                          /* of the smooth part */
 } Step;
 
 struct _n_SamSection {
-  SamGrid         grid;
-  SamSectionAxis  axis;
-  PetscInt        index;         /* of the section's line of cells */
-  PetscInt        length, lines; /* cells along, lines across */
-  SamStressSource source;        /* sides along and across; the depth is set when it is its turn */
-  double          sign[SAM_STRESS_TRACTIONS];
-  PetscInt        first, count; /* this rank's depths */
-  double         *depths;       /* of these */
-  PetscInt        steps, room;
-  Step           *step;
-  PetscInt        period, n; /* of the transforms; number of their frequencies */
-  fftw_plan       forward, backward;
-  double         *line;     /* period */
-  Complex        *spectrum; /* n */
+  SamStress      stress;
+  SamGrid        grid;
+  SamSectionAxis axis;
+  PetscInt       index;         /* of the section's line of cells */
+  PetscInt       length, lines; /* cells along, lines across */
+  double         side[2];       /* of cells along and across, m */
+  PetscInt       first, count;  /* this rank's depths */
+  double        *depths;        /* of these */
+  PetscInt       steps, room;
+  Step          *step;
+  PetscInt       period, n; /* of the transforms; number of their frequencies */
+  fftw_plan      forward, backward;
+  double        *line;     /* period */
+  Complex       *spectrum; /* n */
 };
 
 /* The component or traction with the axes exchanged, for sections along y. */
@@ -66,7 +67,7 @@ static PetscErrorCode CreateTransforms(SamSection s)
   s->forward =
     fftw_plan_dft_r2c_1d((int)s->period, s->line, (fftw_complex *)s->spectrum, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
   s->backward = fftw_plan_dft_c2r_1d((int)s->period, (fftw_complex *)s->spectrum, s->line, FFTW_ESTIMATE);
-  PetscCheck(s->forward && s->backward, PETSC_COMM_SELF, PETSC_ERR_LIB, "FFTW could not make a plan");
+  PetscCheck(s->forward && s->backward, PETSC_COMM_SELF, PETSC_ERR_LIB, SAM_NO_PLAN);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,28 +88,29 @@ static PetscErrorCode DivideDepths(SamSection s, PetscInt n, const PetscReal dep
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSectionCreate(SamGrid grid, PetscInt body, PetscReal poisson, SamSectionAxis axis, PetscInt index,
-                                PetscInt n, const PetscReal depths[], SamSection *section)
+PetscErrorCode SamSectionCreate(SamStress stress, SamSectionAxis axis, PetscInt index, PetscInt n,
+                                const PetscReal depths[], SamSection *section)
 {
+  const SamGrid  grid    = stress->grid;
   const PetscInt cells[] = {grid->nx, grid->ny};
   const double   sides[] = {(double)grid->dx, (double)grid->dy};
   const PetscInt along = axis == SAM_SECTION_X ? 0 : 1, across = 1 - along;
   SamSection     s;
 
   PetscFunctionBegin;
-  PetscCall(SamStressCheckBody(grid->comm, body, poisson));
   PetscCheck(index >= 0 && index < cells[across], grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "Section at line %" PetscInt_FMT " of %" PetscInt_FMT, index, cells[across]);
-  for (PetscInt k = 0; k < n; k++) PetscCall(SamStressCheckDepth(grid->comm, depths[k]));
+  for (PetscInt k = 0; k < n; k++) PetscCall(SamStressUseDepth(stress, depths[k]));
   PetscCall(PetscNew(&s));
   PetscCall(SamGridReference(grid));
-  s->grid   = grid;
-  s->axis   = axis;
-  s->index  = index;
-  s->length = cells[along];
-  s->lines  = cells[across];
-  s->source = (SamStressSource){{sides[along], sides[across]}, 0, (double)poisson};
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) s->sign[t] = SamStressSign(body, t);
+  s->stress  = stress;
+  s->grid    = grid;
+  s->axis    = axis;
+  s->index   = index;
+  s->length  = cells[along];
+  s->lines   = cells[across];
+  s->side[0] = sides[along];
+  s->side[1] = sides[across];
   PetscCall(DivideDepths(s, n, depths));
   PetscCall(CreateTransforms(s));
   *section = s;
@@ -120,6 +122,7 @@ static PetscErrorCode ForgetSteps(SamSection s)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < s->steps; k++) {
     SamFree(s->step[k].lines);
+    PetscCall(PetscFree(s->step[k].sums));
     for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) PetscCall(PetscFree(s->step[k].surface[t]));
   }
   s->steps = 0;
@@ -203,7 +206,7 @@ static void TransformLines(SamSection s, Step *step, PetscInt traction, const do
     const PetscInt line = step->first + v;
 
     for (PetscInt u = 0; u < s->length; u++)
-      s->line[u] = s->sign[traction] * (s->axis == SAM_SECTION_X ? all[line * nx + u] : all[u * nx + line]);
+      s->line[u] = s->stress->sign[traction] * (s->axis == SAM_SECTION_X ? all[line * nx + u] : all[u * nx + line]);
     for (PetscInt u = s->length; u < s->period; u++) s->line[u] = 0;
     fftw_execute(s->forward);
     memcpy(step->lines + (v * SAM_STRESS_TRACTIONS + traction) * (ptrdiff_t)s->n, s->spectrum,
@@ -237,6 +240,10 @@ PetscErrorCode SamSectionAddStep(SamSection s, Vec tractions)
     TransformLines(s, &step, t, all);
   }
   SamFree(all);
+  PetscCall(PetscMalloc1(s->stress->sums, &step.sums));
+  if (s->stress->sums)
+    PetscCall((*s->stress->ops.reduce)(s->stress, (const double *[]){field, field + g->cells, field + 2 * g->cells},
+                                       step.sums));
   PetscCall(VecRestoreArrayRead(tractions, &field));
   s->step[s->steps++] = step;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -250,7 +257,7 @@ static const SamStressKernel shared[][2] = {
   {{SAM_STRESS_PLANE_X, 2}, {SAM_STRESS_PLANE_X, 1}},  {{SAM_STRESS_PLANE_Y, 0}, {SAM_STRESS_PLANE_Y, 2}},
   {{SAM_STRESS_PLANE_Y, 1}, {SAM_STRESS_NORMAL_P, 1}}, {{SAM_STRESS_NORMAL_P, 0}, {SAM_STRESS_NORMAL_T, 1}},
   {{SAM_STRESS_NORMAL_P, 2}, {SAM_STRESS_GROUPS, 0}},  {{SAM_STRESS_NORMAL_T, 0}, {SAM_STRESS_GROUPS, 0}},
-  {{SAM_STRESS_NORMAL_T, 2}, {SAM_STRESS_GROUPS, 0}},
+  {{SAM_STRESS_NORMAL_T, 2}, {SAM_STRESS_GROUPS, 0}},  {{SAM_STRESS_NORMAL_Z, 1}, {SAM_STRESS_NORMAL_Z, 0}},
 };
 enum { SHARED = sizeof(shared) / sizeof(shared[0]) };
 
@@ -291,15 +298,16 @@ static void DestroyWork(Work *w)
 }
 
 /* The transforms of all kernels at the distance of d lines: real ones, and imaginary parts of those that are odd. */
-static void TransformKernels(SamSection s, PetscInt d, Work *w)
+static void TransformKernels(SamSection s, double depth, PetscInt d, Work *w)
 {
   const double scale = 1 / (double)s->period;
 
-  for (PetscInt g = 0; g < SAM_STRESS_GROUPS; g++)
-    SamStressRow(&s->source, (SamStressGroup)g, d, s->length, w->lags[g]);
+  for (PetscInt g = 0; g < s->stress->groups; g++)
+    (*s->stress->ops.row)(s->stress, s->side, depth, (SamStressGroup)g, d, s->length, w->lags[g]);
   for (PetscInt k = 0; k < SHARED; k++) {
     const SamStressKernel even = shared[k][0], odd = shared[k][1];
     const PetscBool       both = odd.group < SAM_STRESS_GROUPS;
+    if ((PetscInt)even.group >= s->stress->groups) continue;
     const double *const a = w->lags[even.group][even.member], *const b = both ? w->lags[odd.group][odd.member] : NULL;
 
     memset(s->line, 0, sizeof(double) * (size_t)s->period);
@@ -363,7 +371,7 @@ static void AddLines(SamSection s, const Step *step, PetscInt d, Work *w, Comple
     const Complex *x[SAM_STRESS_TRACTIONS];
 
     for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
-      const SamStressKernel kernel = SamStressKernels[c][t];
+      const SamStressKernel kernel = SamStressKernelOf(s->stress, c, t);
       const PetscBool      *odd    = SamStressOdd[kernel.group][kernel.member];
 
       k[t] = w->kernels[kernel.group][kernel.member];
@@ -384,6 +392,21 @@ static PetscInt Farthest(SamSection s)
   return most;
 }
 
+/* Adds the smooth part of a step at a depth. */
+static void AddSmooth(SamSection s, PetscInt step, PetscInt depth, double stress[])
+{
+  const SamGrid   g       = s->grid;
+  const PetscBool row     = s->axis == SAM_SECTION_X;
+  const double    first[] = {(double)SamGridX(g, row ? 0 : s->index), (double)SamGridY(g, row ? s->index : 0),
+                             s->depths[depth]};
+  const double    way[]   = {row ? (double)g->dx : 0, row ? 0 : (double)g->dy};
+  double         *to[SAM_STRESS_COMPONENTS];
+
+  for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++)
+    to[c] = stress + ((step * SAM_STRESS_COMPONENTS + c) * (ptrdiff_t)s->count + depth) * s->length;
+  (*s->stress->ops.add)(s->stress, s->step[step].sums, first, way, s->length, to);
+}
+
 /* What is left of a depth: transforms back, and the tractions, which are known exactly, on the surface. */
 static void Finish(SamSection s, const Work *w, PetscInt depth, double stress[])
 {
@@ -396,7 +419,7 @@ static void Finish(SamSection s, const Work *w, PetscInt depth, double stress[])
       memcpy(s->spectrum, w->sum + (k * SAM_STRESS_COMPONENTS + c) * (ptrdiff_t)s->n, sizeof(Complex) * (size_t)s->n);
       fftw_execute(s->backward);
       memcpy(to, s->line, sizeof(double) * (size_t)s->length);
-      if (s->source.depth > 0 || (c != SAM_STRESS_ZZ && c != SAM_STRESS_XZ && c != SAM_STRESS_YZ)) continue;
+      if (s->depths[depth] > 0 || (c != SAM_STRESS_ZZ && c != SAM_STRESS_XZ && c != SAM_STRESS_YZ)) continue;
       for (PetscInt i = 0; i < s->length; i++)
         to[i] = s->step[k].surface[traction][i] == 0 ? 0 : -s->step[k].surface[traction][i];
     }
@@ -411,13 +434,14 @@ PetscErrorCode SamSectionCompute(SamSection s, double stress[])
   PetscCall(CreateWork(s, &w));
   for (PetscInt k = 0; k < s->count; k++) {
     memset(w.sum, 0, sizeof(Complex) * (size_t)(s->steps * SAM_STRESS_COMPONENTS) * (size_t)s->n);
-    s->source.depth = s->depths[k];
+    PetscCall(SamStressUseDepth(s->stress, s->depths[k]));
     for (PetscInt d = 0; d <= farthest; d++) {
-      TransformKernels(s, d, &w);
+      TransformKernels(s, s->depths[k], d, &w);
       for (PetscInt step = 0; step < s->steps; step++)
         AddLines(s, &s->step[step], d, &w, w.sum + step * SAM_STRESS_COMPONENTS * (ptrdiff_t)s->n);
     }
     Finish(s, &w, k, stress);
+    for (PetscInt step = 0; s->stress->sums && step < s->steps; step++) AddSmooth(s, step, k, stress);
   }
   DestroyWork(&w);
   PetscCall(ForgetSteps(s));

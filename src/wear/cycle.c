@@ -52,26 +52,62 @@ PetscErrorCode SamLifeFindTurns(SamLife l)
 
 /* ---- means over the cycle ---- */
 
+PetscErrorCode SamLifeGetSum(SamLife l, PetscInt k, Vec *sum)
+{
+  const SamLaw *laws;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  *sum = NULL;
+  PetscCall(SamProblemGetLaws(l->problem, &count, &laws));
+  if (k < count && laws[k]->accumulates)
+    PetscCall(SamStateRestoreField(l->memory, SamStateFindField(l->memory, laws[k]->type), SAM_COMMITTED, sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Sums over the steps go on from those before the cycle; in the middle of a jump from 0. */
 static PetscErrorCode BeginSums(SamLife l, PetscBool middle)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
+  for (PetscInt k = 0; k < SAM_LAWS; k++) {
     Vec sum;
 
-    PetscCall(SamContactGetSum(l->wear->contact, (SamContactSum)k, &sum));
+    PetscCall(SamLifeGetSum(l, k, &sum));
     if (sum && middle) PetscCall(VecSet(sum, 0));
     if (sum && !middle) PetscCall(VecCopy(l->before[k], sum));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
+/* The committed values of a field that the law of wear remembers. */
+static PetscErrorCode Remembered(SamLife l, const char name[], Vec *field)
 {
   PetscFunctionBegin;
+  PetscCall(SamStateRestoreField(l->memory, SamStateFindField(l->memory, name), SAM_COMMITTED, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeSetLoad(SamLife l, Vec load)
+{
+  Vec to;
+
+  PetscFunctionBegin;
+  PetscCall(Remembered(l, SAM_WEAR_LOAD, &to));
+  PetscCall(VecCopy(load, to));
+  l->law->revision++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
+{
+  Vec cycle, path;
+
+  PetscFunctionBegin;
   PetscCall(BeginSums(l, rate == &l->middle));
-  PetscCall(VecSet(l->wear->cycle, 0));
-  PetscCall(VecSet(l->wear->path, 0));
+  PetscCall(Remembered(l, SAM_WEAR_CYCLE, &cycle));
+  PetscCall(Remembered(l, SAM_WEAR_PATH, &path));
+  PetscCall(VecSet(cycle, 0));
+  PetscCall(VecSet(path, 0));
   PetscCall(VecSet(rate->pressure, 0));
   PetscCall(VecSet(rate->shift, 0));
   PetscCall(VecSet(rate->coefficient, 0));
@@ -85,12 +121,12 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
 {
   const PetscReal    part = 1 / (PetscReal)l->cycle.steps;
   const SamSolution *s;
+  PetscReal          energy;
 
   PetscFunctionBegin;
-  PetscCall(SamWearCountStep(l->wear));
-  PetscCall(SamContactGetSolution(l->wear->contact, &s));
+  PetscCall(SamContactGetSolution(l->contact, &s));
   PetscCall(VecAXPY(rate->pressure, part, s->pressure));
-  PetscCall(SamContactComputeGap(l->wear->contact, l->gap));
+  PetscCall(SamContactGetField(l->contact, "gap", l->gap));
   PetscCall(VecAXPY(rate->shift, part, l->gap));
   if (l->coupled) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
@@ -98,7 +134,8 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
     mean->value[c] += part * step->control.value[c];
   }
   mean->friction_scale = step->control.friction_scale;
-  l->energy += step->dissipated_energy;
+  PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &energy));
+  l->energy += energy;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -114,11 +151,11 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(rate->pressure, &p));
   PetscCall(VecGetArray(rate->shift, &shift));
-  for (PetscInt k = 0; k < l->wear->grid->cells; k++) shift[k] = p[k] > 0 ? -shift[k] : 0;
+  for (PetscInt k = 0; k < l->grid->cells; k++) shift[k] = p[k] > 0 ? -shift[k] : 0;
   PetscCall(VecRestoreArray(rate->shift, &shift));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
   if (!l->coupled) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamProblemGetElasticity(l->wear->problem, &elasticity));
+  PetscCall(SamProblemGetElasticity(l->problem, &elasticity));
   PetscCall(SamElasticityApplyNormal(elasticity, rate->pressure, l->gap));
   PetscCall(VecAXPY(rate->shift, 1, rate->coefficient));
   PetscCall(VecAXPY(rate->shift, -1, l->gap));
@@ -127,28 +164,33 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
 
 static PetscErrorCode FindCoefficient(SamLife l, PetscReal friction_scale, SamRate *rate)
 {
-  const SamWear w = l->wear;
-  const double *p, *load, *path, *unit;
-  double       *to, most = 0;
+  const SamBoundAt at = {l->memory, friction_scale, rate->pressure, NULL};
+  const double    *p, *load, *path, *unit;
+  double          *to, most = 0;
+  Vec              cycle, slip;
 
   PetscFunctionBegin;
-  PetscCall(SamWearGetUnit(w, friction_scale, l->diagonal));
+  PetscCall(VecSet(l->diagonal, 1)); /* wear load of a unit of slip per pressure */
+  if (((const SamWear *)l->law->data)->by_energy)
+    PetscCall(SamProblemComputeBound(l->problem, &at, &(SamBound){.by_pressure = l->diagonal}));
+  PetscCall(Remembered(l, SAM_WEAR_CYCLE, &cycle));
+  PetscCall(Remembered(l, SAM_WEAR_PATH, &slip));
   PetscCall(VecGetArrayRead(rate->pressure, &p));
-  PetscCall(VecGetArrayRead(w->cycle, &load));
-  PetscCall(VecGetArrayRead(w->path, &path));
+  PetscCall(VecGetArrayRead(cycle, &load));
+  PetscCall(VecGetArrayRead(slip, &path));
   PetscCall(VecGetArrayRead(l->diagonal, &unit));
   PetscCall(VecGetArrayWrite(rate->coefficient, &to));
-  for (PetscInt k = 0; k < w->grid->cells; k++) {
+  for (PetscInt k = 0; k < l->grid->cells; k++) {
     to[k] = p[k] > 0 ? load[k] / p[k] : unit[k] * path[k];
     most  = p[k] > 0 ? PetscMax(most, to[k]) : most;
   }
   PetscCall(VecRestoreArrayWrite(rate->coefficient, &to));
   PetscCall(VecRestoreArrayRead(l->diagonal, &unit));
-  PetscCall(VecRestoreArrayRead(w->path, &path));
-  PetscCall(VecRestoreArrayRead(w->cycle, &load));
+  PetscCall(VecRestoreArrayRead(slip, &path));
+  PetscCall(VecRestoreArrayRead(cycle, &load));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
-  PetscCall(SamMax(w->grid->comm, 1, &most));
-  PetscCall(SamWearGetLimit(w, (PetscReal)most, &rate->limit));
+  PetscCall(SamMax(l->grid->comm, 1, &most));
+  PetscCall(SamWearGetLimit(l->law, (PetscReal)most, &rate->limit));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,11 +202,12 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
 
   PetscFunctionBegin;
   PetscCall(l->cycle.control(l->cycle.context, k, cycles, &control));
-  PetscCall(SamContactTry(l->wear->contact, &control, step));
+  PetscCall(SamContactTry(l->contact, &control, step));
   *solved = SamStepIsSolved(step);
   if (!*solved || l->step.status == SAM_STATUS_CONVERGED) {
     l->step = *step;
     l->at   = k;
+    PetscCall(SamContactGetNumber(l->contact, "contact_area", &l->area));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -174,7 +217,8 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
 /* Goes through the cycle, by its turning points or all steps; what it wears is not counted, but `energy` is. */
 static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, PetscBool *solved)
 {
-  SamStep step;
+  SamStep   step;
+  PetscReal dissipated;
 
   PetscFunctionBegin;
   *energy = 0;
@@ -182,8 +226,9 @@ static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, Pe
     if (l->state.by_turns && !l->turns[k]) continue;
     PetscCall(SolveStep(l, k, cycles, &step, solved));
     if (!*solved) break;
-    *energy += step.dissipated_energy;
-    PetscCall(SamContactCommit(l->wear->contact));
+    PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &dissipated));
+    *energy += dissipated;
+    PetscCall(SamContactCommit(l->contact));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -200,15 +245,15 @@ static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscReal *energy, 
   PetscFunctionBegin;
   l->state.by_turns = PETSC_FALSE;
   for (PetscInt pass = 0; pass < MOST_PASSES && change > CLOSED * l->set.rtol * bound; pass++) {
-    PetscCall(SamContactGetSolution(l->wear->contact, &s));
+    PetscCall(SamContactGetSolution(l->contact, &s));
     PetscCall(VecCopy(s->shear, l->shear));
     PetscCall(GoRound(l, cycles, energy, solved));
     if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
     l->state.computed++;
-    PetscCall(SamContactGetSolution(l->wear->contact, &s));
+    PetscCall(SamContactGetSolution(l->contact, &s));
     PetscCall(VecAXPY(l->shear, -1, s->shear));
-    PetscCall(SamGridNorm(l->wear->grid, l->shear, NORM_1, &change));
-    PetscCall(SamGridNorm(l->wear->grid, s->bound, NORM_1, &bound));
+    PetscCall(SamGridNorm(l->grid, l->shear, NORM_1, &change));
+    PetscCall(SamGridNorm(l->grid, s->bound, NORM_1, &bound));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -257,7 +302,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
     PetscCall(SolveStep(l, k, cycles, &step, solved));
     if (tell && l->cycle.solved) PetscCall(l->cycle.solved(l->cycle.context, k, cycles, &step));
     if (*solved) PetscCall(Count(l, &step, rate, &mean));
-    if (*solved) PetscCall(SamContactCommit(l->wear->contact));
+    if (*solved) PetscCall(SamContactCommit(l->contact));
   }
   l->state.computed++;
   l->open = *solved ? PETSC_FALSE : PETSC_TRUE;

@@ -30,30 +30,62 @@
 #define FIELDS(l) \
   { \
     &(l)->start.coefficient, &(l)->start.pressure, &(l)->start.shift, &(l)->middle.coefficient, &(l)->middle.pressure, \
-      &(l)->middle.shift, &(l)->whole, &(l)->half, &(l)->halves, &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, NULL \
+      &(l)->middle.shift, &(l)->load, &(l)->whole, &(l)->half, &(l)->halves, &(l)->p, &(l)->q, &(l)->diagonal, \
+      &(l)->gap, NULL \
   }
 
-PetscErrorCode SamLifeCreate(SamWear wear, const SamLifeCycle *cycle, const SamLifeSettings *settings, SamLife *life)
+/* The law of wear of the life's problem; refuses laws that cycle jumps do not support. */
+static PetscErrorCode FindLaw(SamProblem problem, SamGrid grid, SamLaw *law)
 {
-  const MPI_Comm      comm = wear->grid->comm;
+  const SamLaw *laws;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  *law = NULL;
+  PetscCall(SamProblemGetLaws(problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscCheck(!laws[k]->forbids_jumps, grid->comm, PETSC_ERR_ARG_INCOMP,
+               "Cycle jumps ignore what the law %s changes in skipped cycles", laws[k]->type);
+    if (SamLawIsWear(laws[k])) *law = laws[k];
+  }
+  PetscCheck(*law, grid->comm, PETSC_ERR_ARG_INCOMP, "The contact has no law of wear");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, const SamLifeSettings *settings,
+                             SamLife *life)
+{
   SamElasticity       elasticity;
   SamElasticityTraits traits;
+  SamProblem          problem;
+  SamGrid             grid;
+  SamLaw              law;
   SamLife             l;
 
   PetscFunctionBegin;
-  PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), comm, PETSC_ERR_ARG_OUTOFRANGE,
+  PetscCall(SamContactGetGrid(contact, &grid));
+  PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "tolerance %g of the jumps: expected a finite number > 0", (double)settings->rtol);
-  PetscCheck(settings->jump >= 0 && isfinite(settings->jump), comm, PETSC_ERR_ARG_OUTOFRANGE,
+  PetscCheck(settings->jump >= 0 && isfinite(settings->jump), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "first jump over %g cycles: expected a finite number >= 0", (double)settings->jump);
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(FindLaw(problem, grid, &law));
   PetscCall(PetscNew(&l));
-  for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(SamGridCreateVec(wear->grid, 1, *field));
-  PetscCall(SamGridCreateVec(wear->grid, 2, &l->shear));
-  l->wear       = wear;
+  l->contact = contact;
+  l->grid    = grid;
+  l->problem = problem;
+  l->law     = law;
+
+  ((SamWear *)law->data)->jumps = PETSC_TRUE;
+  PetscCall(SamContactGetState(contact, &l->memory));
+  PetscCall(SamLifeDeclare(l));
+  for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(SamGridCreateVec(grid, 1, *field));
+  PetscCall(SamGridCreateVec(grid, 2, &l->shear));
   l->cycle      = *cycle;
   l->set        = *settings;
   l->state.next = settings->jump;
   l->open       = PETSC_TRUE;
-  PetscCall(SamProblemGetElasticity(wear->problem, &elasticity));
+  PetscCall(SamProblemGetElasticity(l->problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   l->coupled = traits.coupled;
   PetscCall(SamLifeFindTurns(l));
@@ -68,9 +100,11 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   PetscFunctionBegin;
   *life = NULL;
   if (!l) PetscFunctionReturn(PETSC_SUCCESS);
+  ((SamWear *)l->law->data)->jumps = PETSC_FALSE;
+  PetscCall(SamStateDestroy(&l->series));
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
   PetscCall(VecDestroy(&l->shear));
-  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) PetscCall(VecDestroy(&l->before[k]));
+  for (PetscInt k = 0; k < SAM_LAWS; k++) PetscCall(VecDestroy(&l->before[k]));
   PetscCall(PetscFree(l->turns));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -110,21 +144,23 @@ static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reas
 /* The mean pressure, into l->p, after `cycles` more at a rate, from the wear load `load` on. */
 static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, Vec load, PetscBool *solved)
 {
-  const SamWear   w       = l->wear;
+  const SamWear  *w       = (const SamWear *)l->law->data;
   SamBalance      balance = rate->balance;
   SamNormal       normal;
   SamSolverReason reason;
   Vec             gap;
 
   PetscFunctionBegin;
-  PetscCall(SamWearSetGap(w, load));
-  PetscCall(SamProblemGetGap(w->problem, &gap));
-  PetscCall(VecWAXPY(l->gap, 1, gap, rate->shift));
+  PetscCall(SamLifeSetLoad(l, load));
+  PetscCall(SamProblemGetGap(l->problem, &gap));
+  PetscCall(VecCopy(gap, l->gap));
+  PetscCall(SamProblemAddSeparation(l->problem, l->memory, SAM_COMMITTED, l->gap, NULL));
+  PetscCall(VecAXPY(l->gap, 1, rate->shift));
   PetscCall(VecCopy(rate->coefficient, l->diagonal));
   PetscCall(VecScale(l->diagonal, cycles * (w->coefficient[0] + w->coefficient[1])));
-  PetscCall(SamContactGetNormal(w->contact, &normal));
+  PetscCall(SamContactGetNormal(l->contact, &normal));
   PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, l->p));
-  PetscCall(SamSolverGetReason(normal, &reason));
+  PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
   *solved = reason > 0;
   if (!*solved) PetscCall(FailJump(l, cycles, reason));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -151,8 +187,8 @@ static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm,
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(l->diagonal, -1, a, b));
-  PetscCall(SamGridNorm(l->wear->grid, l->diagonal, norm, &difference));
-  PetscCall(SamGridNorm(l->wear->grid, b, norm, &size));
+  PetscCall(SamGridNorm(l->grid, l->diagonal, norm, &difference));
+  PetscCall(SamGridNorm(l->grid, b, norm, &size));
   size   = PetscMax(size, least);
   *error = size > 0 ? difference / size : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -165,17 +201,17 @@ static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm,
 */
 static PetscErrorCode Extrapolate(SamLife l)
 {
-  const Vec start = l->wear->load;
+  const Vec start = l->load;
   PetscReal before, whole, halves, after, share;
 
   PetscFunctionBegin;
-  PetscCall(SamGridNorm(l->wear->grid, start, NORM_1, &before)); /* wear loads are never negative */
-  PetscCall(SamGridNorm(l->wear->grid, l->whole, NORM_1, &whole));
-  PetscCall(SamGridNorm(l->wear->grid, l->halves, NORM_1, &halves));
+  PetscCall(SamGridNorm(l->grid, start, NORM_1, &before)); /* wear loads are never negative */
+  PetscCall(SamGridNorm(l->grid, l->whole, NORM_1, &whole));
+  PetscCall(SamGridNorm(l->grid, l->halves, NORM_1, &halves));
   if (2 * halves - whole < before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecAXPBY(l->halves, -1, 2, l->whole));
   PetscCall(VecPointwiseMax(l->halves, l->halves, start));
-  PetscCall(SamGridNorm(l->wear->grid, l->halves, NORM_1, &after));
+  PetscCall(SamGridNorm(l->grid, l->halves, NORM_1, &after));
   share = after > before ? (2 * halves - whole - before) / (after - before) : 1;
   PetscCall(VecAXPBY(l->halves, 1 - share, share, start));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -184,13 +220,14 @@ static PetscErrorCode Extrapolate(SamLife l)
 /* The size of a wear load that counts: depths far below what the tolerances of the solvers leave open do not. */
 static PetscErrorCode LeastLoad(SamLife l, PetscReal *least)
 {
+  const SamWear     *w = (const SamWear *)l->law->data;
   const SamSolution *s;
   PetscReal          size;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetSolution(l->wear->contact, &s));
-  PetscCall(SamGridNorm(l->wear->grid, s->displacement_z, NORM_2, &size));
-  *least = COUNTS * size / (l->wear->coefficient[0] + l->wear->coefficient[1]);
+  PetscCall(SamContactGetSolution(l->contact, &s));
+  PetscCall(SamGridNorm(l->grid, s->displacement_z, NORM_2, &size));
+  *least = COUNTS * size / (w->coefficient[0] + w->coefficient[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -206,10 +243,10 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
 
   PetscFunctionBegin;
   PetscCall(LeastLoad(l, &least));
-  PetscCall(Jump(l, &l->start, cycles, l->wear->load, l->whole, solved));
+  PetscCall(Jump(l, &l->start, cycles, l->load, l->whole, solved));
   if (*solved) PetscCall(VecCopy(l->p, l->q));
-  if (*solved) PetscCall(Jump(l, &l->start, 0.5 * cycles, l->wear->load, l->half, solved));
-  if (*solved) PetscCall(SamWearSetGap(l->wear, l->half));
+  if (*solved) PetscCall(Jump(l, &l->start, 0.5 * cycles, l->load, l->half, solved));
+  if (*solved) PetscCall(SamLifeSetLoad(l, l->half));
   if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
   if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
@@ -262,27 +299,31 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
                        .error             = l->state.error,
                        .limit             = l->start.limit,
                        .dissipated_energy = l->energy,
-                       .contact_area      = l->step.contact_area,
+                       .contact_area      = l->area,
                        .computed          = l->state.computed,
                        .at                = l->at,
                        .step              = l->step};
-  PetscCall(SamWearGetVolumes(l->wear, r->volume, r->depth));
-  PetscCall(SamContactGetSolution(l->wear->contact, &s));
+  PetscCall(SamWearGetVolumes(l->law, l->load, r->volume, r->depth));
+  PetscCall(SamContactGetSolution(l->contact, &s));
   PetscCall(VecMax(s->pressure, NULL, &r->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- what the contact sums over its steps ---- */
 
-/* Remembers the sums before a cycle. */
-static PetscErrorCode KeepSums(SamLife l)
+/* Remembers the wear load and the sums before a cycle. */
+static PetscErrorCode Keep(SamLife l)
 {
+  Vec load;
+
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
+  PetscCall(SamStateRestoreField(l->memory, SamStateFindField(l->memory, SAM_WEAR_LOAD), SAM_COMMITTED, &load));
+  PetscCall(VecCopy(load, l->load));
+  for (PetscInt k = 0; k < SAM_LAWS; k++) {
     Vec sum;
 
-    PetscCall(SamContactGetSum(l->wear->contact, (SamContactSum)k, &sum));
-    if (sum && !l->before[k]) PetscCall(SamGridCreateVec(l->wear->grid, 1, &l->before[k]));
+    PetscCall(SamLifeGetSum(l, k, &sum));
+    if (sum && !l->before[k]) PetscCall(SamGridCreateVec(l->grid, 1, &l->before[k]));
     if (sum) PetscCall(VecCopy(sum, l->before[k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -292,10 +333,10 @@ static PetscErrorCode KeepSums(SamLife l)
 static PetscErrorCode JumpSums(SamLife l, PetscReal cycles)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_CONTACT_SUMS; k++) {
+  for (PetscInt k = 0; k < SAM_LAWS; k++) {
     Vec sum;
 
-    PetscCall(SamContactGetSum(l->wear->contact, (SamContactSum)k, &sum));
+    PetscCall(SamLifeGetSum(l, k, &sum));
     if (sum && cycles > 0) PetscCall(VecAYPX(sum, cycles, l->before[k]));
     if (sum && cycles == 0) PetscCall(VecCopy(l->before[k], sum));
   }
@@ -307,7 +348,7 @@ static PetscErrorCode JumpSums(SamLife l, PetscReal cycles)
 PetscErrorCode SamLifeCompute(SamLife l, SamLifeReport *report)
 {
   PetscFunctionBegin;
-  if (!l->known) PetscCall(KeepSums(l));
+  if (!l->known) PetscCall(Keep(l));
   if (!l->known) PetscCall(SamLifeComputeRate(l, &l->start, l->state.cycles, PETSC_TRUE, &l->known));
   PetscCall(Report(l, report));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -319,7 +360,7 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
   PetscBool solved = PETSC_FALSE, accepted = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCheck(l->known, l->wear->grid->comm, PETSC_ERR_ORDER, "There is no computed cycle to jump from");
+  PetscCheck(l->known, l->grid->comm, PETSC_ERR_ORDER, "There is no computed cycle to jump from");
   next = FirstTry(l, cycles);
   if (l->state.next == 0) l->state.next = next;
   while (!accepted && next != jump) {
@@ -330,14 +371,14 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
   }
   PetscCall(JumpSums(l, accepted ? jump : 0));
   if (accepted) {
-    PetscCall(VecCopy(l->halves, l->wear->load));
+    PetscCall(VecCopy(l->halves, l->load));
     if (!l->set.fixed) l->state.next = next;
     l->state.jump   = jump;
     l->state.error  = error;
     l->state.cycles = jump == cycles - l->state.cycles ? cycles : l->state.cycles + jump;
     l->known        = PETSC_FALSE;
   }
-  PetscCall(SamWearMoveGap(l->wear));
+  PetscCall(SamLifeSetLoad(l, l->load));
   PetscCall(Report(l, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

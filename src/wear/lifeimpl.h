@@ -3,7 +3,7 @@
 #define PETSAM_LIFEIMPL_H
 
 #include <petsam/life.h>
-#include <petsam/normal.h>
+#include <petsam/private/problemimpl.h>
 #include "wearimpl.h"
 
 /*
@@ -19,7 +19,12 @@ typedef struct {
 } SamRate;
 
 struct _n_SamLife {
-  SamWear         wear;
+  SamContact      contact; /* borrowed */
+  SamProblem      problem; /* of the contact, as the next three; borrowed */
+  SamState        memory;
+  SamGrid         grid;
+  SamLaw          law;    /* of wear */
+  SamState        series; /* numbers of computed cycles */
   SamLifeCycle    cycle;
   SamLifeSettings set;
   SamLifeState    state;
@@ -29,24 +34,33 @@ struct _n_SamLife {
   PetscBool      *turns;               /* of each step: whether a component turns there, or the cycle ends */
   SamStep         step;                /* the first one of the last cycle that is not converged, else its last one */
   PetscInt        at;                  /* the step of the cycle that this is */
-  PetscReal       energy;              /* of the last cycle, J */
+  PetscReal       energy, area;        /* of the last cycle, J; m2, in contact in that step */
   SamRate         start, middle;       /* on the wear so far; after half of the jump */
+  Vec             load;                /* wear load so far; the law has another one within a jump */
   Vec             whole, half, halves; /* wear loads: after the jump as a whole, after its first half, after both */
   Vec             p, q, diagonal, gap; /* scratch */
   Vec             shear;               /* scratch, two components */
-  Vec             before[SAM_CONTACT_SUMS]; /* the contact's sums before this cycle; NULL: not kept */
+  Vec             before[SAM_LAWS];    /* of each law that accumulates, its sum before this cycle; else NULL */
 };
 
 /*
-  What a contact sums over its steps (SamContactKeepSum()) is, in a life, that of all cycles so far and of this one up
-  to the step. A jump adds that of the cycle in its middle, times its cycles, which is of second order as the wear is.
-  Cycles that close the loop or are tried do not count.
+  What a law accumulates over the steps is, in a life, that of all cycles so far and of this one up to the step. A jump
+  adds that of the cycle in its middle, times its cycles, which is of second order as the wear is. Cycles that close the
+  loop or are tried do not count.
 
   SamLifeComputeRate - solves the cycle on the problem's gap; `cycles`: so far; `solved`: all of its steps have a
   solution; `tell`: the steps are told to the caller. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, PetscReal cycles, PetscBool tell,
                                                PetscBool *solved);
+
+/* SamLifeSetLoad - the law's wear load, by which the separation grows, becomes a copy of this one. Collective. */
+PETSC_INTERN PetscErrorCode SamLifeSetLoad(SamLife life, Vec load);
+/* SamLifeGetSum - the committed values that law k accumulates, NULL: it does not. Collective. */
+PETSC_INTERN PetscErrorCode SamLifeGetSum(SamLife life, PetscInt k, Vec *sum);
+
+/* SamLifeDeclare - the numbers of computed cycles, and that of each step's cycle (series.c). Collective. */
+PETSC_INTERN PetscErrorCode SamLifeDeclare(SamLife life);
 
 /* SamLifeFindTurns - fills l->turns, to be freed with PetscFree(). Collective. */
 PETSC_INTERN PetscErrorCode SamLifeFindTurns(SamLife life);

@@ -9,10 +9,9 @@
 #include "wearimpl.h"
 
 /* The Rayleigh quotient of a checkerboard, a little more than the smallest eigenvalue. */
-static PetscErrorCode FindLeast(SamWear w)
+static PetscErrorCode FindLeast(SamLaw law)
 {
-  const SamGrid grid = w->grid;
-  SamElasticity elasticity;
+  const SamGrid grid = law->grid;
   double       *to;
   PetscReal     product;
   Vec           p, u;
@@ -20,61 +19,54 @@ static PetscErrorCode FindLeast(SamWear w)
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(grid, 1, &p));
   PetscCall(SamGridCreateVec(grid, 1, &u));
-  PetscCall(SamProblemGetElasticity(w->problem, &elasticity));
   PetscCall(VecGetArrayWrite(p, &to));
   for (PetscInt k = 0; k < grid->cells; k++) to[k] = (k % grid->nx + k / grid->nx + grid->row_start) % 2 ? 1 : -1;
   PetscCall(VecRestoreArrayWrite(p, &to));
-  PetscCall(SamElasticityApplyNormal(elasticity, p, u));
+  PetscCall(SamElasticityApplyNormal(law->elasticity, p, u));
   PetscCall(SamGridNorm(grid, u, NORM_1, &product)); /* each displacement has the sign of its pressure */
-  w->least = product / ((PetscReal)grid->nx * (PetscReal)grid->ny);
+  ((SamWear *)law->data)->least = product / ((PetscReal)grid->nx * (PetscReal)grid->ny);
   PetscCall(VecDestroy(&u));
   PetscCall(VecDestroy(&p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWearGetLimit(SamWear w, PetscReal most, PetscReal *times)
+PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times)
 {
+  const SamWear  *w     = (const SamWear *)law->data;
   const PetscReal wears = most * (w->coefficient[0] + w->coefficient[1]);
 
   PetscFunctionBegin;
-  if (w->least == 0) PetscCall(FindLeast(w));
+  if (w->least == 0) PetscCall(FindLeast(law));
   *times = wears > 0 ? 2 * w->least / wears : PETSC_INFINITY;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWearGetUnit(SamWear w, PetscReal friction_scale, Vec unit)
+PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess)
 {
+  const PetscBool by_energy = ((const SamWear *)law->data)->by_energy;
+  const double   *p, *slip, *wears, *one;
+  double          most = 0;
+  PetscReal       times;
+  Vec             unit, path, worn;
+
   PetscFunctionBegin;
+  PetscCall(SamLawStepGetFriction(step, &path, by_energy ? NULL : &worn, by_energy ? &worn : NULL));
+  PetscCall(SamGridCreateVec(law->grid, 1, &unit));
   PetscCall(VecSet(unit, 1));
-  if (w->law == SAM_WEAR_ENERGY) PetscCall(SamProblemComputeBound(w->problem, friction_scale, unit, unit));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearGetExcess(SamWear w, PetscReal *excess)
-{
-  const SamSolution *s;
-  const double      *p, *slip, *worn, *one;
-  double             most = 0;
-  PetscReal          times;
-  Vec                unit;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetSolution(w->contact, &s));
-  PetscCall(SamGridCreateVec(w->grid, 1, &unit));
-  PetscCall(SamWearGetUnit(w, s->control.friction_scale, unit));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(w->slip, &slip));
-  PetscCall(VecGetArrayRead(w->step, &worn));
+  if (by_energy) PetscCall(SamLawStepGetSlope(step, unit));
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  PetscCall(VecGetArrayRead(path, &slip));
+  PetscCall(VecGetArrayRead(worn, &wears));
   PetscCall(VecGetArrayRead(unit, &one));
-  for (PetscInt k = 0; k < w->grid->cells; k++)
-    if (p[k] > 0 && worn[k] > 0) most = PetscMax(most, one[k] * slip[k]);
+  for (PetscInt k = 0; k < law->grid->cells; k++)
+    if (p[k] > 0 && fabs(wears[k]) > 0) most = PetscMax(most, one[k] * slip[k]);
   PetscCall(VecRestoreArrayRead(unit, &one));
-  PetscCall(VecRestoreArrayRead(w->step, &worn));
-  PetscCall(VecRestoreArrayRead(w->slip, &slip));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(VecRestoreArrayRead(worn, &wears));
+  PetscCall(VecRestoreArrayRead(path, &slip));
+  PetscCall(VecRestoreArrayRead(step->pressure, &p));
   PetscCall(VecDestroy(&unit));
-  PetscCall(SamMax(w->grid->comm, 1, &most));
-  PetscCall(SamWearGetLimit(w, (PetscReal)most, &times));
+  PetscCall(SamMax(law->grid->comm, 1, &most));
+  PetscCall(SamWearGetLimit(law, (PetscReal)most, &times));
   *excess = 1 / times;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,130 +1,241 @@
-/* The wear of two bodies: laws, depths, and the gap that follows. */
+/* The laws of wear: what they remember, the separation that follows, and how they advance in a step. */
 #include "wearimpl.h"
 
-PetscErrorCode SamWearCreate(SamContact contact, SamWearLaw law, const PetscReal coefficient[2], SamWear *wear)
+PetscBool SamLawIsWear(SamLaw law)
 {
-  SamWear w;
-  SamGrid grid;
-  Vec     gap;
+  return !strcmp(law->type, SAM_LAW_ARCHARD) || !strcmp(law->type, SAM_LAW_ENERGY);
+}
+
+PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
+{
+  SamWear *const w = (SamWear *)law->data;
 
   PetscFunctionBegin;
-  PetscCall(SamInitialize());
-  PetscCall(SamContactGetGrid(contact, &grid));
+  PetscCheck(SamLawIsWear(law), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no coefficients of wear",
+             law->type);
   for (int body = 0; body < 2; body++)
-    PetscCheck(coefficient[body] >= 0 && isfinite(coefficient[body]), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    PetscCheck(coefficient[body] >= 0 && isfinite(coefficient[body]), law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                "wear coefficient %g of body %d: expected a finite number >= 0", (double)coefficient[body], body + 1);
-  PetscCall(PetscNew(&w));
-  PetscCall(SamContactGetProblem(contact, &w->problem));
-  PetscCall(SamProblemReference(w->problem));
   PetscCall(PetscArraycpy(w->coefficient, coefficient, 2));
-  w->grid    = grid;
-  w->contact = contact;
-  w->law     = law;
-  PetscCall(SamGridCreateVec(w->grid, 1, &w->unworn));
-  PetscCall(SamGridCreateVec(w->grid, 1, &w->load));
-  PetscCall(SamGridCreateVec(w->grid, 1, &w->cycle));
-  PetscCall(SamGridCreateVec(w->grid, 1, &w->path));
-  PetscCall(SamGridCreateVec(w->grid, 1, &w->step));
-  PetscCall(SamGridCreateVec(w->grid, 1, &w->slip));
-  PetscCall(SamProblemGetGap(w->problem, &gap));
-  PetscCall(VecCopy(gap, w->unworn));
-  *wear = w;
+  law->revision++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWearDestroy(SamWear *wear)
+/* ---- options ---- */
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  SamWear w = *wear;
+  SamWear *const           w     = (SamWear *)law->data;
+  const char *const        other = w->by_energy ? "wear_coefficient" : "wear_energy",
+                    *const text  = w->by_energy ? "wear by energy, depth = alpha |q.ds|: alpha (m3/J)"
+                                                : "Archard's wear, depth = k p |ds|: k (1/Pa)";
+  PetscBool                given = PETSC_FALSE;
 
   PetscFunctionBegin;
-  *wear = NULL;
-  if (!w) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecDestroy(&w->unworn));
-  PetscCall(VecDestroy(&w->load));
-  PetscCall(VecDestroy(&w->cycle));
-  PetscCall(VecDestroy(&w->path));
-  PetscCall(VecDestroy(&w->step));
-  PetscCall(VecDestroy(&w->slip));
-  PetscCall(SamProblemDestroy(&w->problem));
-  PetscCall(PetscFree(w));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearCountStep(SamWear w)
-{
-  PetscFunctionBegin;
-  PetscCall(SamContactComputeFriction(w->contact, w->slip, w->law == SAM_WEAR_ARCHARD ? w->step : NULL,
-                                      w->law == SAM_WEAR_ENERGY ? w->step : NULL));
-  PetscCall(VecAbs(w->step));
-  PetscCall(VecAXPY(w->cycle, 1, w->step));
-  PetscCall(VecAXPY(w->path, 1, w->slip));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearSetGap(SamWear w, Vec load)
-{
-  Vec gap;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemGetGap(w->problem, &gap));
-  PetscCall(VecWAXPY(gap, w->coefficient[0] + w->coefficient[1], load, w->unworn));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearApply(SamWear w, PetscReal times)
-{
-  PetscFunctionBegin;
-  PetscCall(VecAXPY(w->load, times, w->cycle));
-  PetscCall(VecSet(w->cycle, 0));
-  PetscCall(VecSet(w->path, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearMoveGap(SamWear w)
-{
-  PetscFunctionBegin;
-  PetscCall(SamWearSetGap(w, w->load));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearGetLoad(SamWear w, Vec load)
-{
-  PetscFunctionBegin;
-  PetscCall(SamGridCheckVec(w->grid, 1, load, "The wear load"));
-  PetscCall(VecCopy(w->load, load));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearSetLoad(SamWear w, Vec load)
-{
-  PetscFunctionBegin;
-  PetscCall(SamGridCheckVec(w->grid, 1, load, "The wear load"));
-  PetscCall(VecCopy(load, w->load));
-  PetscCall(SamWearMoveGap(w));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearGetDepth(SamWear w, PetscInt body, Vec depth)
-{
-  PetscFunctionBegin;
-  PetscCheck(body == 0 || body == 1, w->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": expected 0 or 1",
-             body);
-  PetscCall(SamGridCheckVec(w->grid, 1, depth, "The depth"));
-  PetscCall(VecCopy(w->load, depth));
-  PetscCall(VecScale(depth, w->coefficient[body]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamWearGetVolumes(SamWear w, PetscReal volume[2], PetscReal depth[2])
-{
-  PetscReal sum, most;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridNorm(w->grid, w->load, NORM_1, &sum)); /* it is never negative */
-  PetscCall(VecMax(w->load, NULL, &most));
+  if (!w->by_energy) PetscCall(SamOptionsHeading(from, "Wear"));
   for (int body = 0; body < 2; body++) {
-    volume[body] = w->coefficient[body] * sum * w->grid->dx * w->grid->dy;
+    char      option[32], help[96];
+    PetscBool set, both;
+
+    PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", law->option, body + 1));
+    PetscCall(PetscSNPrintf(help, sizeof(help), "%s of body %d", text, body + 1));
+    PetscCall(SamOptionsReal(from, option, help, SAM_RANGE_NONNEGATIVE, &w->coefficient[body], &set));
+    if (set) given = PETSC_TRUE;
+    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s%d", other, body + 1));
+    PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &both));
+    PetscCheck(!given || !both, from->comm, SAM_ERR_USER,
+               "-wear_coefficient1 or 2 and -wear_energy1 or 2 are given: a run has one law of wear");
+  }
+  *asked = w->coefficient[0] + w->coefficient[1] > 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
+{
+  const SamWear *w = (const SamWear *)law->data;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddText(p, "wear", PETSC_TRUE, w->jumps ? "cycles" : "steps"));
+  for (int body = 0; body < 2; body++) {
+    char option[32];
+
+    PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", law->option, body + 1));
+    PetscCall(SamParametersAddReals(p, option, PETSC_TRUE, 1, &w->coefficient[body]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what is remembered ---- */
+
+static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, Vec depth)
+{
+  const SamLaw law  = (SamLaw)owner;
+  const Vec    load = SamStateReadField(state, SamStateFindField(state, SAM_WEAR_LOAD));
+
+  PetscFunctionBegin;
+  if (load)
+    PetscCall(VecCopy(load, depth));
+  else
+    PetscCall(VecSet(depth, 0));
+  PetscCall(VecScale(depth, ((const SamWear *)law->data)->coefficient[body]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  static const SamStateField load      = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 2, .kept = PETSC_TRUE},
+                             cycle     = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
+                             path      = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
+  static const SamStateNumber number[] = {
+    {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
+    {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
+    {"wear_excess", "1", "wear of the step over its stable limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE}};
+  SamStateResult depth[2] = {
+    {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
+    {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateDeclareField(state, &load, &id));
+  PetscCall(SamStateDeclareField(state, &cycle, &id));
+  PetscCall(SamStateDeclareField(state, &path, &id));
+  for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareNumber(state, &number[k], &id));
+  for (int k = 0; k < 2; k++) PetscCall(SamStateOffer(state, &depth[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What a step wears opens the gap from the next step on, so that the tried generation has no part in it. */
+static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
+{
+  const SamWear *w    = (const SamWear *)law->data;
+  const double   k    = w->coefficient[0] + w->coefficient[1];
+  const PetscInt id   = SamStateFindField(state, SAM_WEAR_LOAD);
+  const Vec      load = id < 0 ? NULL : SamStateGetField(state, id, SAM_COMMITTED);
+  const double  *worn;
+  double        *to;
+
+  PetscFunctionBegin;
+  (void)generation;
+  if (!load) PetscFunctionReturn(PETSC_SUCCESS);
+  *adds = PETSC_TRUE;
+  if (!h) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(load, &worn));
+  PetscCall(VecGetArray(h, &to));
+  for (PetscInt i = 0; i < law->grid->cells; i++) to[i] = k * worn[i] + to[i];
+  PetscCall(VecRestoreArray(h, &to));
+  PetscCall(VecRestoreArrayRead(load, &worn));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], PetscReal depth[2])
+{
+  const SamWear *w   = (const SamWear *)law->data;
+  PetscReal      sum = 0, most = 0;
+
+  PetscFunctionBegin;
+  if (load) PetscCall(SamGridNorm(law->grid, load, NORM_1, &sum)); /* it is never negative */
+  if (load) PetscCall(VecMax(load, NULL, &most));
+  for (int body = 0; body < 2; body++) {
+    volume[body] = w->coefficient[body] * sum * law->grid->dx * law->grid->dy;
     depth[body]  = w->coefficient[body] * most;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a step ---- */
+
+/* A field grows by what the step adds to it. */
+static PetscErrorCode Grow(SamState state, const char name[], Vec more)
+{
+  const PetscInt id   = SamStateFindField(state, name);
+  const Vec      from = SamStateGetField(state, id, SAM_COMMITTED);
+  Vec            to;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateSetField(state, id, &to));
+  PetscCall(VecCopy(more, to));
+  if (from) PetscCall(VecAXPY(to, 1, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  const SamWear *w = (const SamWear *)law->data;
+  PetscReal      depth[2];
+  double        *numbers;
+  Vec            path, worn, load;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawStepGetFriction(step, &path, w->by_energy ? NULL : &worn, w->by_energy ? &worn : NULL));
+  PetscCall(SamGridCreateVec(step->grid, 1, &load));
+  PetscCall(VecCopy(worn, load));
+  PetscCall(VecAbs(load));
+  PetscCall(Grow(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
+  if (w->jumps) PetscCall(Grow(step->state, SAM_WEAR_PATH, path));
+  PetscCall(VecDestroy(&load));
+  load    = SamStateReadField(step->state, SamStateFindField(step->state, SAM_WEAR_LOAD));
+  numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "wear_volume1"), SAM_TRIED);
+  PetscCall(SamWearGetVolumes(law, load, numbers, depth));
+  if (w->jumps) PetscFunctionReturn(PETSC_SUCCESS);
+  step->moves = PETSC_TRUE;
+  PetscCall(SamWearGetExcess(law, step, &numbers[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t size)
+{
+  const double excess = *SamStateReadNumbers(state, SamStateFindNumber(state, "wear_excess"));
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (((const SamWear *)law->data)->jumps || !(excess > 1)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(
+    PetscSNPrintf(text, size,
+                  "wear is %.2g times the limit of a step, 1.16 (p/E*) h, h the cell width; the pressure becomes "
+                  "uneven from cell to cell, and wrong: use that many times more steps, or check the unit of the "
+                  "coefficient, 1/Pa or m3/J",
+                  excess));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(law->data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
+{
+  SamWear *w;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&w));
+  w->by_energy            = by_energy;
+  law->data               = w;
+  law->option             = by_energy ? "wear_energy" : "wear_coefficient";
+  law->needs_friction     = PETSC_TRUE;
+  law->bytes              = 48;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.addparameters  = AddParameters;
+  law->ops.declare        = Declare;
+  law->ops.separation     = Separation;
+  law->ops.advance        = Advance;
+  law->ops.advise         = Advise;
+  law->ops.destroy        = Destroy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Archard(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(Create(law, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Energy(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(Create(law, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,32 +1,39 @@
-/* The inside of SamWear, for what jumps over cycles. */
+/* The inside of the laws of wear, for cycle jumps. */
 #ifndef PETSAM_WEARIMPL_H
 #define PETSAM_WEARIMPL_H
 
-#include <petsam/private/baseimpl.h>
+#include <petsam/private/lawimpl.h>
 #include <petsam/wear.h>
 
-struct _n_SamWear {
-  SamContact contact; /* borrowed */
-  SamProblem problem;
-  SamGrid    grid; /* borrowed */
-  SamWearLaw law;
-  PetscReal  coefficient[2]; /* of the bodies: 1/Pa, or m3/J */
-  Vec        unworn;         /* gap without wear, m */
-  Vec        load;           /* wear load that has been applied, Pa m or J/m2 */
-  Vec        cycle;          /* wear load of the cycle so far */
-  Vec        path;           /* length of the slip in the cycle so far, m, outside of the contact too */
-  Vec        step, slip;     /* wear load and length of slip of the step that was counted last */
-  PetscReal  least;          /* smallest eigenvalue of the normal influence, m/Pa; 0: not known yet */
-};
+/* What the laws remember: the wear load that has been removed; in a life that of the cycle so far, and its slip. */
+#define SAM_WEAR_LOAD  "wear_load"
+#define SAM_WEAR_CYCLE "wear_cycle_load"
+#define SAM_WEAR_PATH  "wear_cycle_path"
 
-/* SamWearSetGap - makes the problem's gap that of the unworn bodies and a wear load. Collective. */
-PETSC_INTERN PetscErrorCode SamWearSetGap(SamWear wear, Vec load);
+/* The data of a law of wear. */
+typedef struct {
+  PetscReal coefficient[2]; /* of the bodies: 1/Pa, or m3/J */
+  PetscReal least;          /* smallest eigenvalue of the normal influence, m/Pa; 0: not known yet */
+  PetscBool by_energy;      /* wear load |q . ds|; else p |ds| */
+  PetscBool jumps;          /* steps add to the wear load of the cycle; it is removed by cycle jumps */
+} SamWear;
+
+/* SamLawIsWear - whether a law is of these types. Not collective. */
+PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
 /*
   SamWearGetLimit - how many times a wear load of `most` per pressure (m) may be removed at once with explicit wear
   (limit.c); infinite without wear. Collective.
 */
-PETSC_INTERN PetscErrorCode SamWearGetLimit(SamWear wear, PetscReal most, PetscReal *times);
-/* SamWearGetUnit - the wear load of a unit of path per pressure: 1, or the coefficient of friction. Collective. */
-PETSC_INTERN PetscErrorCode SamWearGetUnit(SamWear wear, PetscReal friction_scale, Vec unit);
+PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times);
+/*
+  SamWearGetExcess - what a step wears, over the most that a step may wear: above 1 the pressure of the steps to come is
+  uneven from cell to cell, and wrong. That limit is a depth of 1.16 (p/E*) h of half-spaces, h being the width of
+  square cells. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess);
+/*
+  SamWearGetVolumes - the volumes (m3) that a wear load removes of both bodies, and the maximum depths (m). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], PetscReal depth[2]);
 
 #endif

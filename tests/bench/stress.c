@@ -10,7 +10,7 @@
   pairs times the measured time of one pair. Memory: what a map needs, bytes a cell (of the first size).
 */
 #include <petsam/fatigue.h>
-#include <petsam/fourier.h>
+#include <petsam/private/halfspace.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,7 +99,7 @@ static PetscErrorCode TimeMap(SamGrid grid, PetscInt repeats, double *first, dou
 
   PetscFunctionBegin;
   (void)getrusage(RUSAGE_SELF, &before);
-  PetscCall(SamStressCreate(grid, NULL, 2, POISSON, &stress));
+  PetscCall(SamHalfSpaceCreateStress(grid, NULL, 2, 1, POISSON, &stress));
   PetscCall(SamGridCreateVec(grid, SAM_STRESS_COMPONENTS, &field));
   for (PetscInt k = -1; k < repeats; k++)
     for (int step = 0; step < 2; step++) {
@@ -128,6 +128,7 @@ static PetscErrorCode ComputeSection(SamGrid grid, PetscInt depths, PetscInt sta
   const double start  = MPI_Wtime();
   double       waited = 0, *a;
   PetscReal   *depth;
+  SamStress    body;
   SamSection   section;
   Vec          tractions;
 
@@ -135,7 +136,8 @@ static PetscErrorCode ComputeSection(SamGrid grid, PetscInt depths, PetscInt sta
   PetscCall(PetscMalloc1(depths, &depth));
   for (PetscInt k = 0; k < depths; k++) depth[k] = 1.5 * (double)k / (double)PetscMax(depths - 1, 1);
   PetscCall(SamGridCreateVec(grid, SAM_STRESS_TRACTIONS, &tractions));
-  PetscCall(SamSectionCreate(grid, 2, POISSON, SAM_SECTION_X, grid->ny / 2, depths, depth, &section));
+  PetscCall(SamHalfSpaceCreateStress(grid, NULL, 2, 1, POISSON, &body));
+  PetscCall(SamSectionCreate(body, SAM_SECTION_X, grid->ny / 2, depths, depth, &section));
   for (PetscInt s = 0; s < states; s++) {
     const double now = MPI_Wtime();
 
@@ -148,6 +150,7 @@ static PetscErrorCode ComputeSection(SamGrid grid, PetscInt depths, PetscInt sta
   PetscCall(SamSectionCompute(section, stress));
   *seconds = MPI_Wtime() - start - waited;
   PetscCall(SamSectionDestroy(&section));
+  PetscCall(SamStressDestroy(&body));
   PetscCall(VecDestroy(&tractions));
   PetscCall(PetscFree(depth));
   PetscFunctionReturn(0);
@@ -198,7 +201,7 @@ static double TimePair(void)
   PetscReal       stress[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS];
 
   for (int k = 0; k < PAIRS; k++)
-    SamStressCell(side, POISSON, (const PetscReal[]){k % 200, (k / 200) % 200, 20}, stress);
+    SamHalfSpaceStressCell(side, POISSON, (const PetscReal[]){k % 200, (k / 200) % 200, 20}, stress);
   return (MPI_Wtime() - start) / PAIRS;
 }
 

@@ -56,7 +56,6 @@ def is_closed(path):
 DISSIMILAR = dict(CASE, grid_size=6e-3, body2_young=9e9, body2_poisson=0.4, friction=0.3)
 CONSTANT = dict(CASE, load_n=1000.0), "time, load_tx", lambda k: (60 * np.sin(k / 5),)
 CORRECTED = dict(CASE, friction=0, edges="deferred"), "time, load_n", lambda k: (1000 + 20 * np.sin(k / 7),)
-TURNING = dict(CASE, grid_n=48, load_n=1000.0, edges="deferred"), "time, load_tx", lambda k: (70 * np.sin(k / 2),)
 HELD = dict(CORRECTED[0], load_n=1000.0), "time, disp_x", lambda k: (1e-8 * k,)
 ROLLING = (
     dict(CASE, grid_n=64, grid_size=4e-3, load_n=300.0),
@@ -74,8 +73,8 @@ def write(folder, header, values):
 @pytest.mark.parametrize("ranks", [1, 2, 3])
 @pytest.mark.parametrize(
     "case",
-    [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING, CORRECTED, HELD, TURNING],
-    ids=["similar", "dissimilar", "constant", "rolling", "corrected", "corrected and held", "corrected and turning"],
+    [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING, CORRECTED, HELD],
+    ids=["similar", "dissimilar", "constant", "rolling", "corrected", "corrected and held"],
 )
 def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
     """To the last bit, which asks for all of the state: what is lost of it shows at the solvers' tolerance."""
@@ -109,11 +108,11 @@ def test_longer_history_goes_on(folder, petsam):
     assert not differences(folder / "out.h5", folder / "whole.h5")
 
 
-def test_run_that_was_at_its_end_is_left_as_it_is(folder, petsam):
+def test_run_that_was_at_its_end_stays_as_it_is(folder, petsam):
     petsam(CASE, KEPT, dict(checkpoint_every=STEPS))
-    before = (folder / "out.h5").stat().st_ino
+    shutil.copy(folder / "out.h5", folder / "whole.h5")
     petsam(CASE, ON)
-    assert steps(folder / "out.h5") == STEPS and (folder / "out.h5").stat().st_ino == before
+    assert not differences(folder / "out.h5", folder / "whole.h5")
 
 
 def test_run_goes_on_without_results(stopped, petsam):
@@ -158,12 +157,13 @@ def test_steps_after_the_checkpoint_are_solved_once_more(folder, petsam, ranks, 
         assert xdmf.read().count("<Time ") == (STEPS if every == 1 else 5)
 
 
-def test_results_that_were_closed_go_on_in_place(folder, launcher, petsam):
-    """They may be larger than the disk can hold twice."""
+def test_results_go_on_in_a_copy(folder, launcher, petsam):
+    """The old file is complete until the new one takes its name: another name of it still shows what it held."""
     stop_by_signal(launcher, folder, 1)
-    before = (folder / "out.h5").stat().st_ino
+    last = progress(folder / "state.h5")
+    os.link(folder / "out.h5", folder / "old.h5")
     petsam(CASE, ON)
-    assert (folder / "out.h5").stat().st_ino == before and steps(folder / "out.h5") == STEPS
+    assert steps(folder / "old.h5") == last and steps(folder / "out.h5") == STEPS
 
 
 @pytest.mark.parametrize(
@@ -432,7 +432,7 @@ def mixed(x):
     return x ^ x >> 33
 
 
-def sealed(path, version=6):
+def sealed(path, version=7):
     """The seal that a file should have, as the manual describes it: hashed by blocks, whose hashes are added."""
     data, block, total = path.read_bytes(), 1 << 20, 0
     for place, first in enumerate(range(512, len(data), block)):
@@ -458,7 +458,7 @@ def test_checkpoint_of_another_version_is_refused(stopped, petsam):
     path.write_bytes(sealed(path) + path.read_bytes()[512:])
     done = petsam(CASE, ON, check=2)
     assert "petsam" in done.complaint[0] and "written by petsam 0.0.9" in done.complaint[0]
-    path.write_bytes(sealed(path, 7) + path.read_bytes()[512:])
+    path.write_bytes(sealed(path, 8) + path.read_bytes()[512:])
     done = petsam(CASE, ON, check=3)
     assert "written by another version of petsam" in done.complaint[0] and "state.h5.1" in done.complaint[0]
 

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import FIELDS, LOADS, RIGID, SPHERE, assert_same, ball, slide_limit
+from support import FIELDS, LOADS, RIGID, SPHERE, assert_same, ball
 
 CASE = dict(
     ball(),
@@ -301,10 +301,7 @@ def test_reason_of_failure_is_printed(petsam, solver):
     assert re.search(rf"^The {solver} solve did not converge due to \w+", done.stdout, re.M)
 
 
-@pytest.mark.parametrize(
-    "solver, kind",
-    [("normal", "polonskykeer"), ("tangential", "gradient"), ("normal", "activeset"), ("tangential", "newton")],
-)
+@pytest.mark.parametrize("solver, kind", [("normal", "activeset"), ("tangential", "newton")])
 def test_view_prints_the_settings(petsam, solver, kind):
     done = petsam(ball(40), f"-{solver}_view", f"-{solver}_type", kind, f"-{solver}_rtol", "3e-7")
     assert re.search(rf"{solver} problem: type {kind}\n.*rtol 3e-07", done.stdout)
@@ -339,9 +336,7 @@ def test_log_view_goes_to_xml(petsam, tmp_path):
         ({}, 0),
         (dict(stiffness=True), 0),
         (dict(edges="deferred", friction=0.0, load_tx=0.0), 0),
-        (dict(edges="deferred"), 0),
         (dict(body2_young=9e9, load_n=20.0, load_my=0.0, load_tx=2.0), 0),
-        (dict(ball(40), normal_type="polonskykeer", tangential_type="gradient", load_my=None, grid_center=None), 0),
         (dict(load_tx=900.0), 11),
         (dict(load_my=9.0), 11),
         (dict(grid_size=5e-4), 12),
@@ -367,47 +362,7 @@ def test_known_petsc_options_are_taken(petsam):
     petsam(CASE, "-options_left", "-log_view_memory", "-memory_view", "-options_view", "-malloc_view")
 
 
-# ---- the other solvers
-
-FORCE, TORQUE = slide_limit(ball())
-
-
-@pytest.mark.parametrize(
-    "load",
-    [
-        {},
-        dict(load_tx=0.5 * FORCE),
-        dict(load_mz=0.5 * TORQUE),
-        dict(rot_x=1e-4, rot_y=2e-4),
-        dict(load_my=0.02),
-        dict(grid_center=(1e-4, -5e-5)),
-        dict(rot_x=0.0, rot_y=0.0, grid_center=(1e-4, -5e-5)),
-    ],
-    ids=str,
-)
-def test_polonsky_and_keer_agree_with_the_active_set(solve, load):
-    case = dict(ball(80), **load)
-    # 1e-8 in u; p is its derivative over a cell
-    assert_same(solve(dict(case, normal_type="polonskykeer")), solve(case), 1e-5, ("pressure", "gap", "displacement_z"))
-
-
-@pytest.mark.parametrize(
-    "load",
-    [
-        dict(load_tx=0.5 * FORCE),
-        dict(load_tx=0.9 * FORCE),
-        dict(load_mz=0.8 * TORQUE),
-        dict(load_tx=0.4 * FORCE, load_mz=0.4 * TORQUE),
-        dict(disp_x=1e-6),
-    ],
-    ids=str,
-)
-def test_gradient_agrees_with_newton(solve, load):
-    case = dict(ball(80), **load)
-    # 1e-6 in the residual of the shear, which bounds its error up to the condition of the contact's stiffness
-    assert_same(
-        solve(dict(case, tangential_type="gradient")), solve(case), 1e-4, ("shear_x", "shear_y", "slip_x", "slip_y")
-    )
+# ---- settings that leave the solution as it is
 
 
 def test_levels_do_not_change_the_answer(solve):

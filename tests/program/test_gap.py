@@ -47,6 +47,39 @@ def test_file_may_store_in_other_ways(solve, tmp_path, more):
     assert_same(solve(case), solve(BASE), 1e-4 if more.get("dtype") == "f4" else 1e-9)  # float32 has 6e-8 of h
 
 
+@pytest.mark.parametrize("tells", ["size", "axes", "cells"])
+def test_file_alone_is_enough(solve, tmp_path, tells):
+    """What the file says of its grid is as if it stood on the command line, to the last bit."""
+    x, y = cells()
+    gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"])
+    with h5py.File(gap, "a") as f:
+        if tells == "size":
+            f["height"].attrs["size"] = BASE["grid_size"]
+        if tells == "axes":
+            f["x"], f["y"] = x[0] * 1e3, y[:, 0] * 1e3
+            f["x"].attrs["units"] = f["y"].attrs["units"] = "mm"
+    case = dict(FILE, gap_file=gap)
+    alone = dict(case, gap_type=None, grid_n=None, grid_size=case["grid_size"] if tells == "cells" else None)
+    assert_same(solve(alone), solve(case), 0)
+
+
+@pytest.mark.parametrize("shape", [(0, 0), (1, 5), (5, 1), (6, 0)])
+def test_file_of_less_than_two_rows_or_columns_is_refused(petsam, tmp_path, shape):
+    with h5py.File(tmp_path / "gap.h5", "w") as f:
+        for name, data in (("height", np.zeros(shape)), ("x", np.zeros(shape[1])), ("y", np.zeros(shape[0]))):
+            f.create_dataset(name, data=data).attrs["units"] = "m"
+    line = petsam(dict(FILE, gap_type=None, grid_n=None, grid_size=None), check=3).complaint[0]
+    assert f"/height has shape ({shape[0]}, {shape[1]}), expected 2 or more of each" in line
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_file_that_does_not_tell_its_size_is_named(petsam, tmp_path, ranks):
+    write(tmp_path / "gap.h5", np.zeros((71, 84)))
+    case = dict(FILE, gap_type=None, grid_n=None, grid_size=None)
+    (line,) = [line for line in petsam(case, check=2, ranks=ranks).complaint if "-grid_size" in line]
+    assert "-grid_size is missing: -gap_file gap.h5 records no size of /height" in line
+
+
 def test_constant_in_file_is_approach(solve, tmp_path):
     x, y = cells()
     gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"] + 1e-6)

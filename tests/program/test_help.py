@@ -143,7 +143,7 @@ def test_json_has_the_words_of_options(ask):
     expected = {
         "petsam": {
             "-gap_type": "ellipsoid file flat punch sphere",
-            "-tangential_type": "gradient newton",
+            "-tangential_type": "newton",
             "-elasticity": "halfspace periodic",
             "-edges": "none reconstruct deferred",
             "-grid_n": "",

@@ -113,20 +113,40 @@ def library_flags(prefix, kind):
     return [str(prefix / "lib/libpetsam.a") if flag == "-lpetsam" else flag for flag in flags] + rpath
 
 
-@pytest.mark.parametrize("kind", ["shared", "static"])
+# the same in C++, with every header that is installed
+CPP = """
+#include <petsam.h>
+#include <petsam/embed.h>
+{headers}
+#if !(SAM_VERSION_GE({version}) && SAM_VERSION_EQ({version}) && !SAM_VERSION_LT({version}) && SAM_VERSION_GT(0, 0, 999))
+#error SAM_VERSION
+#endif
+#include "{source}"
+"""
+
+
+@pytest.mark.parametrize("kind", ["shared", "static", "C++"])
 def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, launcher, kind):
     """examples/library/contact.c, with nothing of the sources in reach."""
     source = prefix / "share/petsam/examples/library/contact.c"
+    compiler = ["mpicc", "-std=c11"]
+    if kind == "C++":
+        headers = "\n".join(
+            f"#include <{path.relative_to(prefix / 'include')}>" for path in prefix.rglob("include/**/*.h")
+        )
+        version = (prefix / "lib/libpetsam.so").resolve().name.split(".so.")[1].replace(".", ", ")
+        text = CPP.format(headers=headers, version=version, source=source)
+        compiler, source = ["mpicxx", "-std=c++11"], tmp_path / "contact.cpp"
+        source.write_text(text)
     command = [
-        "mpicc",
-        "-std=c11",
+        *compiler,
         "-Wall",
         "-Werror",
         str(source),
         "-o",
         str(tmp_path / "contact"),
         *pkg_config(prefix, "--cflags"),
-        *library_flags(prefix, kind),
+        *library_flags(prefix, "static" if kind == "static" else "shared"),
     ]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -141,6 +161,25 @@ def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, lau
         # the grid's error at 256 cells; that of the tangential displacement against the program's own
         assert float(approach) == pytest.approx(hertz.approach, rel=1e-4)
         assert float(tangential) == pytest.approx(4.16312e-7, rel=1e-4)
+
+
+def test_programs_need_the_library_by_the_version_of_its_interface(prefix):
+    """libpetsam.so is for the linker; programs that were linked with another interface do not find their own."""
+    name = re.search(
+        r"SONAME +(\S+)",
+        subprocess.run(["objdump", "-p", prefix / "lib/libpetsam.so"], capture_output=True, text=True).stdout,
+    )
+    version = re.search(r"^Version: (\d+)\.(\d+)", (prefix / "lib/pkgconfig/petsam.pc").read_text(), re.M)
+    assert name.group(1) == "libpetsam.so.{}.{}".format(*version.groups())
+    assert (prefix / "lib" / name.group(1)).resolve() == (prefix / "lib/libpetsam.so").resolve()
+
+
+def test_shared_library_exports_only_what_headers_declare(prefix):
+    done = subprocess.run(["nm", "-D", "--defined-only", prefix / "lib/libpetsam.so"], capture_output=True, text=True)
+    names = [line.split()[-1] for line in done.stdout.splitlines()]
+    text = "".join(path.read_text() for path in (prefix / "include").rglob("*.h"))
+    declared = set(re.findall(r"\b(?:Sam|petsam_)\w+", text))
+    assert len(names) > 200 and set(names) - declared == set()
 
 
 # ---- the examples

@@ -12,7 +12,9 @@ import pytest
 from conftest import PROGRAM, environment, make_install
 from support import ROOT, ball, words
 
-VERSION = re.search(r'PETSAM_VERSION "(.*)"', (ROOT / "include/petsam/base.h").read_text()).group(1)
+VERSION = ".".join(
+    re.findall(r"define SAM_VERSION_(?:MAJOR|MINOR|SUBMINOR) +(\d+)", (ROOT / "include/petsam/base.h").read_text())
+)
 MAKEFILE = (ROOT / "Makefile").read_text()
 
 

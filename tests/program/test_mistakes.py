@@ -107,9 +107,7 @@ MISTAKES = [
     mistake("life without a cycle", dict(wear_coefficient1=1e-14, wear_cycles=10), says=["-wear_cycles", "-history"]),
     mistake("stiffness without results", {}, "-stiffness", says=["-stiffness", "-output"]),
     mistake(
-        "correction of coupled bodies",
-        dict(edges="deferred", body2_young=70e9),
-        says=["-edges deferred", "-friction 0", "-coupling none"],
+        "correction with friction", dict(edges="deferred"), says=["-edges deferred", "-edges reconstruct", "friction"]
     ),
     mistake(
         "bulk stress of a rigid body", dict(body2_young="inf", bulk2_stress_xx=1e6), says=["-bulk2_stress_xx", "rigid"]

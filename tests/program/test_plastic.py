@@ -409,9 +409,11 @@ def test_depth_is_saved_with_a_limit_only(petsam, tmp_path):
     [
         (dict(pressure_limit=-1), ["pressure_limit"]),
         (dict(pressure_limit=0), ["pressure_limit"]),
-        (dict(normal_type="polonskykeer"), ["-pressure_limit", "-normal_type", "activeset"]),
-        (dict(edges="deferred", friction=0), ["-edges deferred", "-pressure_limit"]),
-        (dict(pressure_limit=None, output="o.h5", output_fields="plastic_depth"), ["plastic_depth", "-pressure_limit"]),
+        (dict(edges="deferred", friction=0), ["-edges deferred", "pressure limit", "-edges reconstruct"]),
+        (
+            dict(pressure_limit=None, output="o.h5", output_fields="plastic_depth"),
+            ["-output_fields", "unknown field plastic_depth"],
+        ),
     ],
 )
 def test_what_makes_no_sense_is_refused_by_name(petsam, tmp_path, options, words):

@@ -155,6 +155,9 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
         (dict(input="h.csv"), 3, "h.csv: cannot be read: it is not an HDF5 file"),
         (dict(input="other.h5"), 3, "other.h5: cannot be read: it lacks the attribute"),
         (dict(input="cut.h5"), 3, "cut.h5: cannot be read"),
+        (dict(input="periodic.h5"), 2, "-input periodic.h5: no stresses are known of bodies of type periodic"),
+        (dict(input="plate.h5"), 3, "-input plate.h5: cannot be read: its elasticity is of type plate"),
+        (dict(input="soft.h5"), 3, "-input soft.h5: cannot be read: body2_poisson 0.6"),
         (dict(output="c.h5"), 2, "-output c.h5"),
         (dict(log_view=":c.h5"), 2, "-log_view c.h5: would overwrite the file of -input"),
         (dict(output="h.csv"), 3, "not written"),
@@ -176,6 +179,14 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
 def test_bad_input_is_named(stress, contact, options, code, says):
     with h5py.File(contact / "other.h5", "w") as f:
         f["pressure"] = np.zeros((1, 4, 4))
+    for name, attribute, value in (
+        ("periodic", "elasticity", "periodic"),
+        ("plate", "elasticity", "plate"),
+        ("soft", "body2_poisson", 0.6),
+    ):
+        shutil.copy(contact / "c.h5", contact / f"{name}.h5")
+        with h5py.File(contact / f"{name}.h5", "r+") as f:
+            f.attrs[attribute] = value
     shutil.copy(contact / "c.h5", contact / "cut.h5")
     with open(contact / "cut.h5", "r+b") as f:
         f.truncate((contact / "c.h5").stat().st_size // 2)

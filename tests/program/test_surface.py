@@ -213,12 +213,12 @@ def test_nothing_but_missing_points(surface, tmp_path):
 
 
 def test_python_and_c_know_the_same_units():
-    text = (ROOT / "src/problem/lengths.c").read_text()
-    pairs = re.findall(r'\{"([^"]+)", ([\d.e-]+)\}', text.split("units[]")[1].split(";")[0])
-    assert {name.encode().decode("unicode_escape"): float(value) for name, value in pairs} == UNITS
-    header = (ROOT / "include/petsam/private/lengths.h").read_text()
-    assert f'"{KNOWN}"' in header and all(metres(name) for name in KNOWN.split(", "))
-    quantities = re.search(r'SAM_LENGTHS_QUANTITIES "(.*)"', header).group(1).split(", ")
+    text = (ROOT / "src/file/lengths.c").read_text()
+    pairs = re.findall(r'\{"([^"]+)", ([\d.e-]+)\}', text.split("} units[]")[1].split(";")[0])
+    names = {name: float(value) for words, value in pairs for name in words.encode().decode("unicode_escape").split()}
+    assert names == UNITS
+    assert f'UNITS "{KNOWN}"' in text and all(metres(name) for name in KNOWN.split(", "))
+    quantities = re.findall(r'\{"(\w+)", -?1\}', text.split("quantities[]")[1].split(";")[0])
     assert set(quantities) == set(maps.QUANTITIES)
 
 

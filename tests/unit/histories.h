@@ -4,7 +4,7 @@
 
 #include "fields.h"
 
-#include "../../src/app/history.h"
+#include <petsam/history.h>
 #include <unistd.h>
 
 static const char file[] = "test_history.csv";

@@ -35,12 +35,12 @@ static inline Outcome Solve(SamElasticity elasticity, Vec h, SamSolverType type,
   Outcome   o;
 
   sam_call(SamNormalCreate(elasticity, &normal));
-  if (type) sam_call(SamSolverSetType(normal, type));
-  if (rtol > 0) sam_call(SamSolverSetTolerances(normal, rtol, PETSC_DEFAULT));
+  if (type) sam_call(SamSolverSetType(SamNormalAsSolver(normal), type));
+  if (rtol > 0) sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), rtol, PETSC_DEFAULT));
   sam_call(SamNormalSolve(normal, h, balance, PETSC_FALSE, p));
-  sam_call(SamSolverGetReason(normal, &o.reason));
-  sam_call(SamSolverGetStatistics(normal, &o.error, &o.iterations, &o.applies, &o.preconditions));
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &o.reason));
+  sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), &o.error, &o.iterations, &o.applies, &o.preconditions));
+  sam_call(SamNormalDestroy(&normal));
   if (getenv("SAM_SHOW"))
     print_message("# %s %s error %g its %d S %d M %d\n", type ? type : "", SamSolverReasonName(o.reason), o.error,
                   (int)o.iterations, (int)o.applies, (int)o.preconditions);

@@ -1,4 +1,4 @@
-/* Results for the tests of src/io: a contact with prescribed fields, steps in a file, and reading them back. */
+/* Results for the tests of src/io: a contact with prescribed values, steps in a file, and reading them back. */
 #ifndef PETSAM_RESULTS_H
 #define PETSAM_RESULTS_H
 
@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <petsam/output.h>
+#include <petsam/state.h>
 
 /* Grids that do not divide, one with fewer rows than ranks, and one of several chunks that ranks share. */
 static const PetscInt sizes[][2] = {{13, 7}, {5, 2}, {1030, 259}};
@@ -73,25 +74,45 @@ static inline int StateValue(PetscInt i, PetscInt j)
 
 /* ---- writing ---- */
 
-/* A contact, and the fields of the solution that it is given. */
+/*
+  A contact that shows prescribed values. The fields are committed, the numbers of the step tried: so the rigid
+  displacements that the fields are computed with need not be those of the history.
+*/
 typedef struct {
   SamGrid       grid;
   SamElasticity elasticity;
   SamProblem    problem;
   SamContact    contact;
-  SamSolution   solution;
+  SamState      state; /* of the contact */
 } Shown;
 
-static inline void FillComponent(SamGrid grid, Vec vec, int component, int field, int step)
-{
-  PetscScalar *array;
-
-  sam_call(VecGetArray(vec, &array));
-  for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++)
-      array[component * grid->cells + j * grid->nx + i] = Value(field, step, i, grid->row_start + j);
-  sam_call(VecRestoreArray(vec, &array));
-}
+/* The columns of /history, all different; only the loads and the rigid displacements are missing. */
+static const struct {
+  const char *name, *units;
+  double      first; /* in the first step; grows by 1 in each */
+  int         whole;
+} columns[] = {{"time", "s", 0.5, 0},
+               {"contact_area", "m2", 20, 0},
+               {"stick_area", "m2", 30, 0},
+               {"normal_residual", "1", 1e-9, 0},
+               {"tangential_residual", "1", 2e-9, 0},
+               {"equilibrium_residual", "1", 3e-9, 0},
+               {"normal_iterations", "1", 50, 1},
+               {"normal_applies", "1", 60, 1},
+               {"normal_preconditions", "1", 70, 1},
+               {"tangential_iterations", "1", 80, 1},
+               {"tangential_applies", "1", 90, 1},
+               {"tangential_preconditions", "1", 110, 1},
+               {"coupling_iterations", "1", 120, 1},
+               {"contact_cells", "1", 130, 1},
+               {"stick_cells", "1", 140, 1},
+               {"edge_accepted", "1", 47, 0},
+               {"pressure_max", "Pa", 150, 0},
+               {"shear_max", "Pa", 160, 0},
+               {"stored_energy", "J", 45, 0},
+               {"dissipated_energy", "J", 40, 0}};
+enum { NUM_COLUMNS = sizeof(columns) / sizeof(columns[0]) };
+static const double statuses[STEPS] = {SAM_STATUS_CONVERGED, SAM_STATUS_EDGE_CONTACT, SAM_STATUS_CONVERGED};
 
 static inline Shown CreateShown(SamGrid grid)
 {
@@ -109,121 +130,131 @@ static inline Shown CreateShown(SamGrid grid)
     h[k] = (double)(grid->row_start + k / grid->nx) + 0.5 * (double)(k % grid->nx);
   sam_call(VecRestoreArray(gap, &h));
   sam_call(SamContactCreate(s.problem, &s.contact));
-  sam_call(SamControlInitialize(&s.solution.control));
-  s.solution.rigid[SAM_COMPONENT_N]  = moved[0];
-  s.solution.rigid[SAM_COMPONENT_TX] = moved[1];
-  s.solution.rigid[SAM_COMPONENT_TY] = moved[2];
-  s.solution.pressure                = NewField(grid, 1);
-  s.solution.bound                   = NewField(grid, 1);
-  s.solution.shear                   = NewField(grid, 2);
-  s.solution.displacement_z          = NewField(grid, 1);
-  s.solution.displacement_t          = NewField(grid, 2);
+  sam_call(SamContactGetState(s.contact, &s.state));
   return s;
-}
-
-static inline void SetShown(Shown *s)
-{
-  const SamContactState state = {.steps = 1, .now = s->solution};
-
-  sam_call(SamProblemComputeBound(s->problem, 1, s->solution.pressure, s->solution.bound));
-  sam_call(SamContactSetState(s->contact, &state));
-}
-
-static inline void Show(Shown *s, int step)
-{
-  FillComponent(s->grid, s->solution.pressure, 0, 0, step);
-  FillComponent(s->grid, s->solution.shear, 0, 1, step);
-  FillComponent(s->grid, s->solution.shear, 1, 2, step);
-  FillComponent(s->grid, s->solution.displacement_t, 0, 6, step);
-  FillComponent(s->grid, s->solution.displacement_t, 1, 7, step);
-  FillComponent(s->grid, s->solution.displacement_z, 0, 8, step);
-  SetShown(s);
 }
 
 static inline void DestroyShown(Shown *s)
 {
-  sam_call(VecDestroy(&s->solution.pressure));
-  sam_call(VecDestroy(&s->solution.bound));
-  sam_call(VecDestroy(&s->solution.shear));
-  sam_call(VecDestroy(&s->solution.displacement_z));
-  sam_call(VecDestroy(&s->solution.displacement_t));
   sam_call(SamContactDestroy(&s->contact));
   sam_call(SamProblemDestroy(&s->problem));
   sam_call(SamElasticityDestroy(&s->elasticity));
 }
 
-/* Numbers of a step, all different. */
-static inline SamStep MakeStep(int step)
+/* A committed field of a state, to be written to. */
+static inline Vec FieldOf(SamState state, const char *name)
 {
-  SamStep s = {.control           = {.time = 0.5 + step, .friction_scale = 10 + step},
-               .contact_area      = 20 + step,
-               .stick_area        = 30 + step,
-               .status            = step == 1 ? SAM_STATUS_EDGE_CONTACT : SAM_STATUS_CONVERGED,
-               .dissipated_energy = 40 + step,
-               .stored_energy     = 45 + step,
-               .edge_accepted     = 47 + step,
-               .pressure_max      = 150 + step,
-               .shear_max         = 160 + step,
-               .contact_cells     = 130 + step,
-               .stick_cells       = 140 + step};
+  Vec field;
 
-  for (int n = 0; n < 6; n++) s.control.bulk_stress[n / 3][n % 3] = 100 * (n + 1) + step;
+  sam_call(SamStateRestoreField(state, SamStateFindField(state, name), SAM_COMMITTED, &field));
+  return field;
+}
+
+/* Sets a number of the tried step, unless the state does not have it. */
+static inline void PutNumber(const Shown *s, const char *name, double value)
+{
+  const PetscInt id = SamStateFindNumber(s->state, name);
+
+  if (id >= 0) *SamStateNumbers(s->state, id, SAM_TRIED) = value;
+}
+
+static inline void PutNumbers(const Shown *s, int step)
+{
+  sam_call(SamStateBegin(s->state));
+  for (int c = 0; c < NUM_COLUMNS; c++) PutNumber(s, columns[c].name, columns[c].first + step);
+  PutNumber(s, "status", statuses[step]);
+  PutNumber(s, "friction_scale", 10 + step);
+  for (int n = 0; n < 6; n++) PutNumber(s, SamBulkNames[n / 3][n % 3].name, 100 * (n + 1) + step);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    s.load[k]  = 1000 + 10 * (double)k + step;
-    s.rigid[k] = 2000 + 10 * (double)k + step;
+    PutNumber(s, SamComponentNames[k].load, 1000 + 10 * (double)k + step);
+    PutNumber(s, SamComponentNames[k].rigid, 2000 + 10 * (double)k + step);
   }
-  s.check.normal             = 1e-9 + step;
-  s.check.tangential         = 2e-9 + step;
-  s.check.equilibrium        = 3e-9 + step;
-  s.normal_iterations        = 50 + step;
-  s.normal_applies           = 60 + step;
-  s.normal_preconditions     = 70 + step;
-  s.tangential_iterations    = 80 + step;
-  s.tangential_applies       = 90 + step;
-  s.tangential_preconditions = 110 + step;
-  s.coupling_iterations      = 120 + step;
-  return s;
+}
+
+static inline void FillComponent(SamGrid grid, Vec vec, int component, int field, int step)
+{
+  PetscScalar *array;
+
+  sam_call(VecGetArray(vec, &array));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++)
+      array[component * grid->cells + j * grid->nx + i] = Value(field, step, i, grid->row_start + j);
+  sam_call(VecRestoreArray(vec, &array));
+}
+
+static inline void FillFields(const Shown *s, SamState state, int step)
+{
+  const Vec pressure = FieldOf(state, "pressure");
+
+  FillComponent(s->grid, pressure, 0, 0, step);
+  FillComponent(s->grid, FieldOf(state, "shear"), 0, 1, step);
+  FillComponent(s->grid, FieldOf(state, "shear"), 1, 2, step);
+  FillComponent(s->grid, FieldOf(state, "displacement"), 0, 6, step);
+  FillComponent(s->grid, FieldOf(state, "displacement"), 1, 7, step);
+  FillComponent(s->grid, FieldOf(state, "displacement_z"), 0, 8, step);
+  sam_call(VecCopy(pressure, FieldOf(state, "bound")));
+  sam_call(VecScale(FieldOf(state, "bound"), friction));
+}
+
+/* Lets the contact show the fields and the numbers of a step. */
+static inline void Show(const Shown *s, int step)
+{
+  static const char *const names[] = {"disp_z", "disp_x", "disp_y"};
+  SamState                 state;
+  SamControl               control;
+
+  sam_call(SamControlInitialize(&control));
+  sam_call(SamStateCreateLike(s->state, &state));
+  FillFields(s, state, step);
+  for (int k = 0; k < 3; k++) *SamStateNumbers(state, SamStateFindNumber(state, names[k]), SAM_COMMITTED) = moved[k];
+  *SamStateNumbers(state, SamStateFindNumber(state, "steps"), SAM_COMMITTED) = 1;
+  SamControlPack(&control, SamStateNumbers(state, SamStateFindNumber(state, "control"), SAM_COMMITTED));
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    *SamStateNumbers(state, SamStateFindNumber(state, SamComponentNames[k].load), SAM_COMMITTED) = 0;
+    if (k >= SAM_COMPONENT_MX)
+      *SamStateNumbers(state, SamStateFindNumber(state, SamComponentNames[k].rigid), SAM_COMMITTED) = 0;
+  }
+  sam_call(SamContactSetState(s->contact, state, PETSC_TRUE));
+  sam_call(SamStateDestroy(&state));
+  PutNumbers(s, step);
 }
 
 /* The settings of the options, with the fields that the solution has, without a file for ParaView beside it. */
-static inline SamOutputSettings SettingsOf(const char *options)
+static inline SamOutputSettings SettingsOf(SamContact contact, const char *options)
 {
+  const SamOptions  from = {PETSC_COMM_WORLD, NULL};
   SamOutputSettings set;
 
   SetOptions("-output_fields "
-             "pressure,shear_x,shear_y,slip_x,slip_y,gap,displacement_x,displacement_y,displacement_z,state,"
-             "wear_depth1,wear_depth2");
+             "pressure,shear_x,shear_y,slip_x,slip_y,gap,displacement_x,displacement_y,displacement_z,state");
   sam_call(PetscOptionsInsertString(NULL, options));
-  sam_call(SamOutputSettingsSetFromOptions(&set, &(SamOptions){PETSC_COMM_WORLD, NULL}));
+  sam_call(SamOutputSettingsSetFromOptions(&set, &from));
+  if (contact) sam_call(SamOutputSettingsPrepare(&set, contact, &from));
   SetOptions("");
   set.xdmf = PETSC_FALSE;
   return set;
 }
 
 /* Three steps, the fields of the first and the last. */
-static inline void WriteSteps(SamGrid grid, SamOutput output)
+static inline void WriteSteps(const Shown *s, SamOutput output)
 {
-  Shown s = CreateShown(grid);
-
   for (int step = 0; step < STEPS; step++) {
-    const SamStep numbers = MakeStep(step);
-
-    Show(&s, step);
-    sam_call(SamOutputWriteStep(output, &numbers, step == 1 ? NULL : s.contact));
+    Show(s, step);
+    sam_call(SamOutputWriteStep(output, step != 1));
   }
-  DestroyShown(&s);
 }
 
-static inline void WriteFile(SamGrid grid, const char *name, const SamOutputSettings *set)
+static inline void WriteFile(const Shown *s, const char *name, const char *options)
 {
-  SamOutput output;
+  const SamOutputSettings set = SettingsOf(s->contact, options);
+  SamOutput               output;
 
-  sam_call(SamOutputCreate(grid, name, set, &output));
+  sam_call(SamOutputCreate(s->grid, name, &set, &output));
   sam_call(SamOutputSetReals(output, "friction", 1, &(PetscReal){0.25}));
   sam_call(SamOutputSetReals(output, "friction", 1, &friction));
   sam_call(SamOutputSetText(output, "options", "-a 1\n-b \xc2\xb5m"));
   sam_call(SamOutputSetText(output, "empty", ""));
-  WriteSteps(grid, output);
+  WriteSteps(s, output);
   sam_call(SamOutputDestroy(&output));
   sam_assert(output == NULL);
 }
@@ -331,7 +362,7 @@ static inline int HasColumn(hid_t file, const char *name, const char *units, con
   const hid_t group = H5Gopen2(file, "history", H5P_DEFAULT), dataset = H5Dopen2(group, name, H5P_DEFAULT),
               time = H5Dopen2(group, "time", H5P_DEFAULT), type = H5Dget_type(dataset);
   const hsize_t n = (hsize_t)steps;
-  double        values[STEPS];
+  double        values[8];
   int good = HasShape(dataset, 1, &n, 1) && HasText(dataset, "units", units) && HasText(dataset, "long_name", NULL);
 
   good = good && H5Tget_class(type) == (whole ? H5T_INTEGER : H5T_FLOAT) &&
@@ -366,40 +397,15 @@ static inline int HasLoads(hid_t file, int steps)
 
 static inline int HasHistory(hid_t file, int steps)
 {
-  static const struct {
-    const char *name, *units;
-    double      first;
-    int         whole;
-  } columns[]                = {{"time", "s", 0.5, 0},
-                                {"contact_area", "m2", 20, 0},
-                                {"stick_area", "m2", 30, 0},
-                                {"normal_residual", "1", 1e-9, 0},
-                                {"tangential_residual", "1", 2e-9, 0},
-                                {"equilibrium_residual", "1", 3e-9, 0},
-                                {"normal_iterations", "1", 50, 1},
-                                {"normal_applies", "1", 60, 1},
-                                {"normal_preconditions", "1", 70, 1},
-                                {"tangential_iterations", "1", 80, 1},
-                                {"tangential_applies", "1", 90, 1},
-                                {"tangential_preconditions", "1", 110, 1},
-                                {"coupling_iterations", "1", 120, 1},
-                                {"contact_cells", "1", 130, 1},
-                                {"stick_cells", "1", 140, 1},
-                                {"edge_accepted", "1", 47, 0},
-                                {"pressure_max", "Pa", 150, 0},
-                                {"shear_max", "Pa", 160, 0},
-                                {"stored_energy", "J", 45, 0},
-                                {"dissipated_energy", "J", 40, 0}};
-  const double status[STEPS] = {0, 12, 0};
-  int          good          = HasLoads(file, steps);
+  int good = HasLoads(file, steps);
 
-  for (size_t c = 0; c < sizeof(columns) / sizeof(columns[0]); c++) {
+  for (int c = 0; c < NUM_COLUMNS; c++) {
     double expected[STEPS];
 
     for (int step = 0; step < STEPS; step++) expected[step] = columns[c].first + step;
     good = HasColumn(file, columns[c].name, columns[c].units, expected, steps, columns[c].whole) && good;
   }
-  return HasColumn(file, "status", "1", status, steps, 1) && good;
+  return HasColumn(file, "status", "1", statuses, steps, 1) && good;
 }
 
 static inline int HasRoot(hid_t file, SamGrid grid, int saved)
@@ -443,6 +449,45 @@ static inline int CopyFile(const char *from, const char *to)
   out = fopen(to, "wb");
   while (in && out && (n = fread(buffer, 1, sizeof(buffer), in)) > 0) (void)fwrite(buffer, 1, n, out);
   return in && out && !fclose(in) && !fclose(out);
+}
+
+/* ---- going on after a stop ---- */
+
+static inline SamParameters NewParameters(PetscReal value)
+{
+  SamParameters p = {.count = 0};
+
+  sam_call(SamParametersAddReals(&p, "friction", PETSC_TRUE, 1, &value));
+  return p;
+}
+
+/* Goes on after so many steps, whose times are shifted. */
+static inline PetscErrorCode ContinueWith(const Shown *s, const SamParameters *parameters, PetscInt steps,
+                                          PetscReal shift, SamOutput *output)
+{
+  const SamOutputSettings set   = SettingsOf(s->contact, "");
+  SamOutputPoint          point = {.steps = steps};
+
+  for (int k = 0; k < steps; k++) point.times = SamOutputAddTime(point.times, 0.5 + k + shift);
+  return SamOutputContinue(s->grid, filename, &set, parameters, &point, output);
+}
+
+static inline PetscErrorCode Continue(const Shown *s, PetscReal value, PetscInt steps, PetscReal shift,
+                                      SamOutput *output)
+{
+  const SamParameters parameters = NewParameters(value);
+
+  return ContinueWith(s, &parameters, steps, shift, output);
+}
+
+/* Asserts that results were not continued, in a message with this text. */
+static inline void AssertContinueFailed(PetscErrorCode ierr, const SamOutput output, PetscErrorCode code,
+                                        const char *word)
+{
+  const int good = ierr == code && strstr(CaughtMessage(), word) && strstr(CaughtMessage(), filename) && !output;
+
+  if (!good) print_error("error %d, expected %d: %s\n", (int)ierr, (int)code, CaughtMessage());
+  sam_assert(good);
 }
 
 #endif

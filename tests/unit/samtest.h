@@ -76,8 +76,12 @@ static inline void SamRemoveFolder_(int rank, const char folder[])
   if (!rank) (void)rmdir(folder);
 }
 
-/* Starts PETSc, runs the tests, and returns what main() returns: 0 when no test failed on any rank. */
-static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *tests, size_t n)
+/*
+  Starts PETSc, calls `setup` (NULL: nothing), runs the tests, and returns what main() returns: 0 when no test failed on
+  any rank.
+*/
+static inline int SamTestMainWith(int argc, char **argv, CMFixtureFunction setup, const struct CMUnitTest *tests,
+                                  size_t n)
 {
   char folder[PETSC_MAX_PATH_LEN] = "";
   int  rank, failed;
@@ -88,11 +92,16 @@ static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *te
     MPI_Abort(PETSC_COMM_WORLD, 1);
   cmocka_set_message_output(CM_OUTPUT_STDOUT);
   if (SamEnterFolder_(rank, folder)) MPI_Abort(PETSC_COMM_WORLD, 1);
-  failed = _cmocka_run_group_tests(argv[0], tests, n, NULL, NULL);
+  failed = _cmocka_run_group_tests(argv[0], tests, n, setup, NULL);
   (void)MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
   SamRemoveFolder_(rank, folder);
   if (SamFinalize() || PetscFinalize()) return 1;
   return failed ? 1 : 0;
+}
+
+static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *tests, size_t n)
+{
+  return SamTestMainWith(argc, argv, NULL, tests, n);
 }
 
 /* The message of the first error since BeginCatching(). */

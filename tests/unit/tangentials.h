@@ -26,7 +26,7 @@ static inline Case NewCase(PetscInt n, double poisson)
   c.p = NewField(c.s.grid, 1);
   sam_call(SamNormalCreate(c.s.elasticity, &solver));
   sam_call(SamNormalSolve(solver, c.s.h, &normal, PETSC_FALSE, c.p));
-  sam_call(SamSolverDestroy(&solver));
+  sam_call(SamNormalDestroy(&solver));
   c.bound = Copy(c.p);
   sam_call(VecScale(c.bound, mu));
   c.T      = Sum(c.bound) * c.s.grid->dx * c.s.grid->dy; /* mu N to rounding */
@@ -64,13 +64,13 @@ static inline Outcome Solve(const Case *c, Vec bound, Vec offset, SamSolverType 
   Outcome       o;
 
   sam_call(SamTangentialCreate(c->s.elasticity, &t));
-  if (type) sam_call(SamSolverSetType(t, type));
-  if (rtol > 0) sam_call(SamSolverSetTolerances(t, rtol, PETSC_DEFAULT));
+  if (type) sam_call(SamSolverSetType(SamTangentialAsSolver(t), type));
+  if (rtol > 0) sam_call(SamSolverSetTolerances(SamTangentialAsSolver(t), rtol, PETSC_DEFAULT));
   sam_call(SamTangentialSolve(t, bound, offset, balance, PETSC_FALSE, q));
-  sam_call(SamSolverGetReason(t, &o.reason));
+  sam_call(SamSolverGetReason(SamTangentialAsSolver(t), &o.reason));
   sam_call(SamTangentialGetLimit(t, &o.limit));
-  sam_call(SamSolverGetStatistics(t, &o.error, &o.iterations, &o.applies, &o.preconditions));
-  sam_call(SamSolverDestroy(&t));
+  sam_call(SamSolverGetStatistics(SamTangentialAsSolver(t), &o.error, &o.iterations, &o.applies, &o.preconditions));
+  sam_call(SamTangentialDestroy(&t));
   if (getenv("SAM_SHOW"))
     print_message("# %s %s error %g its %d C %d M %d limit %.12g\n", type ? type : "", SamSolverReasonName(o.reason),
                   o.error, (int)o.iterations, (int)o.applies, (int)o.preconditions, o.limit);

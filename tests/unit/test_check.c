@@ -17,7 +17,7 @@ static SamCheck CheckSpoilt(Spoil spoil)
 
   AssertGood(&step);
   if (spoil) spoil(&c, &s);
-  sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &s, &check));
+  sam_call(SamCheckSolution(c.problem, NULL, PETSC_TRUE, PETSC_FALSE, NULL, &s, &check));
   if (getenv("SAM_SHOW"))
     print_message("# spoilt: %g %g %g %g %g\n", (double)check.normal, (double)check.tangential,
                   (double)check.equilibrium, (double)check.cone, (double)check.edge);
@@ -89,7 +89,7 @@ static void AddAtBorder(const Case *c, SamSolution *s)
 
     AddAt(c->s.grid, 0, at[k][0], at[k][1], 1e-6 * c->s.p0, p);
     s->pressure = p;
-    sam_call(SamCheckSolution(c->problem, PETSC_TRUE, PETSC_FALSE, NULL, s, &check));
+    sam_call(SamCheckSolution(c->problem, NULL, PETSC_TRUE, PETSC_FALSE, NULL, s, &check));
     sam_assert_close(check.edge, 1e-6, 1e-8);
     s->pressure = own;
     sam_call(VecDestroy(&p));
@@ -264,7 +264,7 @@ static void test_check_weighs_both_directions_alike(void **state)
 
     AssertGood(&step);
     s.rigid[y ? SAM_COMPONENT_TY : SAM_COMPONENT_TX] *= 1 + 1e-2;
-    sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &s, &check));
+    sam_call(SamCheckSolution(c.problem, NULL, PETSC_TRUE, PETSC_FALSE, NULL, &s, &check));
     found[y] = check.tangential;
     DestroyCase(&c);
   }

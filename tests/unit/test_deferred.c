@@ -1,7 +1,7 @@
 /* The correction for the edge of contact: closed solutions, what it is made of, and what is refused. */
 #include "contacts.h"
 
-#include <petsam/influence.h>
+#include <petsam/private/halfspace.h>
 #include <string.h>
 
 #define DEFERRED "-edges deferred"
@@ -67,7 +67,7 @@ static void test_sub_cells_add_up_to_the_cell(void **state)
   double table[LAGS * LAGS * SUB * SUB];
 
   (void)state;
-  sam_call(SamElasticityGetNear(s.elasticity, SAM_ELASTICITY_ZZ, REACH, SUB, table));
+  sam_call(SamElasticityGetNear(s.elasticity, REACH, SUB, table));
   for (int k = 0; k < LAGS * LAGS; k++) {
     double sum = 0;
 
@@ -92,10 +92,10 @@ static Hertzian Measure(const Case *c, const SamStep *step, double x, double y)
   SamEdge  edge;
   Hertzian h;
 
-  sam_call(SamContactFindEdge(c->contact, SAM_CONTACT_EDGE_CONTACT, point, &edge));
+  sam_call(SamContactFindEdge(c->contact, SAM_EDGE_CONTACT, point, &edge));
   sam_call(SamEdgeDestroy(&edge));
   HertzErrors(c, point, x, y, h.errors);
-  h.area     = fabs((double)step->contact_area / (PETSC_PI * c->s.a * c->s.a) - 1);
+  h.area     = fabs(NumberOf(c, "contact_area") / (PETSC_PI * c->s.a * c->s.a) - 1);
   h.approach = fabs((double)step->rigid[SAM_COMPONENT_N] / (c->s.a * c->s.a / c->s.R) - 1);
   if (getenv("SAM_SHOW"))
     print_message("# %d cells: p %g, area %g, approach %g\n", (int)c->s.grid->nx, h.errors[1], h.area, h.approach);
@@ -114,12 +114,12 @@ static void test_correction_makes_hertz_exact(void **state)
 
     sam_call(SamContactTry(c.contact, &SolutionOf(&c)->control, &step));
     AssertGood(&step);
-    sam_assert(step.edge_passes == 2 && step.edge_accepted == 1);
+    sam_assert(NumberOf(&c, "edge_passes") == 2 && NumberOf(&c, "edge_accepted") == 1);
     h = Measure(&c, &step, places[k][0], places[k][1]);
     sam_assert(h.errors[1] < 4e-4);
     sam_assert(h.area < 5e-5);
     sam_assert(h.approach < 5e-6);
-    sam_assert_close(step.stored_energy / (0.4 * c.s.N * c.s.a * c.s.a / c.s.R), 1, 5e-5); /* plain: 2e-4 */
+    sam_assert_close(NumberOf(&c, "stored_energy") / (0.4 * c.s.N * c.s.a * c.s.a / c.s.R), 1, 5e-5); /* plain: 2e-4 */
     DestroyCase(&c);
   }
 }
@@ -170,7 +170,7 @@ static void test_correction_under_forces_and_displacements_is_the_same(void **st
       control.value[SAM_COMPONENT_MY] = 0.1 * c[0].s.N * c[0].s.a;
     }
     step[1] = Try(&c[1], &control);
-    sam_assert(step[0].edge_passes == 2 && step[1].edge_passes == 2);
+    sam_assert(NumberOf(&c[0], "edge_passes") == 2 && NumberOf(&c[1], "edge_passes") == 2);
     sam_assert_close(step[1].load[SAM_COMPONENT_N], c[0].s.N, 1e-5 * c[0].s.N);
     sam_assert_close(step[1].load[SAM_COMPONENT_MY], 0.1 * c[0].s.N * c[0].s.a, 1e-5 * c[0].s.N * c[0].s.a);
     sam_assert(Difference(SolutionOf(&c[0])->pressure, SolutionOf(&c[1])->pressure, NORM_2) < 2e-4);
@@ -191,23 +191,26 @@ static Vec PressureOf(const Case *c)
 */
 static void test_correction_belongs_to_the_state(void **state)
 {
-  Case            c = NewCase(Steel(), 45, 1.5, 0, DEFERRED), other = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
-  SamControl      control = Loads(&c, 1, 0, 0, 0), next = Loads(&c, 1, 0, 0, 0), more = Loads(&c, 1.4, 0, 0, 0);
-  SamStep         step[3];
-  SamContactState now;
+  Case       c = NewCase(Steel(), 45, 1.5, 0, DEFERRED), other = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
+  SamControl control = Loads(&c, 1, 0, 0, 0), next = Loads(&c, 1, 0, 0, 0), more = Loads(&c, 1.4, 0, 0, 0);
+  SamStep    step[3];
+  SamState   now;
+  double     area;
 
   (void)state;
   step[0] = Solve(&c, &control);
   AssertGood(&step[0]);
   sam_call(SamContactGetState(c.contact, &now));
-  sam_call(SamContactSetState(other.contact, &now));
+  area = NumberOf(&c, "contact_area");
+  sam_call(SamContactSetState(other.contact, now, PETSC_TRUE));
   (void)Try(&other, &more);
   sam_call(SamContactReject(other.contact));
   step[1] = Solve(&c, &next);
   step[2] = Solve(&other, &next);
   AssertGood(&step[1]);
-  sam_assert(step[1].normal_iterations == 0 && step[1].edge_passes == 2);
-  sam_assert(step[1].contact_area == step[0].contact_area && step[1].check.normal == step[2].check.normal);
+  sam_assert(NumberOf(&c, "normal_iterations") == 0 && NumberOf(&c, "edge_passes") == 2);
+  sam_assert(NumberOf(&c, "contact_area") == area);
+  AssertSameSteps(&c, &step[1], &other, &step[2]);
   sam_assert(SameBitsOf(&c, &other, PressureOf) && SameBitsOf(&c, &other, NewSlip) && SameBitsOf(&c, &other, NewGap));
   DestroyCase(&c);
   DestroyCase(&other);
@@ -228,7 +231,8 @@ static void test_correction_does_not_depend_on_the_ranks(void **state)
     step[k]                         = Try(&c[k], &control);
     whole[k]                        = Whole(c[k].s.grid, 1, SolutionOf(&c[k])->pressure);
   }
-  sam_assert(step[0].edge_passes == 2 && SameNumbers(1, &step[0].contact_area, &step[1].contact_area));
+  sam_assert(NumberOf(&c[0], "edge_passes") == 2);
+  sam_assert(NumberOf(&c[0], "contact_area") == NumberOf(&c[1], "contact_area"));
   sam_assert(SameNumbers(SAM_COMPONENTS, step[0].rigid, step[1].rigid));
   sam_assert(!memcmp(whole[0], whole[1], sizeof(double) * 47 * 47));
   for (int k = 0; k < 2; k++) {
@@ -255,7 +259,7 @@ static void test_edges_that_are_not_smooth_are_left(void **state)
     sam_call(VecAXPY(h, 0.1 * c[k].s.a * c[k].s.a / c[k].s.R, rough));
     sam_call(VecDestroy(&rough));
     step = Try(&c[k], &(SamControl[]){Loads(&c[k], 0.2, 0, 0, 0)}[0]);
-    sam_assert(step.status == SAM_STATUS_CONVERGED && step.edge_passes == 0);
+    sam_assert(step.status == SAM_STATUS_CONVERGED && (!k || NumberOf(&c[k], "edge_passes") == 0));
     sam_assert(!k || (strstr(step.message, "not corrected: 0 % of it is smooth") && !strcmp(step.setting, "edges")));
   }
   sam_assert(SameBitsOf(&c[0], &c[1], PressureOf));
@@ -270,53 +274,114 @@ static void test_contact_without_an_edge_is_left(void **state)
   SamStep    step    = Try(&c, &control);
 
   (void)state;
-  sam_assert(step.contact_cells == 24 * 24 && step.edge_passes == 0);
+  sam_assert(NumberOf(&c, "contact_cells") == 24 * 24 && NumberOf(&c, "edge_passes") == 0);
   Displace(&control, SAM_COMPONENT_N, -1e-6);
   step = Try(&c, &control);
-  sam_assert(step.contact_cells == 0 && step.edge_passes == 0 && step.status == SAM_STATUS_CONVERGED);
+  sam_assert(NumberOf(&c, "contact_cells") == 0 && NumberOf(&c, "edge_passes") == 0 &&
+             step.status == SAM_STATUS_CONVERGED);
   DestroyCase(&c);
 }
 
 /* A state that was solved in another way is not taken over, although nothing that is prescribed has changed. */
 static void test_pressure_is_that_of_the_way_that_is_asked_for(void **state)
 {
-  Case             c       = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
+  Case             c       = NewCase(Steel(), 45, 1.5, 0, "");
   const SamControl control = Loads(&c, 1, 0, 0, 0);
-  SamStep          step[3];
+  double           cells;
+  SamLaw           law;
 
   (void)state;
-  step[0] = Solve(&c, &control);
-  sam_call(SamContactSetEdges(c.contact, SAM_CONTACT_EDGES_RECONSTRUCT, PETSC_DEFAULT));
-  step[1] = Solve(&c, &control);
-  sam_call(SamContactSetEdges(c.contact, SAM_CONTACT_EDGES_DEFERRED, 1));
-  step[2] = Solve(&c, &control);
-  sam_assert(step[0].edge_passes == 2 && step[1].edge_passes == 0 && step[2].edge_passes == 1);
-  sam_assert(step[1].contact_cells < step[0].contact_cells); /* no rim */
+  (void)Solve(&c, &control);
+  cells = NumberOf(&c, "contact_cells");
+  sam_call(SamProblemAddLawOfType(c.problem, SAM_LAW_DEFERRED, &law));
+  (void)Solve(&c, &control);
+  sam_assert(NumberOf(&c, "edge_passes") == 2 && NumberOf(&c, "contact_cells") > cells); /* with the rim */
+  sam_call(SamLawSetEdgePasses(law, 1));
+  (void)Solve(&c, &control);
+  sam_assert(NumberOf(&c, "edge_passes") == 1);
+  sam_fails(SamLawSetEdgePasses(law, 0), PETSC_ERR_ARG_OUTOFRANGE);
   DestroyCase(&c);
+}
+
+/* A plain shear under a corrected pressure would be less exact than without the correction. */
+static void test_correction_with_friction_is_refused(void **state)
+{
+  Case             c       = NewCase(Steel(), 24, 1.5, 0.3, DEFERRED);
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  SamStep          step;
+
+  (void)state;
+  sam_fails(SamContactTry(c.contact, &control, &step), SAM_ERR_USER);
+  DestroyCase(&c);
+}
+
+/* Cells that the edge cuts and whose centres are outside do not count for the largest slip, here of a rotation. */
+static void test_slip_is_that_of_cells_in_contact(void **state)
+{
+  Case               c       = NewBeside(Steel(), 45, 1.5, 0.13, 0.27, 0, DEFERRED);
+  SamControl         control = Loads(&c, 1, 0, 0, 0);
+  const PetscReal    angle   = 1e-6;
+  const SamGrid      grid    = c.s.grid;
+  double             most    = 0;
+  const PetscReal   *p, *least;
+  const SamSolution *s;
+  SamState           memory;
+  SamStep            step;
+  Vec                rim;
+
+  (void)state;
+  Displace(&control, SAM_COMPONENT_MZ, angle);
+  step = Try(&c, &control);
+  AssertGood(&step);
+  s = SolutionOf(&c);
+  sam_call(VecGetArrayRead(s->pressure, &p));
+  sam_call(SamContactGetState(c.contact, &memory));
+  rim = SamStateReadField(memory, SamStateFindField(memory, "edge_rim"));
+  sam_call(VecGetArrayRead(rim, &least));
+  for (PetscInt k = 0; k < grid->cells; k++)
+    if (p[k] > least[k])
+      most = PetscMax(most, hypot(SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx)));
+  sam_call(VecRestoreArrayRead(rim, &least));
+  sam_call(VecRestoreArrayRead(s->pressure, &p));
+  sam_call(SamMax(PETSC_COMM_WORLD, 1, &most));
+  sam_assert_close(NumberOf(&c, "slip_max"), angle * most, 1e-9 * angle * most);
+  DestroyCase(&c);
+}
+
+/* The normal error of a corrected solution, by a memory in which a field is forgotten; NULL: none is. */
+static double ErrorWithout(const Case *c, SamState memory, const char *forgotten)
+{
+  SamSolution s = *SolutionOf(c);
+  SamState    other;
+  SamCheck    check;
+  Vec         field;
+
+  sam_call(SamStateCreateLike(memory, &other));
+  sam_call(SamStateCopy(memory, other));
+  if (forgotten) {
+    sam_call(SamStateRestoreField(other, SamStateFindField(other, forgotten), SAM_COMMITTED, &field));
+    sam_assert(Norm(field, NORM_INFINITY) > 0);
+    sam_call(VecSet(field, 0));
+  }
+  sam_call(SamCheckSolution(c->problem, other, PETSC_TRUE, PETSC_FALSE, NULL, &s, &check));
+  sam_call(SamStateDestroy(&other));
+  return (double)check.normal;
 }
 
 /* The check of a corrected solution is as strict as that of a plain one. */
 static void test_check_sees_what_is_wrong_with_a_correction(void **state)
 {
-  Case               c       = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
-  const SamControl   control = Loads(&c, 1, 0, 0, 0);
-  const SamStep      step    = Try(&c, &control);
-  const SamSolution *s       = SolutionOf(&c);
-  SamSolution        wrong   = *s;
-  SamCheck           check;
+  Case             c       = NewCase(Steel(), 45, 1.5, 0, DEFERRED);
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  const SamStep    step    = Solve(&c, &control);
+  SamState         memory;
 
   (void)state;
   AssertGood(&step);
-  sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &wrong, &check));
-  sam_assert(SameNumbers(1, &check.normal, &step.check.normal));
-  wrong.passes = 0; /* the correction forgotten */
-  sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &wrong, &check));
-  sam_assert(check.normal > 1e-5);
-  wrong.passes = 1;
-  sam_call(VecDuplicate(s->rim, &wrong.rim)); /* the rim forgotten: its cells do not touch */
-  sam_call(SamCheckSolution(c.problem, PETSC_TRUE, PETSC_FALSE, NULL, &wrong, &check));
-  sam_assert(check.normal > 1e-5);
-  sam_call(VecDestroy(&wrong.rim));
+  sam_call(SamContactGetState(c.contact, &memory));
+  sam_assert(ErrorWithout(&c, memory, NULL) == (double)step.check.normal);
+  sam_assert(ErrorWithout(&c, memory, "edge_correction") > 1e-5);
+  sam_assert(ErrorWithout(&c, memory, "edge_rim") > 1e-5); /* its cells do not touch */
   DestroyCase(&c);
 }
 
@@ -333,6 +398,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_edges_that_are_not_smooth_are_left),
     cmocka_unit_test(test_contact_without_an_edge_is_left),
     cmocka_unit_test(test_pressure_is_that_of_the_way_that_is_asked_for),
+    cmocka_unit_test(test_correction_with_friction_is_refused),
+    cmocka_unit_test(test_slip_is_that_of_cells_in_contact),
     cmocka_unit_test(test_check_sees_what_is_wrong_with_a_correction),
   };
 

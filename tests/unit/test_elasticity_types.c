@@ -4,6 +4,7 @@
 #include "fields.h"
 
 #include <petsam/private/elasticityimpl.h>
+#include <petsam/stress.h>
 
 static SamElasticity NewElasticity(SamGrid grid)
 {
@@ -72,6 +73,25 @@ static PetscErrorCode SpringsInherit(SamElasticity parent, SamElasticity child)
   return 0;
 }
 
+static PetscErrorCode SpringsAddParameters(SamElasticity e, SamParameters *p)
+{
+  const PetscReal depth = ((const Springs *)e->data)->depth;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddReals(p, "springs_depth", PETSC_TRUE, 1, &depth));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SpringsSetParameters(SamElasticity e, const SamParameters *p, const char source[])
+{
+  const SamParameter *depth = SamParametersFind(p, "springs_depth");
+
+  PetscFunctionBegin;
+  PetscCheck(depth, e->grid->comm, SAM_ERR_FILE, "%s: it lacks springs_depth", source);
+  ((Springs *)e->data)->depth = depth->value[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SpringsSetUp(SamElasticity e)
 {
   ((Springs *)e->data)->setups++;
@@ -94,9 +114,11 @@ static PetscErrorCode CreateSprings(SamElasticity e)
   data->depth = 1e-3;
   e->data     = data;
   e->traits =
-    (SamElasticityTraits){.rotations = PETSC_TRUE, .edge = PETSC_TRUE, .mean = PETSC_TRUE, .parts = PETSC_TRUE};
+    (SamElasticityTraits){.rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .mean = PETSC_TRUE, .parts = PETSC_TRUE};
   e->ops = (SamElasticityOps){.setfromoptions     = SpringsSetFromOptions,
                               .inherit            = SpringsInherit,
+                              .addparameters      = SpringsAddParameters,
+                              .setparameters      = SpringsSetParameters,
                               .setup              = SpringsSetUp,
                               .destroy            = SpringsDestroy,
                               .applynormal        = SpringsApply,
@@ -151,6 +173,71 @@ static void test_a_type_from_outside_works(void **state)
   sam_call(PetscOptionsClearValue(NULL, "-lower_springs_depth"));
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&u));
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* ---- parameters ---- */
+
+static void AssertUnknown(SamGrid grid, SamParameters p, int k, const char name[])
+{
+  SamElasticity none;
+
+  (void)snprintf(p.list[k].name, sizeof(p.list[k].name), "%s", name);
+  sam_fails(SamElasticityCreateFromParameters(grid, &p, "-input x.h5", &none), SAM_ERR_FILE);
+}
+
+/* The bodies that an elasticity has recorded are the same again on another grid; what makes none is refused. */
+static void test_bodies_come_back_from_their_parameters(void **state)
+{
+  SamGrid        grid = NewGrid(16, 12, 1, 1), other = NewGrid(20, 18, 2, 1);
+  SamElasticity  e = NewElasticity(grid), same;
+  SamParameters  p = {.count = 0};
+  const SamPair *pair;
+
+  (void)state;
+  sam_call(SamElasticityRegister("springs", CreateSprings));
+  sam_call(SamElasticitySetType(e, "springs"));
+  ((Springs *)e->data)->depth = 0.25;
+  sam_call(SamElasticityAddParameters(e, &p));
+  sam_assert(p.count == 6);
+  sam_call(SamElasticityCreateFromParameters(other, &p, "-input x.h5", &same));
+  AssertType(same, "springs");
+  sam_call(SamElasticityGetPair(same, &pair));
+  sam_assert(!memcmp(pair, &e->pair, sizeof(*pair)) && SelfInfluence(same) == SelfInfluence(e));
+  for (int k = 0; k < 5; k++) AssertUnknown(other, p, k, "other"); /* the constants, and the type */
+  p.list[1].value[0] = 0.7;
+  AssertUnknown(other, p, 1, "body1_poisson");
+  p.list[1].value[0] = 0.3;
+  (void)snprintf(p.list[4].text, sizeof(p.list[4].text), "plate");
+  AssertUnknown(other, p, 4, "elasticity");
+  sam_call(SamElasticityDestroy(&same));
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
+  sam_call(SamGridDestroy(&other));
+}
+
+/* Stresses are refused where the type does not know them, and of rigid bodies, which have none. */
+static void test_stresses_that_are_not_known_are_refused(void **state)
+{
+  const SamPair       pair = NewPair(210e9, 0.3, INFINITY, 0);
+  SamGrid             grid = NewGrid(8, 8, 1, 1);
+  SamElasticityTraits traits;
+  SamElasticity       e;
+  SamStress           stress;
+
+  (void)state;
+  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticityGetTraits(e, &traits));
+  sam_assert(traits.stress);
+  for (PetscInt body = 0; body <= 3; body += body ? 1 : 2)
+    sam_fails(SamElasticityCreateStress(e, body, NULL, &stress), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_call(SamElasticityCreateStress(e, 1, NULL, &stress));
+  sam_call(SamStressDestroy(&stress));
+  sam_call(SamElasticitySetType(e, SAM_ELASTICITY_PERIODIC));
+  sam_call(SamElasticityGetTraits(e, &traits));
+  sam_assert(!traits.stress);
+  sam_fails(SamElasticityCreateStress(e, 1, NULL, &stress), PETSC_ERR_SUP);
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamGridDestroy(&grid));
 }
@@ -357,6 +444,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_periodic_bodies_have_no_parts),
     cmocka_unit_test(test_release_changes_nothing),
     cmocka_unit_test(test_a_type_from_outside_works),
+    cmocka_unit_test(test_bodies_come_back_from_their_parameters),
+    cmocka_unit_test(test_stresses_that_are_not_known_are_refused),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

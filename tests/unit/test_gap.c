@@ -171,6 +171,39 @@ static void test_parameters_are_the_options(void **state)
   sam_call(SamGapDestroy(&gap));
 }
 
+/* By setters, with and without the class's part of a name; options only override. */
+static void test_parameters_can_be_set(void **state)
+{
+  SamGrid          grid = CreateGrid(0);
+  SamGap           gap;
+  const PetscReal *values;
+  Vec              h;
+
+  (void)state;
+  SetOptions("");
+  sam_call(SamGapCreate(PETSC_COMM_WORLD, &gap));
+  sam_call(SamGridCreateVec(grid, 1, &h));
+  sam_fails(SamGapSetParameter(gap, "radius1", 1), PETSC_ERR_ARG_OUTOFRANGE); /* it has no type yet */
+  sam_call(SamGapSetType(gap, SAM_GAP_SPHERE));
+  sam_fails(SamGapSetParameter(gap, "radius3", 1), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_fails(SamGapSetParameter(gap, "radius1", -1), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_fails(SamGapSetParameter(gap, "radius1", NAN), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_call(SamGapSetParameter(gap, "radius1", 0.03));
+  sam_fails(SamGapFill(gap, grid, h), PETSC_ERR_ORDER); /* the other radius is not set */
+  sam_fails(SamGapSetFromOptions(gap), SAM_ERR_USER);
+  sam_call(SamGapSetParameter(gap, "gap_radius2", 0.02));
+  sam_call(SamGapSetFromOptions(gap));
+  sam_call(SamGapFill(gap, grid, h));
+  sam_assert_close(Error(grid, h, Sphere), 0, rounding);
+  SetOptions("-gap_type sphere -gap_radius2 0.5");
+  sam_call(SamGapSetFromOptions(gap));
+  sam_call(SamGapGetParameters(gap, NULL, NULL, NULL, &values));
+  sam_assert(values[0] == 0.03 && values[1] == 0.5);
+  sam_call(VecDestroy(&h));
+  sam_call(SamGapDestroy(&gap));
+  sam_call(SamGridDestroy(&grid));
+}
+
 /* ---- files ---- */
 
 /* What the files hold at a cell, different for each, exact in single precision and as a whole number. */
@@ -405,7 +438,7 @@ static void test_unfit_datasets_are_named_on_all_ranks(void **state)
   AssertError("-gap_type flat -gap_rough_file test_gap_bad.h5 -gap_rough_dataset /a/b", SAM_ERR_FILE,
               "has no dataset /a/b", "-gap_rough_dataset");
   WriteDataset(bad_file, "/height", H5T_NATIVE_DOUBLE, 3, deep, PETSC_FALSE, 0);
-  AssertError(options, SAM_ERR_FILE, "3 dimension", "(7, 13)");
+  AssertError(options, SAM_ERR_FILE, "3 dimension", "(ny, nx)");
   WriteDataset(bad_file, "/height", H5T_NATIVE_DOUBLE, 2, good, PETSC_FALSE, NAN);
   AssertError(options, SAM_ERR_FILE, "/height[6, 12]", "finite");
   WriteDataset(bad_file, "/height", H5T_NATIVE_DOUBLE, 2, good, PETSC_FALSE, INFINITY);
@@ -488,6 +521,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_punch_is_flat_inside_and_round_outside),
     cmocka_unit_test(test_flat_is_zero),
     cmocka_unit_test(test_parameters_are_the_options),
+    cmocka_unit_test(test_parameters_can_be_set),
     cmocka_unit_test(test_file_gives_its_values_to_the_cells),
     cmocka_unit_test(test_roughness_is_added_to_any_shape),
     cmocka_unit_test(test_wrong_options_are_named),

@@ -132,6 +132,16 @@ static void test_more_cells_than_can_be_counted_are_refused(void **state)
   sam_fails(SamGridCreate(PETSC_COMM_WORLD, n, size, origin, &grid), PETSC_ERR_ARG_OUTOFRANGE);
 }
 
+/* With nothing that counts without the options. */
+static PetscErrorCode FromOptions(SamGrid *grid)
+{
+  const SamOptions from     = {PETSC_COMM_WORLD, NULL};
+  PetscInt         n[2]     = {0, 0};
+  PetscReal        width[2] = {0, 0};
+
+  return SamGridCreateFromOptions(&from, n, width, grid);
+}
+
 static void test_grid_from_options(void **state)
 {
   const char *const wrong[] = {"",
@@ -154,17 +164,17 @@ static void test_grid_from_options(void **state)
   for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++) {
     sam_call(PetscOptionsClear(NULL));
     sam_call(PetscOptionsInsertString(NULL, wrong[k]));
-    sam_fails(SamGridCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &grid), SAM_ERR_USER);
+    sam_fails(FromOptions(&grid), SAM_ERR_USER);
   }
   for (size_t k = 0; k < sizeof(thin) / sizeof(thin[0]); k++) {
     sam_call(PetscOptionsClear(NULL));
     sam_call(PetscOptionsInsertString(NULL, thin[k]));
-    sam_call(SamGridCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &grid));
+    sam_call(FromOptions(&grid));
     sam_call(SamGridDestroy(&grid));
   }
   sam_call(PetscOptionsClear(NULL));
   sam_call(PetscOptionsInsertString(NULL, "-grid_n 8,5 -grid_size 2 -grid_center 1,-1"));
-  sam_call(SamGridCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &grid));
+  sam_call(FromOptions(&grid));
   sam_assert(grid->nx == 8 && grid->ny == 5 && grid->width[0] == 2 && grid->width[1] == 2 && grid->center[0] == 1 &&
              grid->center[1] == -1);
   sam_call(SamGridDestroy(&grid));

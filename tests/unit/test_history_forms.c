@@ -3,6 +3,8 @@
  */
 #include "histories.h"
 
+#include <petsam/private/arguments.h>
+
 static void test_separators_may_be_semicolons_tabs_or_spaces(void **state)
 {
   (void)state;

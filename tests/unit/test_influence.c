@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include <petsam/influence.h>
+#include <petsam/private/halfspace.h>
 
 #include "influence_values.h"
 

@@ -2,6 +2,7 @@
 #include "contacts.h"
 
 #include <petsam/life.h>
+#include <petsam/wear.h>
 
 #define K 1e-14 /* 1/Pa */
 
@@ -46,36 +47,53 @@ typedef struct {
   Case         c;
   Strokes      strokes;
   SamLifeCycle cycle;
-  SamWear      wear;
-  SamLife      life;
+  PetscReal    wear[2];
+  SamLawType   law;
+  SamLife      life; /* NULL: none */
 } Joint;
 
 /* A joint at rest where its cycle begins. */
-static Joint *NewJoint(SamPair pair, PetscInt n, double half_width, double friction, Strokes strokes, SamWearLaw law,
-                       SamLifeSettings settings)
+static Joint *NewRest(SamPair pair, PetscInt n, double half_width, double friction, Strokes strokes, SamLawType law)
 {
-  const double    fast = strokes.fast > 0 ? strokes.fast : 1;
-  const PetscReal k[2] = {0, fast * (law == SAM_WEAR_ENERGY ? K / friction : K)};
-  Joint          *j    = (Joint *)calloc(1, sizeof(*j));
-  SamControl      control;
-  SamStep         step;
+  const double fast = strokes.fast > 0 ? strokes.fast : 1;
+  Joint       *j    = (Joint *)calloc(1, sizeof(*j));
+  SamControl   control;
+  SamStep      step;
 
   j->c         = NewCase(pair, n, half_width, friction, "");
+  j->law       = law;
+  j->wear[1]   = fast * (strcmp(law, SAM_LAW_ENERGY) ? K : K / friction);
   j->strokes   = strokes;
   j->strokes.c = &j->c;
   j->cycle     = (SamLifeCycle){.steps = strokes.steps, .control = Control, .context = &j->strokes};
   sam_call(Control(&j->strokes, strokes.steps - 1, 0, &control));
   step = Solve(&j->c, &control);
   AssertGood(&step);
-  sam_call(SamWearCreate(j->c.contact, law, k, &j->wear));
-  sam_call(SamLifeCreate(j->wear, &j->cycle, &settings, &j->life));
+  return j;
+}
+
+static void AddWear(Joint *j)
+{
+  SamLaw law;
+
+  sam_call(SamProblemAddLawOfType(j->c.problem, j->law, &law));
+  sam_call(SamLawSetWear(law, j->wear));
+}
+
+/* The same with its life. */
+static Joint *NewJoint(SamPair pair, PetscInt n, double half_width, double friction, Strokes strokes, SamLawType law,
+                       SamLifeSettings settings)
+{
+  Joint *j = NewRest(pair, n, half_width, friction, strokes, law);
+
+  AddWear(j);
+  sam_call(SamLifeCreate(j->c.contact, &j->cycle, &settings, &j->life));
   return j;
 }
 
 static void DestroyJoint(Joint *j)
 {
   sam_call(SamLifeDestroy(&j->life));
-  sam_call(SamWearDestroy(&j->wear));
   DestroyCase(&j->c);
   free(j);
 }
@@ -105,7 +123,7 @@ static void test_sphere_wears_towards_popovs_shape(void **state)
                                     {10, 0.7481, 0.29345, 0.6920, 1.226}};
   const double        mu         = 0.1;
   Joint *j = NewJoint(STEEL, 72, 1.4, mu, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = 0.75 * mu * 1e-5},
-                      SAM_WEAR_ARCHARD, (SamLifeSettings){.rtol = 1e-2});
+                      SAM_LAW_ARCHARD, (SamLifeSettings){.rtol = 1e-2});
   const Sphere *s = &j->c.s;
   const double  d = s->a * s->a / s->R, unit = s->a / (4 * K * s->pair.modulus * j->strokes.amplitude);
 
@@ -129,7 +147,7 @@ static void test_sphere_wears_towards_popovs_shape(void **state)
 static void test_volume_of_a_sliding_sphere_is_exact(void **state)
 {
   const double  u         = 1e-4;
-  Joint        *j         = NewJoint(STEEL, 64, 2.6, 1e-9, (Strokes){.steps = 4, .amplitude = u}, SAM_WEAR_ARCHARD,
+  Joint        *j         = NewJoint(STEEL, 64, 2.6, 1e-9, (Strokes){.steps = 4, .amplitude = u}, SAM_LAW_ARCHARD,
                                      (SamLifeSettings){.rtol = 1e-2});
   const Sphere *s         = &j->c.s;
   const double  cycles[2] = {s->a / (4 * K * s->pair.modulus * u), 30 * s->a / (4 * K * s->pair.modulus * u)};
@@ -157,7 +175,7 @@ static void test_both_laws_live_alike(void **state)
     const double mu = 0.2;
     Joint       *j =
       NewJoint(STEEL, 40, 1.5, mu, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = 0.75 * mu * 1e-5},
-               (SamWearLaw)law, (SamLifeSettings){.rtol = 2e-2});
+               law ? SAM_LAW_ENERGY : SAM_LAW_ARCHARD, (SamLifeSettings){.rtol = 2e-2});
     SamLifeReport r = Live(j, 1e5);
 
     volume[law] = r.volume[1];
@@ -170,7 +188,7 @@ static void test_both_laws_live_alike(void **state)
 }
 
 /* After some cycles that close the loop, every step of so many wears, one after the other. */
-static void LiveDirectly(Joint *j, PetscInt cycles, PetscReal volume[2], PetscReal depth[2])
+static void LiveDirectly(Joint *j, PetscInt cycles)
 {
   const PetscInt first = -3 * j->cycle.steps;
 
@@ -178,15 +196,11 @@ static void LiveDirectly(Joint *j, PetscInt cycles, PetscReal volume[2], PetscRe
     SamControl control;
     SamStep    step;
 
+    if (k == 0) AddWear(j);
     sam_call(Control(&j->strokes, (k - first) % j->cycle.steps, 0, &control));
-    sam_call(SamContactTry(j->c.contact, &control, &step));
+    step = Solve(&j->c, &control);
     AssertGood(&step);
-    if (k >= 0) sam_call(SamWearCountStep(j->wear));
-    sam_call(SamContactCommit(j->c.contact));
-    sam_call(SamWearApply(j->wear, 1));
-    sam_call(SamWearMoveGap(j->wear));
   }
-  sam_call(SamWearGetVolumes(j->wear, volume, depth));
 }
 
 /*
@@ -212,14 +226,20 @@ static void test_jumps_lead_where_all_cycles_would(void **state)
   for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
     const PetscInt        cycles = 30;
     const SamLifeSettings set    = {.type = cases[k].type, .rtol = 4e-3};
-    Joint                *j      = NewJoint(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set),
-          *i                     = NewJoint(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_WEAR_ARCHARD, set);
-    PetscReal     volume[2], depth[2];
-    SamLifeReport r = Live(j, (double)cycles);
+    Joint                *j      = NewJoint(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_LAW_ARCHARD, set),
+          *i                     = NewRest(cases[k].pair, 24, 1.8, MU, cases[k].strokes, SAM_LAW_ARCHARD);
+    SamLifeReport r              = Live(j, (double)cycles);
+    double        volume, most;
+    Vec           depth;
 
-    LiveDirectly(i, cycles, volume, depth);
-    sam_assert_close(r.volume[1], volume[1], 0.004 * volume[1]);
-    sam_assert_close(r.depth[1], depth[1], 0.012 * depth[1]);
+    LiveDirectly(i, cycles);
+    volume = NumberOf(&i->c, "wear_volume2");
+    depth  = NewFieldOf(&i->c, "wear_depth2");
+    most   = Norm(depth, NORM_INFINITY);
+    sam_call(VecDestroy(&depth));
+    sam_assert(volume > 0 && most > 0);
+    sam_assert_close(r.volume[1], volume, 0.004 * volume);
+    sam_assert_close(r.depth[1], most, 0.012 * most);
     sam_assert(r.computed < cycles);
     DestroyJoint(i);
     DestroyJoint(j);
@@ -235,7 +255,7 @@ static void test_explicit_jumps_have_a_limit(void **state)
   (void)state;
   for (int k = 0; k < 2; k++) {
     Joint *j =
-      NewJoint(STEEL, 48, 1.4, 0.1, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = u}, SAM_WEAR_ARCHARD,
+      NewJoint(STEEL, 48, 1.4, 0.1, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = u}, SAM_LAW_ARCHARD,
                (SamLifeSettings){.type = k ? SAM_LIFE_EXPLICIT : SAM_LIFE_IMPLICIT, .rtol = 0.1});
 
     r[k] = Live(j, tau * j->c.s.a / (4 * K * j->c.s.pair.modulus * u));
@@ -255,7 +275,7 @@ static void test_jumps_are_of_second_order(void **state)
   for (int k = 0; k < 4; k++) {
     Joint *j =
       NewJoint(STEEL, 40, 1.4, 0.1, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = 7.5e-7, .fast = 1e3},
-               SAM_WEAR_ARCHARD, (SamLifeSettings){.rtol = 1e-2, .jump = 80 >> k, .fixed = PETSC_TRUE});
+               SAM_LAW_ARCHARD, (SamLifeSettings){.rtol = 1e-2, .jump = 80 >> k, .fixed = PETSC_TRUE});
     SamLifeReport r = Live(j, 320);
 
     volume[k] = r.volume[1];
@@ -273,7 +293,7 @@ static void test_loop_is_closed_before_it_counts(void **state)
 {
   Joint        *j = NewJoint(STEEL, 40, 1.8, MU,
                              (Strokes){.force = PETSC_TRUE, .steps = 12, .amplitude = 60, .rock = 0.3, .fast = 1e-9},
-                             SAM_WEAR_ARCHARD, (SamLifeSettings){.rtol = 1e-3});
+                             SAM_LAW_ARCHARD, (SamLifeSettings){.rtol = 1e-3});
   SamLifeReport r = Live(j, 0), after = Live(j, 2);
 
   (void)state;
@@ -284,8 +304,8 @@ static void test_loop_is_closed_before_it_counts(void **state)
 /* A force that the friction no longer carries ends the life; the wear so far stays. */
 static void test_failure_leaves_the_wear(void **state)
 {
-  Joint        *j = NewJoint(STEEL, 40, 1.5, MU, (Strokes){.force = PETSC_TRUE, .steps = 8, .amplitude = 100},
-                             SAM_WEAR_ARCHARD, (SamLifeSettings){.rtol = 2e-2, .jump = 1e3});
+  Joint *j = NewJoint(STEEL, 40, 1.5, MU, (Strokes){.force = PETSC_TRUE, .steps = 8, .amplitude = 100}, SAM_LAW_ARCHARD,
+                      (SamLifeSettings){.rtol = 2e-2, .jump = 1e3});
   SamLifeReport r = Live(j, 1e3), after;
 
   (void)state;
@@ -293,6 +313,53 @@ static void test_failure_leaves_the_wear(void **state)
   sam_call(SamLifeJump(j->life, 1e5, &after));
   sam_assert(after.step.status == SAM_STATUS_NO_EQUILIBRIUM && after.cycles == r.cycles);
   sam_assert(after.volume[1] == r.volume[1] && r.volume[1] > 0);
+  DestroyJoint(j);
+}
+
+/* In a life a step adds to the wear of its cycle, and the gap stays until a jump, which repeats the cycle. */
+static void test_steps_of_a_life_do_not_wear(void **state)
+{
+  Joint *j = NewJoint(STEEL, 40, 1.5, MU, (Strokes){.force = PETSC_TRUE, .steps = 8, .amplitude = 60}, SAM_LAW_ARCHARD,
+                      (SamLifeSettings){.rtol = 1, .jump = 3, .fixed = PETSC_TRUE});
+  SamControl    control;
+  SamLifeReport r;
+  SamState      memory;
+  Vec           worn, cycle;
+  double        once;
+
+  (void)state;
+  sam_call(Control(&j->strokes, 1, 0, &control));
+  (void)Solve(&j->c, &control);
+  sam_call(SamContactGetState(j->c.contact, &memory));
+  cycle = SamStateReadField(memory, SamStateFindField(memory, "wear_cycle_load"));
+  sam_assert(NumberOf(&j->c, "wear_volume2") == 0 && cycle && Norm(cycle, NORM_INFINITY) > 0);
+  once = 3 * K / MU * (double)Live(j, 0).dissipated_energy;
+  sam_call(SamLifeJump(j->life, 3, &r));
+  sam_assert_close(r.volume[1], once, 1e-3 * once);
+  worn = NewFieldOf(&j->c, "wear_depth2");
+  once = Sum(worn);
+  sam_call(VecDestroy(&worn));
+  sam_assert(once > 0);
+  (void)Live(j, 6);
+  worn = NewFieldOf(&j->c, "wear_depth2");
+  sam_assert_close(Sum(worn), 2 * once, 1e-4 * once);
+  sam_call(VecDestroy(&worn));
+  DestroyJoint(j);
+}
+
+static void test_life_without_wear_is_refused(void **state)
+{
+  Joint *j = NewRest(STEEL, 24, 1.5, MU, (Strokes){.force = PETSC_TRUE, .steps = 4, .amplitude = 60}, SAM_LAW_ARCHARD);
+  SamLifeSettings set = {.rtol = 1e-2};
+
+  (void)state;
+  sam_fails(SamLifeCreate(j->c.contact, &j->cycle, &set, &j->life), PETSC_ERR_ARG_INCOMP);
+  AddWear(j);
+  set.rtol = 0;
+  sam_fails(SamLifeCreate(j->c.contact, &j->cycle, &set, &j->life), PETSC_ERR_ARG_OUTOFRANGE);
+  set.rtol = 1e-2;
+  sam_call(SamLifeCreate(j->c.contact, &j->cycle, &set, &j->life));
+  sam_fails(SamLifeJump(j->life, 1, &(SamLifeReport){0}), PETSC_ERR_ORDER);
   DestroyJoint(j);
 }
 
@@ -307,6 +374,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_jumps_are_of_second_order),
     cmocka_unit_test(test_loop_is_closed_before_it_counts),
     cmocka_unit_test(test_failure_leaves_the_wear),
+    cmocka_unit_test(test_steps_of_a_life_do_not_wear),
+    cmocka_unit_test(test_life_without_wear_is_refused),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -1,5 +1,6 @@
 /* The normal solver: Hertz's contact, force and displacement control, moments, scaling. */
 #include "normals.h"
+#include "methods/methods.h"
 
 /* ---- Hertz ---- */
 
@@ -239,10 +240,10 @@ static void test_start_from_the_solution_ends_at_once(void **state)
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
   sam_call(VecCopy(p, q));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_TRUE, q));
-  sam_call(SamSolverGetStatistics(normal, NULL, NULL, &applies, NULL));
+  sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), NULL, NULL, &applies, NULL));
   sam_assert(applies <= 3);
   sam_assert_close(Difference(q, p, NORM_2), 0, 1e-6);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
   DestroySphere(&s);
@@ -292,7 +293,7 @@ static void test_contact_grows_beyond_the_window_of_its_start(void **state)
   sam_assert(before[0] > 0 && (after[0] == 0 || after[0] > 2 * before[0]));
   sam_call(SamNormalSolve(normal, s.h, &again, PETSC_FALSE, q));
   sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
   DestroySphere(&s);
@@ -424,5 +425,5 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_units_do_not_matter),
   };
 
-  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+  return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));
 }

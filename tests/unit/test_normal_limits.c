@@ -1,5 +1,6 @@
 /* The normal solver where there is no contact, no solution, or contact everywhere; iterations and monitors. */
 #include "normals.h"
+#include "methods/methods.h"
 
 /* ---- no contact, no solution ---- */
 
@@ -66,7 +67,7 @@ static void test_tension_is_refused(void **state)
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_fails(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p), SAM_ERR_USER);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -82,12 +83,12 @@ static void test_too_few_iterations_are_a_reason_not_an_error(void **state)
   (void)state;
   for (int k = 0; k < 2; k++) {
     sam_call(SamNormalCreate(s.elasticity, &normal));
-    sam_call(SamSolverSetType(normal, k ? SAM_NORMAL_POLONSKYKEER : SAM_NORMAL_ACTIVESET));
-    sam_call(SamSolverSetTolerances(normal, PETSC_DEFAULT, 2));
+    sam_call(SamSolverSetType(SamNormalAsSolver(normal), k ? SAM_NORMAL_POLONSKYKEER : SAM_NORMAL_ACTIVESET));
+    sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), PETSC_DEFAULT, 2));
     sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
-    sam_call(SamSolverGetReason(normal, &reason));
+    sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
     sam_assert(reason == SAM_SOLVER_DIVERGED_ITS);
-    sam_call(SamSolverDestroy(&normal));
+    sam_call(SamNormalDestroy(&normal));
   }
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
@@ -160,12 +161,12 @@ static void test_monitors_add_up_and_see_every_iteration(void **state)
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
-  sam_call(SamSolverMonitorSet(normal, Remember, seen[0]));
-  sam_call(SamSolverMonitorSet(normal, Remember, seen[1]));
+  sam_call(SamSolverMonitorSet(SamNormalAsSolver(normal), Remember, seen[0]));
+  sam_call(SamSolverMonitorSet(SamNormalAsSolver(normal), Remember, seen[1]));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
-  sam_call(SamSolverGetStatistics(normal, NULL, &its, NULL, NULL));
+  sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), NULL, &its, NULL, NULL));
   for (int k = 0; k < 2; k++) sam_assert(seen[k][0] == its && seen[k][1] == its && seen[k][2] <= 1e-8);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -183,5 +184,5 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_monitors_add_up_and_see_every_iteration),
   };
 
-  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+  return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));
 }

@@ -1,5 +1,6 @@
 /* The normal problem with surfaces that yield besides: complementarity of the solution, by a product of its own. */
 #include "normals.h"
+#include "methods/methods.h"
 
 #include <petsam/private/elasticityimpl.h>
 
@@ -28,11 +29,11 @@ static Outcome SolveYielding(const Sphere *s, SamSolverType type, Vec d, SamBala
   Outcome   o;
 
   sam_call(SamNormalCreate(s->elasticity, &normal));
-  sam_call(SamSolverSetType(normal, type));
+  sam_call(SamSolverSetType(SamNormalAsSolver(normal), type));
   sam_call(SamNormalSolveYielding(normal, s->h, d, balance, PETSC_FALSE, p));
-  sam_call(SamSolverGetReason(normal, &o.reason));
-  sam_call(SamSolverGetStatistics(normal, &o.error, &o.iterations, &o.applies, &o.preconditions));
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &o.reason));
+  sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), &o.error, &o.iterations, &o.applies, &o.preconditions));
+  sam_call(SamNormalDestroy(&normal));
   if (getenv("SAM_SHOW")) print_message("# %s its %d products %d\n", type, (int)o.iterations, (int)o.applies);
   return o;
 }
@@ -144,5 +145,5 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_soft_yield_is_a_bed_of_springs),
   };
 
-  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+  return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));
 }

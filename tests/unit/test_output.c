@@ -7,14 +7,14 @@
 
 static void test_file_holds_what_was_written(void **state)
 {
-  const SamOutputSettings set = SettingsOf("");
-
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
     SamGrid grid = CreateGrid(k);
+    Shown   s    = CreateShown(grid);
 
-    WriteFile(grid, filename, &set);
+    WriteFile(&s, filename, "");
     sam_assert(IsGood(filename, grid, STEPS, SAVED));
+    DestroyShown(&s);
     sam_call(SamGridDestroy(&grid));
   }
   Remove(filename);
@@ -22,20 +22,20 @@ static void test_file_holds_what_was_written(void **state)
 
 static void test_compression_changes_no_value(void **state)
 {
-  const SamOutputSettings set[2] = {SettingsOf(""), SettingsOf("-output_compress 3")};
-
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
     SamGrid     grid = CreateGrid(k);
+    Shown       s    = CreateShown(grid);
     struct stat plain, compressed;
 
-    WriteFile(grid, filename, &set[0]);
+    WriteFile(&s, filename, "");
     sam_assert(Rank() || !stat(filename, &plain));
-    WriteFile(grid, filename, &set[1]);
+    WriteFile(&s, filename, "-output_compress 3");
     sam_assert(IsGood(filename, grid, STEPS, SAVED));
     sam_assert(Rank() || !stat(filename, &compressed));
     /* of the large grid, whose values are regular, less than half remains */
     sam_assert(Rank() || k < 2 || compressed.st_size < plain.st_size / 2);
+    DestroyShown(&s);
     sam_call(SamGridDestroy(&grid));
   }
   Remove(filename);
@@ -43,12 +43,12 @@ static void test_compression_changes_no_value(void **state)
 
 static void test_root_has_the_attributes_that_were_set(void **state)
 {
-  const SamOutputSettings set  = SettingsOf("");
-  SamGrid                 grid = CreateGrid(0);
-  int                     good = 1;
+  SamGrid grid = CreateGrid(0);
+  Shown   s    = CreateShown(grid);
+  int     good = 1;
 
   (void)state;
-  WriteFile(grid, filename, &set);
+  WriteFile(&s, filename, "");
   if (Rank() == 0) {
     const hid_t file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT), cells = H5Dopen2(file, "state", H5P_DEFAULT);
 
@@ -58,14 +58,16 @@ static void test_root_has_the_attributes_that_were_set(void **state)
     H5Fclose(file);
   }
   sam_assert(good);
+  DestroyShown(&s);
   sam_call(SamGridDestroy(&grid));
   Remove(filename);
 }
 
 static void test_file_without_steps_is_good(void **state)
 {
-  const SamOutputSettings set  = SettingsOf("");
   SamGrid                 grid = CreateGrid(0);
+  Shown                   s    = CreateShown(grid);
+  const SamOutputSettings set  = SettingsOf(s.contact, "");
   SamOutput               output;
   int                     good = 1;
 
@@ -82,6 +84,7 @@ static void test_file_without_steps_is_good(void **state)
     H5Fclose(file);
   }
   sam_assert(good);
+  DestroyShown(&s);
   sam_call(SamGridDestroy(&grid));
   Remove(filename);
 }
@@ -89,21 +92,19 @@ static void test_file_without_steps_is_good(void **state)
 /* What a run that is aborted now leaves behind. */
 static void test_file_is_complete_after_each_step(void **state)
 {
-  static const char       copy[] = "test_output_copy.h5";
-  const SamOutputSettings set    = SettingsOf("");
+  static const char copy[] = "test_output_copy.h5";
 
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
-    SamGrid   grid = CreateGrid(k);
-    SamOutput output;
-    Shown     s = CreateShown(grid);
+    SamGrid                 grid = CreateGrid(k);
+    Shown                   s    = CreateShown(grid);
+    const SamOutputSettings set  = SettingsOf(s.contact, "");
+    SamOutput               output;
 
     sam_call(SamOutputCreate(grid, filename, &set, &output));
     for (int step = 0; step < STEPS; step++) {
-      const SamStep numbers = MakeStep(step);
-
       Show(&s, step);
-      sam_call(SamOutputWriteStep(output, &numbers, step == 1 ? NULL : s.contact));
+      sam_call(SamOutputWriteStep(output, step != 1));
       (void)MPI_Barrier(PETSC_COMM_WORLD);
       sam_assert(CopyFile(filename, copy));
       sam_assert(IsGood(copy, grid, step + 1, step < 2 ? 1 : 2));
@@ -118,18 +119,19 @@ static void test_file_is_complete_after_each_step(void **state)
 
 /* ---- columns ---- */
 
-/* Numbers of a column, on rank 0; whether it is there. */
+/* Numbers of a column, on rank 0; whether it is there, with so many. */
 static int ReadColumn(const char *name, int steps, double values[])
 {
   const hid_t file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT), group = H5Gopen2(file, "history", H5P_DEFAULT);
-  const int   there = H5Lexists(group, name, H5P_DEFAULT) > 0;
+  int         there = H5Lexists(group, name, H5P_DEFAULT) > 0;
 
   if (there) {
     const hid_t   dataset = H5Dopen2(group, name, H5P_DEFAULT);
     const hsize_t n       = (hsize_t)steps;
 
-    if (!HasShape(dataset, 1, &n, 1) || H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-      print_error("/history/%s cannot be read\n", name);
+    there =
+      HasShape(dataset, 1, &n, 1) && H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    if (!there) print_error("/history/%s is not what it should be\n", name);
     H5Dclose(dataset);
   }
   H5Gclose(group);
@@ -143,12 +145,12 @@ static void test_optional_columns_are_there_when_asked_for(void **state)
 
   (void)state;
   for (int asked = 0; asked < 4; asked++) {
-    SamOutputSettings set  = SettingsOf("");
-    SamGrid           grid = CreateGrid(0);
+    SamGrid grid = CreateGrid(0);
+    Shown   s    = CreateShown(grid);
 
-    set.with[SAM_OUTPUT_FRICTION_SCALE] = asked & 1 ? PETSC_TRUE : PETSC_FALSE;
-    set.with[SAM_OUTPUT_BULK_STRESS]    = asked & 2 ? PETSC_TRUE : PETSC_FALSE;
-    WriteFile(grid, filename, &set);
+    if (asked & 1) sam_call(SamStateOfferNumber(s.state, "friction_scale", 1));
+    for (int n = 0; n < 6 && asked & 2; n++) sam_call(SamStateOfferNumber(s.state, SamBulkNames[n / 3][n % 3].name, 0));
+    WriteFile(&s, filename, "");
     sam_assert(IsGood(filename, grid, STEPS, SAVED));
     if (Rank() == 0) {
       double values[STEPS] = {0};
@@ -163,6 +165,43 @@ static void test_optional_columns_are_there_when_asked_for(void **state)
       }
     }
     sam_assert(good);
+    DestroyShown(&s);
+    sam_call(SamGridDestroy(&grid));
+  }
+  Remove(filename);
+}
+
+/* Steps without fields that wait are in the file after a flush, and before the fields of a later step. */
+static void test_steps_that_wait_are_not_lost(void **state)
+{
+  (void)state;
+  for (int flushed = 0; flushed < 2; flushed++) {
+    SamGrid           grid = CreateGrid(0);
+    Shown             s    = CreateShown(grid);
+    SamOutputSettings set  = SettingsOf(s.contact, "");
+    SamOutput         output;
+    PetscInt          steps;
+    double            values[STEPS] = {0};
+    int               good          = 1;
+
+    set.flush = 1e9;
+    sam_call(SamOutputCreate(grid, filename, &set, &output));
+    for (int step = 0; step < STEPS; step++) {
+      Show(&s, step);
+      sam_call(SamOutputWriteStep(output, step == STEPS - 1 && !flushed));
+    }
+    sam_call(SamOutputGetSaved(output, &steps, NULL, NULL));
+    sam_assert(steps == STEPS);
+    if (flushed) {
+      sam_assert(Rank() || ReadColumn("time", 0, values)); /* they do wait */
+      (void)MPI_Barrier(PETSC_COMM_WORLD);
+      sam_call(SamOutputFlush(output));
+    }
+    if (!Rank()) good = ReadColumn("contact_area", STEPS, values);
+    for (int step = 0; step < STEPS && !Rank(); step++) good = good && values[step] == 20 + step;
+    sam_assert(good);
+    sam_call(SamOutputDestroy(&output));
+    DestroyShown(&s);
     sam_call(SamGridDestroy(&grid));
   }
   Remove(filename);
@@ -182,8 +221,8 @@ static void test_numbers_that_do_not_exist_are_nan(void **state)
                                                "normal_residual",
                                                "tangential_residual",
                                                "equilibrium_residual"};
-  const SamOutputSettings         set       = SettingsOf("");
   Case                            c         = NewCase(Steel(), 40, 1.5, MU, "");
+  const SamOutputSettings         set       = SettingsOf(c.contact, "");
   SamControl                      control   = Loads(&c, 1, 1.5, 0, 0);
   SamOutput                       output;
   SamStep                         step;
@@ -194,7 +233,7 @@ static void test_numbers_that_do_not_exist_are_nan(void **state)
   step = Try(&c, &control);
   sam_assert(step.status == SAM_STATUS_NO_EQUILIBRIUM);
   sam_call(SamOutputCreate(c.s.grid, filename, &set, &output));
-  sam_call(SamOutputWriteStep(output, &step, NULL));
+  sam_call(SamOutputWriteStep(output, PETSC_FALSE));
   sam_call(SamOutputDestroy(&output));
   for (int k = 0; k < 6 && Rank() == 0; k++) {
     double value = NAN;
@@ -214,23 +253,22 @@ static void test_numbers_that_do_not_exist_are_nan(void **state)
 /* What is written is the tried step; after it was rejected the committed one. */
 static void test_fields_are_those_of_the_tried_step_else_of_the_committed_one(void **state)
 {
-  const SamOutputSettings set   = SettingsOf("");
   Case                    c     = NewCase(Steel(), 37, 1.5, MU, "");
+  const SamOutputSettings set   = SettingsOf(c.contact, "");
   const SamControl        first = Loads(&c, 1, 0.2, 0, 0), second = Loads(&c, 0.7, 0.1, 0, 0);
   SamOutput               output;
-  SamStep                 step;
   double                 *expected[2], *saved = (double *)calloc(2 * 37 * 37, sizeof(*saved));
   int                     good = 1;
 
   (void)state;
   sam_call(SamOutputCreate(c.s.grid, filename, &set, &output));
-  step        = Solve(&c, &first);
+  (void)Solve(&c, &first);
   expected[1] = Whole(c.s.grid, 1, SolutionOf(&c)->pressure);
-  step        = Try(&c, &second);
+  (void)Try(&c, &second);
   expected[0] = Whole(c.s.grid, 1, SolutionOf(&c)->pressure);
-  sam_call(SamOutputWriteStep(output, &step, c.contact));
+  sam_call(SamOutputWriteStep(output, PETSC_TRUE));
   sam_call(SamContactReject(c.contact));
-  sam_call(SamOutputWriteFields(output, 2, c.contact));
+  sam_call(SamOutputWriteFields(output, 2));
   sam_call(SamOutputDestroy(&output));
   if (Rank() == 0) {
     const hid_t file = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT), p = H5Dopen2(file, "pressure", H5P_DEFAULT);
@@ -256,6 +294,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_file_without_steps_is_good),
     cmocka_unit_test(test_file_is_complete_after_each_step),
     cmocka_unit_test(test_optional_columns_are_there_when_asked_for),
+    cmocka_unit_test(test_steps_that_wait_are_not_lost),
     cmocka_unit_test(test_numbers_that_do_not_exist_are_nan),
     cmocka_unit_test(test_fields_are_those_of_the_tried_step_else_of_the_committed_one),
   };

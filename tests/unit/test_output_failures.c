@@ -9,8 +9,9 @@
 
 static void AssertNotCreated(const char *name, PetscErrorCode expected, const char *word)
 {
-  const SamOutputSettings set  = SettingsOf("");
   SamGrid                 grid = CreateGrid(0);
+  Shown                   s    = CreateShown(grid);
+  const SamOutputSettings set  = SettingsOf(s.contact, "");
   SamOutput               output;
   PetscErrorCode          ierr;
   int                     good;
@@ -21,6 +22,7 @@ static void AssertNotCreated(const char *name, PetscErrorCode expected, const ch
   good = ierr == expected && strstr(CaughtMessage(), word) && !output;
   if (!good) print_error("%s: error %d, %s\n", name, (int)ierr, CaughtMessage());
   sam_assert(good);
+  DestroyShown(&s);
   sam_call(SamGridDestroy(&grid));
 }
 
@@ -56,24 +58,56 @@ static void test_wrong_settings_are_refused(void **state)
   AssertRefused("-output_xdmf maybe", "-output_xdmf");
 }
 
-static void test_failed_creation_leaves_the_old_file(void **state)
+/* The message lists the fields that there are: also those of laws, and not those of laws that the problem lacks. */
+static void test_unknown_field_is_named(void **state)
 {
-  const SamOutputSettings set  = SettingsOf("");
-  SamGrid                 grid = CreateGrid(0);
+  SamGrid           grid = CreateGrid(0);
+  Shown             s    = CreateShown(grid);
+  const SamOptions  from = {PETSC_COMM_WORLD, NULL};
+  SamOutputSettings set;
+  PetscErrorCode    ierr;
 
   (void)state;
-  WriteFile(grid, filename, &set);
+  for (int known = 0; known < 2; known++) {
+    SetOptions(known ? "-output_fields all" : "-output_fields pressure,slip_path");
+    sam_call(SamOutputSettingsSetFromOptions(&set, &from));
+    SetOptions("");
+    BeginCatching();
+    ierr = SamOutputSettingsPrepare(&set, s.contact, &from);
+    EndCatching();
+    sam_assert(ierr == (known ? 0 : SAM_ERR_USER));
+    if (!known)
+      sam_assert(strstr(CaughtMessage(), "unknown field slip_path") && strstr(CaughtMessage(), ", displacement_z,") &&
+                 !strstr(CaughtMessage(), ", slip_path"));
+  }
+  SetOptions("-output_fields pressure,slip_path");
+  sam_call(SamOutputSettingsSetFromOptions(&set, &from));
+  SetOptions("");
+  sam_call(SamOutputSettingsAddLaws(&set, s.problem));
+  sam_call(SamOutputSettingsPrepare(&set, s.contact, &from));
+  DestroyShown(&s);
+  sam_call(SamGridDestroy(&grid));
+}
+
+static void test_failed_creation_leaves_the_old_file(void **state)
+{
+  SamGrid grid = CreateGrid(0);
+  Shown   s    = CreateShown(grid);
+
+  (void)state;
+  WriteFile(&s, filename, "");
   if (geteuid()) { /* to root everything is writable */
     sam_assert(Rank() || !chmod(filename, 0400));
     AssertNotCreated(filename, SAM_ERR_FILE, filename);
   }
   sam_assert(IsGood(filename, grid, STEPS, SAVED));
+  DestroyShown(&s);
   sam_call(SamGridDestroy(&grid));
   Remove(filename);
 }
 
 /* Tries to write a step where there is no room for it. */
-static void AssertNoRoom(SamOutput output, const SamStep *step, SamContact contact)
+static void AssertNoRoom(SamOutput output, PetscBool fields)
 {
   struct rlimit  usual, small;
   struct stat    status;
@@ -86,7 +120,7 @@ static void AssertNoRoom(SamOutput output, const SamStep *step, SamContact conta
   small.rlim_cur = (rlim_t)status.st_size + 10000;
   sam_assert(signal(SIGXFSZ, SIG_IGN) != SIG_ERR && !setrlimit(RLIMIT_FSIZE, &small));
   BeginCatching();
-  ierr = SamOutputWriteStep(output, step, contact);
+  ierr = SamOutputWriteStep(output, fields);
   EndCatching();
   good = ierr == SAM_ERR_FILE && strstr(CaughtMessage(), filename) && !setrlimit(RLIMIT_FSIZE, &usual);
   sam_assert(good);
@@ -97,24 +131,22 @@ static void AssertNoRoom(SamOutput output, const SamStep *step, SamContact conta
 */
 static void test_full_disk_is_an_error_on_all_ranks_and_costs_nothing(void **state)
 {
-  const SamOutputSettings set = SettingsOf("");
-
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
-    SamGrid   grid = CreateGrid(k);
-    SamOutput output;
-    Shown     s = CreateShown(grid);
+    SamGrid                 grid = CreateGrid(k);
+    Shown                   s    = CreateShown(grid);
+    const SamOutputSettings set  = SettingsOf(s.contact, "");
+    SamOutput               output;
 
     sam_call(SamOutputCreate(grid, filename, &set, &output));
     for (int step = 0; step < STEPS; step++) {
-      const SamStep numbers = MakeStep(step);
-
       Show(&s, step);
-      AssertNoRoom(output, &numbers, s.contact);
-      AssertNoRoom(output, &numbers, NULL);
-      sam_call(SamOutputWriteStep(output, &numbers, step == 1 ? NULL : s.contact));
+      AssertNoRoom(output, PETSC_TRUE);
+      AssertNoRoom(output, PETSC_FALSE);
+      sam_call(SamOutputWriteStep(output, step != 1));
     }
-    AssertNoRoom(output, &(SamStep){.control = {.time = 9}}, s.contact);
+    PutNumber(&s, "time", 9);
+    AssertNoRoom(output, PETSC_TRUE);
     sam_call(SamOutputDestroy(&output));
     sam_assert(IsGood(filename, grid, STEPS, SAVED));
     DestroyShown(&s);
@@ -128,6 +160,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_names_that_cannot_be_written_are_errors_on_all_ranks),
     cmocka_unit_test(test_wrong_settings_are_refused),
+    cmocka_unit_test(test_unknown_field_is_named),
     cmocka_unit_test(test_failed_creation_leaves_the_old_file),
     cmocka_unit_test(test_full_disk_is_an_error_on_all_ranks_and_costs_nothing),
   };

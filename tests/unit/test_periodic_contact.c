@@ -1,5 +1,6 @@
 /* Contact of periodic bodies: Westergaard's surface, waves in both directions, roughness, stick and slip. */
 #include "fields.h"
+#include "methods/methods.h"
 
 #include <petsam/normal.h>
 #include <petsam/tangential.h>
@@ -46,15 +47,15 @@ static SamSolverReason Press(Case *c, SamSolverType type, double rtol, double me
   b->force[0] = mean > 0;
   b->load[0]  = mean * c->area;
   sam_call(SamNormalCreate(c->elasticity, &normal));
-  sam_call(SamSolverSetType(normal, type));
-  sam_call(SamSolverSetTolerances(normal, rtol, PETSC_DEFAULT));
+  sam_call(SamSolverSetType(SamNormalAsSolver(normal), type));
+  sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), rtol, PETSC_DEFAULT));
   sam_call(SamNormalSolve(normal, c->h, b, PETSC_FALSE, c->p));
-  sam_call(SamSolverGetReason(normal, &reason));
-  sam_call(SamSolverGetStatistics(normal, NULL, &its, NULL, NULL));
+  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
+  sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), NULL, &its, NULL, NULL));
   if (getenv("SAM_SHOW"))
     print_message("# %s %d x %d: %s, %d iterations, approach %.10g\n", type, (int)c->grid->nx, (int)c->grid->ny,
                   SamSolverReasonName(reason), (int)its, b->rigid[0]);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   return reason;
 }
 
@@ -419,17 +420,17 @@ static double Shear(Case *c, SamSolverType type, double mean, double tx, double 
     t.rigid[k] = displaced ? displaced[k] : 0;
   }
   sam_call(SamTangentialCreate(c->elasticity, &tangential));
-  sam_call(SamSolverSetType(tangential, type));
-  sam_call(SamSolverSetTolerances(tangential, 1e-8, PETSC_DEFAULT));
+  sam_call(SamSolverSetType(SamTangentialAsSolver(tangential), type));
+  sam_call(SamSolverSetTolerances(SamTangentialAsSolver(tangential), 1e-8, PETSC_DEFAULT));
   sam_call(SamTangentialSolve(tangential, bound, NULL, &t, PETSC_FALSE, q));
-  sam_call(SamSolverGetReason(tangential, &reason));
-  sam_call(SamSolverGetStatistics(tangential, NULL, &its, NULL, NULL));
+  sam_call(SamSolverGetReason(SamTangentialAsSolver(tangential), &reason));
+  sam_call(SamSolverGetStatistics(SamTangentialAsSolver(tangential), NULL, &its, NULL, NULL));
   residual = Residual(c, &t, bound, q, slips);
   if (getenv("SAM_SHOW"))
     print_message("# %s: %s, %d iterations, residual %g, slips %.3f, d %g %g\n", type, SamSolverReasonName(reason),
                   (int)its, residual, *slips, t.rigid[0], t.rigid[1]);
   sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
-  sam_call(SamSolverDestroy(&tangential));
+  sam_call(SamTangentialDestroy(&tangential));
   sam_call(VecDestroy(&bound));
   sam_call(VecDestroy(&q));
   return residual;
@@ -494,5 +495,5 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_full_contact_sticks_or_slides),
   };
 
-  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+  return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));
 }

@@ -63,33 +63,50 @@ static SamControl ControlOf(int step)
   return control;
 }
 
+/* The tractions and what was prescribed in a generation of a state. */
+static void SetGeneration(SamProblem problem, SamState s, SamGeneration g, int step, Vec p, Vec q)
+{
+  const SamControl control = ControlOf(step);
+  Vec              field;
+
+  sam_call(SamStateRestoreField(s, SamStateFindField(s, "pressure"), g, &field));
+  sam_call(VecCopy(p, field));
+  sam_call(SamStateRestoreField(s, SamStateFindField(s, "shear"), g, &field));
+  sam_call(VecCopy(q, field));
+  sam_call(SamStateRestoreField(s, SamStateFindField(s, "bound"), g, &field));
+  ComputeBound(problem, 1, p, field);
+  SamControlPack(&control, SamStateNumbers(s, SamStateFindNumber(s, "control"), g));
+  *SamStateNumbers(s, SamStateFindNumber(s, "steps"), g) = step + 1;
+}
+
 /* With these tractions after the first step and after the second. */
 static Made MakeContact(SamGrid grid, Vec p[2], Vec q[2])
 {
-  const SamPair   pair = Steel();
-  SamContactState state;
-  Made            m;
+  const SamPair pair = Steel();
+  SamState      state, made;
+  Made          m;
 
   sam_call(SamElasticityCreate(grid, &pair, &m.elasticity));
   sam_call(SamProblemCreate(m.elasticity, &m.problem));
   sam_call(SamProblemSetFriction(m.problem, MU));
   sam_call(SamContactCreate(m.problem, &m.contact));
-  memset(&state, 0, sizeof(state));
-  state.steps              = 2;
-  state.before             = (SamSolution){.control = ControlOf(0), .pressure = p[0], .shear = q[0]};
-  state.now                = (SamSolution){.control = ControlOf(1), .pressure = p[1], .shear = q[1]};
-  state.before.bound       = NewField(grid, 1);
-  state.now.bound          = NewField(grid, 1);
-  state.now.displacement_z = NewField(grid, 1);
-  state.now.displacement_t = NewField(grid, 2);
-  sam_call(SamProblemComputeBound(m.problem, 1, p[0], state.before.bound));
-  sam_call(SamProblemComputeBound(m.problem, 1, p[1], state.now.bound));
-  sam_call(SamContactSetState(m.contact, &state));
-  sam_call(VecDestroy(&state.before.bound));
-  sam_call(VecDestroy(&state.now.bound));
-  sam_call(VecDestroy(&state.now.displacement_z));
-  sam_call(VecDestroy(&state.now.displacement_t));
+  sam_call(SamContactGetState(m.contact, &state));
+  sam_call(SamStateCreateLike(state, &made));
+  SetGeneration(m.problem, made, SAM_BEFORE, 0, p[0], q[0]);
+  SetGeneration(m.problem, made, SAM_COMMITTED, 1, p[1], q[1]);
+  sam_call(SamContactSetState(m.contact, made, PETSC_FALSE));
+  sam_call(SamStateDestroy(&made));
   return m;
+}
+
+/* The guess for a step, into the tried generation. */
+static SamStepStart Predict(const Made *m, const SamControl *next)
+{
+  SamStepStart start;
+
+  sam_call(SamContactBegin(m->contact, next));
+  sam_call(SamContactPredict(m->contact, next, &start));
+  return start;
 }
 
 static void DestroyContact(Made *m)
@@ -114,11 +131,11 @@ static void PredictStages(const Stage stages[3], double errors[2])
     p[k] = NewFrom(grid, StagePressure, &stages[k]);
     q[k] = NewShear(grid, &stages[k]);
   }
-  m = MakeContact(grid, p, q);
-  sam_call(SamContactPredict(m.contact, &next, &start));
+  m     = MakeContact(grid, p, q);
+  start = Predict(&m, &next);
   sam_assert(start.pressure && start.shear);
-  errors[0] = Difference(m.contact->tried.solution.pressure, p[2], NORM_2);
-  errors[1] = Difference(m.contact->tried.solution.shear, q[2], NORM_2);
+  errors[0] = Difference(m.contact->generation[SAM_TRIED].pressure, p[2], NORM_2);
+  errors[1] = Difference(m.contact->generation[SAM_TRIED].shear, q[2], NORM_2);
   DestroyContact(&m);
   for (int k = 0; k < 3; k++) {
     sam_call(VecDestroy(&p[k]));
@@ -163,12 +180,13 @@ static void test_prediction_keeps_what_would_vanish(void **state)
   sam_call(VecSet(p[0], 2));
   sam_call(VecSet(p[1], 1));
   sam_call(VecSet(q[1], 0.1));
-  m = MakeContact(grid, p, q);
-  sam_call(SamContactPredict(m.contact, &next, &start));
+  m     = MakeContact(grid, p, q);
+  start = Predict(&m, &next);
   sam_assert(!start.pressure && !start.shear);
   sam_call(SamContactGetSolution(m.contact, &s));
   sam_assert(SameBits(s->pressure, p[1]) && SameBits(s->shear, q[1]));
-  sam_assert(SameBits(m.contact->before.pressure, p[0]) && SameBits(m.contact->before.shear, q[0]));
+  sam_assert(SameBits(m.contact->generation[SAM_BEFORE].pressure, p[0]) &&
+             SameBits(m.contact->generation[SAM_BEFORE].shear, q[0]));
   DestroyContact(&m);
   for (int k = 0; k < 2; k++) {
     sam_call(VecDestroy(&p[k]));
@@ -192,16 +210,16 @@ static void test_what_turns_is_not_predicted(void **state)
     p[k] = NewFrom(grid, StagePressure, &stages[k]);
     q[k] = NewShear(grid, &stages[k]);
   }
-  m = MakeContact(grid, p, q);
-  sam_call(SamContactPredict(m.contact, &next, &start));
+  m     = MakeContact(grid, p, q);
+  start = Predict(&m, &next);
   sam_assert(!start.pressure && !start.shear);
   next = ControlOf(2);
   Displace(&next, SAM_COMPONENT_TX, 0.3);
-  sam_call(SamContactPredict(m.contact, &next, &start));
+  start = Predict(&m, &next);
   sam_assert(!start.pressure && !start.shear);
   next = ControlOf(2);
   sam_call(SamContactSetWarmStart(m.contact, PETSC_FALSE));
-  sam_call(SamContactPredict(m.contact, &next, &start));
+  start = Predict(&m, &next);
   sam_assert(!start.pressure && !start.shear);
   DestroyContact(&m);
   for (int k = 0; k < 2; k++) {

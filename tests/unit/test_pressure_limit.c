@@ -2,6 +2,7 @@
  * A limit of the pressure in the solver: projections between two bounds, loads that can be borne, the normal problem.
  */
 #include "fields.h"
+#include "methods/methods.h"
 
 #include <petsam/normal.h>
 #include <petsam/private/balanceimpl.h>
@@ -250,13 +251,13 @@ static void test_conditions_hold_with_two_bounds(void **state)
       sam_call(SamNormalCreate(s.elasticity, &normal));
       sam_call(SamNormalSetPressureLimit(normal, parts[k] * s.p0));
       sam_call(SamNormalSolve(normal, s.h, &b, start ? PETSC_TRUE : PETSC_FALSE, p));
-      sam_call(SamSolverGetReason(normal, &reason));
+      sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
       sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
       sam_assert(Error(&s, &b, p, parts[k] * s.p0, &saturated) < 1.05e-8);
       before = k ? 0.3 * s.N / (parts[k] * s.p0 * s.grid->dx * s.grid->dy) : 5;
       sam_assert(saturated > before);
       sam_assert_close(Sum(p) * s.grid->dx * s.grid->dy, s.N, 1e-10 * s.N);
-      sam_call(SamSolverDestroy(&normal));
+      sam_call(SamNormalDestroy(&normal));
       sam_call(VecDestroy(&p));
       DestroySphere(&s);
     }
@@ -277,13 +278,13 @@ static void test_methods_without_an_upper_bound_refuse_it(void **state)
   sam_fails(SamNormalSetPressureLimit(normal, 0), PETSC_ERR_ARG_OUTOFRANGE);
   sam_fails(SamNormalSetPressureLimit(normal, NAN), PETSC_ERR_ARG_OUTOFRANGE);
   sam_call(SamNormalSetPressureLimit(normal, s.p0));
-  sam_call(SamSolverSetType(normal, SAM_NORMAL_POLONSKYKEER));
+  sam_call(SamSolverSetType(SamNormalAsSolver(normal), SAM_NORMAL_POLONSKYKEER));
   sam_call(SamNormalLimitsPressure(normal, &limits));
   sam_assert(!limits);
   sam_fails(SamNormalSolve(normal, s.h, &b, PETSC_FALSE, p), PETSC_ERR_SUP);
   sam_call(SamNormalSetPressureLimit(normal, INFINITY));
   sam_call(SamNormalSolve(normal, s.h, &b, PETSC_FALSE, p));
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -299,5 +300,5 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_methods_without_an_upper_bound_refuse_it),
   };
 
-  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+  return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));
 }

@@ -4,7 +4,7 @@
  */
 #include "contacts.h"
 
-#include "../../src/app/checkpoints.h"
+#include "../../src/simulation/checkpoints.h"
 #include <signal.h>
 #include <unistd.h>
 
@@ -35,7 +35,7 @@ static SamCheckpoints NewCheckpoints(const Case *c, const char *options)
 
   SetOptions(options);
   sam_call(SamCheckpointsCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &k));
-  sam_call(SamCheckpointsBegin(k, c->s.grid));
+  sam_call(SamCheckpointsBegin(k, c->s.grid, 0));
   SetOptions("");
   return k;
 }
@@ -75,17 +75,18 @@ static Case NewBody(void)
 }
 
 /* Solves step `point->steps`, then calls SamCheckpointsAfterStep(); returns whether the run is to stop. */
-static PetscBool TakeStep(SamCheckpoints k, const Case *c, SamRunPoint *point)
+static PetscBool TakeStep(SamCheckpoints k, const Case *c, SamSimulationPoint *point)
 {
   SamControl control;
   SamStep    step;
   PetscBool  stop;
+  char       said[512];
 
   sam_call(SamHistoryGetStep(point->history, point->steps, &control));
   step = Solve(c, &control);
   sam_assert(step.status == SAM_STATUS_CONVERGED);
   point->steps++;
-  sam_call(SamCheckpointsAfterStep(k, c->contact, &none, point, &stop));
+  sam_call(SamCheckpointsAfterStep(k, c->contact, &none, point, &stop, said, sizeof(said)));
   return stop;
 }
 
@@ -102,7 +103,7 @@ static void test_checkpoints_come_after_every_so_many_steps(void **state)
   static const PetscInt expected[4] = {0, 2, 2, 4};
   Case                  c           = NewBody();
   SamCheckpoints        k           = NewCheckpoints(&c, "-checkpoint test_restart.h5 -checkpoint_every 2");
-  SamRunPoint           point       = {.history = NewUsualProgram()};
+  SamSimulationPoint    point       = {.history = NewUsualProgram()};
 
   (void)state;
   for (int step = 0; step < 4; step++) {
@@ -115,22 +116,25 @@ static void test_checkpoints_come_after_every_so_many_steps(void **state)
   Remove();
 }
 
-/* USR2 asks for a checkpoint, USR1 also to stop, on any rank; nobody stops after the last step. */
+/* The first signal asks for a checkpoint, the second also to stop, on any rank; nobody stops after the last step. */
 static void test_signals_ask_for_checkpoints(void **state)
 {
-  Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints(&c, "-checkpoint test_restart.h5");
-  SamRunPoint    point = {.history = NewUsualProgram()};
-  int            ranks;
+  Case               c     = NewBody();
+  SamCheckpoints     k     = NewCheckpoints(&c, "-checkpoint test_restart.h5");
+  SamSimulationPoint point = {.history = NewUsualProgram()};
+  int                ranks;
+
+  volatile sig_atomic_t signals[2] = {0, 0}; /* as set by a handler */
 
   (void)state;
+  sam_call(SamCheckpointsSetSignals(k, signals));
   MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 0);
-  if (Rank() == ranks - 1) (void)raise(SIGUSR2);
+  if (Rank() == ranks - 1) signals[0] = 1;
   sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 2);
-  if (Rank() == ranks - 1) (void)raise(SIGUSR1);
+  if (Rank() == ranks - 1) signals[1] = 1;
   sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 3);
-  if (Rank() == 0) (void)raise(SIGUSR1);
+  if (Rank() == 0) signals[1] = 1;
   sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 4);
   sam_call(SamHistoryDestroy(&point.history));
   sam_call(SamCheckpointsDestroy(&k));
@@ -141,9 +145,9 @@ static void test_signals_ask_for_checkpoints(void **state)
 /* No step is begun that would not end in time. */
 static void test_limit_of_time_stops_with_a_checkpoint(void **state)
 {
-  Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -max_walltime 1e-6");
-  SamRunPoint    point = {.history = NewUsualProgram()};
+  Case               c     = NewBody();
+  SamCheckpoints     k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -max_walltime 1e-6");
+  SamSimulationPoint point = {.history = NewUsualProgram()};
 
   (void)state;
   sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 1);
@@ -159,9 +163,9 @@ static void test_limit_of_time_stops_with_a_checkpoint(void **state)
 /* A checkpoint of the second step of the usual program. */
 static void WriteCheckpoint(void)
 {
-  Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -checkpoint_every 2");
-  SamRunPoint    point = {.history = NewUsualProgram(), .worst = SAM_STATUS_EDGE_CONTACT};
+  Case               c     = NewBody();
+  SamCheckpoints     k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -checkpoint_every 2");
+  SamSimulationPoint point = {.history = NewUsualProgram(), .worst = SAM_STATUS_EDGE_CONTACT};
 
   for (int step = 0; step < 2; step++) (void)TakeStep(k, &c, &point);
   sam_call(SamHistoryDestroy(&point.history));
@@ -175,10 +179,10 @@ static void WriteCheckpoint(void)
 */
 static void AssertRestart(SamHistory history, const char *says)
 {
-  Case           c     = NewBody();
-  SamCheckpoints k     = NewCheckpoints(&c, "-restart test_restart.h5");
-  SamRunPoint    point = {.history = history};
-  PetscErrorCode ierr;
+  Case               c     = NewBody();
+  SamCheckpoints     k     = NewCheckpoints(&c, "-restart test_restart.h5");
+  SamSimulationPoint point = {.history = history};
+  PetscErrorCode     ierr;
 
   BeginCatching();
   ierr = SamCheckpointsRestart(k, c.contact, &none, &point);

@@ -1,7 +1,7 @@
 /* Stresses on sections: those of the maps, at any line, for any steps, the same on any number of ranks. */
 #include "fields.h"
 
-#include <petsam/private/stressimpl.h>
+#include <petsam/private/halfspace.h>
 
 enum { COMPONENTS = SAM_STRESS_COMPONENTS, TRACTIONS = SAM_STRESS_TRACTIONS, DEPTHS = 4, STEPS = 3 };
 #define NU 0.34
@@ -28,14 +28,66 @@ static Vec NewTractions(SamGrid grid, PetscInt step)
   return v;
 }
 
+/* The kernels of a half-space; those of zz by shear as ones of their own, as other bodies have them. */
+static void AllRows(SamStress stress, const double side[2], double depth, SamStressGroup group, PetscInt j, PetscInt n,
+                    double *const values[SAM_STRESS_GROUP])
+{
+  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, NU};
+  double *const            to[]   = {values[2], values[0], values[1]};
+  const PetscBool          z      = group == SAM_STRESS_NORMAL_Z;
+
+  (void)stress;
+  SamHalfSpaceStressRow(&source, z ? SAM_STRESS_NORMAL_P : group, j, n, z ? to : values);
+}
+
+/* A smooth part: in each component another plane, whose height goes with the sums of p and q_x. */
+static PetscErrorCode Reduce(SamStress stress, const double *const tractions[], double sums[])
+{
+  PetscFunctionBegin;
+  for (int t = 0; t < 2; t++) {
+    sums[t] = 0;
+    for (PetscInt k = 0; k < stress->grid->cells; k++) sums[t] += tractions[t][k];
+  }
+  PetscCall(SamSum(stress->grid->comm, 2, sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void AddPlane(SamStress stress, const double sums[], const double first[3], const double step[2], PetscInt n,
+                     double *const to[SAM_STRESS_COMPONENTS])
+{
+  (void)stress;
+  for (PetscInt i = 0; i < n; i++)
+    for (int c = 0; c < COMPONENTS; c++)
+      to[c][i] += 1e-3 * sums[0] * (1 + c + 1e3 * (first[0] + (double)i * step[0])) +
+                  sums[1] * (2 * (first[1] + (double)i * step[1]) + c * first[2]);
+}
+
+/* Maps and sections must agree whatever a type knows: all kernels, a smooth part. */
+typedef enum { PLAIN, ALL, SMOOTH } Kind;
+static SamStress NewStress(SamGrid grid, PetscInt body, Kind kind)
+{
+  SamStress stress;
+
+  sam_call(SamHalfSpaceCreateStress(grid, NULL, body, 1, NU, &stress));
+  if (kind == ALL) {
+    stress->groups  = SAM_STRESS_GROUPS;
+    stress->ops.row = AllRows;
+    sam_assert(SamStressKernelOf(stress, SAM_STRESS_ZZ, SAM_STRESS_QY).group == SAM_STRESS_NORMAL_Z);
+  } else if (kind == SMOOTH) {
+    stress->sums       = 2;
+    stress->ops.reduce = Reduce;
+    stress->ops.add    = AddPlane;
+  }
+  return stress;
+}
+
 /* The maps' stresses along the section: [step][component][depth][cell], on all ranks. */
-static double *FromMaps(SamGrid grid, PetscInt body, SamSectionAxis axis, PetscInt index)
+static double *FromMaps(SamGrid grid, PetscInt body, SamSectionAxis axis, PetscInt index, Kind kind)
 {
   const PetscInt length = axis == SAM_SECTION_X ? grid->nx : grid->ny;
   double        *result = calloc((size_t)(STEPS * COMPONENTS * DEPTHS * length), sizeof(double));
-  SamStress      stress;
+  SamStress      stress = NewStress(grid, body, kind);
 
-  sam_call(SamStressCreate(grid, NULL, body, NU, &stress));
   for (int k = 0; k < DEPTHS; k++) {
     sam_call(SamStressSetDepth(stress, depths[k]));
     for (PetscInt step = 0; step < STEPS; step++) {
@@ -66,14 +118,16 @@ static double *FromMaps(SamGrid grid, PetscInt body, SamSectionAxis axis, PetscI
   return result;
 }
 
-static void AssertSection(PetscInt nx, PetscInt ny, PetscInt body, SamSectionAxis axis, PetscInt index)
+static void AssertSection(PetscInt nx, PetscInt ny, PetscInt body, SamSectionAxis axis, PetscInt index, Kind of_maps,
+                          Kind of_section)
 {
   SamGrid    grid = NewGrid(nx, ny, 1.2e-3, 0.9e-3);
-  double    *maps = FromMaps(grid, body, axis, index), *mine, worst = 0;
+  double    *maps = FromMaps(grid, body, axis, index, of_maps), *mine, worst = 0;
+  SamStress  stress = NewStress(grid, body, of_section);
   SamSection section;
   PetscInt   first, count, length;
 
-  sam_call(SamSectionCreate(grid, body, NU, axis, index, DEPTHS, depths, &section));
+  sam_call(SamSectionCreate(stress, axis, index, DEPTHS, depths, &section));
   sam_call(SamSectionGetDepths(section, &first, &count, &length));
   sam_assert(length == (axis == SAM_SECTION_X ? nx : ny));
   for (PetscInt step = 0; step < STEPS; step++) {
@@ -94,6 +148,7 @@ static void AssertSection(PetscInt nx, PetscInt ny, PetscInt body, SamSectionAxi
   free(mine);
   free(maps);
   sam_call(SamSectionDestroy(&section));
+  sam_call(SamStressDestroy(&stress));
   sam_call(SamGridDestroy(&grid));
 }
 
@@ -101,9 +156,10 @@ static void test_sections_along_x_are_rows_of_the_maps(void **state)
 {
   (void)state;
   for (PetscInt body = 1; body <= 2; body++) {
-    AssertSection(17, 11, body, SAM_SECTION_X, 5);
-    AssertSection(17, 11, body, SAM_SECTION_X, 0);
-    AssertSection(8, 13, body, SAM_SECTION_X, 11);
+    AssertSection(17, 11, body, SAM_SECTION_X, 5, PLAIN, ALL);
+    AssertSection(17, 11, body, SAM_SECTION_X, 0, ALL, PLAIN);
+    AssertSection(8, 13, body, SAM_SECTION_X, 11, PLAIN, ALL);
+    AssertSection(8, 13, body, SAM_SECTION_X, 10, SMOOTH, SMOOTH);
   }
 }
 
@@ -111,23 +167,25 @@ static void test_sections_along_y_are_columns_of_the_maps(void **state)
 {
   (void)state;
   for (PetscInt body = 1; body <= 2; body++) {
-    AssertSection(17, 11, body, SAM_SECTION_Y, 8);
-    AssertSection(17, 11, body, SAM_SECTION_Y, 16);
-    AssertSection(9, 14, body, SAM_SECTION_Y, 1);
+    AssertSection(17, 11, body, SAM_SECTION_Y, 8, PLAIN, ALL);
+    AssertSection(17, 11, body, SAM_SECTION_Y, 16, ALL, PLAIN);
+    AssertSection(9, 14, body, SAM_SECTION_Y, 1, PLAIN, ALL);
+    AssertSection(9, 14, body, SAM_SECTION_Y, 2, SMOOTH, SMOOTH);
   }
 }
 
 /* Steps at once or one by one: the same bits; and steps that have been computed are forgotten. */
 static void test_steps_do_not_depend_on_each_other(void **state)
 {
-  SamGrid    grid = NewGrid(19, 12, 1e-3, 1e-3);
+  SamGrid    grid   = NewGrid(19, 12, 1e-3, 1e-3);
+  SamStress  stress = NewStress(grid, 2, PLAIN);
   SamSection section;
   PetscInt   count, length;
   size_t     size;
   double    *all, *one;
 
   (void)state;
-  sam_call(SamSectionCreate(grid, 2, NU, SAM_SECTION_X, 4, DEPTHS, depths, &section));
+  sam_call(SamSectionCreate(stress, SAM_SECTION_X, 4, DEPTHS, depths, &section));
   sam_call(SamSectionGetDepths(section, NULL, &count, &length));
   size = (size_t)(COMPONENTS * count * length);
   all  = calloc(STEPS * size + 1, sizeof(double));
@@ -150,12 +208,14 @@ static void test_steps_do_not_depend_on_each_other(void **state)
   free(all);
   free(one);
   sam_call(SamSectionDestroy(&section));
+  sam_call(SamStressDestroy(&stress));
   sam_call(SamGridDestroy(&grid));
 }
 
 static void test_depths_are_divided_among_the_ranks(void **state)
 {
-  SamGrid     grid = NewGrid(5, 4, 1, 1);
+  SamGrid     grid   = NewGrid(5, 4, 1, 1);
+  SamStress   stress = NewStress(grid, 2, PLAIN);
   PetscMPIInt rank;
 
   (void)state;
@@ -165,7 +225,7 @@ static void test_depths_are_divided_among_the_ranks(void **state)
     PetscInt   first, count;
     double     sums[2], ends = 0;
 
-    sam_call(SamSectionCreate(grid, 2, NU, SAM_SECTION_X, 1, n, depths, &section));
+    sam_call(SamSectionCreate(stress, SAM_SECTION_X, 1, n, depths, &section));
     sam_call(SamSectionGetDepths(section, &first, &count, NULL));
     sums[0] = count;
     sums[1] = rank ? 0 : first;
@@ -175,6 +235,7 @@ static void test_depths_are_divided_among_the_ranks(void **state)
     sam_assert(sums[0] == n && sums[1] == 0 && ends == n);
     sam_call(SamSectionDestroy(&section));
   }
+  sam_call(SamStressDestroy(&stress));
   sam_call(SamGridDestroy(&grid));
 }
 
@@ -182,16 +243,17 @@ static void test_wrong_arguments_are_refused(void **state)
 {
   const PetscReal wrong[] = {0, -1};
   SamGrid         grid    = NewGrid(5, 4, 1, 1);
+  SamStress       stress  = NewStress(grid, 2, PLAIN);
   SamSection      none;
 
   (void)state;
   sam_call(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL));
-  sam_assert(SamSectionCreate(grid, 2, NU, SAM_SECTION_X, 4, 1, depths, &none));
-  sam_assert(SamSectionCreate(grid, 2, NU, SAM_SECTION_Y, 5, 1, depths, &none));
-  sam_assert(SamSectionCreate(grid, 2, NU, SAM_SECTION_Y, -1, 1, depths, &none));
-  sam_assert(SamSectionCreate(grid, 2, NU, SAM_SECTION_Y, 0, 2, wrong, &none));
-  sam_assert(SamSectionCreate(grid, 0, NU, SAM_SECTION_X, 0, 1, depths, &none));
+  sam_assert(SamSectionCreate(stress, SAM_SECTION_X, 4, 1, depths, &none));
+  sam_assert(SamSectionCreate(stress, SAM_SECTION_Y, 5, 1, depths, &none));
+  sam_assert(SamSectionCreate(stress, SAM_SECTION_Y, -1, 1, depths, &none));
+  sam_assert(SamSectionCreate(stress, SAM_SECTION_Y, 0, 2, wrong, &none));
   sam_call(PetscPopErrorHandler());
+  sam_call(SamStressDestroy(&stress));
   sam_call(SamGridDestroy(&grid));
 }
 

@@ -3,6 +3,7 @@
  * headers are used.
  */
 #include "fields.h"
+#include "methods/methods.h"
 
 #include <petsam/private/normalimpl.h>
 #include <petsam/private/tangentialimpl.h>
@@ -205,22 +206,22 @@ static void test_normal_method_from_outside_is_selected_by_its_option(void **sta
   Option("-mine_normal_toy_relaxation", "1.5");
   sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
-  sam_call(SamSolverSetOptionsPrefix(normal, "mine_"));
-  sam_call(SamSolverSetFromOptions(normal));
-  sam_call(SamSolverGetType(normal, &type));
+  sam_call(SamSolverSetOptionsPrefix(SamNormalAsSolver(normal), "mine_"));
+  sam_call(SamSolverSetFromOptions(SamNormalAsSolver(normal)));
+  sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));
   sam_assert(!strcmp(type, "toy"));
-  sam_assert(((Toy *)normal->data)->relaxation == 1.5);
+  sam_assert(((Toy *)SamNormalAsSolver(normal)->data)->relaxation == 1.5);
   sam_call(SamNormalSolve(normal, s.h, &other, PETSC_FALSE, q));
-  sam_call(SamSolverGetReason(normal, &reason));
-  sam_call(SamSolverGetStatistics(normal, NULL, &its, &applies, NULL));
+  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
+  sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), NULL, &its, &applies, NULL));
   sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
   sam_assert(its > 10 && applies == its);              /* a gradient method, and not the default */
   sam_assert_close(Difference(q, p, NORM_2), 0, 1e-5); /* rtol times the condition, about n, twice */
   sam_assert_close(other.rigid[0], balance.rigid[0], 1e-6 * balance.rigid[0]);
   destroyed = 0;
-  sam_call(SamSolverSetType(normal, SAM_NORMAL_POLONSKYKEER)); /* the toy's data go with it */
-  sam_assert(destroyed == 1 && !normal->data);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamSolverSetType(SamNormalAsSolver(normal), SAM_NORMAL_POLONSKYKEER)); /* the toy's data go with it */
+  sam_assert(destroyed == 1 && !SamNormalAsSolver(normal)->data);
+  sam_call(SamNormalDestroy(&normal));
   sam_assert(!normal);
   ClearOptions();
   sam_call(VecDestroy(&p));
@@ -234,28 +235,29 @@ static void test_tangential_method_from_outside_is_selected_by_its_option(void *
   SamBalance normal = Loaded(SAM_BALANCE_NORMAL, s.N), balance = Loaded(SAM_BALANCE_TANGENTIAL, 0.5 * mu * s.N),
              other      = balance;
   Vec             bound = NewField(s.grid, 1), q = NewField(s.grid, 2), r = NewField(s.grid, 2);
-  SamSolver       n, t;
+  SamNormal       n;
+  SamTangential   t;
   SamSolverReason reason;
   PetscInt        its, preconditions;
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &n));
   sam_call(SamNormalSolve(n, s.h, &normal, PETSC_FALSE, bound));
-  sam_call(SamSolverDestroy(&n));
+  sam_call(SamNormalDestroy(&n));
   sam_call(VecScale(bound, mu));
   sam_call(SamTangentialRegister("toy", SamTangentialCreate_Toy));
   Option("-tangential_type", "toy");
   sam_call(SamTangentialCreate(s.elasticity, &t));
   sam_call(SamTangentialSolve(t, bound, NULL, &balance, PETSC_FALSE, q));
-  sam_call(SamSolverSetFromOptions(t));
+  sam_call(SamSolverSetFromOptions(SamTangentialAsSolver(t)));
   sam_call(SamTangentialSolve(t, bound, NULL, &other, PETSC_FALSE, r));
-  sam_call(SamSolverGetReason(t, &reason));
-  sam_call(SamSolverGetStatistics(t, NULL, &its, NULL, &preconditions));
+  sam_call(SamSolverGetReason(SamTangentialAsSolver(t), &reason));
+  sam_call(SamSolverGetStatistics(SamTangentialAsSolver(t), NULL, &its, NULL, &preconditions));
   sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
   sam_assert(its > 10 && preconditions == 0);
   sam_assert_close(Difference(r, q, NORM_2), 0, 1e-3); /* rtol 1e-6 times the condition, about n, twice, and a rate */
   sam_assert_close(other.rigid[0], balance.rigid[0], 1e-3 * balance.rigid[0]);
-  sam_call(SamSolverDestroy(&t));
+  sam_call(SamTangentialDestroy(&t));
   ClearOptions();
   sam_call(VecDestroy(&bound));
   sam_call(VecDestroy(&q));
@@ -291,17 +293,18 @@ static void test_unknown_type_names_those_registered(void **state)
   (void)state;
   sam_call(SamNormalRegister("zzz", SamNormalCreate_Toy));
   sam_call(SamNormalCreate(s.elasticity, &normal));
-  sam_call(SamSolverSetOptionsPrefix(normal, "my_"));
+  sam_call(SamSolverSetOptionsPrefix(SamNormalAsSolver(normal), "my_"));
   Option("-my_normal_type", "foo");
   sam_call(PetscPushErrorHandler(Listen, NULL));
-  AssertFails(SamSolverSetFromOptions(normal), SAM_ERR_USER, "-my_normal_type foo", "polonskykeer, toy or zzz");
-  AssertFails(SamSolverSetType(normal, "foo"), SAM_ERR_USER, "foo is no type of normal solver",
+  AssertFails(SamSolverSetFromOptions(SamNormalAsSolver(normal)), SAM_ERR_USER, "-my_normal_type foo",
+              "polonskykeer, toy or zzz");
+  AssertFails(SamSolverSetType(SamNormalAsSolver(normal), "foo"), SAM_ERR_USER, "foo is no type of normal solver",
               "activeset, polonskykeer");
   sam_call(PetscPopErrorHandler());
-  sam_call(SamSolverGetType(normal, &type));
+  sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));
   sam_assert(!strcmp(type, SAM_NORMAL_ACTIVESET)); /* as it was */
   ClearOptions();
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   DestroySphere(&s);
 }
 
@@ -314,42 +317,48 @@ static void test_options_go_through_the_setters(void **state)
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
-  sam_call(SamSolverGetTolerances(normal, &rtol, &max_it));
+  sam_call(SamSolverGetTolerances(SamNormalAsSolver(normal), &rtol, &max_it));
   sam_assert(rtol == 1e-8 && max_it == 1000);
   Option("-normal_rtol", "1e-5");
   Option("-normal_max_it", "7");
   Option("-normal_levels", "2");
-  sam_call(SamSolverSetFromOptions(normal));
-  sam_call(SamSolverGetTolerances(normal, &rtol, &max_it));
-  sam_assert(rtol == 1e-5 && max_it == 7 && SamSolverLevels(normal) == 2);
+  sam_call(SamSolverSetFromOptions(SamNormalAsSolver(normal)));
+  sam_call(SamSolverGetTolerances(SamNormalAsSolver(normal), &rtol, &max_it));
+  sam_assert(rtol == 1e-5 && max_it == 7 && SamSolverLevels(SamNormalAsSolver(normal)) == 2);
   sam_call(PetscPushErrorHandler(Listen, NULL));
-  AssertFails(SamSolverSetTolerances(normal, 0, PETSC_DEFAULT), PETSC_ERR_ARG_OUTOFRANGE, "rtol 0", "> 0");
-  AssertFails(SamSolverSetTolerances(normal, PETSC_DEFAULT, -1), PETSC_ERR_ARG_OUTOFRANGE, "max_it -1", ">= 0");
-  AssertFails(SamSolverSetLevels(normal, -1), PETSC_ERR_ARG_OUTOFRANGE, "levels -1", ">= 0");
+  AssertFails(SamSolverSetTolerances(SamNormalAsSolver(normal), 0, PETSC_DEFAULT), PETSC_ERR_ARG_OUTOFRANGE, "rtol 0",
+              "> 0");
+  AssertFails(SamSolverSetTolerances(SamNormalAsSolver(normal), PETSC_DEFAULT, -1), PETSC_ERR_ARG_OUTOFRANGE,
+              "max_it -1", ">= 0");
+  AssertFails(SamSolverSetLevels(SamNormalAsSolver(normal), -1), PETSC_ERR_ARG_OUTOFRANGE, "levels -1", ">= 0");
   sam_call(PetscPopErrorHandler());
   ClearOptions();
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   DestroySphere(&s);
 }
 
-static void test_solvers_and_balances_of_the_other_kind_are_refused(void **state)
+/* What the compiler must not convert into each other without a word. */
+#define IS_SOLVER(handle) _Generic((handle), SamSolver : 1, default : 0)
+_Static_assert(!IS_SOLVER((SamNormal)NULL) && !IS_SOLVER((SamTangential)NULL), "the types of solvers are the same");
+_Static_assert(_Generic((SamNormal)NULL, SamTangential : 0, default : 1), "the types of solvers are the same");
+
+static void test_balance_of_the_other_kind_is_refused(void **state)
 {
-  Sphere     s      = NewSphere(16, 1.5, 0.3);
-  SamBalance normal = Loaded(SAM_BALANCE_NORMAL, s.N), tangential = Loaded(SAM_BALANCE_TANGENTIAL, s.N);
-  Vec        p = NewField(s.grid, 1), q = NewField(s.grid, 2);
-  SamSolver  n, t;
+  Sphere        s      = NewSphere(16, 1.5, 0.3);
+  SamBalance    normal = Loaded(SAM_BALANCE_NORMAL, s.N), tangential = Loaded(SAM_BALANCE_TANGENTIAL, s.N);
+  Vec           p = NewField(s.grid, 1), q = NewField(s.grid, 2);
+  SamNormal     n;
+  SamTangential t;
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &n));
   sam_call(SamTangentialCreate(s.elasticity, &t));
   sam_call(PetscPushErrorHandler(Listen, NULL));
-  AssertFails(SamNormalSolve(t, s.h, &normal, PETSC_FALSE, p), PETSC_ERR_ARG_WRONG, "tangential solver", "normal");
-  AssertFails(SamTangentialSolve(n, s.h, NULL, &tangential, PETSC_FALSE, q), PETSC_ERR_ARG_WRONG, "normal solver",
-              "tangential");
   AssertFails(SamNormalSolve(n, s.h, &tangential, PETSC_FALSE, p), PETSC_ERR_ARG_WRONG, "normal", "balance");
+  AssertFails(SamTangentialSolve(t, s.h, NULL, &normal, PETSC_FALSE, q), PETSC_ERR_ARG_WRONG, "tangential", "balance");
   sam_call(PetscPopErrorHandler());
-  sam_call(SamSolverDestroy(&n));
-  sam_call(SamSolverDestroy(&t));
+  sam_call(SamNormalDestroy(&n));
+  sam_call(SamTangentialDestroy(&t));
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
   DestroySphere(&s);
@@ -365,15 +374,15 @@ static void test_not_converging_is_an_error_where_that_is_asked_for(void **state
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
-  sam_call(SamSolverSetTolerances(normal, PETSC_DEFAULT, 1));
+  sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), PETSC_DEFAULT, 1));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
-  sam_call(SamSolverSetErrorIfNotConverged(normal, PETSC_TRUE));
+  sam_call(SamSolverSetErrorIfNotConverged(SamNormalAsSolver(normal), PETSC_TRUE));
   sam_call(PetscPushErrorHandler(Listen, NULL));
   AssertFails(SamNormalSolve(normal, s.h, &other, PETSC_FALSE, p), PETSC_ERR_NOT_CONVERGED, "normal", "DIVERGED_ITS");
   sam_call(PetscPopErrorHandler());
-  sam_call(SamSolverGetReason(normal, &reason));
+  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
   sam_assert(reason == SAM_SOLVER_DIVERGED_ITS);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
 }
@@ -394,7 +403,7 @@ static void test_solve_is_a_function_of_its_input(void **state)
   sam_call(SamNormalSolve(normal, s.h, &again, PETSC_FALSE, q));
   sam_assert(Difference(q, p, NORM_INFINITY) == 0);
   sam_assert(again.rigid[0] == one.rigid[0]);
-  sam_call(SamSolverDestroy(&normal));
+  sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&q));
   DestroySphere(&s);
@@ -407,10 +416,10 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_tangential_method_from_outside_is_selected_by_its_option),
     cmocka_unit_test(test_unknown_type_names_those_registered),
     cmocka_unit_test(test_options_go_through_the_setters),
-    cmocka_unit_test(test_solvers_and_balances_of_the_other_kind_are_refused),
+    cmocka_unit_test(test_balance_of_the_other_kind_is_refused),
     cmocka_unit_test(test_not_converging_is_an_error_where_that_is_asked_for),
     cmocka_unit_test(test_solve_is_a_function_of_its_input),
   };
 
-  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+  return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));
 }

@@ -137,7 +137,7 @@ static void test_tries_leave_nothing_behind(void **state)
       Distract(&restless, kind, step);
       a = TakeStep(&restless, kind, step);
       b = TakeStep(&calm, kind, step);
-      AssertSameSteps(&a, &b);
+      AssertSameSteps(&restless, &a, &calm, &b);
       AssertSameFields(&restless, &calm);
       committed += a.status == SAM_STATUS_CONVERGED ? 1 : 0;
     }
@@ -174,7 +174,7 @@ static void test_tries_that_move_the_window_leave_nothing_behind(void **state)
     a = Solve(&restless, &next);
     b = Solve(&calm, &next);
     AssertGood(&a);
-    AssertSameSteps(&a, &b);
+    AssertSameSteps(&restless, &a, &calm, &b);
     AssertSameFields(&restless, &calm);
     DestroyCase(&restless);
     DestroyCase(&calm);
@@ -185,10 +185,10 @@ static void test_tries_that_move_the_window_leave_nothing_behind(void **state)
 
 static PetscInt StepsOf(const Case *c)
 {
-  SamContactState state;
+  PetscInt steps;
 
-  sam_call(SamContactGetState(c->contact, &state));
-  return state.steps;
+  sam_call(SamContactGetSteps(c->contact, &steps));
+  return steps;
 }
 
 static void test_commit_without_a_tried_state_is_an_error(void **state)
@@ -251,7 +251,7 @@ static void test_step_that_does_not_converge_is_not_committed_by_itself(void **s
   sam_assert(StepsOf(&c) == 0);
   d     = NewCase(Steel(), 40, 1.5, MU, "");
   plain = Try(&d, &given);
-  AssertSameSteps(&step, &plain);
+  AssertSameSteps(&c, &step, &d, &plain);
   AssertSameFields(&c, &d);
   DestroyCase(&c);
   DestroyCase(&d);
@@ -322,7 +322,7 @@ static void test_step_without_equilibrium_leaves_the_contact_as_it_was(void **st
       same = Solve(&whole, &control);
     }
     AssertGood(&next);
-    AssertSameSteps(&next, &same);
+    AssertSameSteps(&c, &next, &whole, &same);
     AssertSameFields(&c, &whole);
     DestroyCase(&c);
     DestroyCase(&whole);
@@ -343,8 +343,10 @@ static void test_contact_with_the_state_of_another_goes_on_as_it_would(void **st
   (void)state;
   for (int kind = 0; kind < BODIES; kind++)
     for (int solved = 0; solved < 4; solved++) {
-      Case            one = NewBodies(kind), other = NewBodies(kind);
-      SamContactState held;
+      Case      one = NewBodies(kind), other = NewBodies(kind);
+      SamState  held;
+      PetscBool current;
+      Vec       before;
 
       for (int k = 0; k < solved; k++) {
         const SamControl control = Turn(&one, k);
@@ -353,13 +355,17 @@ static void test_contact_with_the_state_of_another_goes_on_as_it_would(void **st
       }
       (void)Try(&other, &(SamControl){.force = {PETSC_TRUE}, .value = {1}}); /* is forgotten */
       sam_call(SamContactGetState(one.contact, &held));
-      sam_assert(held.steps == solved && (held.before.pressure != NULL) == (solved > 1));
-      sam_call(SamContactSetState(other.contact, &held));
+      before = SamStateGetField(held, SamStateFindField(held, "pressure"), SAM_BEFORE);
+      sam_assert(StepsOf(&one) == solved && (before && Norm(before, NORM_INFINITY) > 0) == (solved > 1));
+      sam_call(SamContactIsGapCurrent(one.contact, &current));
+      sam_assert((current != 0) == (solved > 0));
+      sam_call(SamContactSetState(other.contact, held, current));
+      sam_assert(StepsOf(&other) == solved);
       for (int k = solved; k < 5; k++) {
         const SamControl control = Turn(&one, k);
         const SamStep    a = Solve(&one, &control), b = Solve(&other, &control);
 
-        AssertSameSteps(&a, &b);
+        AssertSameSteps(&one, &a, &other, &b);
         AssertSameFields(&one, &other);
       }
       DestroyCase(&one);
@@ -367,10 +373,36 @@ static void test_contact_with_the_state_of_another_goes_on_as_it_would(void **st
     }
 }
 
+/* All that two contacts remember, by its names. */
+static void AssertSameStates(SamState a, SamState b)
+{
+  sam_assert(SamStateCountFields(a) == SamStateCountFields(b) && SamStateCountNumbers(a) == SamStateCountNumbers(b));
+  for (SamGeneration g = SAM_COMMITTED; g <= SAM_BEFORE; g++) {
+    for (PetscInt k = 0; k < SamStateCountFields(a); k++) {
+      const PetscInt other = SamStateFindField(b, SamStateFieldOf(a, k)->name);
+      Vec            x     = SamStateGetField(a, k, g), y;
+
+      sam_assert(other >= 0);
+      y = SamStateGetField(b, other, g);
+      sam_assert(x ? y && SameBits(x, y) : !y || Norm(y, NORM_INFINITY) == 0);
+    }
+    for (PetscInt k = 0; k < SamStateCountNumbers(a); k++) {
+      PetscInt              id;
+      const SamStateNumber *number = SamStateNumberOf(a, k, &id);
+      const PetscInt        other  = SamStateFindNumber(b, number->name);
+
+      sam_assert(other >= 0);
+      sam_assert(SameNumbers(number->count, SamStateNumbers(a, id, g), SamStateNumbers(b, other, g)));
+    }
+  }
+}
+
 static void test_state_is_what_was_set(void **state)
 {
-  Case            one = NewCase(Steel(), 91, 4, MU, ""), other = NewCase(Steel(), 91, 4, MU, "");
-  SamContactState a, b;
+  Case          one = NewCase(Steel(), 91, 4, MU, ""), other = NewCase(Steel(), 91, 4, MU, "");
+  SamState      a, b;
+  PetscBool     current[2];
+  const double *window;
 
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -379,39 +411,70 @@ static void test_state_is_what_was_set(void **state)
     (void)Solve(&one, &control);
   }
   sam_call(SamContactGetState(one.contact, &a));
-  sam_call(SamContactSetState(other.contact, &a));
+  sam_call(SamContactIsGapCurrent(one.contact, &current[0]));
+  sam_call(SamContactSetState(other.contact, a, current[0]));
   sam_call(SamContactGetState(other.contact, &b));
-  sam_assert(a.steps == 2 && b.steps == 2 && a.gap_is_current && b.gap_is_current);
-  sam_assert(a.window_n[0] > 0 && a.window_n[0] < 91); /* a part of the grid */
-  sam_assert(!memcmp(a.window_first, b.window_first, sizeof(a.window_first)) &&
-             !memcmp(a.window_n, b.window_n, sizeof(a.window_n)));
-  sam_assert(SameBits(a.before.pressure, b.before.pressure) && SameBits(a.before.bound, b.before.bound) &&
-             SameBits(a.before.shear, b.before.shear));
-  sam_assert(a.before.control.value[SAM_COMPONENT_N] == b.before.control.value[SAM_COMPONENT_N]);
+  sam_call(SamContactIsGapCurrent(other.contact, &current[1]));
+  sam_assert(StepsOf(&one) == 2 && StepsOf(&other) == 2 && current[0] && current[1]);
+  window = SamStateNumbers(b, SamStateFindNumber(b, "window"), SAM_COMMITTED);
+  sam_assert(window[2] > 0 && window[2] < 91); /* a part of the grid */
+  AssertSameStates(a, b);
   AssertSameFields(&one, &other);
   DestroyCase(&one);
   DestroyCase(&other);
 }
 
-static void test_state_that_lacks_fields_is_refused(void **state)
+/* What only the other contact remembers is refused by its name, and the contact goes on as it was. */
+static void test_state_with_more_fields_is_refused(void **state)
 {
-  Case             c       = NewCase(Steel(), 40, 1.5, MU, "");
-  const SamControl control = Loads(&c, 1, 0.3, 0, 0);
-  SamContactState  held, bad;
+  Case             one = NewCase(Steel(), 40, 1.5, MU, "-sum_slip_path"), c = NewCase(Steel(), 40, 1.5, MU, "");
+  const SamControl control = Loads(&c, 1, 0.3, 0, 0), other = Loads(&c, 0.7, 0, 0.2, 0);
+  PetscErrorCode   ierr;
+  SamState         held, own, kept;
 
   (void)state;
+  (void)Solve(&one, &other);
   (void)Solve(&c, &control);
-  sam_call(SamContactGetState(c.contact, &held));
-  bad                    = held;
-  bad.now.displacement_t = NULL;
-  sam_fails(SamContactSetState(c.contact, &bad), PETSC_ERR_ARG_INCOMP);
-  bad       = held;
-  bad.steps = 2; /* and nothing before */
-  sam_fails(SamContactSetState(c.contact, &bad), PETSC_ERR_ARG_INCOMP);
-  bad.steps = -1;
-  sam_fails(SamContactSetState(c.contact, &bad), PETSC_ERR_ARG_INCOMP);
-  sam_call(SamContactSetState(c.contact, &held));
+  sam_call(SamContactGetState(one.contact, &held));
+  sam_call(SamContactGetState(c.contact, &own));
+  sam_call(SamStateCreateLike(own, &kept));
+  sam_call(SamStateCopy(own, kept));
+  BeginCatching();
+  ierr = SamContactSetState(c.contact, held, PETSC_TRUE);
+  EndCatching();
+  sam_assert(ierr == PETSC_ERR_ARG_INCOMP && strstr(CaughtMessage(), "slip_path"));
+  AssertSameStates(own, kept);
+  sam_assert(StepsOf(&c) == 1);
+  sam_call(SamContactSetState(one.contact, own, PETSC_TRUE)); /* the reverse: there is none so far */
+  AssertSameFields(&one, &c);
+  sam_call(SamStateDestroy(&kept));
+  DestroyCase(&one);
   DestroyCase(&c);
+}
+
+static void test_contact_that_is_reset_is_as_a_new_one(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 2; kind++) {
+    Case one = NewBodies(kind), other = NewBodies(kind);
+
+    for (int k = 0; k < 2; k++) {
+      const SamControl control = Turn(&one, k);
+
+      (void)Solve(&one, &control);
+    }
+    sam_call(SamContactReset(one.contact));
+    sam_assert(StepsOf(&one) == 0);
+    for (int k = 2; k < 4; k++) {
+      const SamControl control = Turn(&one, k);
+      const SamStep    a = Solve(&one, &control), b = Solve(&other, &control);
+
+      AssertSameSteps(&one, &a, &other, &b);
+      AssertSameFields(&one, &other);
+    }
+    DestroyCase(&one);
+    DestroyCase(&other);
+  }
 }
 
 static void test_fields_of_another_grid_are_refused(void **state)
@@ -419,24 +482,24 @@ static void test_fields_of_another_grid_are_refused(void **state)
   Case             c = NewCase(Steel(), 40, 1.5, MU, ""), d = NewCase(Steel(), 24, 1.5, MU, "");
   const SamControl control = Loads(&c, 1, 0.3, 0, 0);
   Vec              shorter = NewField(d.s.grid, 1), both = NewField(c.s.grid, 2), right = NewField(c.s.grid, 1);
-  SamContactState  held;
+  PetscReal        number;
+  SamState         held;
 
   (void)state;
   (void)Solve(&c, &control);
   (void)Solve(&d, &control);
   sam_call(SamContactGetState(c.contact, &held));
-  for (int k = 0; k < 3; k++) {
-    SamContactState mixed = held;
-
-    *(k == 0 ? &mixed.now.pressure : k == 1 ? &mixed.now.shear : &mixed.now.displacement_z) = shorter;
-    sam_fails(SamContactSetState(c.contact, &mixed), PETSC_ERR_ARG_SIZ);
-  }
-  sam_fails(SamContactComputeGap(c.contact, shorter), PETSC_ERR_ARG_SIZ);
-  sam_fails(SamContactComputeState(c.contact, shorter), PETSC_ERR_ARG_SIZ);
-  sam_fails(SamContactComputeSlip(c.contact, 0, shorter), PETSC_ERR_ARG_SIZ);
-  sam_fails(SamContactComputeSlip(c.contact, 1, both), PETSC_ERR_ARG_SIZ);
-  sam_fails(SamContactComputeSlip(c.contact, 2, right), PETSC_ERR_ARG_OUTOFRANGE);
-  sam_fails(SamContactComputeSlip(c.contact, -1, right), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_fails(SamContactSetState(d.contact, held, PETSC_TRUE), PETSC_ERR_ARG_SIZ);
+  sam_call(SamContactGetState(d.contact, &held));
+  sam_fails(SamContactSetState(c.contact, held, PETSC_TRUE), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactGetField(c.contact, "gap", shorter), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactGetField(c.contact, "state", shorter), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactGetField(c.contact, "slip_x", shorter), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactGetField(c.contact, "slip_y", both), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactGetField(c.contact, "shear", both), PETSC_ERR_ARG_SIZ);
+  sam_fails(SamContactGetField(c.contact, "slip_z", right), PETSC_ERR_ARG_UNKNOWN_TYPE);
+  sam_fails(SamContactGetField(c.contact, "contact_edge", right), PETSC_ERR_ARG_UNKNOWN_TYPE);
+  sam_fails(SamContactGetNumber(c.contact, "slip_x", &number), PETSC_ERR_ARG_UNKNOWN_TYPE);
   sam_fails(SamProblemSetGap(c.problem, shorter), PETSC_ERR_ARG_SIZ);
   sam_fails(SamProblemSetFrictionField(c.problem, both), PETSC_ERR_ARG_SIZ);
   sam_call(VecDestroy(&shorter));
@@ -459,7 +522,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_step_without_equilibrium_leaves_the_contact_as_it_was),
     cmocka_unit_test(test_contact_with_the_state_of_another_goes_on_as_it_would),
     cmocka_unit_test(test_state_is_what_was_set),
-    cmocka_unit_test(test_state_that_lacks_fields_is_refused),
+    cmocka_unit_test(test_state_with_more_fields_is_refused),
+    cmocka_unit_test(test_contact_that_is_reset_is_as_a_new_one),
     cmocka_unit_test(test_fields_of_another_grid_are_refused),
   };
 

@@ -320,12 +320,46 @@ static void test_contact_goes_on_as_if_it_had_not_been_asked(void **state)
     (void)Stiffness(&c, SAM_STIFFNESS_FORWARD);
     (void)Stiffness(&c, SAM_STIFFNESS_REVERSAL);
     sam_call(SamContactCommit(c.contact));
+    (void)Stiffness(&c, SAM_STIFFNESS_REVERSAL);
     other = Solve(&d, &control);
-    AssertSameSteps(&one, &other);
+    AssertSameSteps(&c, &one, &d, &other);
   }
   AssertSameFields(&c, &d);
   DestroyCase(&c);
   DestroyCase(&d);
+}
+
+/* Of a committed step the reversal is left, to the last bit that of the tried one; the slip to go on from is not. */
+static void test_committed_step_has_the_stiffness_of_its_reversal(void **state)
+{
+  static const char *const options[] = {"", "-edges deferred -edges_passes 1", "-coupling none"};
+
+  (void)state;
+  for (PetscInt o = 0; o < 3; o++) {
+    const double     rubs  = o == 1 ? 0 : 1; /* edges are corrected without friction */
+    Case             c     = NewCase(o ? Steel() : Dissimilar(), 40, 1.6, rubs * MU, options[o]);
+    const SamControl first = Loads(&c, 1, 0.3 * rubs, 0, 0.05 * rubs), then = Loads(&c, 1.2, 0.5 * rubs, 0, 0);
+    SamStiffness     tried, committed, k;
+    SamStep          step;
+
+    (void)Try(&c, &first);
+    tried = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+    sam_call(SamContactCommit(c.contact));
+    committed = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+    sam_assert(!memcmp(tried.k, committed.k, sizeof(tried.k)));
+    BeginCatching();
+    sam_assert(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, &k) == PETSC_ERR_ORDER);
+    EndCatching();
+    sam_assert(strstr(CaughtMessage(), "forward stiffness needs the slip"));
+    step = Try(&c, &then);
+    sam_assert(step.status == SAM_STATUS_CONVERGED);
+    k = Stiffness(&c, SAM_STIFFNESS_REVERSAL); /* of the tried one again */
+    sam_assert(memcmp(k.k, committed.k, sizeof(k.k)));
+    sam_call(SamContactReject(c.contact));
+    k = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
+    sam_assert(!memcmp(k.k, committed.k, sizeof(k.k)));
+    DestroyCase(&c);
+  }
 }
 
 static void test_same_bits_on_any_number_of_ranks(void **state)
@@ -353,6 +387,7 @@ static void test_surfaces_apart_have_no_stiffness(void **state)
 
   (void)state;
   sam_fails(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, &k), PETSC_ERR_ORDER);
+  sam_fails(SamStiffnessCompute(c.contact, SAM_STIFFNESS_REVERSAL, &k), PETSC_ERR_ORDER);
   Displace(&control, SAM_COMPONENT_N, -1e-6);
   (void)Try(&c, &control);
   k = Stiffness(&c, SAM_STIFFNESS_FORWARD);
@@ -448,6 +483,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_reversal_is_symmetric_and_sliding_on_is_not),
     cmocka_unit_test(test_stiffness_of_a_contact_beside_the_origin),
     cmocka_unit_test(test_contact_goes_on_as_if_it_had_not_been_asked),
+    cmocka_unit_test(test_committed_step_has_the_stiffness_of_its_reversal),
     cmocka_unit_test(test_same_bits_on_any_number_of_ranks),
     cmocka_unit_test(test_surfaces_apart_have_no_stiffness),
     cmocka_unit_test(test_without_friction_only_the_pressure_resists),

@@ -1,7 +1,7 @@
 /* Stresses on planes: direct summation, Hertz's contact on its axis and its surface, sliding, partial slip, bodies. */
 #include "fields.h"
 
-#include <petsam/private/stressimpl.h>
+#include <petsam/private/halfspace.h>
 
 enum { COMPONENTS = SAM_STRESS_COMPONENTS, TRACTIONS = SAM_STRESS_TRACTIONS };
 #define NU 0.3
@@ -16,7 +16,7 @@ static Case NewCaseOf(SamGrid grid, PetscInt body, double poisson)
 {
   Case c = {.grid = grid, .p = NewField(grid, 1), .q = NewField(grid, 2), .s = NewField(grid, COMPONENTS)};
 
-  sam_call(SamStressCreate(grid, NULL, body, poisson, &c.stress));
+  sam_call(SamHalfSpaceCreateStress(grid, NULL, body, 1, poisson, &c.stress));
   return c;
 }
 
@@ -69,7 +69,7 @@ static double At(const Case *c, SamStressComponent component, PetscInt i, PetscI
 /* ---- direct summation ---- */
 
 /* The kernel of a lag, the correction of the neighbours included, from rows of lags. */
-static double Kernel(const SamStressSource *source, int component, int traction, PetscInt i, PetscInt j)
+static double Kernel(const SamHalfSpaceSource *source, int component, int traction, PetscInt i, PetscInt j)
 {
   const SamStressKernel k   = SamStressKernels[component][traction];
   const PetscBool      *odd = SamStressOdd[k.group][k.member];
@@ -77,16 +77,16 @@ static double Kernel(const SamStressSource *source, int component, int traction,
   const double          sign = (odd[0] && i < 0 ? -1 : 1) * (odd[1] && j < 0 ? -1 : 1);
 
   if ((odd[0] && i == 0) || (odd[1] && j == 0)) return 0;
-  SamStressRow(source, k.group, j < 0 ? -j : j, 32, (double *[]){row[0], row[1], row[2]});
+  SamHalfSpaceStressRow(source, k.group, j < 0 ? -j : j, 32, (double *[]){row[0], row[1], row[2]});
   return sign * row[k.member][i < 0 ? -i : i];
 }
 
 static void AssertSum(PetscInt nx, PetscInt ny, PetscInt body, double depth)
 {
-  Case                  c      = NewCase(NewGrid(nx, ny, 1.2e-3, 0.9e-3), body);
-  const SamStressSource source = {{c.grid->dx, c.grid->dy}, depth, NU};
-  const double          sign   = body == 1 ? -1 : 1;
-  double               *p, *q, worst = 0;
+  Case                     c      = NewCase(NewGrid(nx, ny, 1.2e-3, 0.9e-3), body);
+  const SamHalfSpaceSource source = {{c.grid->dx, c.grid->dy}, depth, NU};
+  const double             sign   = body == 1 ? -1 : 1;
+  double                  *p, *q, worst = 0;
 
   sam_call(VecDestroy(&c.p));
   sam_call(VecDestroy(&c.q));
@@ -384,9 +384,9 @@ static void test_wrong_arguments_are_refused(void **state)
 
   (void)state;
   sam_call(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL));
-  sam_assert(SamStressCreate(c.grid, NULL, 3, 0.3, &none));
-  sam_assert(SamStressCreate(c.grid, NULL, 1, 0.51, &none));
-  sam_assert(SamStressCreate(c.grid, NULL, 1, -1, &none));
+  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 3, 1, 0.3, &none));
+  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, 1, 0.51, &none));
+  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, 1, -1, &none));
   sam_assert(SamStressApply(c.stress, c.s));
   sam_assert(SamStressSetDepth(c.stress, -1e-9));
   sam_assert(SamStressSetDepth(c.stress, NAN));

@@ -1,7 +1,7 @@
 /* Stresses by a uniform traction on a rectangle: stored values, equilibrium, the surface, symmetries, rows of lags. */
 #include "samtest.h"
 
-#include <petsam/private/stressimpl.h>
+#include <petsam/private/halfspace.h>
 
 #include "stress_values.h"
 
@@ -14,7 +14,7 @@ typedef double Kernels[COMPONENTS][TRACTIONS];
 
 static void Get(const double sides[2], double nu, double x, double y, double z, Kernels k)
 {
-  SamStressCell(sides, nu, (const PetscReal[3]){x, y, z}, k);
+  SamHalfSpaceStressCell(sides, nu, (const PetscReal[3]){x, y, z}, k);
 }
 
 static double Largest(Kernels k)
@@ -191,16 +191,16 @@ static void test_far_away_a_cell_is_a_point_force(void **state)
 static void test_rows_are_kernels_at_lags(void **state)
 {
   enum { N = 90 };
-  const SamStressSource source = {{1.0, 0.7}, 0.31, 0.3};
+  const SamHalfSpaceSource source = {{1.0, 0.7}, 0.31, 0.3};
 
   (void)state;
   for (PetscInt j = 0; j < 70; j += j < 4 ? 1 : 13)
-    for (int g = 0; g < SAM_STRESS_GROUPS; g++) {
+    for (int g = 0; g < SAM_STRESS_NORMAL_Z; g++) {
       double  rows[SAM_STRESS_GROUP][N], part[SAM_STRESS_GROUP][N];
       double *to[SAM_STRESS_GROUP] = {rows[0], rows[1], rows[2]}, *some[SAM_STRESS_GROUP] = {part[0], part[1], part[2]};
 
-      SamStressRow(&source, (SamStressGroup)g, j, N, to);
-      SamStressRow(&source, (SamStressGroup)g, j, N / 3, some);
+      SamHalfSpaceStressRow(&source, (SamStressGroup)g, j, N, to);
+      SamHalfSpaceStressRow(&source, (SamStressGroup)g, j, N / 3, some);
       for (int m = 0; m < SAM_STRESS_GROUP; m++) sam_assert(!memcmp(rows[m], part[m], N / 3 * sizeof(double)));
       for (int c = 0; c < COMPONENTS; c++)
         for (int t = 0; t < TRACTIONS; t++)
@@ -237,14 +237,14 @@ static void test_correction_is_that_of_a_linear_shear(void **state)
 {
   (void)state;
   for (int n = 0; n < 4; n++) {
-    const double          depths[] = {0, 0.2, 0.6, 1.5};
-    const SamStressSource source   = {{1, 1}, depths[n], 0.3};
-    double                row[2][SAM_STRESS_GROUP][2], plain[2][2]; /* group X at lags (0, 1) and (1, 0) */
+    const double             depths[] = {0, 0.2, 0.6, 1.5};
+    const SamHalfSpaceSource source   = {{1, 1}, depths[n], 0.3};
+    double                   row[2][SAM_STRESS_GROUP][2], plain[2][2]; /* group X at lags (0, 1) and (1, 0) */
     double  t = exp(-2 * PETSC_PI * depths[n]), L = log(1 + t), M = 2 * PETSC_PI * depths[n] * t / (1 + t);
     Kernels k;
 
     for (PetscInt j = 0; j < 2; j++)
-      SamStressRow(&source, SAM_STRESS_PLANE_X, j, 2, (double *[]){row[j][0], row[j][1], row[j][2]});
+      SamHalfSpaceStressRow(&source, SAM_STRESS_PLANE_X, j, 2, (double *[]){row[j][0], row[j][1], row[j][2]});
     Get(source.side, 0.3, 1, 0, depths[n], k);
     plain[0][0] = k[XX][SAM_STRESS_QX];
     plain[0][1] = k[YY][SAM_STRESS_QX];

@@ -65,7 +65,8 @@ static void test_stretch_has_the_symmetry_of_its_strain(void **state)
     double          *q       = Whole(c.s.grid, 2, SolutionOf(&c)->shear);
     const PetscInt   n = 49, right = 24 * n + 24 + 8, up = n * n + (24 + 8) * n + 24;
 
-    sam_assert(step.status == SAM_STATUS_CONVERGED && step.stick_area > 0 && step.stick_area < step.contact_area);
+    sam_assert(step.status == SAM_STATUS_CONVERGED);
+    sam_assert(NumberOf(&c, "stick_area") > 0 && NumberOf(&c, "stick_area") < NumberOf(&c, "contact_area"));
     sam_assert(Asymmetry(&c, 0, -1, 1) < 1e-4 && Asymmetry(&c, 1, 1, -1) < 1e-4); /* rtol times the condition */
     if (kind == 0) sam_assert(q[right] < 0 && fabs(q[right]) > fabs(q[up])); /* body 2 stretches more: it is held */
     if (kind == 1) sam_assert(q[up] < 0 && fabs(q[up]) > fabs(q[right]));
@@ -212,7 +213,8 @@ static void test_rigid_displacement_takes_back_the_stretch_of_the_centre(void **
     AssertGood(&a);
     AssertGood(&b);
     sam_assert(Difference(SolutionOf(&there)->shear, SolutionOf(&here)->shear, NORM_2) < 1e-5);
-    sam_assert_close(b.dissipated_energy, a.dissipated_energy, 1e-4 * a.dissipated_energy);
+    sam_assert_close(NumberOf(&there, "dissipated_energy"), NumberOf(&here, "dissipated_energy"),
+                     1e-4 * NumberOf(&here, "dissipated_energy"));
   }
   DestroyCase(&here);
   DestroyCase(&there);
@@ -223,14 +225,17 @@ static void test_stretch_that_stays_dissipates_nothing(void **state)
 {
   Case             c       = NewCase(Steel(), 45, 1.5, MU, "");
   const SamControl control = Stretched(&c, 1, 0.2, 0.1), back = Loads(&c, 1, 0, 0, 0);
-  const SamStep    first = Solve(&c, &control), second = Solve(&c, &control), third = Solve(&c, &back);
+  double           work[3];
 
   (void)state;
-  AssertGood(&first);
-  AssertGood(&second);
-  AssertGood(&third);
-  sam_assert(first.dissipated_energy > 0 && third.dissipated_energy > 0);
-  sam_assert_close(second.dissipated_energy, 0, 1e-5 * first.dissipated_energy);
+  for (int k = 0; k < 3; k++) {
+    const SamStep step = Solve(&c, k < 2 ? &control : &back);
+
+    AssertGood(&step);
+    work[k] = NumberOf(&c, "dissipated_energy");
+  }
+  sam_assert(work[0] > 0 && work[2] > 0);
+  sam_assert_close(work[1], 0, 1e-5 * work[0]);
   DestroyCase(&c);
 }
 
@@ -247,14 +252,14 @@ static void test_restart_keeps_the_stretch(void **state)
   (void)state;
   (void)Solve(&one, &first);
   sam_call(SamCheckpointCreate(one.s.grid, filename, &files));
-  sam_call(SamCheckpointWrite(files, one.contact, NULL, &none, 0, NULL));
+  sam_call(SamCheckpointWrite(files, one.contact, &none, 0, NULL));
   sam_call(SamCheckpointDestroy(&files));
-  sam_call(SamCheckpointRead(filename, other.contact, NULL, &none, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, &none, 0, NULL));
   AssertSameFields(&one, &other);
   a = Solve(&one, &next);
   b = Solve(&other, &next);
   AssertGood(&a);
-  AssertSameSteps(&a, &b);
+  AssertSameSteps(&one, &a, &other, &b);
   AssertSameFields(&one, &other);
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (!rank) (void)unlink(filename);

@@ -20,12 +20,13 @@ static void test_sums_are_those_of_the_committed_steps_and_the_tried_one(void **
 {
   Case c    = NewCase(Steel(), 37, 1.5, MU, "");
   Vec  path = NewField(c.s.grid, 1), work = NewField(c.s.grid, 1),
-      step[2] = {NewField(c.s.grid, 1), NewField(c.s.grid, 1)};
-  Vec sum     = NewField(c.s.grid, 1), none;
+      step[2] = {NewField(c.s.grid, 1), NewField(c.s.grid, 1)}, sum;
+  PetscBool has;
 
   (void)state;
-  sam_call(SamContactKeepSum(c.contact, SAM_CONTACT_SLIP_PATH));
-  sam_call(SamContactKeepSum(c.contact, SAM_CONTACT_FRICTION_ENERGY));
+  sam_call(SamProblemAddLawOfType(c.problem, SAM_LAW_SLIP_PATH, NULL));
+  sam_call(SamProblemAddLawOfType(c.problem, SAM_LAW_FRICTION_ENERGY, NULL));
+  sam_fails(SamContactComputeFriction(c.contact, step[0], NULL, step[1]), PETSC_ERR_ORDER);
   for (int k = 0; k < STEPS; k++) {
     const SamControl control = Turn(&c, k), other = Loads(&c, 1.1, 0.5, 0.5, 0);
 
@@ -35,20 +36,23 @@ static void test_sums_are_those_of_the_committed_steps_and_the_tried_one(void **
     sam_call(VecAXPY(path, 1, step[0]));
     sam_call(VecAXPY(work, 1, step[1]));
     for (int committed = 0; committed < 2; committed++) {
-      sam_call(SamContactComputeSum(c.contact, SAM_CONTACT_SLIP_PATH, sum));
+      sum = NewFieldOf(&c, "slip_path");
       sam_assert(Difference(sum, path, NORM_INFINITY) <= 1e-14);
-      sam_call(SamContactComputeSum(c.contact, SAM_CONTACT_FRICTION_ENERGY, sum));
+      sam_call(VecDestroy(&sum));
+      sum = NewFieldOf(&c, "friction_energy");
       sam_assert(Difference(sum, work, NORM_INFINITY) <= 1e-14);
+      sam_call(VecDestroy(&sum));
       if (!committed) sam_call(SamContactCommit(c.contact));
     }
   }
   sam_assert(Norm(path, NORM_INFINITY) > 0 && Norm(work, NORM_INFINITY) > 0);
   DestroyCase(&c);
   c = NewCase(Steel(), 37, 1.5, MU, "-sum_slip_path");
-  sam_call(SamContactGetSum(c.contact, SAM_CONTACT_FRICTION_ENERGY, &none));
-  sam_assert(!none);
-  sam_fails(SamContactComputeSum(c.contact, SAM_CONTACT_FRICTION_ENERGY, work), PETSC_ERR_ORDER);
-  sam_call(SamContactComputeSum(c.contact, SAM_CONTACT_SLIP_PATH, path));
+  sam_call(SamContactHasField(c.contact, "friction_energy", &has));
+  sam_assert(!has);
+  sam_fails(SamContactGetField(c.contact, "friction_energy", work), PETSC_ERR_ARG_UNKNOWN_TYPE);
+  sum = NewFieldOf(&c, "slip_path");
+  sam_assert(Norm(sum, NORM_INFINITY) == 0);
   DestroyCase(&c);
   for (int k = 0; k < 2; k++) sam_call(VecDestroy(&step[k]));
   sam_call(VecDestroy(&path));
@@ -56,35 +60,48 @@ static void test_sums_are_those_of_the_committed_steps_and_the_tried_one(void **
   sam_call(VecDestroy(&sum));
 }
 
+static Vec NewPath(const Case *c)
+{
+  return NewFieldOf(c, "slip_path");
+}
+
 static void test_sums_go_with_the_state(void **state)
 {
-  Case            one = NewCase(Steel(), 37, 1.5, MU, "-sum_slip_path"), other = NewCase(Steel(), 37, 1.5, MU, "");
-  SamContactState held;
-  Vec             a, b;
+  Case one = NewCase(Steel(), 37, 1.5, MU, "-sum_slip_path"), other = NewCase(Steel(), 37, 1.5, MU, ""),
+       none = NewCase(Steel(), 37, 1.5, MU, "");
+  SamState held;
+  Vec      path;
 
   (void)state;
   for (int k = 0; k < STEPS; k++) {
     const SamControl control = Turn(&one, k);
 
     (void)Solve(&one, &control);
-    sam_call(SamContactGetState(one.contact, &held));
-    sam_assert(held.sums[SAM_CONTACT_SLIP_PATH] && !held.sums[SAM_CONTACT_FRICTION_ENERGY]);
     if (k != 1) continue;
-    sam_call(SamContactSetState(other.contact, &held));
+    sam_call(SamContactGetState(one.contact, &held));
+    sam_assert(SamStateFindField(held, "slip_path") >= 0 && SamStateFindField(held, "friction_energy") < 0);
+    sam_fails(SamContactSetState(other.contact, held, PETSC_TRUE), PETSC_ERR_ARG_INCOMP); /* it would lose the sum */
+    sam_call(SamProblemAddLawOfType(other.problem, SAM_LAW_SLIP_PATH, NULL));
+    sam_call(SamContactSetState(other.contact, held, PETSC_TRUE));
   }
   for (int k = 2; k < STEPS; k++) {
     const SamControl control = Turn(&one, k);
 
     (void)Solve(&other, &control);
   }
-  sam_call(SamContactGetSum(one.contact, SAM_CONTACT_SLIP_PATH, &a));
-  sam_call(SamContactGetSum(other.contact, SAM_CONTACT_SLIP_PATH, &b));
-  sam_assert(SameBits(a, b));
-  held.sums[SAM_CONTACT_SLIP_PATH] = NULL; /* a state that has none: from 0 */
-  sam_call(SamContactSetState(other.contact, &held));
-  sam_assert(Norm(b, NORM_INFINITY) == 0);
+  sam_assert(SameBitsOf(&one, &other, NewPath));
+  path = NewPath(&other);
+  sam_assert(Norm(path, NORM_INFINITY) > 0);
+  sam_call(VecDestroy(&path));
+  (void)Solve(&none, &(SamControl[]){Turn(&none, 0)}[0]);
+  sam_call(SamContactGetState(none.contact, &held)); /* a state that has none: from 0 */
+  sam_call(SamContactSetState(other.contact, held, PETSC_TRUE));
+  path = NewPath(&other);
+  sam_assert(Norm(path, NORM_INFINITY) == 0);
+  sam_call(VecDestroy(&path));
   DestroyCase(&one);
   DestroyCase(&other);
+  DestroyCase(&none);
 }
 
 /* A sphere is one spot, on any number of ranks; its numbers are those of the fields. */
@@ -93,12 +110,14 @@ static void test_numbers_are_those_of_the_fields(void **state)
   Case          c       = NewCase(Steel(), 37, 1.5, MU, "-contact_spots");
   double        most[1] = {0}, sum;
   SamControl    control = Turn(&c, 1);
-  SamStep       step    = Solve(&c, &control);
-  Vec           slip = NewSlip(&c), gap = NewGap(&c);
+  Vec           slip, gap;
   const double *s, *p, *g;
   SamTotal      total = {0};
 
   (void)state;
+  (void)Solve(&c, &control);
+  slip = NewSlip(&c);
+  gap  = NewGap(&c);
   sam_call(VecGetArrayRead(slip, &s));
   sam_call(VecGetArrayRead(gap, &g));
   sam_call(VecGetArrayRead(SolutionOf(&c)->pressure, &p));
@@ -111,13 +130,15 @@ static void test_numbers_are_those_of_the_fields(void **state)
   sam_call(VecRestoreArrayRead(slip, &s));
   sam_call(SamMax(PETSC_COMM_WORLD, 1, most));
   sam_call(SamSumTotals(PETSC_COMM_WORLD, 1, &total, &sum));
-  sam_assert(step.spots == 1 && most[0] > 0);
-  sam_assert_close(step.slip_max, most[0], 1e-13 * most[0]);
-  sam_assert_close(step.gap_mean, sum / (37 * 37), 1e-13 * sum);
-  sam_assert_close(step.contact_fraction, step.contact_area / (c.s.grid->width[0] * c.s.grid->width[1]), 1e-15);
+  sam_assert(NumberOf(&c, "contact_spots") == 1 && most[0] > 0);
+  sam_assert_close(NumberOf(&c, "slip_max"), most[0], 1e-13 * most[0]);
+  sam_assert_close(NumberOf(&c, "gap_mean"), sum / (37 * 37), 1e-13 * sum);
+  sam_assert_close(NumberOf(&c, "contact_fraction"),
+                   NumberOf(&c, "contact_area") / (c.s.grid->width[0] * c.s.grid->width[1]), 1e-15);
   control = Loads(&c, 1, 3, 0, 0); /* slides: there is no solution */
-  step    = Try(&c, &control);
-  sam_assert(isnan(step.spots) && isnan(step.gap_mean) && isnan(step.slip_max) && isnan(step.contact_fraction));
+  (void)Try(&c, &control);
+  sam_assert(isnan(NumberOf(&c, "contact_spots")) && isnan(NumberOf(&c, "gap_mean")) &&
+             isnan(NumberOf(&c, "slip_max")) && isnan(NumberOf(&c, "contact_fraction")));
   sam_call(VecDestroy(&slip));
   sam_call(VecDestroy(&gap));
   DestroyCase(&c);

@@ -1,5 +1,6 @@
 /* The tangential solver at and beyond the limit of friction, and with what is no number. */
 #include "tangentials.h"
+#include "methods/methods.h"
 
 #include <unistd.h>
 
@@ -74,13 +75,13 @@ static void AssertFewProducts(PetscInt levels)
       for (int n = 0; n < 3; n++) full.load[n] *= limit * level[k];
       given = full;
       sam_call(SamTangentialCreate(c.s.elasticity, &t));
-      sam_call(SamSolverSetLevels(t, levels));
+      sam_call(SamSolverSetLevels(SamTangentialAsSolver(t), levels));
       sam_call(SamTangentialSolve(t, c.bound, NULL, &full, PETSC_FALSE, q));
-      sam_call(SamSolverGetStatistics(t, NULL, NULL, &products, NULL));
+      sam_call(SamSolverGetStatistics(SamTangentialAsSolver(t), NULL, NULL, &products, NULL));
       if (getenv("SAM_SHOW")) print_message("# load %d, %g of the limit: %d products\n", load, level[k], (int)products);
       sam_assert(products <= 20);
       AssertConditions(&c, NULL, &full, &given, q);
-      sam_call(SamSolverDestroy(&t));
+      sam_call(SamTangentialDestroy(&t));
     }
   sam_call(VecDestroy(&q));
   DestroyCase(&c);
@@ -185,5 +186,5 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_nan_in_the_offset_is_reported_by_the_gradient_type),
   };
 
-  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+  return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));
 }

@@ -70,6 +70,33 @@ module petsam
       real(c_double), intent(out) :: value
     end function
 
+    integer(c_int) function petsam_stress(contact, options, shape) bind(c)
+      import :: c_int, c_char, c_ptr
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(in) :: options(*)
+      integer(c_int), intent(out) :: shape(4)
+    end function
+
+    integer(c_int) function petsam_record(contact, on) bind(c)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: contact
+      integer(c_int), value :: on
+    end function
+
+    integer(c_int) function petsam_fatigue(contact, options, shape) bind(c)
+      import :: c_int, c_char, c_ptr
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(in) :: options(*)
+      integer(c_int), intent(out) :: shape(4)
+    end function
+
+    integer(c_int) function petsam_get_stress(contact, name, values) bind(c)
+      import :: c_int, c_char, c_double, c_ptr
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(out) :: values(*)
+    end function
+
     integer(c_int) function petsam_save(contact, file) bind(c)
       import :: c_int, c_char, c_ptr
       type(c_ptr), value :: contact

@@ -6,7 +6,7 @@
 
 #define SAM_ARGUMENTS_FILES 64 /* most options files */
 
-typedef struct {
+typedef struct _n_SamArguments {
   PetscBool      help, version;
   char           topic[64];    /* words after -help, "": none */
   PetscErrorCode code;         /* of the first mistake, 0: none */

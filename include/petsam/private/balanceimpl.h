@@ -39,8 +39,6 @@ PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const Sam
 PETSC_EXTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* SamFrameGetRigid - rigid displacements of the force-controlled components, from a free combination a of the phi. */
 PETSC_EXTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
-/* SamFrameGetLoads - loads of all three components from the sums of phi traction over the cells. */
-PETSC_EXTERN void SamFrameGetLoads(const SamFrame *frame, const double sums[3], PetscReal loads[3]);
 
 /* eta of this rank's row j: to the last bit the same on whatever rank the row is. */
 static inline double SamFrameEta(const SamFrame *f, PetscInt j)

@@ -53,7 +53,7 @@ typedef enum {
   SAM_EVENT_COUNT
 } SamEvent;
 PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
-PETSC_EXTERN PetscClassId  SAM_CLASSID;
+PETSC_EXTERN PetscClassId  SamClassId;
 
 /* ---- errors ---- */
 /* SamKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
@@ -96,6 +96,10 @@ PETSC_EXTERN void SamReturnMemory(void);
 /* SamSetPrefix - copies the prefix of an object's options (NULL: none). Errors: PETSC_ERR_ARG_SIZ for more than 63. */
 #define SAM_PREFIX 64
 PETSC_EXTERN PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[]);
+
+/* SamRangeHas - whether a value lies in a range. SamRangeDescribe - the range in words. Not collective. */
+PETSC_EXTERN PetscBool   SamRangeHas(SamRange range, double value);
+PETSC_EXTERN const char *SamRangeDescribe(SamRange range);
 
 /* ---- mistakes in options and names (spelling.c); none is collective, but for SamOptionsRequire() ---- */
 /* SamIsNear - whether one name may be another one misspelled. */
@@ -207,13 +211,6 @@ PETSC_EXTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], do
 /* SamGetFolder - the folder that a file's name names it in, "." without one. Not collective. */
 PETSC_EXTERN void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN]);
 
-/*
-  SamCallInChild - calls a function in a child process, for one that may crash or never end on a damaged file; it must
-  not communicate. `data` (size bytes) is then as the function has left it. Returns whether it has ended properly. Not
-  collective.
-*/
-PETSC_EXTERN PetscBool SamCallInChild(void (*function)(void *data), void *data, size_t size);
-
 /* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */
@@ -227,5 +224,9 @@ PETSC_EXTERN PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const Sa
 
 /* SamPrintHelp - whether the help is being printed, for which options are only listed. Not collective. */
 PETSC_EXTERN PetscErrorCode SamPrintHelp(PetscBool *print);
+
+/* Messages of several places: an option without dash, its file, and a reason; a plan of FFTW. */
+#define SAM_CANNOT_READ "-%s %s: cannot be read: %s"
+#define SAM_NO_PLAN     "FFTW could not make a plan"
 
 #endif

@@ -7,6 +7,14 @@
 #include <petsam/fourier.h>
 
 /*
+  A type that adds something to another - a half-space and a smooth compliance, say - calls SamElasticitySetInner() in
+  its create function, which makes an object of that type on the same grid and takes over its traits. What the type has
+  no method for is then done by the inner one; its own methods add to (*e->inner->ops.applynormal)(e->inner, p, u),
+  and so on. Since u may be p, what depends on p must be taken from it before. The class sets up, trims, records and
+  destroys the inner object, gives it the options, and makes another one on each coarse grid and each part, as it makes
+  another object of the type itself: `inherit` passes on what it knows of the finest grid, on which the object's place
+  is first[] and factor[]. tests/unit/test_elasticity_inner.c is a complete example.
+
   SamElasticityOps - the methods of a type; NULL where it has none. in[c] and out[c] are component c of a field, arrays
   of this rank's cells, and out may be in. All but destroy are called after setup, and collectively. Results must not
   depend on the number of ranks.
@@ -15,6 +23,9 @@ typedef struct {
   PetscErrorCode (*setfromoptions)(SamElasticity, const SamOptions *from); /* the type's own options */
   PetscErrorCode (*inherit)(SamElasticity parent, SamElasticity child);    /* settings, to a coarse grid or a part */
   PetscErrorCode (*setup)(SamElasticity);
+  /* the type's own parameters, all of them always: recorded, also what identifies its files, and set from a record */
+  PetscErrorCode (*addparameters)(SamElasticity, SamParameters *);
+  PetscErrorCode (*setparameters)(SamElasticity, const SamParameters *, const char source[]);
   PetscErrorCode (*destroy)(SamElasticity); /* frees `data` */
   /* required: products, with `factor` in single precision, preconditioners, and a cell's influence on itself */
   PetscErrorCode (*applynormal)(SamElasticity, const double *const p[], double *const u_z[]);
@@ -24,13 +35,14 @@ typedef struct {
   PetscErrorCode (*preconditionnormal)(SamElasticity, double factor, const float *const r[], float *const p[]);
   PetscErrorCode (*preconditiontangential)(SamElasticity, double factor, const float *const r[], float *const q[]);
   PetscErrorCode (*getselfinfluence)(SamElasticity, PetscReal *normal, PetscReal *tangential);
+  /* the stresses in a body that is not rigid */
+  PetscErrorCode (*createstress)(SamElasticity, PetscInt body, const SamFourierSettings *, SamStress *);
   /* required if the traits say coupled */
   PetscErrorCode (*applynormaltotangential)(SamElasticity, const double *const p[], double *const u_t[]);
   PetscErrorCode (*applytangentialtonormal)(SamElasticity, const double *const q[], double *const u_z[]);
   /* required if the traits say within */
   PetscErrorCode (*applynormalslopes)(SamElasticity, const double *const slopes[], double *const u_z[]);
-  PetscErrorCode (*applytangentialslopes)(SamElasticity, int axis, const double *const slopes[], double *const u_t[]);
-  PetscErrorCode (*getnear)(SamElasticity, SamElasticityKernel, PetscInt reach, PetscInt sub, double table[]);
+  PetscErrorCode (*getnear)(SamElasticity, PetscInt reach, PetscInt sub, double table[]);
 } SamElasticityOps;
 
 /* Where only some cells have traction: those cells as a grid of their own, and the operator on it. */
@@ -50,8 +62,11 @@ struct _n_SamElasticity {
   SamElasticityOps    ops;
   SamElasticityTraits traits;
   void               *data;
+  SamElasticity       inner;   /* what the type adds to, by SamElasticitySetInner(); NULL: nothing */
   SamFourier          fourier; /* made in setup by types that use one; the class trims and destroys it */
   PetscBool           is_set_up;
+  /* the place on the finest grid: cell (i, j) reaches from first[0] + i factor[0] to first[0] + (i + 1) factor[0] */
+  PetscReal first[2], factor[2];
   /* derived operators */
   SamElasticity     coarse;
   SamTransfer       transfer;
@@ -60,8 +75,17 @@ struct _n_SamElasticity {
   PetscBool         in_part;  /* it is in use; else none is */
 };
 
-/* SamElasticityCreateLike - on another grid: the same type, bodies and settings. Collective. */
-PETSC_EXTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, SamElasticity *child);
+/* SamElasticitySetInner - makes the object that a type adds to, in the place of one before. Collective. */
+PETSC_EXTERN PetscErrorCode SamElasticitySetInner(SamElasticity elasticity, SamElasticityType type);
+/*
+  SamElasticityCreateLike - on another grid: the same type, bodies and settings. `first`: the cell of the parent's grid
+  where a part of it begins; NULL: the grid is a coarser one. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
+                                                    SamElasticity *child);
+/* The object that has a method: this one, or one within. */
+#define SamElasticityWith(e, method) \
+  while (!(e)->ops.method && (e)->inner) (e) = (e)->inner
 /* SamElasticityDestroyParts - forgets both parts. Collective. */
 PETSC_EXTERN PetscErrorCode SamElasticityDestroyParts(SamElasticity elasticity);
 /* Whether the coupling coefficient of a pair is more than rounding. */

@@ -3,6 +3,7 @@
 #define PETSAM_FIELDFILE_H
 
 #include <petsam/grid.h>
+#include <petsam/private/baseimpl.h>
 
 /*
   SamFieldFile - where a field comes from. The caller sets the names of the two options, the default and the limit; the
@@ -31,5 +32,11 @@ PETSC_EXTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, con
   the grid's.
 */
 PETSC_EXTERN PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec field);
+/*
+  SamFieldFileGetGrid - the grid on which a dataset of lengths is given: cells and full widths (m) in x and y; a width
+  of 0 is one that the file does not tell. Collective. Errors: SAM_ERR_FILE, as for SamFieldFileRead().
+*/
+PETSC_EXTERN PetscErrorCode SamFieldFileGetGrid(const SamFieldFile *source, MPI_Comm comm, PetscInt n[2],
+                                                PetscReal width[2]);
 
 #endif

@@ -24,6 +24,5 @@ PETSC_EXTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBa
                                                   SamProduct *product);
 
 PETSC_EXTERN PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver);
-PETSC_EXTERN PetscErrorCode SamNormalCreate_PolonskyKeer(SamSolver solver);
 
 #endif

@@ -24,7 +24,7 @@ PETSC_EXTERN PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, 
                                          const double **wanted);
 PETSC_EXTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted);
 
-#define SAM_SEEN_MOST 24
+#define SAM_SEEN_MOST 6
 /*
   SamSeen - a field in this rank's rows and `halo` more before and after them. SamSee - fetches it; `components`: at
   most SAM_SEEN_MOST. SamForget - gives it back. Collective.

@@ -70,7 +70,6 @@ struct _n_SamSolverKind {
   const char    *error_help; /* what the relative error is */
   SamBalanceKind balance;
   SamEvent       event;
-  SamSolverType  default_type;
   PetscReal      rtol, coarse_rtol;           /* default, and the least on coarse grids */
   PetscInt       components;                  /* of the traction */
   PetscInt       given_components[SAM_GIVEN]; /* of the given fields */
@@ -85,8 +84,11 @@ struct _n_SamSolverKind {
   PetscErrorCode (*solvelevel)(SamSolver solver, SamLevel *level, SamStart start);
   /* the start of a level from the solution on the next coarser grid */
   PetscErrorCode (*prolong)(SamTransfer transfer, const SamLevel *coarse, SamLevel *fine);
-  /* registers the types that come with the library */
-  PetscErrorCode (*registerall)(void);
+  /* the types that come with the library, the default one first; an empty name ends them */
+  struct {
+    SamSolverType name;
+    PetscErrorCode (*create)(SamSolver);
+  } own[4];
   /* the registry */
   PetscFunctionList types;
   PetscBool         registered;
@@ -131,14 +133,14 @@ struct _n_SamSolver {
 /* ---- for kinds ---- */
 
 PETSC_EXTERN PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, SamSolver *solver);
+PETSC_EXTERN PetscErrorCode SamSolverDestroy(SamSolver solver);
 PETSC_EXTERN PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[],
                                               PetscErrorCode (*create)(SamSolver));
 /*
-  SamSolverSolve - checks the kinds of solver and balance, clears the counts, solves, views. Of `problem` the balance,
+  SamSolverSolve - checks the kind of the balance, clears the counts, solves, views. Of `problem` the balance,
   the given fields and the traction are used. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamSolverSolve(SamSolver solver, const SamSolverKind *kind, const SamLevel *problem,
-                                           PetscBool guess);
+PETSC_EXTERN PetscErrorCode SamSolverSolve(SamSolver solver, const SamLevel *problem, PetscBool guess);
 /* SamSolverViewFromOptions - obeys -<kind>_view and -<kind>_converged_reason after a solve. Collective. */
 PETSC_EXTERN PetscErrorCode SamSolverViewFromOptions(SamSolver solver);
 
@@ -224,7 +226,7 @@ static inline void SamRoundingRaise(SamRounding *rounding, double error)
 }
 static inline PetscBool SamRoundingIsWithin(const SamRounding *rounding, double limit)
 {
-  return rounding->bound <= limit;
+  return (PetscBool)(rounding->bound <= limit);
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* Stresses inside the library: the kernels of one depth, for those who sum them up. */
+/* The inside of SamStress, for types of elasticity that know the stresses in their bodies. */
 #ifndef PETSAM_STRESSIMPL_H
 #define PETSAM_STRESSIMPL_H
 
@@ -6,8 +6,8 @@
 #include <petsam/stress.h>
 
 /*
-  SamStressGroup - kernels that are evaluated together. Of the 18, three are equal to others: what p does to xz and yz,
-  q_x and q_y do to zz, and q_y to xz what q_x does to yz.
+  SamStressGroup - kernels that are evaluated together. Of the 18, q_y does to xz what q_x does to yz in any body that
+  is isotropic along the surface, and in a half-space q_x and q_y do to zz what p does to xz and yz.
 */
 typedef enum {
   SAM_STRESS_PLANE_P,  /* xx, yy, xy from p */
@@ -15,6 +15,7 @@ typedef enum {
   SAM_STRESS_PLANE_Y,  /* xx, yy, xy from q_y */
   SAM_STRESS_NORMAL_P, /* zz, xz, yz from p */
   SAM_STRESS_NORMAL_T, /* xz, yz from q_x, yz from q_y */
+  SAM_STRESS_NORMAL_Z, /* zz from q_x, zz from q_y, 0: only where these are not what p does to xz and yz */
   SAM_STRESS_GROUPS
 } SamStressGroup;
 
@@ -25,38 +26,61 @@ typedef struct {
   SamStressGroup group;
   PetscInt       member;
 } SamStressKernel;
-PETSC_EXTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS];
+PETSC_EXTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]; /* of a half-space */
+PETSC_EXTERN SamStressKernel       SamStressKernelOf(SamStress stress, PetscInt component, PetscInt traction);
 
 /* The parities of the kernels of a group: odd in x, odd in y. */
 PETSC_EXTERN const PetscBool SamStressOdd[SAM_STRESS_GROUPS][SAM_STRESS_GROUP][2];
 
-/* SamStressSource - unit traction on a cell, seen from a depth. */
+/*
+  SamStressOps - what a type of elasticity knows of the stresses in one of its bodies; NULL where it has none. `data` is
+  the type's.
+    row           required: kernels of a group in a cell's centre at the lags (i, j), i = 0 ... n - 1, j >= 0, in cells
+                  of these sides, by unit traction on the cell that lies so far before it, z = depth >= 0 (all m). They
+                  contain the correction of values at centres (elasticity/halfspace/stresscell.c). Not collective.
+    usedepth      makes the tables of a depth, for the calls of row that follow. Not collective.
+    getconstants  required: Young's modulus (Pa) and Poisson's ratio at a depth. Not collective.
+    atedge        as SamStressAtEdge(). Collective.
+    reduce        finds the numbers, `sums` of them, that a smooth part of the stress depends on - of boundaries far
+                  away, say - from this rank's tractions p, q_x, q_y; the same on all ranks. Collective.
+    add           adds this part at n points from `first` on, `step` apart (m), to the components. Not collective.
+    destroy       frees the data.
+*/
 typedef struct {
-  double side[2]; /* of the cell, m */
-  double depth;   /* z >= 0, m */
-  double poisson;
-} SamStressSource;
+  void (*row)(SamStress, const double side[2], double depth, SamStressGroup, PetscInt j, PetscInt n,
+              double *const values[SAM_STRESS_GROUP]);
+  PetscErrorCode (*usedepth)(SamStress, PetscReal depth);
+  void (*getconstants)(SamStress, PetscReal depth, PetscReal *young, PetscReal *poisson);
+  PetscErrorCode (*atedge)(SamStress, Vec field, const SamEdge *edge, double stress[]);
+  PetscErrorCode (*reduce)(SamStress, const double *const tractions[], double sums[]);
+  void (*add)(SamStress, const double sums[], const double first[3], const double step[2], PetscInt n,
+              double *const stress[SAM_STRESS_COMPONENTS]);
+  PetscErrorCode (*destroy)(SamStress);
+} SamStressOps;
+
+struct _n_SamStress {
+  SamGrid            grid;
+  SamFourierSettings settings;
+  SamStressOps       ops; /* set by the type, as the data, the groups and the sums */
+  void              *data;
+  PetscInt           groups; /* of kernels that the type has: all, or those before SAM_STRESS_NORMAL_Z */
+  PetscInt           sums;   /* numbers of reduce */
+  double             sign[SAM_STRESS_TRACTIONS]; /* of the tractions that act on the body, seen from its inside */
+  /* of the map in use */
+  SamFourier fourier;
+  PetscReal  depth; /* -1: none */
+  SamKernel  kernels[SAM_STRESS_GROUPS][SAM_STRESS_GROUP];
+};
 
 /*
-  SamStressRow - the kernels of a group at the lags (i, j), i = 0 ... n - 1, j >= 0, in cells: the stress in a cell's
-  centre by unit traction on the cell that lies so far before it. They contain the correction of values at centres
-  (cell.c). Not collective.
+  SamStressCreate - for body 1 or 2, without ops; `settings` of the transforms may be NULL. Collective. Errors:
+  PETSC_ERR_ARG_OUTOFRANGE for another body.
+  SamStressUseDepth - gets the kernels of a depth ready. Errors: PETSC_ERR_ARG_OUTOFRANGE for what is none. Not
+  collective.
 */
-PETSC_EXTERN void SamStressRow(const SamStressSource *source, SamStressGroup group, PetscInt j, PetscInt n,
-                               double *const values[SAM_STRESS_GROUP]);
-
-/*
-  SamStressSign - the sign of a traction on body 1 or 2, seen from inside of it: the shear on body 1 is the opposite of
-  that on body 2. Not collective.
-*/
-static inline double SamStressSign(PetscInt body, PetscInt traction)
-{
-  return traction != SAM_STRESS_P && body == 1 ? -1 : 1;
-}
-
-/* SamStressCheckBody, SamStressCheckDepth - raise PETSC_ERR_ARG_OUTOFRANGE for what cannot be. Collective. */
-PETSC_EXTERN PetscErrorCode SamStressCheckBody(MPI_Comm comm, PetscInt body, PetscReal poisson);
-PETSC_EXTERN PetscErrorCode SamStressCheckDepth(MPI_Comm comm, PetscReal depth);
+PETSC_EXTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
+                                            SamStress *stress);
+PETSC_EXTERN PetscErrorCode SamStressUseDepth(SamStress stress, PetscReal depth);
 
 /* SamPrincipalOf - the principal stresses of one stress, the largest first. Not collective. */
 PETSC_EXTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);

@@ -3,14 +3,14 @@
   products by convolution without wrapping round (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
 */
 #include "halfspaceimpl.h"
-#include <petsam/influence.h>
+#include <petsam/private/halfspace.h>
 
 /* Kernels: row and column of the 3 x 3 operator; the lower triangle follows by symmetry. */
 typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
 
 typedef struct {
-  SamKernel kernel[KERNELS];  /* NULL until needed */
-  SamKernel slope[XY + 1][2]; /* of tractions linear in x and in y; likewise */
+  SamKernel kernel[KERNELS]; /* NULL until needed */
+  SamKernel slope[2];        /* of pressures linear in x and in y; likewise */
 } HalfSpace;
 
 /* A kernel is a sum of at most two integrals over the cell. */
@@ -100,63 +100,58 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 
 /* ---- products ---- */
 
-static PetscErrorCode NormalMatrix(SamElasticity e, SamKernelMatrix *matrix)
+/* The kernels of u_z from p, and of u_t from q. */
+static PetscErrorCode GetMatrix(SamElasticity e, PetscInt components, SamKernelMatrix *matrix)
 {
   PetscFunctionBegin;
-  *matrix = (SamKernelMatrix){.n_in = 1, .n_out = 1, .scale = {{1}}};
-  PetscCall(GetKernel(e, ZZ, &matrix->kernel[0][0]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode TangentialMatrix(SamElasticity e, SamKernelMatrix *matrix)
-{
-  PetscFunctionBegin;
-  *matrix = (SamKernelMatrix){.n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}};
-  PetscCall(GetKernel(e, XX, &matrix->kernel[0][0]));
+  *matrix = (SamKernelMatrix){.n_in = components, .n_out = components, .scale = {{1, 1}, {1, 1}}};
+  PetscCall(GetKernel(e, components == 1 ? ZZ : XX, &matrix->kernel[0][0]));
+  if (components == 1) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(GetKernel(e, XY, &matrix->kernel[0][1]));
   PetscCall(GetKernel(e, YY, &matrix->kernel[1][1]));
   matrix->kernel[1][0] = matrix->kernel[0][1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
+static PetscErrorCode Apply(SamElasticity e, PetscInt components, const double *const in[], double *const out[])
 {
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
-  PetscCall(NormalMatrix(e, &matrix));
-  PetscCall(SamConvolve(e->fourier, &matrix, p, u_z));
+  PetscCall(GetMatrix(e, components, &matrix));
+  PetscCall(SamConvolve(e->fourier, &matrix, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
+static PetscErrorCode ApplySingle(SamElasticity e, PetscInt components, double factor, const float *const in[],
+                                  float *const out[])
 {
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
-  PetscCall(NormalMatrix(e, &matrix));
-  PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, p, u_z));
+  PetscCall(GetMatrix(e, components, &matrix));
+  PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
+{
+  return Apply(e, 1, p, u_z);
 }
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
 {
-  SamKernelMatrix matrix;
+  return Apply(e, 2, q, u_t);
+}
 
-  PetscFunctionBegin;
-  PetscCall(TangentialMatrix(e, &matrix));
-  PetscCall(SamConvolve(e->fourier, &matrix, q, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
+static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
+{
+  return ApplySingle(e, 1, factor, p, u_z);
 }
 
 static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
 {
-  SamKernelMatrix matrix;
-
-  PetscFunctionBegin;
-  PetscCall(TangentialMatrix(e, &matrix));
-  PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, q, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ApplySingle(e, 2, factor, q, u_t);
 }
 
 static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
@@ -188,26 +183,21 @@ static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void 
   SamSlopeRow((const SamSlopeKernel *)context, j, n, values[0]);
 }
 
-/* The kernel of that kind for tractions that are linear along an axis. */
-static PetscErrorCode GetSlopeKernel(SamElasticity e, Kind kind, int axis, SamKernel *kernel)
+/* The kernel for pressures that are linear along an axis. */
+static PetscErrorCode GetSlopeKernel(SamElasticity e, int axis, SamKernel *kernel)
 {
   HalfSpace *data = (HalfSpace *)e->data;
 
   PetscFunctionBegin;
-  if (!data->slope[kind][axis]) {
-    const SamPair  *pair     = &e->pair;
-    const PetscBool odd[][2] = {{(kind == XY) != (axis == 0), (kind == XY) != (axis == 1)}};
+  if (!data->slope[axis]) {
+    const PetscBool odd[][2] = {{axis == 0, axis == 1}};
     SamSlopeRules   rules;
-    SamSlopeKernel  c = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy};
+    SamSlopeKernel  c = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal};
 
     PetscCall(SamSlopeRulesCreate(&rules));
-    c.r  = kind == ZZ ? pair->normal : kind == XY ? 0 : pair->shear;
-    c.xx = kind == XX ? pair->shear_xx : 0;
-    c.yy = kind == YY ? pair->shear_xx : 0;
-    c.xy = kind == XY ? pair->shear_xx : 0;
-    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, &data->slope[kind][axis]));
+    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, &data->slope[axis]));
   }
-  *kernel = data->slope[kind][axis];
+  *kernel = data->slope[axis];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -216,33 +206,15 @@ static PetscErrorCode ApplyNormalSlopes(SamElasticity e, const double *const slo
   SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{1, 1}}};
 
   PetscFunctionBegin;
-  for (int axis = 0; axis < 2; axis++) PetscCall(GetSlopeKernel(e, ZZ, axis, &matrix.kernel[0][axis]));
+  for (int axis = 0; axis < 2; axis++) PetscCall(GetSlopeKernel(e, axis, &matrix.kernel[0][axis]));
   PetscCall(SamConvolve(e->fourier, &matrix, slopes, u_z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ApplyTangentialSlopes(SamElasticity e, int axis, const double *const slopes[],
-                                            double *const u_t[])
+static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
 {
-  SamKernelMatrix matrix = {.n_in = 2, .n_out = 2, .scale = {{1, 1}, {1, 1}}};
-
-  PetscFunctionBegin;
-  PetscCall(GetSlopeKernel(e, XX, axis, &matrix.kernel[0][0]));
-  PetscCall(GetSlopeKernel(e, XY, axis, &matrix.kernel[0][1]));
-  PetscCall(GetSlopeKernel(e, YY, axis, &matrix.kernel[1][1]));
-  matrix.kernel[1][0] = matrix.kernel[0][1];
-  PetscCall(SamConvolve(e->fourier, &matrix, slopes, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetNear(SamElasticity e, SamElasticityKernel kernel, PetscInt reach, PetscInt sub, double table[])
-{
-  static const Kind kinds[] = {
-    [SAM_ELASTICITY_ZZ] = ZZ, [SAM_ELASTICITY_XX] = XX, [SAM_ELASTICITY_YY] = YY, [SAM_ELASTICITY_XY] = XY};
-
-  const Coefficients c  = GetCoefficients(e, kinds[kernel]);
-  const double       dx = c.dx / (double)sub, dy = c.dy / (double)sub;
-  const PetscInt     lags = 2 * reach + 1, cells = sub * sub;
+  const double   dx = e->grid->dx / (double)sub, dy = e->grid->dy / (double)sub;
+  const PetscInt lags = 2 * reach + 1, cells = sub * sub;
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < lags * lags * cells; n++) {
@@ -250,13 +222,21 @@ static PetscErrorCode GetNear(SamElasticity e, SamElasticityKernel kernel, Petsc
     const PetscInt i = (lag % lags - reach) * sub + sub / 2 - cell % sub,
                    j = (lag / lags - reach) * sub + sub / 2 - cell / sub;
 
-    table[n] = c.factor[0] * SamIntegralCell(c.integral[0], dx, dy, i, j);
-    if (c.factor[1] != 0) table[n] += c.factor[1] * SamIntegralCell(c.integral[1], dx, dy, i, j);
+    table[n] = e->pair.normal * SamIntegralCell(SAM_INTEGRAL_R, dx, dy, i, j);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the type ---- */
+
+static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
+                                   SamStress *stress)
+{
+  PetscFunctionBegin;
+  PetscCall(
+    SamHalfSpaceCreateStress(e->grid, settings, body, e->pair.young[body - 1], e->pair.poisson[body - 1], stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode SetUp(SamElasticity e)
 {
@@ -271,8 +251,7 @@ static PetscErrorCode Destroy(SamElasticity e)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
-  for (PetscInt k = 0; k <= XY; k++)
-    for (PetscInt axis = 0; axis < 2; axis++) PetscCall(SamKernelDestroy(&data->slope[k][axis]));
+  for (PetscInt axis = 0; axis < 2; axis++) PetscCall(SamKernelDestroy(&data->slope[axis]));
   PetscCall(PetscFree(e->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -285,8 +264,8 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
   PetscCall(PetscNew(&data));
   e->data   = data;
   e->traits = (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
-                                    .rotations = PETSC_TRUE,
-                                    .edge      = PETSC_TRUE,
+                                    .stretch   = PETSC_TRUE,
+                                    .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
                                     .mean      = PETSC_TRUE,
                                     .parts     = PETSC_TRUE,
                                     .within    = PETSC_TRUE};
@@ -299,10 +278,10 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .preconditionnormal      = SamHalfSpacePreconditionNormal,
                                  .preconditiontangential  = SamHalfSpacePreconditionTangential,
                                  .getselfinfluence        = GetSelfInfluence,
+                                 .createstress            = CreateStress,
                                  .applynormaltotangential = ApplyNormalToTangential,
                                  .applytangentialtonormal = ApplyTangentialToNormal,
                                  .applynormalslopes       = ApplyNormalSlopes,
-                                 .applytangentialslopes   = ApplyTangentialSlopes,
                                  .getnear                 = GetNear};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -47,7 +47,7 @@
     Szego, G. (1975). Orthogonal Polynomials, section 4.7. American Mathematical Society.
 */
 #include <petsam/private/baseimpl.h>
-#include <petsam/influence.h>
+#include <petsam/private/halfspace.h>
 
 #include <math.h>
 

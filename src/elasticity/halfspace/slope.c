@@ -1,5 +1,5 @@
 /*
-  Integrals of kernels of degree -1 in r over a cell whose traction is linear, and zero in the mean.
+  Integrals of 1/r over a cell whose pressure is linear, and zero in the mean.
 
   Method: Gauss' quadrature over parts of the cell that are nearly square, and no longer than a fifth of the distance
   where that is more. If the nearest singularity lies t half sides from a part, n points in each direction are wrong by
@@ -10,7 +10,7 @@
   Reference: Davis, P.J., Rabinowitz, P. (1984). Methods of Numerical Integration, section 4.6. Academic Press.
 */
 #include <petsam/private/baseimpl.h>
-#include <petsam/influence.h>
+#include <petsam/private/halfspace.h>
 #include <petscdt.h>
 #include <math.h>
 
@@ -37,14 +37,13 @@ static int RuleFor(double distance, double side)
 SAM_VECTORIZED static void AddPlace(const SamSlopeKernel *restrict kernel, double weight, double x, double y,
                                     PetscInt n, double *restrict values)
 {
-  const double r = weight * kernel->r, xx = weight * kernel->xx, yy = weight * kernel->yy, xy = weight * kernel->xy;
-  const double dx = kernel->dx;
+  const double factor = weight * kernel->factor, dx = kernel->dx;
 
 #pragma omp simd
   for (PetscInt i = 0; i < n; i++) {
-    const double at = x + (double)i * dx, square = 1 / (at * at + y * y);
+    const double at = x + (double)i * dx;
 
-    values[i] += sqrt(square) * (r + square * (xx * at * at + (yy * y + xy * at) * y));
+    values[i] += sqrt(1 / (at * at + y * y)) * factor;
   }
 }
 

@@ -254,84 +254,80 @@ static double TangentialAmplitude(SamElasticity e)
   return 2 * PETSC_PI * (e->pair.shear + e->pair.shear_xx);
 }
 
-static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
+static double CouplingAmplitude(SamElasticity e)
 {
-  const Symbol           s      = SymbolOf(e, 1, NormalAmplitude(e));
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterNormal, &s};
+  return 2 * PETSC_PI * e->pair.coupling;
+}
+
+typedef void (*Filter)(const SamFourierBlock *block, const void *symbol);
+
+static PetscErrorCode Apply(SamElasticity e, double amplitude, PetscInt n_in, PetscInt n_out, Filter apply,
+                            const double *const in[], double *const out[])
+{
+  const Symbol           s      = SymbolOf(e, 1, amplitude);
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, n_in, n_out, apply, &s};
 
   PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, &filter, p, u_z));
+  PetscCall(SamFourierApply(e->fourier, &filter, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplySingle(SamElasticity e, const Symbol *s, PetscInt n, Filter apply, const float *const in[],
+                                  float *const out[])
+{
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, n, n, apply, s};
+
+  PetscFunctionBegin;
+  PetscCall(SamFourierApplySingle(e->fourier, &filter, in, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
+{
+  return Apply(e, NormalAmplitude(e), 1, 1, FilterNormal, p, u_z);
 }
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
 {
-  const Symbol           s      = SymbolOf(e, 1, TangentialAmplitude(e));
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 2, FilterTangential, &s};
-
-  PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, &filter, q, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
-{
-  const Symbol           s      = SymbolOf(e, factor, NormalAmplitude(e));
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterNormal, &s};
-
-  PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, &filter, p, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
-{
-  const Symbol           s      = SymbolOf(e, factor, TangentialAmplitude(e));
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 2, FilterTangential, &s};
-
-  PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, &filter, q, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return Apply(e, TangentialAmplitude(e), 2, 2, FilterTangential, q, u_t);
 }
 
 static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
 {
-  const Symbol           s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 2, FilterNormalToTangential, &s};
-
-  PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, &filter, p, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return Apply(e, CouplingAmplitude(e), 1, 2, FilterNormalToTangential, p, u_t);
 }
 
 static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
 {
-  const Symbol           s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling);
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 1, FilterTangentialToNormal, &s};
+  return Apply(e, CouplingAmplitude(e), 2, 1, FilterTangentialToNormal, q, u_z);
+}
 
-  PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, &filter, q, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
+static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
+{
+  const Symbol s = SymbolOf(e, factor, NormalAmplitude(e));
+
+  return ApplySingle(e, &s, 1, FilterNormal, p, u_z);
+}
+
+static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
+{
+  const Symbol s = SymbolOf(e, factor, TangentialAmplitude(e));
+
+  return ApplySingle(e, &s, 2, FilterTangential, q, u_t);
 }
 
 static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
 {
-  const Symbol           s      = InverseOf(e, factor, NormalAmplitude(e));
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterNormalInverse, &s};
+  const Symbol s = InverseOf(e, factor, NormalAmplitude(e));
 
-  PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, &filter, r, p));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ApplySingle(e, &s, 1, FilterNormalInverse, r, p);
 }
 
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
-  const Symbol           s      = InverseOf(e, factor, TangentialAmplitude(e));
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 2, FilterTangentialInverse, &s};
+  const Symbol s = InverseOf(e, factor, TangentialAmplitude(e));
 
-  PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, &filter, r, q));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ApplySingle(e, &s, 2, FilterTangentialInverse, r, q);
 }
 
 static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
@@ -414,7 +410,7 @@ PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
   PetscFunctionBegin;
   PetscCall(PetscNew(&data));
   e->data   = data;
-  e->traits = (SamElasticityTraits){.coupled = SamElasticityPairIsCoupled(&e->pair)};
+  e->traits = (SamElasticityTraits){.coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE};
   e->ops    = (SamElasticityOps){.setup                   = SetUp,
                                  .destroy                 = Destroy,
                                  .applynormal             = ApplyNormal,

@@ -1,5 +1,6 @@
 /* The class SamGap: types, their parameters, roughness. Each shape is in a file of its own. */
 #include <petsam/private/gapimpl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,26 +39,23 @@ PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap
 
 PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
 {
-  SamGap g;
+  const SamFieldFile source = {.file_option     = "gap_file",
+                               .dataset_option  = "gap_dataset",
+                               .default_dataset = "/height",
+                               .unit            = "m unless its units say otherwise",
+                               .least           = PETSC_NINFINITY,
+                               .is_length       = PETSC_TRUE};
+  SamGap             g;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(RegisterAll());
   PetscCall(PetscNew(&g));
   g->comm   = comm;
-  g->source = (SamFieldFile){.file_option     = "gap_file",
-                             .dataset_option  = "gap_dataset",
-                             .default_dataset = "/height",
-                             .unit            = "m unless its units say otherwise",
-                             .least           = PETSC_NINFINITY,
-                             .is_length       = PETSC_TRUE};
-  g->rough  = (SamFieldFile){.file_option     = "gap_rough_file",
-                             .dataset_option  = "gap_rough_dataset",
-                             .default_dataset = "/height",
-                             .unit            = "m unless its units say otherwise",
-                             .least           = PETSC_NINFINITY,
-                             .is_length       = PETSC_TRUE};
-  *gap      = g;
+  g->source = g->rough    = source;
+  g->rough.file_option    = "gap_rough_file";
+  g->rough.dataset_option = "gap_rough_dataset";
+  *gap                    = g;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,7 +85,7 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
     SETERRQ(gap->comm, SAM_ERR_USER, "%s is no type of gap: expected %s", type, list);
   }
   PetscCall(PetscMemzero(&gap->ops, sizeof(gap->ops)));
-  PetscCall(PetscMemzero(gap->values, sizeof(gap->values)));
+  for (PetscInt k = 0; k < SAM_GAP_PARAMETERS; k++) gap->values[k] = NAN;
   PetscCall(create(gap));
   PetscCheck(gap->ops.count <= SAM_GAP_PARAMETERS, gap->comm, PETSC_ERR_PLIB, "Gap type %s has more than %d parameters",
              type, SAM_GAP_PARAMETERS);
@@ -95,6 +93,45 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
              type);
   for (PetscInt k = 0; k < gap->ops.count; k++) gap->names[k] = gap->ops.parameters[k].name;
   PetscCall(PetscStrncpy(gap->type, type, sizeof(gap->type)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value)
+{
+  PetscInt k = 0;
+
+  PetscFunctionBegin;
+  while (k < gap->ops.count && strcmp(gap->names[k], name) &&
+         (strncmp(gap->names[k], "gap_", 4) || strcmp(gap->names[k] + 4, name)))
+    k++;
+  PetscCheck(k < gap->ops.count, gap->comm, PETSC_ERR_ARG_OUTOFRANGE, "Gap type %s has no parameter %s",
+             gap->type[0] ? gap->type : "none", name);
+  PetscCheck(SamRangeHas(gap->ops.parameters[k].range, value), gap->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Gap parameter %s is %g: expected %s", name, (double)value,
+             SamRangeDescribe(gap->ops.parameters[k].range));
+  gap->values[k] = value;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetSource(SamFieldFile *source, const char file[], const char dataset[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(source->file, file ? file : "", sizeof(source->file)));
+  PetscCall(PetscStrncpy(source->dataset, dataset ? dataset : source->default_dataset, sizeof(source->dataset)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapSetFile(SamGap gap, const char file[], const char dataset[])
+{
+  PetscFunctionBegin;
+  PetscCall(SetSource(&gap->source, file, dataset));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapSetRoughness(SamGap gap, const char file[], const char dataset[])
+{
+  PetscFunctionBegin;
+  PetscCall(SetSource(&gap->rough, file, dataset));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,7 +166,7 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
     PetscCall(SamOptionsReal(&from, parameter->name, text, parameter->range, &gap->values[k], &set));
     PetscCall(
       PetscSNPrintf(text, sizeof(text), "%s, required by -%sgap_type %s", parameter->help, gap->prefix, gap->type));
-    PetscCall(SamOptionsRequire(&from, set || help, parameter->name, text));
+    PetscCall(SamOptionsRequire(&from, set || help || !isnan(gap->values[k]), parameter->name, text));
   }
   if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));
   if (!gap->ops.setfromoptions && !help) PetscCall(RefuseFile(gap));
@@ -181,26 +218,59 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
 {
   const SamOptions from = {gap->comm, gap->prefix};
   char             type[64], list[512], text[600];
-  PetscBool        set, help;
+  PetscBool        set, help, file;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(&from, "Gap"));
   PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
-  PetscCall(PetscStrncpy(type, gap->type, sizeof(type)));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required without a surface file", list));
+  PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-gap_file", &file));
+  PetscCall(PetscStrncpy(type, file && !gap->type[0] ? SAM_GAP_FILE : gap->type, sizeof(type)));
   PetscCall(SamTypesOption(SamGapList, &from, "gap_type", text, type, sizeof(type), &set));
   if (help) {
     PetscCall(PrintTypes(gap));
   } else {
-    PetscCall(SamOptionsRequire(&from, set || gap->type[0], "gap_type", list));
+    PetscCall(SamOptionsRequire(&from, set || type[0], "gap_type", list));
     PetscCall(SamTypesCheckOption(SamGapList, &from, "gap_type", type));
     PetscCall(KnowTypes(gap->comm, &from));
-    if (set) PetscCall(SamGapSetType(gap, type));
+    if (strcmp(type, gap->type)) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
   }
   PetscCall(SamFieldFileSetFromOptions(&gap->rough, &from, "HDF5 file with a roughness that is added to any type"));
   if (help) gap->rough.file[0] = '\0';
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2])
+{
+  const SamOptions from = {gap->comm, gap->prefix};
+  SamFieldFile     sources[2];
+  char             type[64];
+  PetscBool        has_n, has_size, help;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < 2; d++) n[d] = 0, width[d] = 0;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-grid_n", &has_n));
+  PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-grid_size", &has_size));
+  if (help || (has_n && has_size)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrncpy(type, gap->type[0] ? gap->type : SAM_GAP_FILE, sizeof(type)));
+  PetscCall(PetscOptionsGetString(NULL, gap->prefix, "-gap_type", type, sizeof(type), NULL));
+  sources[0] = gap->source;
+  sources[1] = gap->rough;
+  for (PetscInt s = strcmp(type, SAM_GAP_FILE) ? 1 : 0; s < 2 && !n[0]; s++) {
+    SamFieldFile *source = &sources[s];
+
+    PetscCall(SamFieldFileSetFromOptions(source, &from, ""));
+    if (!source->file[0]) continue;
+    PetscCall(SamFieldFileGetGrid(source, gap->comm, n, width));
+    PetscCheck(
+      has_size || (width[0] > 0 && width[1] > 0), gap->comm, SAM_ERR_USER,
+      "-%sgrid_size is missing: -%s%s %s records no size of %s, neither as its attribute size nor by x and y with "
+      "units beside it",
+      gap->prefix, gap->prefix, source->file_option, source->file, source->dataset);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -240,6 +310,9 @@ PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
 
   PetscFunctionBegin;
   PetscCheck(gap->type[0], gap->comm, PETSC_ERR_ORDER, "Call SamGapSetType() or SamGapSetFromOptions() first");
+  for (PetscInt k = 0; k < gap->ops.count; k++)
+    PetscCheck(!isnan(gap->values[k]), gap->comm, PETSC_ERR_ORDER, "Call SamGapSetParameter() for %s first",
+               gap->names[k]);
   if (gap->ops.fill)
     PetscCall(gap->ops.fill(gap, grid, h));
   else

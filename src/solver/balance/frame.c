@@ -1,5 +1,5 @@
 /* The frame: small dense algebra of at most three components. */
-#include <petsam/private/balanceimpl.h>
+#include "projectionimpl.h"
 #include <math.h>
 
 const PetscInt SamComponentsOf[2][3] = {{SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY},
@@ -30,22 +30,21 @@ void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double 
   for (PetscInt i = 0; i < 3; i++) row[i] = kind == SAM_BALANCE_NORMAL ? normal[k][i] : tangential[k][i];
 }
 
-/* Gram-Schmidt: row = lower * basis, one new row of both. */
-static void Orthonormalize(SamFrame *f, const double row[3])
+double SamOrthonormalize(PetscInt m, double basis[3][3], const double row[3], double lower[3])
 {
-  const PetscInt m       = f->count;
-  double         rest[3] = {row[0], row[1], row[2]}, norm;
+  double rest[3] = {row[0], row[1], row[2]}, norm;
 
+  for (PetscInt k = 0; k < m; k++) lower[k] = 0;
   for (PetscInt pass = 0; pass < 2; pass++) /* twice is enough */
     for (PetscInt k = 0; k < m; k++) {
-      const double part = rest[0] * f->basis[k][0] + rest[1] * f->basis[k][1] + rest[2] * f->basis[k][2];
+      const double part = SamFrameDot(rest, basis[k]);
 
-      f->lower[m][k] += part;
-      for (PetscInt i = 0; i < 3; i++) rest[i] -= part * f->basis[k][i];
+      lower[k] += part;
+      for (PetscInt i = 0; i < 3; i++) rest[i] -= part * basis[k][i];
     }
-  norm           = sqrt(rest[0] * rest[0] + rest[1] * rest[1] + rest[2] * rest[2]);
-  f->lower[m][m] = norm;
-  for (PetscInt i = 0; i < 3; i++) f->basis[m][i] = rest[i] / norm;
+  norm = lower[m] = sqrt(SamFrameDot(rest, rest));
+  for (PetscInt i = 0; i < 3; i++) basis[m][i] = rest[i] / (norm > 0 ? norm : 1);
+  return norm;
 }
 
 PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
@@ -65,7 +64,7 @@ PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
     if (balance->force[k]) {
       const PetscInt m = f->count;
 
-      Orthonormalize(f, row);
+      (void)SamOrthonormalize(m, f->basis, row, f->lower[m]);
       f->target[m] = balance->load[k] / (grid->dx * grid->dy);
       for (PetscInt i = 0; i < m; i++) f->target[m] -= f->lower[m][i] * f->target[i];
       f->target[m] /= f->lower[m][m];
@@ -99,16 +98,6 @@ void SamFrameGetRigid(const SamFrame *f, const double a[3], SamBalance *balance)
     for (PetscInt m = k + 1; m < f->count; m++) b -= f->lower[m][k] * d[m];
     d[k]                            = b / f->lower[k][k];
     balance->rigid[f->component[k]] = d[k];
-  }
-}
-
-void SamFrameGetLoads(const SamFrame *f, const double sums[3], PetscReal loads[3])
-{
-  for (PetscInt k = 0; k < 3; k++) {
-    double row[3];
-
-    SamFrameGetComponent(f->grid, f->kind, k, row);
-    loads[k] = (row[0] * sums[0] + row[1] * sums[1] + row[2] * sums[2]) * f->grid->dx * f->grid->dy;
   }
 }
 

@@ -6,7 +6,7 @@
   by which F can grow. |v| has a kink at the centre of rotation; it is smoothed, and Newton's method minimises the sum
   for a smoothing that is reduced step by step.
 */
-#include <petsam/private/balanceimpl.h>
+#include "projectionimpl.h"
 #include <math.h>
 
 /* Of the sum of the bound: an error of equilibrium that is taken for none. */
@@ -59,7 +59,12 @@ PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec tractio
   }
   PetscCall(VecRestoreArrayRead(traction, &t));
   PetscCall(SamSumTotals(grid->comm, 3, totals, sums));
-  SamFrameGetLoads(&f, sums, loads);
+  for (PetscInt k = 0; k < 3; k++) {
+    double row[3];
+
+    SamFrameGetComponent(grid, kind, k, row);
+    loads[k] = SamFrameDot(row, sums) * grid->dx * grid->dy;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -217,29 +222,15 @@ static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], con
 /* The free combinations orthogonal to the load F, as the basis of a frame for SamFrameSolve(). */
 static void OrthogonalTo(const SamFrame *f, const double F[3], SamFrame *across)
 {
-  double unit[3], norm = sqrt(F[0] * F[0] + F[1] * F[1] + F[2] * F[2]);
+  double   basis[3][3], lower[3];
+  PetscInt m = 1;
 
+  (void)SamOrthonormalize(0, basis, F, lower);
+  for (PetscInt k = 0; k < f->count && m < f->count; k++)
+    if (SamOrthonormalize(m, basis, f->basis[k], lower) >= 1e-6) m++;
   *across       = *f;
-  across->count = 0;
-  for (PetscInt i = 0; i < 3; i++) unit[i] = F[i] / norm;
-  for (PetscInt k = 0; k < f->count && across->count < f->count - 1; k++) {
-    double rest[3], n = 0;
-
-    for (PetscInt i = 0; i < 3; i++) rest[i] = f->basis[k][i];
-    for (PetscInt pass = 0; pass < 2; pass++) {
-      for (PetscInt m = -1; m < across->count; m++) {
-        const double *direction = m < 0 ? unit : across->basis[m];
-        const double  part      = rest[0] * direction[0] + rest[1] * direction[1] + rest[2] * direction[2];
-
-        for (PetscInt i = 0; i < 3; i++) rest[i] -= part * direction[i];
-      }
-    }
-    for (PetscInt i = 0; i < 3; i++) n += rest[i] * rest[i];
-    n = sqrt(n);
-    if (n < 1e-6) continue;
-    for (PetscInt i = 0; i < 3; i++) across->basis[across->count][i] = rest[i] / n;
-    across->count++;
-  }
+  across->count = m - 1;
+  for (PetscInt k = 0; k < 3 * across->count; k++) across->basis[k / 3][k % 3] = basis[k / 3 + 1][k % 3];
 }
 
 /* The Newton step within the directions of `across`; returns how fast the power falls along it. */

@@ -155,25 +155,6 @@ static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
     p[k] = PetscMin(PetscMax(0, p[k] - (double)cells->made[k] / cells->scale), f->most);
 }
 
-/* Makes the rows that cells without a mask or a step of their own stand on: of ones, and of zeros. */
-static PetscErrorCode CreateRows(const SamFrame *f, Cells *cells, float **zeros)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(f->grid->nx, &cells->row));
-  PetscCall(PetscCalloc1(f->grid->nx, zeros));
-  for (PetscInt i = 0; i < f->grid->nx; i++) cells->row[i] = 1;
-  if (cells->by == 0) cells->step = *zeros;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode DestroyRows(Cells *cells, float **zeros)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(cells->row));
-  PetscCall(PetscFree(*zeros));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   The projection of the field p + by step. A step that nearly carries the loads takes two passes: one to find the step
   of Newton's method for a, and one that applies it and checks whether that was enough.
@@ -185,8 +166,9 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
   PetscBool near = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(CreateRows(f, &cells, &zeros));
-  PetscCall(PetscCalloc1(f->grid->nx, &scratch));
+  PetscCall(PetscCalloc3(f->grid->nx, &cells.row, f->grid->nx, &zeros, f->grid->nx, &scratch));
+  for (PetscInt i = 0; i < f->grid->nx; i++) cells.row[i] = 1;
+  if (cells.by == 0) cells.step = zeros;
   cells.field = p;
   *found      = PETSC_FALSE;
   /* where pressures are far above the load, it is lost in their rounding; projected again, they are of its size */
@@ -214,8 +196,7 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));
   if (!*found && cells.made) TakeBack(f, &cells, p);
   PetscCall(PetscFree(before));
-  PetscCall(PetscFree(scratch));
-  PetscCall(DestroyRows(&cells, &zeros));
+  PetscCall(PetscFree3(cells.row, zeros, scratch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -267,8 +248,10 @@ PetscErrorCode SamFrameClear(const SamFrame *f, const double field[], double a[3
   float *zeros;
 
   PetscFunctionBegin;
-  PetscCall(CreateRows(f, &cells, &zeros));
+  PetscCall(PetscCalloc2(f->grid->nx, &cells.row, f->grid->nx, &zeros));
+  for (PetscInt i = 0; i < f->grid->nx; i++) cells.row[i] = 1;
+  cells.step = zeros;
   PetscCall(SamDualVanish(f, PassNormal, &cells, a, clear));
-  PetscCall(DestroyRows(&cells, &zeros));
+  PetscCall(PetscFree2(cells.row, zeros));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

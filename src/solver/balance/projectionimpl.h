@@ -4,6 +4,12 @@
 
 #include <petsam/private/balanceimpl.h>
 
+/*
+  SamOrthonormalize - Gram-Schmidt: adds row m to an orthonormal basis, so that row = sum lower[k] basis[k]. Returns
+  lower[m], how far the row is from those before it.
+*/
+PETSC_INTERN double SamOrthonormalize(PetscInt m, double basis[3][3], const double row[3], double lower[3]);
+
 /* Errors of equilibrium, relative to the loads or the sum of the traction. */
 #define SAM_BALANCED_EXACT  1e-14 /* rounding at best: Newton's method stops */
 #define SAM_BALANCED_ENOUGH 1e-11 /* rounding at worst: a solution all the same */

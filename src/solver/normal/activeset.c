@@ -62,12 +62,8 @@
 
 typedef SamActiveSet Work;
 
-#define FLOATS 5
-
 static PetscErrorCode CreateWork(SamSolver solver, SamLevel *level, Work *w)
 {
-  float **const floats[FLOATS] = {&w->z, &w->s, &w->u, &w->loss, &w->active};
-
   PetscFunctionBegin;
   PetscCall(PetscMemzero(w, sizeof(*w)));
   w->solver = solver;
@@ -85,10 +81,12 @@ static PetscErrorCode CreateWork(SamSolver solver, SamLevel *level, Work *w)
   PetscCall(VecGetArray(w->vg, &w->g));
   w->stretches = SamStretches(level->grid);
   PetscCall(PetscCalloc2(w->rows * w->stretches, &w->busy, w->rows * w->stretches, &w->open));
-  for (PetscInt k = 0; k < FLOATS; k++) PetscCall(SamAllocate(sizeof(***floats) * (size_t)w->cells, floats[k]));
-  PetscCall(PetscArrayzero(w->s, w->cells));
-  PetscCall(PetscArrayzero(w->u, w->cells));
-  PetscCall(PetscArrayzero(w->loss, w->cells));
+  PetscCall(SamAllocate(sizeof(*w->z) * 5 * (size_t)w->cells, &w->z));
+  w->active = w->z + w->cells;
+  w->s      = w->active + w->cells;
+  w->u      = w->s + w->cells;
+  w->loss   = w->u + w->cells;
+  PetscCall(PetscArrayzero(w->s, 3 * w->cells));
   PetscCall(PetscMalloc1(w->nx, &w->xi));
   for (PetscInt i = 0; i < w->nx; i++) w->xi[i] = (float)(w->frame->xi0 + (double)i * w->frame->dxi);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -102,11 +100,7 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArray(w->vg, &w->g));
   PetscCall(VecDestroy(&w->vg));
   PetscCall(PetscFree2(w->busy, w->open));
-  SamFree(w->z);
-  SamFree(w->s);
-  SamFree(w->u);
-  SamFree(w->loss);
-  SamFree(w->active);
+  SamFree(w->z); /* with the others behind it */
   PetscCall(PetscFree(w->xi));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

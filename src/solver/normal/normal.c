@@ -181,92 +181,56 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 
 /* ---- no contact ---- */
 
-/* The least of h less the given rigid displacement of a frame. */
-static PetscErrorCode ComputeClearance(SamGrid grid, Vec h, const SamFrame *f, double *clearance)
+/* overlap: by how much the undeformed bodies overlap in each cell (m), and at most. */
+static PetscErrorCode ComputeOverlap(SamGrid grid, Vec separation, const SamFrame *f, double overlap[], double *most)
 {
-  const double *array;
-  double        overlap = -PETSC_MAX_REAL;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(h, &array));
-  for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++)
-      overlap = PetscMax(overlap, SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) -
-                                    array[j * grid->nx + i]);
-  PetscCall(VecRestoreArrayRead(h, &array));
-  PetscCall(SamMax(grid->comm, 1, &overlap));
-  *clearance = -overlap;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Whether the bodies can tilt out of contact, where that is free; then `rigid` has the rotations at which they clear
-  each other.
-*/
-static PetscErrorCode CanTilt(const SamLevel *level, PetscReal rigid[3], PetscBool *can)
-{
-  const SamGrid grid = level->grid;
-  SamBalance    tilt = *level->balance;
-  SamFrame      frame;
-  double       *overlap, a[3];
   const double *h;
 
   PetscFunctionBegin;
-  PetscCall(SamFrameSet(&frame, grid, level->balance));
-  *can = PETSC_FALSE;
-  if (!frame.count) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamAllocate(sizeof(*overlap) * (size_t)grid->cells, &overlap));
-  PetscCall(VecGetArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
+  *most = -PETSC_MAX_REAL;
+  PetscCall(VecGetArrayRead(separation, &h));
   for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++)
-      overlap[j * grid->nx + i] =
-        SamFrameNormal(frame.fixed, frame.xi0 + (double)i * frame.dxi, SamFrameEta(&frame, j)) - h[j * grid->nx + i];
-  PetscCall(VecRestoreArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
-  PetscCall(SamFrameClear(&frame, overlap, a, can));
-  SamFree(overlap);
-  SamFrameGetRigid(&frame, a, &tilt);
-  for (PetscInt k = 0; k < 3; k++) rigid[k] = tilt.rigid[k];
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscInt k = j * grid->nx + i;
+
+      overlap[k] = SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) - h[k];
+      *most      = PetscMax(*most, overlap[k]);
+    }
+  PetscCall(VecRestoreArrayRead(separation, &h));
+  PetscCall(SamMax(grid->comm, 1, most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
-  Whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap. `rigid`: the
-  rigid displacements then. One that is not given is not determined by the problem either: the approach becomes 0, or as
-  far back as the bodies need to clear each other, and rotations become 0, unless it takes others to clear.
+  Whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap, or bodies that
+  are free to tilt can clear each other. `apart`: the balance then. A rigid displacement that is not given is not
+  determined by the problem either: the approach becomes 0, or as far back as the bodies need to clear each other, and
+  rotations become 0, unless it takes others to clear.
 */
-static PetscErrorCode IsSeparated(const SamLevel *level, PetscReal rigid[3], PetscBool *separated)
+static PetscErrorCode IsSeparated(const SamLevel *level, SamBalance *apart, PetscBool *separated)
 {
-  const SamBalance *b     = level->balance;
-  SamBalance        still = *b;
+  const SamBalance *b = level->balance;
   SamFrame          frame;
-  double            clearance = 0;
+  double           *overlap, most, a[3];
 
   PetscFunctionBegin;
   *separated = PETSC_FALSE;
+  *apart     = *b;
   for (PetscInt k = 0; k < 3; k++) {
     if (b->force[k] && b->load[k] != 0) PetscFunctionReturn(PETSC_SUCCESS);
-    rigid[k] = still.rigid[k] = b->force[k] ? 0 : b->rigid[k];
+    if (b->force[k]) apart->rigid[k] = 0;
+    apart->load[k] = 0;
   }
-  PetscCall(SamFrameSetGiven(&frame, level->grid, &still));
-  PetscCall(ComputeClearance(level->grid, level->given[SAM_NORMAL_SEPARATION], &frame, &clearance));
-  if (b->force[0]) rigid[0] = PetscMin(0, clearance);
-  *separated = b->force[0] || clearance >= 0;
-  if (!*separated) PetscCall(CanTilt(level, rigid, separated));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SetSeparated(SamSolver s, SamLevel *level, const PetscReal rigid[3])
-{
-  SamBalance *b = level->balance;
-
-  PetscFunctionBegin;
-  PetscCall(VecSet(level->traction, 0));
-  SamLevelForgetProduct(level);
-  for (PetscInt k = 0; k < 3; k++) {
-    b->rigid[k] = rigid[k];
-    b->load[k]  = 0;
+  PetscCall(SamFrameSet(&frame, level->grid, b));
+  PetscCall(SamAllocate(sizeof(*overlap) * (size_t)level->grid->cells, &overlap));
+  PetscCall(ComputeOverlap(level->grid, level->given[SAM_NORMAL_SEPARATION], &frame, overlap, &most));
+  if (b->force[0]) apart->rigid[0] = PetscMin(0, -most);
+  *separated = b->force[0] || most <= 0;
+  if (!*separated && frame.count) {
+    PetscCall(SamFrameClear(&frame, overlap, a, separated));
+    SamFrameGetRigid(&frame, a, apart);
   }
-  s->reason = SAM_SOLVER_CONVERGED_TRIVIAL;
+  SamFree(overlap);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -299,22 +263,21 @@ static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can
 
 static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 {
-  PetscReal rigid[3];
-  PetscBool separated, possible, can;
-  char      message[256];
+  SamBalance apart;
+  PetscBool  separated, possible, can;
+  char       message[256];
 
   PetscFunctionBegin;
-  PetscCall(IsSeparated(level, rigid, &separated));
+  PetscCall(IsSeparated(level, &apart, &separated));
   PetscCall(SamBalanceLever(level->grid, level->balance, message, sizeof(message), &possible));
   if (possible)
     PetscCall(SamBalanceCapacity(level->grid, level->balance, s->pressure_limit, message, sizeof(message), &possible));
   PetscCall(CanHold(s, level, &can));
-  if (!possible || !can) {
+  if (!possible || !can || separated) {
     PetscCall(VecSet(level->traction, 0));
     SamLevelForgetProduct(level);
-    s->reason = SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
-  } else if (separated) {
-    PetscCall(SetSeparated(s, level, rigid));
+    s->reason = possible && can ? SAM_SOLVER_CONVERGED_TRIVIAL : SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
+    if (s->reason > 0) *level->balance = apart;
   } else {
     PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), guess));
     SamLevelGetRigid(level, level->balance);
@@ -323,20 +286,12 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode RegisterAll(void)
-{
-  PetscFunctionBegin;
-  PetscCall(SamNormalRegister(SAM_NORMAL_ACTIVESET, SamNormalCreate_ActiveSet));
-  PetscCall(SamNormalRegister(SAM_NORMAL_POLONSKYKEER, SamNormalCreate_PolonskyKeer));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static SamSolverKind kind = {
   .name               = "normal",
   .error_help         = "largest gap error relative to the displacement",
   .balance            = SAM_BALANCE_NORMAL,
   .event              = SAM_EVENT_NORMAL_SOLVE,
-  .default_type       = SAM_NORMAL_ACTIVESET,
+  .own                = {{SAM_NORMAL_ACTIVESET, SamNormalCreate_ActiveSet}},
   .rtol               = 1e-8,
   .coarse_rtol        = 1e-4,
   .components         = 1,
@@ -348,7 +303,6 @@ static SamSolverKind kind = {
   .solve              = Solve,
   .solvelevel         = SolveLevel,
   .prolong            = Prolong,
-  .registerall        = RegisterAll,
 };
 
 PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver))
@@ -360,35 +314,48 @@ PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(Sam
 
 PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
 {
+  SamSolver solver;
+
   PetscFunctionBegin;
-  PetscCall(SamSolverCreate(&kind, elasticity, normal));
+  PetscCall(SamSolverCreate(&kind, elasticity, &solver));
+  *normal = (SamNormal)solver;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamNormalDestroy(SamNormal *normal)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSolverDestroy(SamNormalAsSolver(*normal)));
+  *normal = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit)
 {
   PetscFunctionBegin;
-  PetscCheck(limit > 0, normal->comm, PETSC_ERR_ARG_OUTOFRANGE, "pressure limit %g: expected a number > 0, or inf",
-             (double)limit);
-  normal->pressure_limit = limit;
+  PetscCheck(limit > 0, SamNormalAsSolver(normal)->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "pressure limit %g: expected a number > 0, or inf", (double)limit);
+  SamNormalAsSolver(normal)->pressure_limit = limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits)
 {
   PetscFunctionBegin;
-  *limits = normal->limits_pressure;
+  *limits = SamNormalAsSolver(normal)->limits_pressure;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveProblem(SamNormal normal, SamBalance *balance, const SamLevel *problem, PetscBool guess)
+static PetscErrorCode SolveProblem(SamSolver s, const SamLevel *problem, PetscBool guess)
 {
+  const SamBalance *balance = problem->balance;
+
   PetscFunctionBegin;
-  PetscCheck(!balance->force[0] || balance->load[0] >= 0, normal->comm, SAM_ERR_USER,
-             "load_n %g: expected a number >= 0", (double)balance->load[0]);
-  PetscCheck(isinf(normal->pressure_limit) || normal->limits_pressure, normal->comm, PETSC_ERR_SUP,
-             "The method %s has no limit of the pressure", normal->type);
-  PetscCall(SamSolverSolve(normal, &kind, problem, guess));
+  PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0",
+             (double)balance->load[0]);
+  PetscCheck(isinf(s->pressure_limit) || s->limits_pressure, s->comm, PETSC_ERR_SUP,
+             "The method %s has no limit of the pressure", s->type);
+  PetscCall(SamSolverSolve(s, problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -399,7 +366,7 @@ PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balanc
     .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h}, .traction = p, .product = product};
 
   PetscFunctionBegin;
-  PetscCall(SolveProblem(normal, balance, &problem, guess));
+  PetscCall(SolveProblem(SamNormalAsSolver(normal), &problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -410,7 +377,7 @@ PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, Sam
     .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h, [SAM_NORMAL_DIAGONAL] = diagonal}, .traction = p};
 
   PetscFunctionBegin;
-  PetscCall(SolveProblem(normal, balance, &problem, guess));
+  PetscCall(SolveProblem(SamNormalAsSolver(normal), &problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -186,8 +186,7 @@ static PetscErrorCode Project(Work *w, const float weight[], double motion[3], P
   double        sums[4];
 
   PetscFunctionBegin;
-  PetscCall(
-    SamFrameProjectTangential(u->frame, u->bound, weight, weight ? PETSC_TRUE : PETSC_FALSE, w->trial, motion, found));
+  PetscCall(SamFrameProjectTangential(u->frame, u->bound, weight, weight != NULL, w->trial, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[4] = {0, 0, 0, 0};

@@ -17,18 +17,21 @@ static PetscErrorCode FindReach(SamNewton *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define FLOATS 6
-
 PetscErrorCode SamNewtonCreate(SamSolver solver, SamLevel *level, SamNewton *w)
 {
-  const SamFrame *f              = &level->frame;
-  float **const   floats[FLOATS] = {&w->weight, &w->normal, &w->r, &w->z, &w->step, &w->u};
+  const SamFrame *f = &level->frame;
+  PetscInt        cells;
 
   PetscFunctionBegin;
   PetscCall(SamStickSlipCreate(solver, level, &w->base));
-  PetscCall(SamAllocateZeros(sizeof(*w->trial) * 2 * (size_t)w->base.cells, &w->trial));
-  for (PetscInt k = 0; k < FLOATS; k++)
-    PetscCall(SamAllocateZeros(sizeof(***floats) * (k > 0 ? 2 : 1) * (size_t)w->base.cells, floats[k]));
+  cells = w->base.cells;
+  PetscCall(SamAllocateZeros(sizeof(*w->trial) * 2 * (size_t)cells, &w->trial));
+  PetscCall(SamAllocateZeros(sizeof(*w->weight) * 11 * (size_t)cells, &w->weight));
+  w->normal = w->weight + cells;
+  w->r      = w->normal + 2 * cells;
+  w->z      = w->r + 2 * cells;
+  w->step   = w->z + 2 * cells;
+  w->u      = w->step + 2 * cells;
   PetscCall(PetscMalloc1(w->base.nx, &w->xi));
   for (PetscInt i = 0; i < w->base.nx; i++) w->xi[i] = (float)(f->xi0 + (double)i * f->dxi);
   PetscCall(FindReach(w));
@@ -39,12 +42,7 @@ PetscErrorCode SamNewtonDestroy(SamNewton *w)
 {
   PetscFunctionBegin;
   SamFree(w->trial);
-  SamFree(w->weight);
-  SamFree(w->normal);
-  SamFree(w->r);
-  SamFree(w->z);
-  SamFree(w->step);
-  SamFree(w->u);
+  SamFree(w->weight); /* with the others behind it */
   PetscCall(PetscFree(w->xi));
   PetscCall(SamStickSlipDestroy(&w->base));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -277,20 +277,12 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode RegisterAll(void)
-{
-  PetscFunctionBegin;
-  PetscCall(SamTangentialRegister(SAM_TANGENTIAL_NEWTON, SamTangentialCreate_Newton));
-  PetscCall(SamTangentialRegister(SAM_TANGENTIAL_GRADIENT, SamTangentialCreate_Gradient));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static SamSolverKind kind = {
   .name               = "tangential",
   .error_help         = "residual of the projection equation, relative to the shear",
   .balance            = SAM_BALANCE_TANGENTIAL,
   .event              = SAM_EVENT_TANGENTIAL_SOLVE,
-  .default_type       = SAM_TANGENTIAL_NEWTON,
+  .own                = {{SAM_TANGENTIAL_NEWTON, SamTangentialCreate_Newton}},
   .rtol               = 1e-6,
   .coarse_rtol        = 1e-3,
   .components         = 2,
@@ -302,7 +294,6 @@ static SamSolverKind kind = {
   .solve              = Solve,
   .solvelevel         = SolveLevel,
   .prolong            = Prolong,
-  .registerall        = RegisterAll,
 };
 
 PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)(SamSolver))
@@ -314,8 +305,19 @@ PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)
 
 PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential)
 {
+  SamSolver solver;
+
   PetscFunctionBegin;
-  PetscCall(SamSolverCreate(&kind, elasticity, tangential));
+  PetscCall(SamSolverCreate(&kind, elasticity, &solver));
+  *tangential = (SamTangential)solver;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTangentialDestroy(SamTangential *tangential)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSolverDestroy(SamTangentialAsSolver(*tangential)));
+  *tangential = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -328,7 +330,7 @@ PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Ve
                             .product  = product};
 
   PetscFunctionBegin;
-  PetscCall(SamSolverSolve(tangential, &kind, &problem, guess));
+  PetscCall(SamSolverSolve(SamTangentialAsSolver(tangential), &problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -343,6 +345,6 @@ PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offse
 PetscErrorCode SamTangentialGetLimit(SamTangential tangential, PetscReal *factor)
 {
   PetscFunctionBegin;
-  *factor = tangential->limit;
+  *factor = SamTangentialAsSolver(tangential)->limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

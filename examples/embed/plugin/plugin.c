@@ -1,0 +1,13 @@
+/* What petsam calls when it loads a plugin, by -plugin: registers the types by their names. */
+#include "plugin.h"
+
+PetscErrorCode SamPluginRegister(void);
+
+PetscErrorCode SamPluginRegister(void)
+{
+  PetscCall(SamLawRegister("fading", CreateFading));
+  PetscCall(SamElasticityRegister("coated", CreateCoated));
+  PetscCall(SamGapRegister("cone", CreateCone));
+  PetscCall(SamNormalRegister("spectral", CreateSpectral));
+  return 0;
+}

@@ -1,0 +1,7 @@
+/* The types of this plugin; a type of its own in each file. */
+#include <petsam.h>
+
+PetscErrorCode CreateFading(SamLaw law);
+PetscErrorCode CreateCoated(SamElasticity elasticity);
+PetscErrorCode CreateCone(SamGap gap);
+PetscErrorCode CreateSpectral(SamSolver solver);

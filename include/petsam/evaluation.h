@@ -1,0 +1,154 @@
+/* What the tractions of load steps do in a body: stresses, what is made of them, and fatigue parameters of a cycle. */
+#ifndef PETSAM_EVALUATION_H
+#define PETSAM_EVALUATION_H
+
+#include <petsam/control.h>
+#include <petsam/elasticity.h>
+#include <petsam/fatigue.h>
+
+/* The quantities that are evaluated, each of one or more components, by their names in a stress file. */
+typedef enum {
+  SAM_QUANTITY_STRESS,    /* stress_xx ... stress_yz, Pa */
+  SAM_QUANTITY_MISES,     /* mises, Pa */
+  SAM_QUANTITY_PRINCIPAL, /* principal_1 >= principal_2 >= principal_3, Pa */
+  SAM_QUANTITY_SHEAR_MAX, /* shear_max, Pa: half the difference of the largest and the smallest principal stress */
+  SAM_QUANTITY_STRAIN,    /* strain_xx ... strain_yz, tensor shear strains */
+  /* of all steps together, in the order of SamFatigueParameter: */
+  SAM_QUANTITY_CROSSLAND,    /* crossland, Pa */
+  SAM_QUANTITY_DANG_VAN,     /* dang_van, Pa */
+  SAM_QUANTITY_FINDLEY,      /* findley, Pa; findley_normal_x, _y, _z of the critical plane, as the next two have */
+  SAM_QUANTITY_SWT,          /* swt, Pa */
+  SAM_QUANTITY_FATEMI_SOCIE, /* fatemi_socie */
+  SAM_QUANTITY_RUIZ,         /* ruiz_1, J/m2; ruiz_2, Pa J/m2; on the surface, else NaN */
+  SAM_QUANTITIES
+} SamQuantity;
+/* SamQuantityComponents - number of the components of a quantity. Not collective. */
+PETSC_EXTERN PetscInt SamQuantityComponents(SamQuantity quantity);
+
+/* The fields of a step that an evaluation asks for: tractions (Pa), and the slip (m), of which only Ruiz needs some. */
+typedef enum {
+  SAM_STEP_PRESSURE,
+  SAM_STEP_SHEAR_X,
+  SAM_STEP_SHEAR_Y,
+  SAM_STEP_SLIP_X,
+  SAM_STEP_SLIP_Y,
+  SAM_STEP_FIELDS
+} SamStepField;
+
+/*
+  SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
+  a line of them (a section); the quantities that are wanted of them; and fatigue parameters over the steps, taken as
+  one closed cycle. Maps are evaluated depth by depth, and each step is asked for once a depth: the steps of a
+  SamEvaluationSource need not be in memory together, but for what a fatigue parameter keeps, 48 bytes a cell and step.
+  Results are the same to the last bit on any number of ranks.
+*/
+typedef struct _n_SamEvaluation *SamEvaluation;
+
+/* SamEvaluationCreate - of body 2, on its surface, without steps yet. SamEvaluationDestroy. Both are collective. */
+PETSC_EXTERN PetscErrorCode SamEvaluationCreate(MPI_Comm comm, SamEvaluation *evaluation);
+PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
+/*
+  The settings, which are those of SamEvaluationSetFromOptions(). None is collective. Errors: SAM_ERR_USER.
+    SetBody             1 or 2 (default); z points into it. -body
+    SetDepths           n depths (m), >= 0 and increasing; default: 0. -depths
+    SetSection          only the cells nearest to the plane y = place (SAM_SECTION_X: along x) or x = place, m. -section
+    SetQuantities       those that are wanted; default: stress and mises. -quantities, and -fatigue for parameters
+    SetFatigueConstants without those of the body. -fatigue_crossland_alpha, ...
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationSetBody(SamEvaluation evaluation, PetscInt body);
+PETSC_EXTERN PetscErrorCode SamEvaluationGetBody(SamEvaluation evaluation, PetscInt *body);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetDepths(SamEvaluation evaluation, PetscInt n, const PetscReal depths[]);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetSection(SamEvaluation evaluation, SamSectionAxis axis, PetscReal place);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetQuantities(SamEvaluation evaluation, const PetscBool wants[SAM_QUANTITIES]);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation              evaluation,
+                                                             const SamFatigueConstants *constants);
+/* SamEvaluationSetFromOptions - reads these options. Collective. Errors: SAM_ERR_USER. */
+PETSC_EXTERN PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation evaluation, const SamOptions *from);
+/*
+  SamEvaluationSetElasticity - the bodies, referenced; `settings` of the transforms, NULL: those of the elasticity.
+  `source` says in messages whose bodies they are. Settings and source are not copied. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationSetElasticity(SamEvaluation evaluation, SamElasticity elasticity,
+                                                       const SamFourierSettings *settings, const char source[]);
+
+/*
+  SamEvaluationAddStep - the next load step: pressure (one component, Pa), shear on body 2 and slip (two components; Pa,
+  m; slip may be NULL), of which `control` gives the bulk stresses. The vectors are referenced: they must stay as they
+  are until the evaluation is destroyed. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationAddStep(SamEvaluation evaluation, Vec pressure, Vec shear, Vec slip,
+                                                 const SamControl *control);
+/*
+  SamEvaluationSource - steps that are read when they are needed, in place of those that are added. `read`: this rank's
+  rows of a field; collective. `bulk`: the bulk stress of the body in each step (Pa). The array is the caller's.
+*/
+typedef struct {
+  PetscInt steps;
+  const double (*bulk)[SAM_BULK_COMPONENTS];
+  PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
+  void *context;
+} SamEvaluationSource;
+PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, const SamEvaluationSource *source);
+
+/*
+  SamEvaluationSetUp - checks that all goes together, and makes what computes the stresses. SamEvaluationCompute() calls
+  it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not known, a depth above a
+  millionth of a cell, a section outside of the grid, a cycle of one step, Ruiz's parameters away from the surface;
+  PETSC_ERR_ORDER without elasticity.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation);
+/*
+  SamEvaluationSetMonitor - is called now and then during SamEvaluationCompute(): which work is at hand, the part of it
+  that is done, and how much of all is done, 0 where that is not known. Not collective.
+*/
+typedef PetscErrorCode (*SamEvaluationMonitor)(void *context, const char work[], double part, double whole);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetMonitor(SamEvaluation evaluation, SamEvaluationMonitor monitor,
+                                                    void *context);
+/*
+  SamEvaluationCompute - evaluates all steps and hands over each result as it is found: this rank's values of a
+  component of a quantity, of a map those of its rows at one depth (`depth`, `depths` being 1), of a section those of
+  `depths` depths from `depth` on, (depths, cells along). `step` is 0 for a parameter of all steps together. The
+  callback is called alike on all ranks, with arrays that are the evaluation's. Collective.
+*/
+typedef PetscErrorCode (*SamEvaluationWrite)(void *context, SamQuantity quantity, PetscInt component, PetscInt step,
+                                             PetscInt depth, PetscInt depths, const double values[]);
+PETSC_EXTERN PetscErrorCode SamEvaluationCompute(SamEvaluation evaluation, SamEvaluationWrite write, void *context);
+
+/* What an evaluation's results are of. The arrays are not the layout's. */
+typedef struct {
+  PetscInt         steps, depths;
+  const PetscReal *times, *depth; /* s, m */
+  PetscBool        section;       /* only one line of cells: */
+  SamSectionAxis   axis;
+  PetscInt         index;
+  PetscBool        wants[SAM_QUANTITIES];
+} SamStressLayout;
+/*
+  After SamEvaluationSetUp(); none is collective:
+    SamEvaluationGetLayout     but for the times, which an evaluation does not know; the depths are borrowed
+    SamEvaluationGetMemory     bytes that SamEvaluationCompute() needs on this rank
+    SamEvaluationHasCycle      whether a fatigue parameter is wanted
+    SamEvaluationAddParameters appends the body, its elasticity, and the constants of the parameters that are wanted
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationGetLayout(SamEvaluation evaluation, SamStressLayout *layout);
+PETSC_EXTERN PetscErrorCode SamEvaluationGetMemory(SamEvaluation evaluation, double *bytes);
+PETSC_EXTERN PetscErrorCode SamEvaluationHasCycle(SamEvaluation evaluation, PetscBool *has);
+PETSC_EXTERN PetscErrorCode SamEvaluationAddParameters(SamEvaluation evaluation, SamParameters *parameters);
+
+/* The largest value of a result, and its x, y and z (m); of equal ones the first in the order z, y, x. */
+typedef struct {
+  double value, place[3];
+} SamLargest;
+/*
+  SamEvaluationGetLargest - after SamEvaluationCompute(): of SAM_QUANTITY_MISES or the first of SAM_QUANTITY_PRINCIPAL
+  in a step, whether they are wanted or not, or of a fatigue parameter that is wanted.
+  SamEvaluationGetEdgeLargest - where a map of the surface has been evaluated: the largest stress xx and the largest
+  principal stress of a step at the edge of contact (SamStressAtEdge()). NaN without one; `lost`: there is one, but too
+  little of it is smooth and resolved. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationGetLargest(SamEvaluation evaluation, SamQuantity quantity, PetscInt step,
+                                                    SamLargest *largest);
+PETSC_EXTERN PetscErrorCode SamEvaluationGetEdgeLargest(SamEvaluation evaluation, PetscInt step, SamLargest largest[2],
+                                                        PetscBool *lost);
+
+#endif

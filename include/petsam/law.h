@@ -1,0 +1,73 @@
+/* Laws of what happens between two surfaces: friction, yielding, wear, and whatever is remembered of it. */
+#ifndef PETSAM_LAW_H
+#define PETSAM_LAW_H
+
+#include <petsam/control.h>
+#include <petsam/elasticity.h>
+#include <petsam/parameters.h>
+#include <petsam/state.h>
+
+/*
+  SamLaw - one law between the surfaces of a problem, which holds a list of them (problem.h). A law may bound the shear,
+  limit the pressure, add to the separation of the bodies, and remember fields and numbers in the state of a contact,
+  from where they get into checkpoints and results by themselves. See private/lawimpl.h for how to write one.
+*/
+typedef struct _n_SamLaw *SamLaw;
+typedef const char       *SamLawType;
+#define SAM_LAW_COULOMB         "coulomb"         /* shear up to a coefficient times the pressure */
+#define SAM_LAW_ARCHARD         "archard"         /* wear in proportion to pressure and slip (wear.h) */
+#define SAM_LAW_ENERGY          "energy"          /* wear in proportion to the frictional work (wear.h) */
+#define SAM_LAW_HARDNESS        "hardness"        /* pressure up to a limit, where the surfaces yield */
+#define SAM_LAW_DEFERRED        "deferred"        /* corrects the pressure for the edge of contact (edges/deferred.c) */
+#define SAM_LAW_SLIP_PATH       "slip_path"       /* remembers the accumulated slip */
+#define SAM_LAW_FRICTION_ENERGY "friction_energy" /* remembers the frictional work */
+
+/*
+  SamLawCreate - a law of that type, with the type's defaults; references the elasticity. Collective. Errors:
+  PETSC_ERR_ARG_UNKNOWN_TYPE for a type that is not registered.
+  SamLawReference, SamLawDestroy - add a reference, and give one back; the last one frees the law. Collective.
+  SamLawGetType - the name that the type was registered with; borrowed. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *law);
+PETSC_EXTERN PetscErrorCode SamLawReference(SamLaw law);
+PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
+PETSC_EXTERN PetscErrorCode SamLawGetType(SamLaw law, SamLawType *type);
+/*
+  SamLawRegister - adds a type; `create` sets a law's methods and defaults, see private/lawimpl.h. Laws act in the order
+  in which their types were registered. A type of the same name replaces an earlier one. Not collective, but to be
+  called on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_LAWS types.
+  SamLawGetTypes - the registered types, in that order; borrowed. Not collective.
+  SamLawIsRegistered - whether there is a type of that name. Not collective.
+*/
+#define SAM_LAWS 32
+PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw));
+PETSC_EXTERN PetscErrorCode SamLawGetTypes(PetscInt *count, const SamLawType **types);
+PETSC_EXTERN PetscBool      SamLawIsRegistered(const char name[]);
+/*
+  SamLawSetFromOptions - reads the law's options; `asked`: they ask for the law. Collective. Errors: SAM_ERR_USER,
+  SAM_ERR_FILE.
+  SamLawAddParameters - appends what defines the law, by the names of its options. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked);
+PETSC_EXTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters);
+
+/*
+  SamLawSetFriction - coulomb: the coefficient of friction, the same everywhere.
+  SamLawSetFrictionField - coulomb: one coefficient for each cell (one component), copied.
+  The later of the two calls counts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is negative or
+  not finite; PETSC_ERR_ARG_WRONG for a law of another type, as the next.
+  SamLawSetHardness - hardness: the largest pressure (Pa), at which the surfaces yield; infinite: none. Not collective,
+  the same on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0.
+*/
+PETSC_EXTERN PetscErrorCode SamLawSetFriction(SamLaw law, PetscReal friction);
+PETSC_EXTERN PetscErrorCode SamLawSetFrictionField(SamLaw law, Vec friction);
+/* SamLawGetFriction - coulomb: the coefficient, 0 where a field counts. Not collective. */
+PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
+PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
+/*
+  SamLawSetEdgePasses - deferred: how many times the pressure is solved again (2). Not collective, the same on all
+  ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for less than one.
+*/
+PETSC_EXTERN PetscErrorCode SamLawSetEdgePasses(SamLaw law, PetscInt passes);
+
+#endif

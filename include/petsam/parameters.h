@@ -1,0 +1,39 @@
+/* What defines a run, and its bodies, by name: kept with results and checkpoints. */
+#ifndef PETSAM_PARAMETERS_H
+#define PETSAM_PARAMETERS_H
+
+#include <petsam/base.h>
+
+/*
+  SamParameters - values by the names of the options (without dash) that give them. Where `fixed` is true, a stopped run
+  can only go on with the same value.
+*/
+#define SAM_PARAMETERS       64 /* most parameters of a run */
+#define SAM_PARAMETER_VALUES 32 /* most numbers of one */
+typedef struct {
+  char      name[32];
+  PetscBool fixed;
+  PetscInt  count; /* of values; 0: the parameter is a text */
+  PetscReal value[SAM_PARAMETER_VALUES];
+  char      text[256];
+} SamParameter;
+typedef struct {
+  PetscInt     count;
+  SamParameter list[SAM_PARAMETERS];
+  const char  *free; /* parameters whose names begin like this may differ after all; NULL: none */
+} SamParameters;
+
+/*
+  SamParametersAddReals, SamParametersAddText, SamParametersAddChecksum - append a parameter: 1 to SAM_PARAMETER_VALUES
+  numbers; a text, which is cut where it is too long; a checksum, say of what comes from a file. Not collective.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for another count, or a parameter too many.
+*/
+PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, const char name[], PetscBool fixed,
+                                                  PetscInt count, const PetscReal values[]);
+PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, const char name[], PetscBool fixed,
+                                                 const char text[]);
+PETSC_EXTERN PetscErrorCode SamParametersAddChecksum(SamParameters *parameters, const char name[], uint64_t checksum);
+/* SamParametersFind - the parameter of that name, NULL: none; borrowed. Not collective. */
+PETSC_EXTERN const SamParameter *SamParametersFind(const SamParameters *parameters, const char name[]);
+
+#endif

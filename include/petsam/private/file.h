@@ -1,0 +1,278 @@
+/* HDF5 files that all ranks use together: opening, examining, datasets; names, locks and space on the disk; XDMF. */
+#ifndef PETSAM_FILE_H
+#define PETSAM_FILE_H
+
+#include <petsam/private/baseimpl.h>
+#include <petsam/grid.h>
+#include <hdf5.h>
+#include <sys/types.h>
+
+/*
+  SamFile - an HDF5 file that all ranks have open together, and its errors so far. Calls of HDF5 are made between
+  SamFileBegin() and SamFileEnd(). A rank on which a call fails must still take part in the collective calls that
+  follow. So failures are only noted (SamFileNote()), all ranks make all calls, and SamFileEnd() agrees on the outcome
+  and raises SAM_ERR_FILE with the option's name. Closing the file closes all that is open in it.
+*/
+typedef struct _n_SamFile *SamFile;
+struct _n_SamFile {
+  /* what the user set */
+  MPI_Comm    comm;
+  SamGrid     grid; /* NULL for a file that is examined */
+  SamEvent    event;
+  const char *option; /* option (without dash) that named the file */
+  char       *filename;
+  PetscBool   writing;
+  /* what it owns; identifiers are negative where nothing is open */
+  PetscMPIInt rank;
+  hid_t       id, transfer; /* the file; property list for collective transfer */
+  /* status */
+  off_t       reserved_begin, reserved_end; /* on rank 0: the part that was reserved last */
+  PetscBool   failed;                       /* on this rank; on all after SamFileEnd() or SamFileAgree() */
+  char        reason[256];                  /* of the first failure */
+  H5E_auto2_t print;                        /* HDF5's own error output, to be restored by SamFileEnd() */
+  void       *print_data;
+};
+
+#define SAM_FILE_METADATA (1 << 20) /* bytes, more than HDF5's metadata take at creation or in a step */
+
+typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ } SamFileMode;
+/*
+  SamFileOpen - opens a file to READ, or CREATEs it, replacing one of that name; CREATE_SEALED: with room for a seal.
+  `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
+                                        SamFileMode mode, SamFile *file);
+/* SamFileOpenAlone - opens a file to read it on this rank, without MPI-IO. Not collective. Errors: SAM_ERR_FILE. */
+PETSC_INTERN PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file);
+/*
+  SamFileExamine - rank 0 examines an HDF5 file before all ranks open it: reports one that is not there, may not be read
+  or is not HDF5, then calls `look` with the file open on this rank alone (SamFileOpenAlone()). This happens in a child
+  process, since HDF5 may crash, or never end, on a damaged file. The `answer` (`size` bytes without pointers) is
+  returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
+  SAM_ERR_FILE, and those of `look`.
+*/
+typedef PetscErrorCode (*SamFileLook)(SamFile file, const void *question, void *answer);
+PETSC_INTERN PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], SamFileLook look,
+                                           const void *question, void *answer, size_t size);
+/*
+  SamFileDestroy - frees the object, and with `close` first closes the file; without it the file stays open, for where
+  closing would hang. Errors: SAM_ERR_FILE.
+  SamFileClose - closes the file; to be called between Begin and End, notes its failures.
+  SamFileBegin, SamFileEnd - switch off HDF5's error output, and restore it and raise SAM_ERR_FILE for a noted failure.
+  SamFileAgree - makes a failure of any rank known to all, without raising it.
+  All are collective.
+*/
+PETSC_INTERN void           SamFileClose(SamFile file);
+PETSC_INTERN PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close);
+PETSC_INTERN PetscErrorCode SamFileBegin(SamFile file);
+PETSC_INTERN PetscErrorCode SamFileEnd(SamFile file);
+PETSC_INTERN PetscErrorCode SamFileAgree(SamFile file);
+/* SamFileNote - returns `result`, that of an HDF5 call, and notes a failure with HDF5's reason. Not collective. */
+PETSC_INTERN hid_t SamFileNote(SamFile file, hid_t result);
+
+/* ---- attributes and datasets (dataset.c); all note their failures and are collective ---- */
+
+/*
+  `stored` is the type in the file, `type` that in memory. The caller frees a text that is read, with PetscFree().
+  SamFileHasAttribute - whether the root group has an attribute.
+*/
+PETSC_INTERN void      SamFileWriteAttribute(SamFile file, hid_t object, const char name[], hid_t stored, hid_t type,
+                                             PetscInt count, const void *values);
+PETSC_INTERN void      SamFileWriteTextAttribute(SamFile file, hid_t object, const char name[], const char text[]);
+PETSC_INTERN void      SamFileReadAttribute(SamFile file, hid_t object, const char name[], hid_t type, PetscInt count,
+                                            void *values);
+PETSC_INTERN void      SamFileReadTextAttribute(SamFile file, hid_t object, const char name[], char **text);
+PETSC_INTERN PetscBool SamFileHasAttribute(SamFile file, const char name[]);
+/* SamFileWriteOrigin - the attributes that say what a file is, and which program has written it. */
+PETSC_INTERN void SamFileWriteOrigin(SamFile file, const char title[], const char program[]);
+
+/* A dataset's name, and two of its attributes. */
+typedef struct {
+  const char *name, *units, *long_name;
+} SamLabel;
+
+/* The shape of a dataset: size when created, largest size, and size of a chunk (0: not chunked). */
+#define SAM_SHAPE_RANK 4 /* most dimensions */
+typedef struct {
+  int           rank;
+  hsize_t       size[SAM_SHAPE_RANK], largest[SAM_SHAPE_RANK], chunk[SAM_SHAPE_RANK];
+  const double *fill; /* value of places that are not written; NULL: all must be written */
+} SamShape;
+/*
+  SamFileCreateDataset - creates a dataset with its attributes. `compress`: deflate level, 0 for none.
+  SamFileCreateScale - creates a coordinate: a dataset of real numbers that others are attached to. `axis` and
+  `standard_name` are CF attributes, NULL for none; `values` (on rank 0) are written unless NULL.
+  SamFileAttachScales - attaches scales to the dimensions of a dataset, in their order.
+*/
+PETSC_INTERN hid_t SamFileCreateDataset(SamFile file, hid_t where, const SamLabel *label, hid_t type,
+                                        const SamShape *shape, PetscInt compress);
+PETSC_INTERN hid_t SamFileCreateScale(SamFile file, hid_t where, const SamLabel *label, const char axis[],
+                                      const char standard_name[], const SamShape *shape, const double values[]);
+PETSC_INTERN void  SamFileAttachScales(SamFile file, hid_t dataset, int count, const hid_t scales[]);
+/* SamFileGetSize - the size of a dataset of that rank; zeros after a failure. */
+PETSC_INTERN void SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
+
+/* The part of a dataset that a rank writes or reads; none where a count is 0. */
+typedef struct {
+  int     rank;
+  hsize_t start[SAM_SHAPE_RANK], count[SAM_SHAPE_RANK];
+} SamBlock;
+/* SamFileWriteBlock, SamFileReadBlock - write or read this rank's block of a dataset. */
+PETSC_INTERN void SamFileWriteBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, const void *values);
+PETSC_INTERN void SamFileReadBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, void *values);
+/* One layer of a dataset of shape (layers, ny, nx): each rank writes or reads its rows of the file's grid. */
+PETSC_INTERN void SamFileWriteLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, const void *values);
+PETSC_INTERN void SamFileReadLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, void *values);
+/*
+  SamFileIsWhole - whether the data of a dataset lie within the file; in a damaged one they may be anywhere. `extent`:
+  the places in each dimension that matter, NULL: all. `every`: all of them must have been written. On one rank, of a
+  file that is examined.
+*/
+PETSC_INTERN PetscBool SamFileIsWhole(SamFile file, hid_t dataset, const hsize_t extent[], PetscBool every);
+/*
+  SamTextRead - reads an attribute that is one text, of fixed or variable length, without the blanks that pad it; what
+  does not fit is cut. An attribute that is something else is "not a text". Returns whether there is one. Not
+  collective.
+*/
+PETSC_INTERN PetscBool SamTextRead(hid_t object, const char name[], char text[], size_t size);
+
+/* ---- the disk (disk.c) ---- */
+
+/* What a file is written for. Old results must be there; a temporary file becomes one of the others by its name. */
+typedef enum {
+  SAM_FILE_RESULTS,
+  SAM_FILE_OLD_RESULTS,
+  SAM_FILE_CHECKPOINT,
+  SAM_FILE_XDMF,
+  SAM_FILE_TEMPORARY
+} SamFileUse;
+/*
+  SamFileCheckName - fails early if a file of that name cannot be written, is being written by another run, or is there
+  and not what petsam writes for that use. Changes nothing on the disk. Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use);
+/* SamFileNameBeside - a name with an ending added; the caller frees it with PetscFree(). Not collective. */
+PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name);
+/*
+  SamFileReserve - allocates disk space for so many bytes and HDF5's metadata: the file becomes longer, and HDF5 cuts
+  off the unused part when it flushes, unless all of it is unused. Collective. Errors: SAM_ERR_FILE.
+  SamFileFindUnused - where what was reserved last begins, if HDF5 has not cut it off, else -1. On rank 0.
+  SamFileGetSpace - the free space (bytes) of the file's file system; infinite if that is not known. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
+PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
+PETSC_INTERN PetscErrorCode SamFileGetSpace(SamFile file, double *bytes);
+/*
+  SamFileReplace - flushes the complete file `temporary` to the disk and renames it to `filename`. A file of that name
+  is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these
+  names, if there was one. Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
+                                           const char filename[], const char kept[]);
+/* SamFileRemoveLeftOvers - what MPI-IO has put beside an open file, and would leave after a kill. */
+PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
+/*
+  SamFileRaise - raises SAM_ERR_FILE for rank 0's result of a function of disk.c; does nothing if that is 0.
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
+
+/*
+  SamHold - keeps a file that a run writes from other runs, and notices what other programs do to it. Held by rank 0;
+  ends with the process. Other programs can read the file.
+*/
+typedef struct {
+  int        file; /* descriptor, negative: not held */
+  SamFileUse use;
+  PetscBool  created; /* was not there before */
+  off_t      before;  /* size when it was taken */
+  off_t      size;    /* when it was noted */
+  off_t      mark_at; /* where a number is that never changes, 0: none */
+  double     mark;
+} SamHold;
+/*
+  SamHoldTake - takes hold of a file, which is created if it is not there. Errors as SamFileCheckName().
+  SamHoldTakeNext - of the next file of a name whose file has been renamed.
+  SamHoldCheck - raises an error if the file has been removed, replaced, has not the size that was noted, or its marked
+  number has another value: it was cut while a step was written, and grew again.
+  SamHoldHadContent - whether there was something in the file before it was taken.
+  These are collective. Errors: SAM_ERR_FILE.
+  SamHoldNoteSize - notes the size.
+  SamHoldRelease - gives up the file; removes it if it is temporary, or was created here and is still empty.
+*/
+PETSC_INTERN PetscErrorCode SamHoldTake(SamGrid grid, const char option[], const char filename[], SamFileUse use,
+                                        SamHold *hold);
+PETSC_INTERN PetscErrorCode SamHoldTakeNext(SamGrid grid, const char option[], const char filename[], SamHold *hold);
+PETSC_INTERN PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold);
+PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold, PetscBool *had);
+PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
+PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
+
+#define SAM_CHECKPOINT_FORMAT 7   /* version of a checkpoint's contents */
+#define SAM_SEAL              512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
+/*
+  SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
+  SamSealCheck - compares it. Nothing of the file is interpreted before.
+  Both are collective. Errors: SAM_ERR_FILE.
+  SamSealIsOne - whether the first bytes of a file are a seal. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSealWrite(SamGrid grid, const char option[], const char filename[]);
+PETSC_INTERN PetscErrorCode SamSealCheck(SamGrid grid, const char option[], const char filename[]);
+PETSC_INTERN PetscBool      SamSealIsOne(const char head[], size_t size);
+
+/* ---- XDMF (xdmf.c) ---- */
+
+/* A dataset that an XDMF file describes: its numbers ("Float" or "Char", of so many bytes), a layer for each step. */
+#define SAM_XDMF_FIELDS 64 /* most datasets */
+typedef struct {
+  const char *name, *type;
+  int         bytes;
+  PetscBool   constant; /* not a layer for each step: the same at all steps */
+} SamXdmfField;
+/* The points at which the fields are given: n[d] along z, y, x; datasets of `rank` 2 have no z. */
+typedef struct {
+  int           rank;
+  hsize_t       n[3];
+  const double *axis[3];               /* borrowed; NULL: points at equal distances */
+  double        origin[3], spacing[3]; /* of these */
+  PetscInt      count;
+  SamXdmfField  fields[SAM_XDMF_FIELDS];
+} SamXdmfMesh;
+/*
+  SamXdmf - an XDMF file beside results, which describes them to ParaView and VisIt.
+  SamXdmfCreate - creates one without a step for results of that name; replaces one that petsam has written.
+  SamXdmfAddStep - appends the step of that index in the results. After an error the file still has the earlier steps.
+  These, and SamXdmfDestroy(), are collective. Errors: SAM_ERR_FILE.
+  SamXdmfMakeName - results.h5 -> results.xdmf; the caller frees it. Not collective.
+*/
+typedef struct _n_SamXdmf  *SamXdmf;
+extern const char           SamXdmfHead[]; /* the first bytes of the file */
+PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], const SamXdmfMesh *mesh, SamXdmf *xdmf);
+PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);
+PETSC_INTERN PetscErrorCode SamXdmfMakeName(const char results[], char **name);
+PETSC_INTERN const char    *SamXdmfGetName(SamXdmf xdmf);
+PETSC_INTERN PetscErrorCode SamXdmfDestroy(SamXdmf *xdmf);
+
+/* ---- lengths (lengths.c) ---- */
+
+/* What a dataset of lengths says about itself. */
+typedef struct {
+  double factor;  /* values times this are a separation in m */
+  double size[2]; /* full width in x and y (m); 0 where the file does not say */
+} SamLengths;
+/*
+  SamLengthsRead - reads what a dataset `name` of shape (ny, nx), in a file that is examined, says about itself; each
+  part may be missing.
+
+  Attribute units: a unit of length (m). Attribute quantity: separation, or height1, height2, heights of body 1 or 2,
+  positive out of the body; so a peak of either body reduces the separation (separation). The size: attribute size of
+  the dataset, two numbers in m; or else x and y beside the dataset, which hold the nx and ny cell centres and have
+  units; without units they say nothing.
+
+  Errors: SAM_ERR_FILE for an unknown unit or quantity, packed numbers, another size than two positive numbers, and an
+  axis that falls along its dataset, so that the surface would be mirrored.
+*/
+PETSC_INTERN PetscErrorCode SamLengthsRead(SamFile file, hid_t dataset, const char name[], const hsize_t shape[2],
+                                           SamLengths *lengths);
+
+#endif

@@ -1,0 +1,120 @@
+/* Kernels of an elastic half-space: displacements and stresses by tractions on one rectangular cell. */
+#ifndef PETSAM_HALFSPACE_H
+#define PETSAM_HALFSPACE_H
+
+#include <petsam/private/stressimpl.h>
+
+/*
+  SamIntegral - a kernel. The cell measures dx by dy and its centre is at (i dx, j dy); x and y are measured from the
+  origin and r^2 = x^2 + y^2. But for the elastic constants, the integral is the displacement at a
+  point that lies (i dx, j dy) from the centre of a cell under unit traction.
+*/
+typedef enum {
+  SAM_INTEGRAL_R = 0, /* 1/r,     even in i, even in j */
+  SAM_INTEGRAL_XX,    /* x^2/r^3, even in i, even in j */
+  SAM_INTEGRAL_YY,    /* y^2/r^3, even in i, even in j */
+  SAM_INTEGRAL_XY,    /* x y/r^3, odd in i,  odd in j  */
+  SAM_INTEGRAL_X,     /* x/r^2,   odd in i,  even in j */
+  SAM_INTEGRAL_Y      /* y/r^2,   even in i, odd in j  */
+} SamIntegral;
+
+/*
+  SamIntegralCell - the integral of one kernel over one cell. Not collective, no state.
+
+  Input:
+    kind   - the kernel
+    dx, dy - the cell's sides, m, positive and finite
+    i, j   - the lag of the cell's centre, in cells
+
+  Returns the integral, in m for every kind. For lags up to 16384 and sides whose ratio
+  is between 1/50 and 50 the relative error is below 1e-14. Nothing overflows or underflows for
+  sides from 1e-9 m to 1e3 m. Signs under i -> -i and j -> -j and the zeros of the odd kernels are
+  exact, and so is scaling of both sides by a power of two.
+
+  Source: kernels from Johnson (1985), Contact Mechanics, sections 3.2 and 3.6; integrals over a
+  rectangle from Love (1929). The method stands in src/elasticity/halfspace/influence.c.
+*/
+double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrdiff_t j);
+
+/*
+  SamIntegralRow - the integrals of one kernel over consecutive cells of a row. Not collective.
+
+  Input:
+    kind   - the kernel
+    dx, dy - the cells' sides, m, positive and finite
+    j      - the lag of the row, in cells
+    i0     - the lag of the first cell in the row
+    n      - the number of cells; nothing is done if it is not positive
+
+  Output:
+    values - n integrals, m; values[k] is that of the cell (i0 + k, j)
+
+  The numbers are those of SamIntegralCell(), to the last bit, at a fraction of the time: the
+  accuracy, signs and zeros are the same.
+*/
+void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
+
+/*
+  SamSlopeRow - the integrals of factor/r over consecutive cells of a row whose pressures are linear and zero in the
+  mean: each grows by 1 from one side of the cell to the other, along x (axis 0) or y (axis 1). The point lies
+  (i dx, j dy) from the centre of cell i, i = 0 ... n - 1; the value at lag (0, 0) is 0. Relative errors are below 1e-8
+  of the integral of 1/r. Not collective; units and sides as for SamIntegralRow().
+  SamSlopeRulesCreate - Gauss' points and weights for it. Not collective.
+*/
+enum { SAM_SLOPE_RULES = 4, SAM_SLOPE_POINTS = 16 };
+typedef struct {
+  PetscReal x[SAM_SLOPE_RULES][SAM_SLOPE_POINTS], w[SAM_SLOPE_RULES][SAM_SLOPE_POINTS]; /* on (-1/2, 1/2) */
+} SamSlopeRules;
+typedef struct {
+  const SamSlopeRules *rules;
+  int                  axis;
+  double               dx, dy; /* sides of the cells, m */
+  double               factor; /* any unit */
+} SamSlopeKernel;
+PETSC_EXTERN PetscErrorCode SamSlopeRulesCreate(SamSlopeRules *rules);
+PETSC_EXTERN void           SamSlopeRow(const SamSlopeKernel *kernel, ptrdiff_t j, ptrdiff_t n, double values[]);
+
+/*
+  SamHalfSpaceStressCell - the stress in a half-space z >= 0 by uniform tractions on a rectangle of its surface. Not
+  collective.
+
+  Input:
+    side    - the rectangle's sides, m
+    poisson - Poisson's ratio
+    point   - where, from the rectangle's centre, m; z >= 0. At z = 0 the stress is infinite on the rectangle's edges.
+
+  Output:
+    stress  - of each component by a unit of each traction: by p, which presses in the direction of z, and by q_x and
+              q_y, which pull in the direction of x and y. On the surface zz is -p, xz is -q_x, yz is -q_y.
+
+  The error is below 1e-12 of the largest kernel at that point, up to 16384 sides away. Sources: Love 1929, Phil. Trans.
+  R. Soc. A 228, 377; Johnson 1985, Contact Mechanics, ch. 3.
+*/
+PETSC_EXTERN void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal poisson, const PetscReal point[3],
+                                         PetscReal stress[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]);
+
+/* SamHalfSpaceSource - unit traction on a cell, seen from a depth. */
+typedef struct {
+  double side[2]; /* of the cell, m */
+  double depth;   /* z >= 0, m */
+  double poisson;
+} SamHalfSpaceSource;
+
+/*
+  SamHalfSpaceStressRow - the kernels of a group at the lags (i, j), i = 0 ... n - 1, j >= 0, in cells: the stress in a
+  cell's centre by unit traction on the cell that lies so far before it. They contain the correction of values at
+  centres (stresscell.c). Not collective.
+*/
+PETSC_EXTERN void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStressGroup group, PetscInt j, PetscInt n,
+                                        double *const values[SAM_STRESS_GROUP]);
+
+/*
+  SamHalfSpaceCreateStress - the stresses in body 1 or 2 that is a half-space. Collective. Errors:
+  PETSC_ERR_ARG_OUTOFRANGE for another body or ratio.
+*/
+PETSC_EXTERN PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
+                                                     PetscReal young, PetscReal poisson, SamStress *stress);
+/* SamHalfSpaceStressAtEdge - see SamStressAtEdge(). Collective. */
+PETSC_INTERN PetscErrorCode SamHalfSpaceStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
+
+#endif

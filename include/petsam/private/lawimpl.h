@@ -1,0 +1,151 @@
+/*
+  The inside of SamLaw, for those who add a law: src/law/sums.c is the shortest example, examples/embed/plugin/law.c one
+  of friction that changes with slip.
+
+  A law is a file. Its create function, registered by SamLawRegister(), sets the methods that it needs:
+
+      static PetscErrorCode Create(SamLaw law)
+      {
+        law->ops.declare = Declare;
+        law->ops.advance = Advance;
+        return PETSC_SUCCESS;
+      }
+
+  What it remembers it declares in the state of a contact, once; it finds its fields there by name. In a step the
+  methods are called in this order: separation() and limit() of all laws, the normal problem, bound(), the tangential
+  problem, advance().
+*/
+#ifndef PETSAM_LAWIMPL_H
+#define PETSAM_LAWIMPL_H
+
+#include <petsam/private/baseimpl.h>
+#include <petsam/edges.h>
+#include <petsam/law.h>
+#include <petsam/normal.h>
+
+/* What a bound of the shear depends on. */
+typedef struct {
+  SamState  state;          /* of the contact; NULL: nothing is remembered */
+  PetscReal friction_scale; /* of the control */
+  Vec       pressure;       /* Pa */
+  Vec       slip;           /* m: length of the slip of this step, in each cell; NULL: none */
+} SamBoundAt;
+
+/*
+  A bound (Pa), and its derivatives by the pressure (1) and by the length of the slip (Pa/m), each a field of one
+  component; what is NULL is not wanted, and by_slip is wanted with the value only. The first law fills them, each law
+  after it changes them.
+*/
+typedef struct {
+  Vec value, by_pressure, by_slip;
+} SamBound;
+
+/* A pressure that solves the normal problem, for laws that correct it. */
+typedef struct {
+  SamState   state;
+  SamNormal  normal;
+  Vec        separation;    /* m, one component */
+  SamBalance given;         /* as prescribed */
+  Vec        pressure;      /* Pa: solved, and corrected */
+  SamBalance found;         /* its loads and rigid displacements, likewise */
+  PetscBool  same_pressure; /* it is that of the step before, corrected already */
+  PetscInt   counts[3];     /* iterations, applications, preconditions of the normal solver, to be added to */
+  char      *message;       /* of `size` characters: why it is not corrected; stays empty else */
+  size_t     size;
+} SamCorrection;
+
+/* A step that is solved, for laws to advance their tried state. */
+typedef struct _n_SamLawStep SamLawStep;
+struct _n_SamLawStep {
+  SamGrid           grid;
+  SamState          state;
+  SamElasticity     elasticity;
+  const SamControl *control;
+  Vec               pressure, shear; /* Pa */
+  PetscBool         same_pressure;   /* the pressure is that of the step before */
+  PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
+  /* made when first asked for, by SamLawStepGetFriction(); the step's own */
+  Vec path, pressed, work;
+  /* from the contact */
+  PetscErrorCode (*friction)(SamLawStep *step, Vec path, Vec pressed, Vec work);
+  PetscErrorCode (*gap)(SamLawStep *step, Vec gap);
+  PetscErrorCode (*slope)(SamLawStep *step, Vec by_pressure);
+  void *context;
+};
+/*
+  SamLawStepGetFriction - what friction does in the step, each of one component, NULL for one that is not wanted;
+  borrowed:
+    path     |ds|, the length of the slip of the step, m, in all cells; outside of the contact it is how far the
+             surfaces have moved over each other
+    pressed  p |ds|, Pa m, in cells that slip, else 0; p is the mean of the pressures before and after the step
+    work     -q.ds, J/m2, in cells that slip, else 0; where the pressure changes, by the mean of the bounds before and
+             after, as the dissipated energy
+  SamLawStepGetGap - the gap (m) of the surfaces as they were before the step, into a vector of one component.
+  SamLawStepGetSlope - the derivative of the bound by the pressure, likewise.
+  All are collective.
+*/
+PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
+PETSC_EXTERN PetscErrorCode SamLawStepGetGap(SamLawStep *step, Vec gap);
+PETSC_EXTERN PetscErrorCode SamLawStepGetSlope(SamLawStep *step, Vec by_pressure);
+/* SamLawOrder - the place of a type among those registered. Not collective. */
+PETSC_INTERN PetscInt SamLawOrder(SamLawType type);
+
+struct _n_SamLaw {
+  PetscInt         references;
+  char             type[64];
+  SamElasticity    elasticity;
+  SamGrid          grid;           /* of the elasticity; borrowed */
+  PetscObjectState revision;       /* to be raised by setters: the pressure has to be solved again */
+  PetscBool        follows_slip;   /* bound() depends on the slip of the step */
+  PetscBool        accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
+  const char      *option;         /* that asks for the law, without dash; NULL: none */
+  PetscInt         bytes;          /* of memory that it takes for each cell */
+  PetscBool        needs_friction; /* makes no sense without friction */
+  PetscBool        forbids_jumps;  /* cannot be in a life with cycle jumps */
+  PetscBool        forbids_others; /* supports neither friction nor a limit of the pressure */
+  void            *data;           /* the type's own */
+  /* all may be NULL; collective */
+  struct {
+    PetscErrorCode (*setfromoptions)(SamLaw law, const SamOptions *from, PetscBool *asked);
+    PetscErrorCode (*addparameters)(SamLaw law, SamParameters *parameters);
+    PetscErrorCode (*destroy)(SamLaw law); /* frees `data` */
+    /* declares fields and numbers */
+    PetscErrorCode (*declare)(SamLaw law, SamState state);
+    /*
+      Adds to a separation (m, one component) what the law has put between the bodies by the committed state, or by the
+      tried one; h NULL: only sets `adds`, whether there is any.
+    */
+    PetscErrorCode (*separation)(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds);
+    /* the largest pressure that the surfaces bear, Pa */
+    PetscErrorCode (*limit)(SamLaw law, PetscReal *most);
+    /* the largest shear of each cell; `has`: whether any cell bears shear */
+    PetscErrorCode (*bound)(SamLaw law, const SamBoundAt *at, const SamBound *bound);
+    PetscErrorCode (*hasfriction)(SamLaw law, PetscBool *has);
+    /* adds by how much the bodies overlap in the tried step where they bear no more, m; or NULL */
+    PetscErrorCode (*overlap)(SamLaw law, SamState state, Vec overlap);
+    /* the law's tried state, and numbers of the step */
+    PetscErrorCode (*advance)(SamLaw law, SamLawStep *step);
+    /* corrections of the pressure, see problemimpl.h */
+    PetscErrorCode (*correct)(SamLaw law, SamCorrection *correction);
+    PetscErrorCode (*displace)(SamLaw law, SamState state, Vec u_z);
+    PetscErrorCode (*least)(SamLaw law, SamState state, Vec *least);
+    PetscErrorCode (*edge)(SamLaw law, SamState state, Vec pressure, Vec point, SamEdge *edge, PetscBool *found);
+    PetscErrorCode (*energy)(SamLaw law, SamState state, Vec pressure, Vec u_z, PetscReal *energy);
+    /* prints the law's numbers of a step, on a line of its own */
+    PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
+    /* what a user should know of a solved step; empty: nothing */
+    PetscErrorCode (*advise)(SamLaw law, SamState state, char text[], size_t size);
+  } ops;
+};
+
+/* The laws that come with the library, in the order in which they act (register.c). */
+PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
+PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Deferred(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_SlipPath(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
+
+#endif

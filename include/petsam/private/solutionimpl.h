@@ -1,0 +1,111 @@
+/* What follows from the solution of a step: gap, slip, what friction does, areas, energies, edges. */
+#ifndef PETSAM_SOLUTIONIMPL_H
+#define PETSAM_SOLUTIONIMPL_H
+
+#include <petsam/edges.h>
+#include <petsam/private/balanceimpl.h>
+#include <petsam/private/problemimpl.h>
+#include <petsam/solution.h>
+
+/*
+  SamStretch - the strains of body 2's surface by its bulk stress minus those of body 1's. They move a point at (x, y)
+  by (xx x + xy y, xy x + yy y).
+*/
+typedef struct {
+  PetscReal xx, yy, xy;
+} SamStretch;
+PETSC_INTERN SamStretch SamStretchOf(const SamPair *pair, const SamControl *control);
+
+/*
+  SamMotion - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
+  displacement minus the stretch. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
+*/
+typedef struct {
+  SamFrame   normal, tangential; /* frames with all rigid displacements given */
+  SamStretch stretch;
+} SamMotion;
+typedef struct {
+  double a, b;
+} SamMotionRow;
+PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamProblem problem, const SamSolution *solution);
+PETSC_INTERN SamMotionRow   SamMotionOfGap(const SamMotion *motion, PetscInt j);
+PETSC_INTERN SamMotionRow   SamMotionOfSlip(const SamMotion *motion, PetscInt component, PetscInt j);
+/* value = u - a - b xi along a row of the grid. */
+PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, const double u[], double value[]);
+/* value = u + h - a - b xi. */
+PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
+                               double value[]);
+/*
+  SamSolutionCreateSeparation - the separation (m) of the bodies: the gap of the problem and what its laws put between
+  them by a generation of the state (NULL: nothing). Borrowed from the problem where no law adds to it, else made, which
+  SamSolutionDestroySeparation() frees. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation,
+                                                        Vec *separation);
+PETSC_INTERN PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *separation);
+/* SamSolutionComputeGap - the gap (m) of this rank's cells. Not collective. */
+PETSC_INTERN PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *solution, Vec separation,
+                                                  Vec gap);
+/* SamSolutionComputeSlip - a component of the slip (m) of this rank's cells. Not collective. */
+PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *solution, PetscInt component,
+                                                   double slip[]);
+
+/*
+  SamIncrement - the slip of a step: the slip of a solution minus that of the previous one (NULL: no slip so far).
+  ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
+  start to slip[0] and slip[1]. Creation and destruction are collective.
+*/
+typedef struct {
+  SamGrid       grid;
+  SamMotion     now, before;
+  Vec           v_now, v_before;
+  const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
+  double       *slip[2], *row[2], *scratch;
+} SamIncrement;
+PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
+                                               SamIncrement *increment);
+PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
+PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
+
+/* SamSolutionComputeStates - the state of each cell, a SamCellState as a real number. Not collective. */
+PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);
+/*
+  SamSolutionComputeFriction - what friction does in a step (SamLawStepGetFriction()); `before` NULL: the first step.
+  NULL for a field that is not wanted. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution *before,
+                                                       const SamSolution *now, Vec path, Vec pressed, Vec work);
+
+/*
+  SamSolutionDeclareNumbers - the numbers of /history that SamSolutionComputeNumbers() fills in the tried generation:
+  cells and areas, by their counted cells or (`edges`) reconstructed edges, largest tractions and slip, energies.
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state);
+PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
+                                                      const SamSolution *now, PetscBool edges);
+/* SamSolutionDeclareSpots, SamSolutionComputeSpots - likewise the number of contact spots, and the mean gap. */
+PETSC_INTERN PetscErrorCode SamSolutionDeclareSpots(SamState state);
+PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *now);
+
+/*
+  SamSolutionFindEdge - an edge, with its points: by the reconstruction, or by a law that corrects for it. `point`
+  (NULL: not wanted), of one component: the square of what vanishes at the edge (Pa2), at the cells' centres: of the
+  pressure, or, for the stick zone, of what it exceeds |q|/mu by. Collective.
+  SamSolutionComputePressureCenter, SamSolutionComputeShearCenter - the tractions (Pa) at the cells' centres, by these
+  edges, whose means over cells the solution has. Where an edge is not smooth the means stay. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionFindEdge(SamProblem problem, SamState state, const SamSolution *solution,
+                                                SamEdgeOf which, Vec point, SamEdge *edge);
+PETSC_INTERN PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, SamState state,
+                                                             const SamSolution *solution, Vec pressure);
+PETSC_INTERN PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, SamState state,
+                                                          const SamSolution *solution, PetscInt component, Vec shear);
+
+/* Copies a balance's loads and rigid displacements into arrays of all six components. */
+PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
+
+/* Whether two controls prescribe the same for the components of one kind. */
+PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
+
+#endif

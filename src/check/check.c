@@ -1,0 +1,310 @@
+/*
+  The independent check of a solution.
+
+  Elastic displacements are recomputed from the tractions, in double precision and on the whole grid; gap and slip from
+  their definitions; the bound of the shear from the pressure. The errors are relative to the solution's own scales, by
+  the formulas in check.h.
+*/
+#include <petsam/check.h>
+#include <petsam/private/solutionimpl.h>
+#include <petsam/tangential.h>
+
+/* Adds the tangential displacement by the pressure, and the normal displacement by the shear. */
+static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const SamSolution *s)
+{
+  Vec u;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &u));
+  PetscCall(SamElasticityApplyTangentialToNormal(elasticity, s->shear, u));
+  PetscCall(VecAXPY(s->displacement_z, 1, u));
+  PetscCall(VecDestroy(&u));
+  PetscCall(SamGridCreateVec(grid, 2, &u));
+  PetscCall(SamElasticityApplyNormalToTangential(elasticity, s->pressure, u));
+  PetscCall(VecAXPY(s->displacement_t, 1, u));
+  PetscCall(VecDestroy(&u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* u_z unless it is known, and u_t, both with the coupling. */
+static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
+                                           const SamSolution *s)
+{
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
+  SamGrid             grid;
+  PetscReal           shear;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  if (!u_z_known) {
+    PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
+    PetscCall(SamProblemAddDisplacement(problem, state, s->displacement_z));
+  }
+  PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
+  if (shear != 0)
+    PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
+  else
+    PetscCall(SamVecZero(s->displacement_t));
+  if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
+  PetscCall(SamElasticityTrim(elasticity));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
+
+/*
+  Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. Cells on the rim bear
+  pressure but need not touch at their centres. Cells at the limit of the pressure may overlap: they yield.
+*/
+SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict rim,
+                                     const double *restrict g, const double *restrict u, double saturated,
+                                     double max[COUNT])
+{
+  double gap = 0, tension = 0, displacement = 0, pressure = 0, opening = 0, nan = 0;
+
+#pragma omp simd reduction(max : gap, tension, displacement, pressure, opening) reduction(+ : nan)
+  for (PetscInt i = 0; i < n; i++) {
+    const double size = fabs(u[i]), pressed = p[i] < saturated ? fabs(g[i]) : g[i],
+                 wrong = p[i] > rim[i] ? pressed : -g[i];
+
+    gap          = wrong > gap ? wrong : gap;
+    opening      = g[i] > opening ? g[i] : opening;
+    tension      = -p[i] > tension ? -p[i] : tension;
+    pressure     = p[i] > pressure ? p[i] : pressure;
+    displacement = size > displacement ? size : displacement;
+    nan += p[i] + g[i] == p[i] + g[i] ? 0 : 1;
+  }
+  max[GAP]          = nan > 0 ? INFINITY : SamLarger(max[GAP], gap);
+  max[OPENING]      = PetscMax(max[OPENING], opening);
+  max[TENSION]      = PetscMax(max[TENSION], tension);
+  max[PRESSURE]     = PetscMax(max[PRESSURE], pressure);
+  max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], displacement);
+}
+
+/* The largest pressure in those cells of a row that lie at the grid's border. */
+static double EdgeOfRow(SamGrid grid, PetscInt j, const double p[])
+{
+  const PetscInt row  = grid->row_start + j;
+  const PetscInt step = row == 0 || row == grid->ny - 1 ? 1 : PetscMax(grid->nx - 1, 1);
+  double         most = 0;
+
+  for (PetscInt i = 0; i < grid->nx; i += step) most = PetscMax(most, p[i]);
+  return most;
+}
+
+/* The errors that the maxima are, under a limit of the pressure. */
+static void SetNormal(const double max[COUNT], double limit, SamCheck *check)
+{
+  check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
+  check->normal = max[TENSION] > 0 ? max[TENSION] / PetscMax(max[PRESSURE], max[TENSION]) : 0;
+  check->normal = PetscMax(check->normal, max[PRESSURE] > limit ? max[PRESSURE] / limit - 1 : 0);
+  /* without contact there is no displacement: the largest opening is the scale then */
+  if (max[GAP] > 0) {
+    const double scale = max[DISPLACEMENT] > 0 ? max[DISPLACEMENT] : max[OPENING];
+
+    check->normal = PetscMax(check->normal, scale > 0 ? max[GAP] / scale : INFINITY);
+  }
+}
+
+/* The gap is that of the surfaces as they were before the step. */
+static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamSolution *s, SamCheck *check)
+{
+  double        max[COUNT] = {0}, *gap, *zeros;
+  const double *p, *u, *h, *least = NULL;
+  PetscReal     limit;
+  SamMotion     motion;
+  SamGrid       grid;
+  Vec           separation, rim;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
+  PetscCall(SamProblemGetLeast(problem, state, &rim));
+  PetscCall(SamMotionSet(&motion, problem, s));
+  PetscCall(SamProblemGetPressureLimit(problem, &limit));
+  PetscCall(PetscMalloc1(grid->nx, &gap));
+  PetscCall(PetscCalloc1(grid->nx, &zeros));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u));
+  if (rim) PetscCall(VecGetArrayRead(rim, &least));
+  PetscCall(VecGetArrayRead(separation, &h));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
+
+    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
+    NormalRow(grid->nx, p + k, least ? least + k : zeros, gap, u + k, SAM_SATURATED * (double)limit, max);
+    max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, j, p + k));
+  }
+  PetscCall(VecRestoreArrayRead(separation, &h));
+  if (rim) PetscCall(VecRestoreArrayRead(rim, &least));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(PetscFree(zeros));
+  PetscCall(PetscFree(gap));
+  PetscCall(SamSolutionDestroySeparation(problem, &separation));
+  PetscCall(SamMax(grid->comm, COUNT, max));
+  SetNormal(max, (double)limit, check);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Over the cells: sums of the squares of the residual, of q, of D(q - ds/c), and of the least scale of the residual, a
+  part of the bound; the largest |q| - mu p, and the largest mu p.
+*/
+typedef struct {
+  double sums[4], over, most;
+} TangentialSums;
+
+/* The sums of one row, from its bound, its shear and its slip increment (x, y); `inverse` is 1/c. */
+SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *restrict bound, const double *const q[2],
+                                                   const double *const ds[2], double inverse)
+{
+  const double *restrict qx = q[0], *restrict qy = q[1], *restrict sx = ds[0], *restrict sy = ds[1];
+  double residual = 0, shear = 0, projected = 0, least = 0, over = 0, most = 0;
+
+#pragma omp simd reduction(+ : residual, shear, projected, least) reduction(max : over, most)
+  for (PetscInt i = 0; i < n; i++) {
+    const double b = bound[i], yx = qx[i] - inverse * sx[i], yy = qy[i] - inverse * sy[i], y2 = yx * yx + yy * yy;
+    const double scale = y2 > b * b ? b / sqrt(y2) : 1, rx = qx[i] - scale * yx, ry = qy[i] - scale * yy,
+                 q2 = qx[i] * qx[i] + qy[i] * qy[i], beyond = sqrt(q2) - b;
+
+    residual += rx * rx + ry * ry;
+    shear += q2;
+    projected += scale * scale * y2;
+    least += SAM_SHEAR_FLOOR * SAM_SHEAR_FLOOR * b * b;
+    over = beyond > over ? beyond : over;
+    most = b > most ? b : most;
+  }
+  return (TangentialSums){{residual, shear, projected, least}, over, most};
+}
+
+/* The bound of the shear, recomputed from pressure and slip; where the pressure is negative the bound is 0. */
+static PetscErrorCode CreateBound(SamProblem problem, SamState state, const SamSolution *before, const SamSolution *s,
+                                  Vec *bound)
+{
+  SamBoundAt at = {state, s->control.friction_scale, NULL, NULL};
+  SamGrid    grid;
+  double    *b;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamGridCreateVec(grid, 1, bound));
+  PetscCall(SamVecCopyNonzero(s->pressure, *bound));
+  PetscCall(VecGetArray(*bound, &b));
+  for (PetscInt k = 0; k < grid->cells; k++)
+    if (b[k] < 0) b[k] = 0;
+  PetscCall(VecRestoreArray(*bound, &b));
+  if (SamProblemFollowsSlip(problem)) {
+    PetscCall(SamGridCreateVec(grid, 1, &at.slip));
+    PetscCall(SamSolutionComputeFriction(problem, before, s, at.slip, NULL, NULL));
+  }
+  at.pressure = *bound;
+  PetscCall(SamProblemComputeBound(problem, &at, &(SamBound){.value = *bound}));
+  PetscCall(VecDestroy(&at.slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SumTangential(SamGrid grid, PetscReal self, const SamIncrement *increment, const double bound[],
+                                    const double q[], SamCheck *check)
+{
+  SamTotal totals[4] = {{0}};
+  double   sums[4], max[2] = {0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t     k     = (ptrdiff_t)j * grid->nx;
+    const double *const qs[2] = {q + k, q + k + grid->cells};
+    const double *const ds[2] = {increment->row[0], increment->row[1]};
+    TangentialSums      row;
+
+    SamIncrementComputeRow(increment, j);
+    row = TangentialRow(grid->nx, bound + k, qs, ds, 1 / self);
+    SamAddAll(4, totals, row.sums);
+    max[0] = SamLarger(max[0], row.over);
+    max[1] = SamLarger(max[1], row.most);
+  }
+  PetscCall(SamSumTotals(grid->comm, 4, totals, sums));
+  PetscCall(SamMax(grid->comm, 2, max));
+  check->tangential = sums[0] == 0 ? 0 : sqrt(sums[0] / PetscMax(sums[3], PetscMax(sums[1], sums[2])));
+  check->cone       = max[0] == 0 ? 0 : (max[1] > 0 ? max[0] / max[1] : INFINITY);
+  if (isnan(check->tangential)) check->tangential = INFINITY;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckTangential(SamProblem problem, SamState state, const SamSolution *before,
+                                      const SamSolution *s, SamCheck *check)
+{
+  SamElasticity elasticity;
+  SamGrid       grid;
+  PetscReal     self;
+  SamIncrement  increment;
+  const double *q, *b;
+  Vec           bound;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
+  PetscCall(CreateBound(problem, state, before, s, &bound));
+  PetscCall(SamIncrementCreate(problem, before, s, &increment));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(bound, &b));
+  PetscCall(SumTangential(grid, self, &increment, b, q, check));
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscCall(VecDestroy(&bound));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Relative errors of the given loads of one kind; see SamCheck for their scales. */
+static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Vec traction, SamCheck *check)
+{
+  PetscReal loads[3], total;
+
+  PetscFunctionBegin;
+  PetscCall(SamBalanceGetLoads(grid, given->kind, traction, loads));
+  PetscCall(SamGridNorm(grid, traction, NORM_1, &total));
+  total *= grid->dx * grid->dy;
+  for (PetscInt c = 0; c < 3; c++) {
+    const PetscBool moment = given->kind == SAM_BALANCE_NORMAL ? c > 0 : c == 2;
+    const PetscReal arm =
+      moment ? grid->length + PetscMax(PetscAbsReal(grid->center[0]), PetscAbsReal(grid->center[1])) : 1;
+    const PetscReal scale = PetscMax(total * arm, PetscAbsReal(given->load[c]));
+    PetscReal       error;
+
+    if (!given->force[c]) continue;
+    error              = PetscAbsReal(loads[c] - given->load[c]);
+    check->equilibrium = SamLarger(check->equilibrium, error == 0 ? 0 : error / scale);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
+                                const SamSolution *before, SamSolution *solution, SamCheck *check)
+{
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
+  SamGrid             grid;
+  SamBalance          given[2];
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
+  PetscCall(PetscMemzero(check, sizeof(*check)));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution));
+  PetscCall(CheckNormal(problem, state, solution, check));
+  if (traits.periodic) check->edge = 0;
+  PetscCall(CheckTangential(problem, state, before, solution, check));
+  given[0] = SamControlGetBalance(&solution->control, SAM_BALANCE_NORMAL);
+  given[1] = SamControlGetBalance(&solution->control, SAM_BALANCE_TANGENTIAL);
+  PetscCall(CheckEquilibrium(grid, &given[0], solution->pressure, check));
+  PetscCall(CheckEquilibrium(grid, &given[1], solution->shear, check));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,44 @@
+/* The verdict: turns the errors that the check of a step found into its status and message. */
+#include <petsam/private/baseimpl.h>
+#include <petsam/check.h>
+
+PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[])
+{
+  PetscFunctionBegin;
+  if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  step->status = status;
+  PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Written with <= so that a NaN is refused, too. */
+static PetscBool Agrees(const SamCheck *check, const SamCheckLimits *limits)
+{
+  return check->normal <= limits->normal && check->tangential <= limits->tangential &&
+         check->equilibrium <= limits->equilibrium && check->cone <= limits->cone;
+}
+
+PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)
+{
+  const SamCheck *check = &step->check;
+  char            message[sizeof(step->message)];
+
+  PetscFunctionBegin;
+  if (!Agrees(check, limits)) {
+    PetscCall(PetscSNPrintf(message, sizeof(message),
+                            "the check disagrees: normal residual %g (limit %g), tangential %g (%g), equilibrium %g "
+                            "(%g), cone %g (%g)",
+                            (double)check->normal, (double)limits->normal, (double)check->tangential,
+                            (double)limits->tangential, (double)check->equilibrium, (double)limits->equilibrium,
+                            (double)check->cone, (double)limits->cone));
+    PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, message));
+  }
+  if (check->edge == 0 || step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!limits->edge) step->status = SAM_STATUS_EDGE_CONTACT;
+  PetscCall(PetscSNPrintf(step->message, sizeof(step->message),
+                          "the contact reached the edge of the grid (pressure there up to %.2g of the largest): the "
+                          "answer depends on the size of the grid",
+                          (double)check->edge));
+  PetscCall(PetscStrncpy(step->setting, "grid_size", sizeof(step->setting)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,307 @@
+/*
+  What a contact remembers, and what results offer of it: the solution of a step and what was prescribed. All else is
+  declared by the laws of the problem.
+*/
+#include "contactimpl.h"
+
+#define DISPLACEMENT "relative elastic displacement" /* normal, and tangential */
+
+/* ---- declarations ---- */
+
+static PetscErrorCode DeclareFields(SamContact c)
+{
+  static const SamStateField tractions[3] = {
+    {"pressure", "Pa", "contact pressure, mean over the cell", 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL},
+    {"bound", "Pa", NULL, 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE},
+    {"shear", "Pa", "shear traction, mean over the cell", 2, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL}};
+  static const SamStateField displacements[2] = {
+    {"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED},
+    {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED}};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareField(c->state, &tractions[k], &c->tractions[k]));
+  for (int k = 0; k < 2; k++) PetscCall(SamStateDeclareField(c->state, &displacements[k], &c->displacements[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Declares a number; `first`: its place, for the first of a row. */
+static PetscErrorCode Declare(SamContact c, const char name[], const char unit[], const char text[], SamNumberKind kind,
+                              PetscInt count, PetscBool kept, PetscBool result, PetscInt *first)
+{
+  const SamStateNumber number = {name, unit, text, kind, count, kept, result};
+  PetscInt             id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateDeclareNumber(c->state, &number, &id));
+  if (first) *first = id;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What is given and found of the six components, and what else is given, which is offered where it varies. */
+static PetscErrorCode DeclareControl(SamContact c)
+{
+  PetscFunctionBegin;
+  PetscCall(Declare(c, "time", "s", "time of the load step", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, &c->time));
+  for (PetscInt n = 0; n < 2 * SAM_COMPONENTS; n++) {
+    const PetscInt          k    = n % SAM_COMPONENTS;
+    const SamComponentName *name = &SamComponentNames[k];
+    const PetscBool         load = n < SAM_COMPONENTS;
+
+    PetscCall(Declare(c, load ? name->load : name->rigid, load ? name->load_unit : name->rigid_unit,
+                      load ? name->load_text : name->rigid_text, SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
+                      n ? NULL : &c->solution));
+  }
+  PetscCall(Declare(c, "friction_scale", "1", "factor on the coefficient of friction", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+                    PETSC_FALSE, &c->given));
+  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
+    PetscCall(Declare(c, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name, "Pa",
+                      "bulk stress of the body, tension positive", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, NULL));
+  PetscCall(Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, SAM_CONTROL_NUMBERS, PETSC_TRUE,
+                    PETSC_FALSE, &c->control));
+  PetscCall(Declare(c, "window", "1", "part of the grid that was solved on", SAM_NUMBER_INT, 4, PETSC_TRUE, PETSC_FALSE,
+                    &c->window));
+  PetscCall(Declare(c, "steps", "1", "committed load steps", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE, &c->steps));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DeclareOutcome(SamContact c)
+{
+  static const char *const residuals[][2] = {{"normal_residual", "relative error of the normal problem, by the check"},
+                                             {"tangential_residual",
+                                              "relative error of the tangential problem, by the check"},
+                                             {"equilibrium_residual", "relative error of the loads, by the check"}};
+  static const char *const counts[SAM_COUNTS][2] = {
+    {"normal_iterations", "iterations of the normal solver"},
+    {"normal_applies", "applications of the normal influence operator"},
+    {"normal_preconditions", "applications of the normal preconditioner"},
+    {"tangential_iterations", "iterations of the tangential solver"},
+    {"tangential_applies", "applications of the tangential influence operator"},
+    {"tangential_preconditions", "applications of the tangential preconditioner"},
+    {"coupling_iterations", "passes of the normal-tangential coupling"}};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 3; k++)
+    PetscCall(Declare(c, residuals[k][0], "1", residuals[k][1], SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+                      k ? NULL : &c->residuals));
+  for (int k = 0; k < SAM_COUNTS; k++)
+    PetscCall(
+      Declare(c, counts[k][0], "1", counts[k][1], SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, k ? NULL : &c->counts));
+  PetscCall(
+    Declare(c, "status", "1", "outcome of the load step", SAM_NUMBER_STATUS, 1, PETSC_FALSE, PETSC_TRUE, &c->status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- fields that are computed ---- */
+
+static PetscErrorCode ComputeSlip(void *owner, SamState state, PetscInt component, Vec slip)
+{
+  const SamContact   c = (SamContact)owner;
+  const SamSolution *s;
+  double            *slips;
+
+  PetscFunctionBegin;
+  (void)state;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(VecGetArrayWrite(slip, &slips));
+  PetscCall(SamSolutionComputeSlip(c->problem, s, component, slips));
+  PetscCall(VecRestoreArrayWrite(slip, &slips));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ComputeGap(void *owner, SamState state, PetscInt component, Vec gap)
+{
+  const SamContact   c = (SamContact)owner;
+  const SamSolution *s;
+  Vec                h;
+
+  PetscFunctionBegin;
+  (void)component;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(SamSolutionCreateSeparation(c->problem, state, c->has_tried ? SAM_TRIED : SAM_COMMITTED, &h));
+  PetscCall(SamSolutionComputeGap(c->problem, s, h, gap));
+  PetscCall(SamSolutionDestroySeparation(c->problem, &h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ComputeStates(void *owner, SamState state, PetscInt component, Vec states)
+{
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  (void)state;
+  (void)component;
+  PetscCall(SamContactGetSolution((SamContact)owner, &s));
+  PetscCall(SamSolutionComputeStates(s, states));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ComputePressureCenter(void *owner, SamState state, PetscInt component, Vec pressure)
+{
+  const SamContact   c = (SamContact)owner;
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  (void)component;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(SamSolutionComputePressureCenter(c->problem, state, s, pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ComputeShearCenter(void *owner, SamState state, PetscInt component, Vec shear)
+{
+  const SamContact   c = (SamContact)owner;
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(SamSolutionComputeShearCenter(c->problem, state, s, component, shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, Vec point, SamEdge *edge)
+{
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(c, &s));
+  PetscCall(SamSolutionFindEdge(c->problem, c->state, s, which, point, edge));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Offer(SamContact c)
+{
+#define COMPUTED(name, unit, text, kind, use, function, component) \
+  { \
+    name, unit, text, kind, use, function, c, component, -1 \
+  }
+  const SamStateResult results[] = {
+    COMPUTED("slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL,
+             SAM_RESULT_USUAL, ComputeSlip, 0),
+    COMPUTED("slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL,
+             SAM_RESULT_USUAL, ComputeSlip, 1),
+    COMPUTED("gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, SAM_RESULT_OFFERED, ComputeGap, 0),
+    COMPUTED("state", "1", "state of the cell", SAM_FIELD_STATE, SAM_RESULT_USUAL, ComputeStates, 0),
+    COMPUTED("pressure_center", "Pa", "contact pressure at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
+             ComputePressureCenter, 0),
+    COMPUTED("shear_center_x", "Pa", "shear traction along x at the centre of the cell", SAM_FIELD_REAL,
+             SAM_RESULT_OFFERED, ComputeShearCenter, 0),
+    COMPUTED("shear_center_y", "Pa", "shear traction along y at the centre of the cell", SAM_FIELD_REAL,
+             SAM_RESULT_OFFERED, ComputeShearCenter, 1),
+    COMPUTED("contact_edge", "m", "points of the edge of contact, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL,
+             SAM_EDGE_CONTACT),
+    COMPUTED("stick_edge", "m", "points of the edge of the stick zone, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED,
+             NULL, SAM_EDGE_STICK)};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < sizeof(results) / sizeof(results[0]); k++) PetscCall(SamStateOffer(c->state, &results[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactDeclare(SamContact c)
+{
+  PetscFunctionBegin;
+  PetscCall(DeclareFields(c));
+  PetscCall(Offer(c));
+  PetscCall(DeclareControl(c));
+  PetscCall(SamSolutionDeclareNumbers(c->state));
+  PetscCall(DeclareOutcome(c));
+  if (c->spots) PetscCall(SamSolutionDeclareSpots(c->state));
+  PetscCall(SamProblemDeclare(c->problem, c->state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- generations ---- */
+
+double *SamContactWindow(SamContact c, SamGeneration g)
+{
+  return SamStateNumbers(c->state, c->window, g);
+}
+
+const SamSolution *SamContactBefore(SamContact c)
+{
+  return *SamStateNumbers(c->state, c->steps, SAM_COMMITTED) > 0 ? &c->generation[SAM_COMMITTED] : NULL;
+}
+
+PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
+{
+  SamSolution *s = &c->generation[SAM_TRIED];
+
+  PetscFunctionBegin;
+  PetscCall(SamContactDeclare(c));
+  PetscCall(SamStateBegin(c->state));
+  *s = (SamSolution){.control = *control};
+  PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
+  PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
+  PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
+  PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_TRIED]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSetDisplacements(SamContact c)
+{
+  SamSolution *s = &c->generation[SAM_TRIED];
+
+  PetscFunctionBegin;
+  PetscCall(SamStateSetField(c->state, c->displacements[0], &s->displacement_z));
+  PetscCall(SamStateSetField(c->state, c->displacements[1], &s->displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
+{
+  double *const n = SamStateNumbers(c->state, 0, SAM_TRIED);
+
+  PetscFunctionBegin;
+  n[c->time] = step->control.time;
+  PetscCall(PetscArraycpy(n + c->solution, step->load, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(n + c->solution + SAM_COMPONENTS, step->rigid, SAM_COMPONENTS));
+  n[c->given] = step->control.friction_scale;
+  PetscCall(PetscArraycpy(n + c->given + 1, &step->control.bulk_stress[0][0], 2 * SAM_BULK_COMPONENTS));
+  SamControlPack(&c->generation[SAM_TRIED].control, n + c->control);
+  n[c->residuals]     = step->check.normal;
+  n[c->residuals + 1] = step->check.tangential;
+  n[c->residuals + 2] = step->check.equilibrium;
+  n[c->status]        = step->status;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode View(SamContact c, SamGeneration g)
+{
+  SamSolution    *s   = &c->generation[g];
+  double         *n   = SamStateNumbers(c->state, 0, g);
+  const PetscBool all = g != SAM_BEFORE;
+
+  PetscFunctionBegin;
+  SamControlUnpack(n + c->control, &s->control);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* before the first step there are none: nothing has moved */
+    s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
+    s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
+  }
+  PetscCall(SamStateRestoreField(c->state, c->tractions[0], g, &s->pressure));
+  PetscCall(SamStateRestoreField(c->state, c->tractions[1], g, &s->bound));
+  PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
+  s->displacement_z = all ? SamStateGetField(c->state, c->displacements[0], g) : NULL;
+  s->displacement_t = all ? SamStateGetField(c->state, c->displacements[1], g) : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactView(SamContact c)
+{
+  PetscFunctionBegin;
+  PetscCall(View(c, SAM_COMMITTED));
+  PetscCall(View(c, SAM_BEFORE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactGetSolution(SamContact c, const SamSolution **solution)
+{
+  SamSolution *s = &c->generation[SAM_COMMITTED];
+
+  PetscFunctionBegin;
+  if (!c->has_tried && !s->displacement_t) {
+    PetscCall(SamStateRestoreField(c->state, c->displacements[0], SAM_COMMITTED, &s->displacement_z));
+    PetscCall(SamStateRestoreField(c->state, c->displacements[1], SAM_COMMITTED, &s->displacement_t));
+  }
+  *solution = c->has_tried ? &c->generation[SAM_TRIED] : s;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

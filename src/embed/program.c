@@ -1,0 +1,176 @@
+/* Load programs in another program: petsam_history(), petsam_live(), and contacts from which several go on. */
+#include "embedimpl.h"
+#include <petsam/private/baseimpl.h>
+
+/* A run, and whom to tell. */
+typedef struct {
+  petsam_contact *c;
+  petsam_monitor  monitor; /* NULL: none */
+  void           *context;
+} Run;
+
+/* Whether the host goes on after a step or cycle, as rank 0 has it. */
+static PetscErrorCode AskHost(const Run *run, int cycle)
+{
+  int stop;
+
+  PetscFunctionBegin;
+  if (!run->monitor) PetscFunctionReturn(PETSC_SUCCESS);
+  stop = run->monitor(run->context, run->c, cycle);
+  PetscCallMPI(MPI_Bcast(&stop, 1, MPI_INT, 0, run->c->comm));
+  if (stop) PetscCall(SamSimulationStop(run->c->simulation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The first warning of a run becomes its message. */
+static void Keep(petsam_contact *c, const char text[])
+{
+  if (!c->advice[0]) (void)snprintf(c->advice, sizeof(c->advice), "%s", text);
+}
+
+/* Keeps the step as petsam_try() does, and the first message of all. */
+static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationNews *news)
+{
+  const Run *const      run = (const Run *)context;
+  petsam_contact *const c   = run->c;
+
+  PetscFunctionBegin;
+  (void)contact;
+  switch (news->kind) {
+  case SAM_NEWS_STEP:
+  case SAM_NEWS_CYCLE_STEP:
+    c->last      = *news->result;
+    c->has_last  = PETSC_TRUE;
+    c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM;
+    if (news->result->status == SAM_STATUS_CONVERGED) PetscCall(SamEmbedRecord(c, news->result));
+    if (news->kind == SAM_NEWS_STEP) PetscCall(AskHost(run, 0));
+    break;
+  case SAM_NEWS_CYCLE_BEGINS: /* the last computed cycle is what fatigue is asked of */
+    PetscCall(SamEmbedForgetSteps(c));
+    break;
+  case SAM_NEWS_CYCLE:
+    PetscCall(AskHost(run, 1));
+    break;
+  case SAM_NEWS_MESSAGE:
+    if (news->result->status)
+      c->last = *news->result;
+    else
+      Keep(c, news->result->message);
+    break;
+  case SAM_NEWS_ADVICE:
+    Keep(c, news->text);
+    break;
+  default:
+    break;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What is tried and committed after a run. */
+static PetscErrorCode KnowEnd(petsam_contact *c)
+{
+  PetscBool tried, committed;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  c->has_tried = tried;
+  if (!tried && committed) {
+    c->committed     = c->last;
+    c->has_committed = PETSC_TRUE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RunProgram(Run *run, double cycles, const char columns[], int rows, const double values[])
+{
+  petsam_contact *const c = run->c;
+  SamHistory            history;
+  PetscErrorCode        code;
+
+  PetscFunctionBegin;
+  PetscCall(SamEmbedForget(c));
+  PetscCall(SamHistoryCreate(c->comm, &c->control, c->has_committed ? &c->committed.control : NULL, columns, rows,
+                             values, c->increments, &history));
+  PetscCall(SamSimulationSetProgram(c->simulation, &history, cycles));
+  PetscCall(SamSimulationSetMonitor(c->simulation, Tell, run));
+  c->advice[0] = '\0';
+  code         = SamSimulationRun(c->simulation);
+  PetscCall(SamSimulationSetMonitor(c->simulation, NULL, NULL));
+  PetscCall(code);
+  PetscCall(KnowEnd(c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static int RunAll(petsam_contact *c, double cycles, const char columns[], int rows, const double values[],
+                  petsam_monitor monitor, void *context)
+{
+  Run       run = {c, monitor, context};
+  SamStatus worst;
+  PetscBool stopped;
+  int       code;
+
+  if (!columns || !values) return SamEmbedRefuse(c, "history: a pointer is NULL");
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  code = SamEmbedLeave(c, RunProgram(&run, cycles, columns, rows, values));
+  if (code) return code;
+  (void)SamSimulationGetStatus(c->simulation, &worst, &stopped);
+  (void)snprintf(c->message, sizeof(c->message), "%s", worst ? c->last.message : c->advice);
+  return (int)worst;
+}
+
+int petsam_history(petsam_contact *c, const char *columns, int rows, const double *values, petsam_monitor monitor,
+                   void *context)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  return RunAll(c, 0, columns, rows, values, monitor, context);
+}
+
+int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows, const double *values,
+                petsam_monitor monitor, void *context)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!(cycles > 0)) return SamEmbedRefuse(c, "petsam_live: %g cycles: expected a number > 0", cycles);
+  return RunAll(c, cycles, columns, rows, values, monitor, context);
+}
+
+static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
+{
+  SamState  state;
+  PetscBool current;
+
+  PetscFunctionBegin;
+  PetscCheck(c->setup->grid->nx == from->setup->grid->nx && c->setup->grid->ny == from->setup->grid->ny &&
+               c->setup->grid->cells == from->setup->grid->cells,
+             c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different grids");
+  PetscCall(SamContactGetState(from->setup->contact, &state));
+  PetscCall(SamContactIsGapCurrent(from->setup->contact, &current));
+  PetscCall(SamContactSetState(c->setup->contact, state, current));
+  c->committed     = from->committed;
+  c->has_committed = from->has_committed;
+  PetscCall(SamEmbedForget(c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_copy(petsam_contact *c, petsam_contact *from)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!from) return SamEmbedRefuse(c, "petsam_copy: a pointer is NULL");
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  return SamEmbedLeave(c, Copy(c, from));
+}
+
+static PetscErrorCode Reset(petsam_contact *c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactReset(c->setup->contact));
+  c->has_committed = PETSC_FALSE;
+  PetscCall(SamEmbedForget(c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_reset(petsam_contact *c)
+{
+  if (!c) return SAM_EMBED_USAGE;
+  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  return SamEmbedLeave(c, Reset(c));
+}

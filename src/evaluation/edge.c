@@ -1,0 +1,89 @@
+/* The largest stresses at the contact's edge, on the surface, of each step of the maps. */
+#include "evaluationimpl.h"
+#include <petsam/edges.h>
+#include <petsam/private/stressimpl.h>
+
+/* The least share of the edge that must be found: the largest value may lie where it is not. */
+#define FOUND 0.95
+
+enum { XX, YY, XY, PLANE = 3 };
+
+/* The square of the pressure, which on the surface is minus the stress zz. */
+static PetscErrorCode FillSquare(SamGrid g, Vec field, Vec square)
+{
+  const double *stress;
+  double       *w;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(field, &stress));
+  PetscCall(VecGetArrayWrite(square, &w));
+  for (PetscInt k = 0; k < g->cells; k++) {
+    const double p = -stress[SAM_STRESS_ZZ * (ptrdiff_t)g->cells + k];
+
+    w[k] = p > 0 ? p * p : 0;
+  }
+  PetscCall(VecRestoreArrayWrite(square, &w));
+  PetscCall(VecRestoreArrayRead(field, &stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void Keep(SamLargest *largest, double value, PetscReal x, PetscReal y)
+{
+  if (value > largest->value) *largest = (SamLargest){value, {(double)x, (double)y, 0}};
+}
+
+PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field)
+{
+  const SamGrid g    = e->grid;
+  const double *bulk = e->source.bulk[step];
+  SamEdge       edge;
+  Vec           square;
+  double       *stress;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(g, 1, &square));
+  PetscCall(FillSquare(g, field, square));
+  PetscCall(SamEdgeReconstruct(g, square, NULL, &edge));
+  e->largest[step].edge_lost = edge.faces > 0 && edge.good < FOUND * edge.faces;
+  PetscCall(PetscMalloc1(PLANE * edge.count, &stress));
+  PetscCall(SamStressAtEdge(e->stress, field, &edge, stress));
+  for (PetscInt n = 0; n < edge.count && edge.good >= FOUND * edge.faces; n++) {
+    const double *s                          = stress + (ptrdiff_t)PLANE * n;
+    const double  all[SAM_STRESS_COMPONENTS] = {[SAM_STRESS_XX] = s[XX] + bulk[SAM_BULK_XX],
+                                                [SAM_STRESS_YY] = s[YY] + bulk[SAM_BULK_YY],
+                                                [SAM_STRESS_XY] = s[XY] + bulk[SAM_BULK_XY]};
+    double        principal[3];
+
+    if (isnan(s[XX])) continue;
+    SamPrincipalOf(all, principal);
+    Keep(&e->largest[step].edge[0], all[SAM_STRESS_XX], edge.x[n], edge.y[n]);
+    Keep(&e->largest[step].edge[1], principal[0], edge.x[n], edge.y[n]);
+  }
+  PetscCall(PetscFree(stress));
+  PetscCall(SamEdgeDestroy(&edge));
+  PetscCall(VecDestroy(&square));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The largest of all ranks; of equal ones that with the least x, then y. NaN without one. */
+static PetscErrorCode Agree(MPI_Comm comm, SamLargest *largest)
+{
+  double value = largest->value, x, y;
+
+  PetscFunctionBegin;
+  PetscCall(SamMax(comm, 1, &value));
+  x = largest->value == value ? -largest->place[0] : -INFINITY;
+  PetscCall(SamMax(comm, 1, &x));
+  y = largest->value == value && -largest->place[0] == x ? -largest->place[1] : -INFINITY;
+  PetscCall(SamMax(comm, 1, &y));
+  *largest = value > -INFINITY ? (SamLargest){value, {-x, -y, 0}} : (SamLargest){NAN, {NAN, NAN, NAN}};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEdgeStressAgree(SamEvaluation e)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < e->source.steps; s++)
+    for (int k = 0; k < 2; k++) PetscCall(Agree(e->comm, &e->largest[s].edge[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,391 @@
+/* The stresses under the tractions of load steps: settings, steps, and the order of the work. */
+#include "evaluationimpl.h"
+#include <petsam/private/stressimpl.h>
+
+/* The least depth, in cells: above it the kernels would be those of the surface but for rounding. */
+#define LEAST_DEPTH 1e-6
+
+/* ---- life ---- */
+
+PetscErrorCode SamEvaluationCreate(MPI_Comm comm, SamEvaluation *evaluation)
+{
+  const PetscReal surface = 0;
+  SamEvaluation   e;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(PetscNew(&e));
+  *evaluation = e;
+  e->comm     = comm;
+  e->body     = 2;
+  e->dash     = "";
+  PetscCall(SamEvaluationSetDepths(e, 1, &surface));
+  e->wants[SAM_QUANTITY_STRESS] = e->wants[SAM_QUANTITY_MISES] = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
+{
+  SamEvaluation e = *evaluation;
+
+  PetscFunctionBegin;
+  *evaluation = NULL;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < e->added; k++)
+    for (int f = 0; f < 3; f++) PetscCall(VecDestroy(&e->step[k].field[f]));
+  PetscCall(SamStressDestroy(&e->stress));
+  PetscCall(SamElasticityDestroy(&e->elasticity));
+  PetscCall(PetscFree(e->depth));
+  PetscCall(PetscFree(e->step));
+  PetscCall(PetscFree(e->bulk));
+  PetscCall(PetscFree(e->largest));
+  PetscCall(PetscFree(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- settings ---- */
+
+PetscErrorCode SamEvaluationSetBody(SamEvaluation e, PetscInt body)
+{
+  PetscFunctionBegin;
+  PetscCheck(body == 1 || body == 2, e->comm, SAM_ERR_USER, "%sbody %" PetscInt_FMT ": expected 1 or 2", e->dash, body);
+  e->body = body;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationGetBody(SamEvaluation e, PetscInt *body)
+{
+  PetscFunctionBegin;
+  *body = e->body;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[])
+{
+  PetscFunctionBegin;
+  PetscCheck(n > 0, e->comm, SAM_ERR_USER, "%s: expected one depth at least", said);
+  for (PetscInt k = 0; k < n; k++) {
+    PetscCheck(depths[k] >= 0 && depths[k] < PETSC_INFINITY, e->comm, SAM_ERR_USER,
+               "%s: %g is above the surface: expected numbers >= 0", said, (double)depths[k]);
+    PetscCheck(!k || depths[k] > depths[k - 1], e->comm, SAM_ERR_USER,
+               "%s: %g follows %g: expected depths that increase", said, (double)depths[k], (double)depths[k - 1]);
+  }
+  PetscCall(PetscFree(e->depth));
+  PetscCall(PetscMalloc1(n, &e->depth));
+  PetscCall(PetscArraycpy(e->depth, depths, n));
+  e->depths = n;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetDepths(SamEvaluation e, PetscInt n, const PetscReal depths[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationTakeDepths(e, "depths", n, depths));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetSection(SamEvaluation e, SamSectionAxis axis, PetscReal place)
+{
+  PetscFunctionBegin;
+  e->section = PETSC_TRUE;
+  e->axis    = axis;
+  e->place   = place;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetQuantities(SamEvaluation e, const PetscBool wants[SAM_QUANTITIES])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(e->wants, wants, SAM_QUANTITIES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation e, const SamFatigueConstants *constants)
+{
+  PetscFunctionBegin;
+  e->constants = *constants;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetElasticity(SamEvaluation e, SamElasticity elasticity, const SamFourierSettings *settings,
+                                          const char source[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityReference(elasticity));
+  PetscCall(SamStressDestroy(&e->stress));
+  PetscCall(SamElasticityDestroy(&e->elasticity));
+  e->elasticity = elasticity;
+  e->settings   = settings;
+  e->of         = source;
+  PetscCall(SamElasticityGetGrid(elasticity, &e->grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetMonitor(SamEvaluation e, SamEvaluationMonitor monitor, void *context)
+{
+  PetscFunctionBegin;
+  e->monitor         = monitor;
+  e->monitor_context = context;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- steps ---- */
+
+/* A field of a step that has been added: components of its vectors, one after the other. */
+static PetscErrorCode ReadAdded(void *context, PetscInt step, SamStepField field, double values[])
+{
+  static const int of[SAM_STEP_FIELDS] = {0, 1, 1, 2, 2}, component[SAM_STEP_FIELDS] = {0, 0, 1, 0, 1};
+
+  SamEvaluation  e = (SamEvaluation)context;
+  const Vec      v = e->step[step].field[of[field]];
+  const PetscInt n = e->grid->cells;
+  const double  *cells;
+
+  PetscFunctionBegin;
+  PetscCheck(v, e->comm, SAM_ERR_USER, "%sfatigue ruiz: step %" PetscInt_FMT " was added without its slip", e->dash,
+             step + 1);
+  PetscCall(SamGridCheckVec(e->grid, of[field] ? 2 : 1, v, "A field of a step"));
+  PetscCall(VecGetArrayRead(v, &cells));
+  PetscCall(PetscArraycpy(values, cells + component[field] * (ptrdiff_t)n, n));
+  PetscCall(VecRestoreArrayRead(v, &cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationAddStep(SamEvaluation e, Vec pressure, Vec shear, Vec slip, const SamControl *control)
+{
+  const SamAddedStep step = {.field = {pressure, shear, slip}};
+
+  PetscFunctionBegin;
+  if (e->added == e->room) {
+    e->room = 2 * e->room + 16;
+    PetscCall(PetscRealloc(sizeof(*e->step) * (size_t)e->room, &e->step));
+  }
+  for (int f = 0; f < 3; f++)
+    if (step.field[f]) PetscCall(PetscObjectReference((PetscObject)step.field[f]));
+  e->step[e->added] = step;
+  for (int b = 0; b < 2; b++)
+    for (int k = 0; k < SAM_BULK_COMPONENTS; k++) e->step[e->added].bulk[b][k] = (double)control->bulk_stress[b][k];
+  e->source = (SamEvaluationSource){.steps = ++e->added, .read = ReadAdded, .context = e};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetSource(SamEvaluation e, const SamEvaluationSource *source)
+{
+  PetscFunctionBegin;
+  e->source = *source;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The bulk stresses of added steps, of the body that is wanted. */
+static PetscErrorCode CollectBulk(SamEvaluation e)
+{
+  PetscFunctionBegin;
+  if (e->source.read != ReadAdded) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree(e->bulk));
+  PetscCall(PetscMalloc1(e->added, &e->bulk));
+  for (PetscInt k = 0; k < e->added; k++)
+    PetscCall(PetscArraycpy(e->bulk[k], e->step[k].bulk[e->body - 1], SAM_BULK_COMPONENTS));
+  e->source.bulk = e->bulk;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- set-up ---- */
+
+static PetscErrorCode CheckDepths(SamEvaluation e)
+{
+  const PetscReal side = PetscMin(e->grid->dx, e->grid->dy);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < e->depths; k++)
+    PetscCheck(e->depth[k] == 0 || e->depth[k] >= LEAST_DEPTH * side, e->comm, SAM_ERR_USER,
+               "%sdepths: %g m is less than a millionth of a cell (%g m): the surface is 0", e->dash,
+               (double)e->depth[k], (double)side);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The line of cells nearest to the section. */
+static PetscErrorCode FindLine(SamEvaluation e)
+{
+  const SamGrid   g     = e->grid;
+  const PetscBool row   = e->axis == SAM_SECTION_X;
+  const PetscInt  n     = row ? g->ny : g->nx;
+  const PetscReal first = row ? SamGridY(g, 0) : SamGridX(g, 0), step = row ? g->dy : g->dx;
+  const PetscReal at = (e->place - first) / step;
+
+  PetscFunctionBegin;
+  if (!e->section) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(at >= -0.5 - 1e-9 && at <= (PetscReal)n - 0.5 + 1e-9, e->comm, SAM_ERR_USER,
+             "%ssection %s=%g: outside of the grid, which reaches from %g to %g m", e->dash, row ? "y" : "x",
+             (double)e->place, (double)(first - 0.5 * step), (double)(first + ((PetscReal)n - 0.5) * step));
+  e->index = (PetscInt)PetscMin(PetscMax(PetscFloorReal(at + 0.5), 0), (PetscReal)n - 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The stresses of the body that is asked for. */
+static PetscErrorCode CreateStress(SamEvaluation e)
+{
+  const SamPair      *pair;
+  SamElasticityTraits traits;
+  SamElasticityType   type;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetTraits(e->elasticity, &traits));
+  PetscCall(SamElasticityGetType(e->elasticity, &type));
+  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: no stresses are known of bodies of type %s", e->of, type);
+  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
+  PetscCheck(!isinf(pair->young[e->body - 1]), e->comm, SAM_ERR_USER,
+             "%sbody %" PetscInt_FMT ": it is rigid, its stresses are not determined", e->dash, e->body);
+  PetscCall(SamStressDestroy(&e->stress));
+  PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
+{
+  PetscFunctionBegin;
+  PetscCheck(e->elasticity, e->comm, PETSC_ERR_ORDER, "An evaluation without elasticity");
+  PetscCall(CreateStress(e));
+  PetscCheck(e->source.steps > 1 || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
+             "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT, e->dash, e->source.steps);
+  PetscCheck(!e->wants[SAM_QUANTITY_RUIZ] || e->depth[0] == 0, e->comm, SAM_ERR_USER,
+             "%sfatigue ruiz: is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
+  PetscCall(CheckDepths(e));
+  PetscCall(FindLine(e));
+  PetscCall(CollectBulk(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the work ---- */
+
+PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole)
+{
+  PetscFunctionBegin;
+  if (e->monitor) PetscCall((*e->monitor)(e->monitor_context, work, part, whole));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The largest of all ranks, of equal ones that with the lowest number. */
+static PetscErrorCode Agree(MPI_Comm comm, SamLargestPoint *largest)
+{
+  PetscReal most = largest->value, place;
+
+  PetscFunctionBegin;
+  PetscCall(SamMax(comm, 1, &most));
+  place = largest->value == most ? -largest->point : -PETSC_INFINITY;
+  PetscCall(SamMax(comm, 1, &place));
+  *largest = (SamLargestPoint){most, -place};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* No largest value has been found yet. */
+static PetscErrorCode ClearLargest(SamEvaluation e)
+{
+  const SamLargestPoint none = {-INFINITY, 0};
+  const SamLargest      edge = {-INFINITY, {0, 0, 0}};
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(e->largest));
+  PetscCall(PetscMalloc1(e->source.steps, &e->largest));
+  for (PetscInt s = 0; s < e->source.steps; s++)
+    e->largest[s] = (SamStepLargest){.mises = none, .principal = none, .edge = {edge, edge}};
+  for (PetscInt q = 0; q < SAM_QUANTITIES; q++) e->fatigue[q] = none;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, void *context)
+{
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationSetUp(e));
+  PetscCall(ClearLargest(e));
+  e->write         = write;
+  e->write_context = context;
+  PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
+  for (PetscInt s = 0; s < e->source.steps; s++) {
+    PetscCall(Agree(e->comm, &e->largest[s].mises));
+    PetscCall(Agree(e->comm, &e->largest[s].principal));
+  }
+  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++)
+    if (e->wants[q]) PetscCall(Agree(e->comm, &e->fatigue[q]));
+  PetscCall(SamEdgeStressAgree(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what is known of it ---- */
+
+PetscErrorCode SamEvaluationGetLayout(SamEvaluation e, SamStressLayout *layout)
+{
+  PetscFunctionBegin;
+  *layout = (SamStressLayout){.steps   = e->source.steps,
+                              .depths  = e->depths,
+                              .depth   = e->depth,
+                              .section = e->section,
+                              .axis    = e->axis,
+                              .index   = e->index};
+  PetscCall(PetscArraycpy(layout->wants, e->wants, SAM_QUANTITIES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationGetMemory(SamEvaluation e, double *bytes)
+{
+  PetscFunctionBegin;
+  *bytes = e->section ? SamLinesMemory(e) : SamMapsMemory(e);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationHasCycle(SamEvaluation e, PetscBool *has)
+{
+  PetscFunctionBegin;
+  *has = SamCycleWanted(e);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
+{
+  const SamFatigueConstants *c    = &e->constants;
+  const PetscReal            body = (PetscReal)e->body;
+  PetscReal                  young, poisson;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddReals(p, "body", PETSC_TRUE, 1, &body));
+  SamStressGetConstants(e->stress, 0, &young, &poisson);
+  PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &young));
+  PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &poisson));
+  PetscCall(SamElasticityAddParameters(e->elasticity, p));
+  if (e->wants[SAM_QUANTITY_CROSSLAND])
+    PetscCall(SamParametersAddReals(p, "fatigue_crossland_alpha", PETSC_TRUE, 1, &c->crossland_alpha));
+  if (e->wants[SAM_QUANTITY_DANG_VAN])
+    PetscCall(SamParametersAddReals(p, "fatigue_dang_van_alpha", PETSC_TRUE, 1, &c->dang_van_alpha));
+  if (e->wants[SAM_QUANTITY_FINDLEY])
+    PetscCall(SamParametersAddReals(p, "fatigue_findley_k", PETSC_TRUE, 1, &c->findley_k));
+  if (!e->wants[SAM_QUANTITY_FATEMI_SOCIE]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamParametersAddReals(p, "fatigue_fatemi_socie_k", PETSC_TRUE, 1, &c->fatemi_socie_k));
+  PetscCall(SamParametersAddReals(p, "fatigue_yield", PETSC_TRUE, 1, &c->yield));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationGetLargest(SamEvaluation e, SamQuantity quantity, PetscInt step, SamLargest *largest)
+{
+  const SamGrid          g   = e->grid;
+  const PetscBool        row = e->section && e->axis == SAM_SECTION_X, column = e->section && e->axis == SAM_SECTION_Y;
+  const double           nx = column ? 1 : (double)g->nx, ny = row ? 1 : (double)g->ny;
+  const SamLargestPoint *of    = SamQuantityIsOfCycle(quantity)   ? &e->fatigue[quantity]
+                                 : quantity == SAM_QUANTITY_MISES ? &e->largest[step].mises
+                                                                  : &e->largest[step].principal;
+  const double           plane = floor(of->point / (nx * ny)), j = floor((of->point - plane * nx * ny) / nx);
+  const double           i = of->point - (plane * ny + j) * nx;
+
+  PetscFunctionBegin;
+  largest->value    = of->value;
+  largest->place[0] = (double)SamGridX(g, column ? e->index : (PetscInt)i);
+  largest->place[1] = (double)SamGridY(g, row ? e->index : (PetscInt)j);
+  largest->place[2] = (double)e->depth[(PetscInt)plane];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationGetEdgeLargest(SamEvaluation e, PetscInt step, SamLargest largest[2], PetscBool *lost)
+{
+  PetscFunctionBegin;
+  for (int k = 0; k < 2; k++) largest[k] = e->largest[step].edge[k];
+  *lost = e->largest[step].edge_lost;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,111 @@
+/* The inside of SamEvaluation. */
+#ifndef PETSAM_EVALUATIONIMPL_H
+#define PETSAM_EVALUATIONIMPL_H
+
+#include <petsam/evaluation.h>
+#include <petsam/private/baseimpl.h>
+#include <petsam/private/quantities.h>
+
+/* A largest value so far, and the number of its point, counted along x, y and z. */
+typedef struct {
+  double value, point;
+} SamLargestPoint;
+
+/* The largest values of a step. */
+typedef struct {
+  SamLargestPoint mises, principal;
+  SamLargest      edge[2];   /* at the contact's edge: stress xx, principal stress */
+  PetscBool       edge_lost; /* there is an edge, which is not found */
+} SamStepLargest;
+
+/* A step that has been added. */
+typedef struct {
+  Vec    field[3]; /* pressure, shear, slip */
+  double bulk[2][SAM_BULK_COMPONENTS];
+} SamAddedStep;
+
+struct _n_SamEvaluation {
+  MPI_Comm comm;
+  /* settings */
+  PetscInt            body, depths;
+  PetscReal          *depth;
+  PetscBool           section;
+  SamSectionAxis      axis;
+  PetscReal           place; /* of the section: y along x, x along y, m */
+  PetscBool           wants[SAM_QUANTITIES];
+  SamFatigueConstants constants; /* but for the body's */
+  const char         *dash;      /* before the names of settings in messages, where options gave them */
+  /* bodies */
+  SamElasticity             elasticity;
+  const SamFourierSettings *settings;
+  const char               *of; /* whose bodies they are */
+  SamGrid                   grid;
+  SamStress                 stress;
+  PetscInt                  index; /* of the section's line of cells */
+  /* steps */
+  SamEvaluationSource source;
+  PetscInt            added, room;
+  SamAddedStep       *step;
+  double (*bulk)[SAM_BULK_COMPONENTS]; /* of the added ones */
+  /* results */
+  SamEvaluationWrite   write;
+  void                *write_context;
+  SamEvaluationMonitor monitor;
+  void                *monitor_context;
+  SamStepLargest      *largest;                 /* of each step */
+  SamLargestPoint      fatigue[SAM_QUANTITIES]; /* of the cycle */
+};
+
+/*
+  SamPoints - the points of which a rank has the stresses: of a map its rows at one depth, of a section its depths. The
+  stress of step s is stress + s * SAM_STRESS_COMPONENTS * count, component after component.
+*/
+typedef struct {
+  PetscInt count;         /* points */
+  PetscInt depth, depths; /* first depth, number of depths */
+  double   first;         /* number of the first point */
+  double  *stress;        /* Pa */
+} SamPoints;
+
+/* SamMapsCompute - everything on whole planes, one depth after another (maps.c). Collective. */
+PETSC_INTERN PetscErrorCode SamMapsCompute(SamEvaluation e);
+/* SamLinesCompute - everything on a section, some steps at a time (lines.c). Collective. */
+PETSC_INTERN PetscErrorCode SamLinesCompute(SamEvaluation e);
+/* SamMapsMemory, SamLinesMemory - the memory of this rank, bytes. Not collective. */
+PETSC_INTERN double SamMapsMemory(SamEvaluation e);
+PETSC_INTERN double SamLinesMemory(SamEvaluation e);
+
+/* SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows. Collective. */
+PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step,
+                                                       double *const to[SAM_STRESS_TRACTIONS]);
+/* SamStressAddBulk - adds the bulk stress of a step to the stresses of n points. Not collective. */
+PETSC_INTERN void SamStressAddBulk(SamEvaluation e, PetscInt step, PetscInt n, double stress[]);
+/* SamQuantitiesWrite - computes what is wanted of a step's stresses and hands it over (quantities.c). Collective. */
+PETSC_INTERN PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, const SamPoints *points,
+                                               const double stress[]);
+/*
+  SamEdgeStressCompute - keeps the largest stresses at the contact's edge of a step, whose map at depth 0, without bulk
+  stress, is in `field`. SamEdgeStressAgree - finds the largest of all ranks (edge.c). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field);
+PETSC_INTERN PetscErrorCode SamEdgeStressAgree(SamEvaluation e);
+/* SamLargestKeep - keeps a value if it is the largest so far. Not collective. */
+PETSC_INTERN void SamLargestKeep(SamLargestPoint *largest, double value, double point);
+
+/*
+  SamCycleWanted - whether a fatigue parameter is asked for: then the stresses of all steps are needed at a time.
+  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and hands them over (cycle.c). `done`
+  is the part of all points that came before, `share` that of these. Collective.
+*/
+PETSC_INTERN PetscBool      SamCycleWanted(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *points, double done, double share);
+
+/* SamEvaluationTell - calls the monitor. Not collective. */
+PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
+/*
+  SamEvaluationTakeDepths - takes over depths that `said` names in messages. Not collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n,
+                                                    const PetscReal depths[]);
+
+#endif

@@ -1,0 +1,88 @@
+/* Stresses on a section: some steps at a time, as many as the spectra of their lines of cells have room for. */
+#include "evaluationimpl.h"
+
+/* Bytes a cell that the spectra of a section's steps may take on a rank, but at least so many in all. */
+#define SPECTRA_BYTES 100.0
+#define SPECTRA_LEAST 512e6
+
+static double Cells(SamEvaluation e)
+{
+  return (double)e->grid->nx * (double)e->grid->ny;
+}
+
+/* The steps whose spectra are kept at a time. */
+static PetscInt Batch(SamEvaluation e)
+{
+  const double room = PetscMax(SPECTRA_LEAST, SPECTRA_BYTES * Cells(e));
+
+  return (PetscInt)PetscMax(1, PetscMin((double)e->source.steps, room / (50 * Cells(e))));
+}
+
+double SamLinesMemory(SamEvaluation e)
+{
+  const PetscInt length = e->axis == SAM_SECTION_X ? e->grid->nx : e->grid->ny,
+                 steps  = SamCycleWanted(e) ? e->source.steps : Batch(e);
+
+  return 24 * (double)e->grid->cells + (8 + 50 * (double)Batch(e)) * Cells(e) +
+         48 * (double)steps * (double)length * (double)e->depths;
+}
+
+static PetscErrorCode AddStep(SamEvaluation e, SamSection section, PetscInt step, Vec tractions)
+{
+  const PetscInt cells = e->grid->cells;
+  double        *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(tractions, &a));
+  PetscCall(SamEvaluationReadTractions(e, step, (double *[]){a, a + cells, a + 2 * cells}));
+  PetscCall(VecRestoreArray(tractions, &a));
+  PetscCall(SamSectionAddStep(section, tractions));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The stresses of steps first ... first + count - 1. */
+static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt first, PetscInt count,
+                                   const SamPoints *p, Vec tractions)
+{
+  const ptrdiff_t size   = SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count;
+  double *const   stress = p->stress + (SamCycleWanted(e) ? first : 0) * size;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < count; k++) PetscCall(AddStep(e, section, first + k, tractions));
+  PetscCall(SamSectionCompute(section, stress));
+  for (PetscInt k = 0; k < count; k++) {
+    SamStressAddBulk(e, first + k, p->count, stress + k * size);
+    PetscCall(SamQuantitiesWrite(e, first + k, p, stress + k * size));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLinesCompute(SamEvaluation e)
+{
+  const PetscInt batch = Batch(e), room = SamCycleWanted(e) ? e->source.steps : batch;
+  SamPoints      p = {.count = 0};
+  PetscInt       length;
+  SamSection     section;
+  Vec            tractions;
+  double         part;
+
+  PetscFunctionBegin;
+  PetscCall(SamSectionCreate(e->stress, e->axis, e->index, e->depths, e->depth, &section));
+  PetscCall(SamSectionGetDepths(section, &p.depth, &p.depths, &length));
+  p.count = p.depths * length;
+  p.first = (double)p.depth * (double)length;
+  PetscCall(SamAllocate(sizeof(double) * (size_t)(room * SAM_STRESS_COMPONENTS) * (size_t)p.count, &p.stress));
+  PetscCall(SamGridCreateVec(e->grid, SAM_STRESS_TRACTIONS, &tractions));
+  for (PetscInt first = 0; first < e->source.steps; first += batch) {
+    const PetscInt count = PetscMin(batch, e->source.steps - first);
+
+    PetscCall(ComputeSteps(e, section, first, count, &p, tractions));
+    part = (double)(first + count) / (double)e->source.steps;
+    PetscCall(SamEvaluationTell(e, "section", part, SamCycleWanted(e) ? 0 : part));
+  }
+  if (SamCycleWanted(e)) PetscCall(SamCycleWrite(e, &p, 0, 1));
+  PetscCall(VecDestroy(&tractions));
+  SamFree(p.stress);
+  PetscCall(SamSectionDestroy(&section));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,77 @@
+/* Stresses on whole planes: a depth at a time, whose kernels serve all steps. */
+#include "evaluationimpl.h"
+
+/* Bytes a cell: kernels 120, stresses 48, spectra 48, a quantity that is written, and what MPI-IO copies. */
+#define BYTES 240.0
+
+/* Bytes that a cycle keeps of a point in a step: its stress, and slip for Ruiz's parameters. */
+static double CycleBytes(SamEvaluation e)
+{
+  return (double)sizeof(double) * (SAM_STRESS_COMPONENTS + (e->wants[SAM_QUANTITY_RUIZ] ? 2 : 0));
+}
+
+double SamMapsMemory(SamEvaluation e)
+{
+  const double cells = (double)e->grid->cells;
+
+  return BYTES * cells + (SamCycleWanted(e) ? CycleBytes(e) * cells * (double)e->source.steps : 0);
+}
+
+/* The tractions of a step, where SamStressApply() takes them. */
+static PetscErrorCode ReadTractions(SamEvaluation e, PetscInt step, Vec field)
+{
+  const PetscInt cells = e->grid->cells;
+  double        *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &a));
+  PetscCall(SamEvaluationReadTractions(
+    e, step, (double *[]){a + SAM_STRESS_ZZ * cells, a + SAM_STRESS_XZ * cells, a + SAM_STRESS_YZ * cells}));
+  PetscCall(VecRestoreArray(field, &a));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoints *p, Vec field)
+{
+  double *a;
+
+  PetscFunctionBegin;
+  PetscCall(ReadTractions(e, step, field));
+  PetscCall(SamStressApply(e->stress, field));
+  if (e->depth[p->depth] == 0) PetscCall(SamEdgeStressCompute(e, step, field));
+  PetscCall(VecGetArray(field, &a));
+  SamStressAddBulk(e, step, p->count, a);
+  PetscCall(SamQuantitiesWrite(e, step, p, a));
+  if (p->stress)
+    PetscCall(PetscArraycpy(p->stress + step * SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count, a,
+                            SAM_STRESS_COMPONENTS * p->count));
+  PetscCall(VecRestoreArray(field, &a));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamMapsCompute(SamEvaluation e)
+{
+  const SamGrid g = e->grid;
+  SamPoints     p = {.count = g->cells, .depths = 1};
+  Vec           field;
+  double        part;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(g, SAM_STRESS_COMPONENTS, &field));
+  if (SamCycleWanted(e))
+    PetscCall(
+      SamAllocate(sizeof(double) * (size_t)(e->source.steps * SAM_STRESS_COMPONENTS) * (size_t)p.count, &p.stress));
+  for (p.depth = 0; p.depth < e->depths; p.depth++) {
+    p.first = ((double)p.depth * (double)g->ny + (double)g->row_start) * (double)g->nx;
+    PetscCall(SamStressSetDepth(e->stress, e->depth[p.depth]));
+    for (PetscInt step = 0; step < e->source.steps; step++) {
+      PetscCall(ComputeStep(e, step, &p, field));
+      part = ((double)p.depth + (double)(step + 1) / (double)e->source.steps) / e->depths;
+      PetscCall(SamEvaluationTell(e, "maps", part, p.stress ? 0 : part));
+    }
+    if (p.stress) PetscCall(SamCycleWrite(e, &p, (double)p.depth / e->depths, 1.0 / e->depths));
+  }
+  SamFree(p.stress);
+  PetscCall(VecDestroy(&field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

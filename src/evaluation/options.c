@@ -1,0 +1,215 @@
+/* The options of an evaluation. */
+#include "evaluationimpl.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define TEXT        4096 /* characters of a list */
+#define MOST_DEPTHS 100000
+
+#define NAMES      256 /* characters of a list of names */
+#define NAMED      "stress,mises,principal,shear_max,strain"
+#define QUANTITIES NAMED ", or none"
+#define FATIGUE    "crossland,dang_van,findley,swt,fatemi_socie,ruiz"
+
+/* ---- numbers ---- */
+
+/* A finite number that makes up the whole text. */
+static PetscBool ReadNumber(const char text[], double *value)
+{
+  char *end;
+
+  *value = strtod(text, &end);
+  return end != text && *end == '\0' && isfinite(*value);
+}
+
+static PetscBool ReadWhole(const char text[], PetscInt *value)
+{
+  char      *end;
+  const long number = strtol(text, &end, 10);
+
+  *value = (PetscInt)number;
+  return end != text && *end == '\0' && number == (long)*value;
+}
+
+/* Divides a text at a character, in place; returns the number of parts, of which at most `most` are given. */
+static int Divide(char text[], char at, char *parts[], int most)
+{
+  int count = 0;
+
+  for (char *next = text; next; count++) {
+    if (count < most) parts[count] = next;
+    next = strchr(next, at);
+    if (next) *next++ = '\0';
+  }
+  return count;
+}
+
+/* ---- depths ---- */
+
+#define EXPECTED "expected depths separated by commas, or first:last:number, first < last"
+
+/* first:last:number */
+static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths)
+{
+  char  *parts[3];
+  double ends[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCheck(Divide(text, ':', parts, 3) == 3 && ReadNumber(parts[0], &ends[0]) && ReadNumber(parts[1], &ends[1]) &&
+               ReadWhole(parts[2], n) && *n >= 2 && ends[1] > ends[0],
+             comm, SAM_ERR_USER, "%s: " EXPECTED, whole);
+  PetscCheck(*n <= MOST_DEPTHS, comm, SAM_ERR_USER, "%s: expected at most %d depths", whole, MOST_DEPTHS);
+  PetscCall(PetscMalloc1(*n, depths));
+  for (PetscInt k = 0; k < *n; k++)
+    (*depths)[k] = (PetscReal)(k + 1 == *n ? ends[1] : ends[0] + (ends[1] - ends[0]) * k / (*n - 1));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadList(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths)
+{
+  char *parts[TEXT / 2];
+
+  PetscFunctionBegin;
+  *n = Divide(text, ',', parts, TEXT / 2);
+  PetscCall(PetscMalloc1(*n, depths));
+  for (PetscInt k = 0; k < *n; k++) {
+    double value = 0;
+
+    PetscCheck(ReadNumber(parts[k], &value), comm, SAM_ERR_USER, "%s: " EXPECTED, whole);
+    (*depths)[k] = (PetscReal)value;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
+{
+  char       text[TEXT] = "0", whole[TEXT + 16];
+  PetscInt   n;
+  PetscReal *depths;
+
+  PetscFunctionBegin;
+  PetscCall(
+    SamOptionsString(from, "depths", "m from the surface: 0,1e-5,2e-5 or first:last:number", text, sizeof(text), NULL));
+  PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %s", text));
+  PetscCall((strchr(text, ':') ? ReadRange : ReadList)(from->comm, whole, text, &n, &depths));
+  PetscCall(SamEvaluationTakeDepths(e, whole, n, depths));
+  PetscCall(PetscFree(depths));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- sections, quantities, fatigue ---- */
+
+static PetscErrorCode ReadSection(const SamOptions *from, SamEvaluation e)
+{
+  char      text[128] = "";
+  double    place     = 0;
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsString(from, "section", "only the cells nearest to a plane, y=0 or x=1e-4 (m), not whole maps",
+                             text, sizeof(text), &set));
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck((text[0] == 'x' || text[0] == 'y') && text[1] == '=' && ReadNumber(text + 2, &place), from->comm,
+             SAM_ERR_USER, "-section %s: expected for example y=0 or x=1e-4", text);
+  PetscCall(SamEvaluationSetSection(e, text[0] == 'y' ? SAM_SECTION_X : SAM_SECTION_Y, (PetscReal)place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads a list of names, each of which asks for a quantity: names[k] for quantity first + k. */
+static PetscErrorCode ReadNames(const SamOptions *from, const char option[], const char list[],
+                                const char *const names[], PetscInt first, int count, char text[], SamEvaluation e)
+{
+  char whole[NAMES], *parts[SAM_QUANTITIES];
+  int  given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(whole, text, sizeof(whole)));
+  given = Divide(text, ',', parts, count);
+  for (int k = 0; k < PetscMin(given, count); k++) {
+    int q = 0;
+
+    while (q < count && strcmp(parts[k], names[q])) q++;
+    PetscCheck(q < count && given <= count, from->comm, SAM_ERR_USER, "-%s %s: expected some of %s", option, whole,
+               list);
+    e->wants[first + q] = PETSC_TRUE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadQuantities(const SamOptions *from, SamEvaluation e)
+{
+  static const char *const names[]     = {"stress", "mises", "principal", "shear_max", "strain"};
+  char                     text[NAMES] = "stress,mises";
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(e->wants, SAM_QUANTITIES));
+  PetscCall(SamOptionsWords(from, "quantities", "some of " QUANTITIES, NAMED ",none", text, sizeof(text), NULL));
+  if (strcmp(text, "none"))
+    PetscCall(ReadNames(from, "quantities", QUANTITIES, names, SAM_QUANTITY_STRESS, 5, text, e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The constants of the fatigue parameters, each required by one of them. */
+static PetscErrorCode ReadConstants(const SamOptions *from, SamEvaluation e)
+{
+  const struct {
+    SamQuantity quantity;
+    const char *with, *name, *help;
+    SamRange    range;
+    PetscReal  *value;
+  } all[] = {
+    {SAM_QUANTITY_CROSSLAND, "-fatigue crossland", "fatigue_crossland_alpha",
+     "factor on the largest mean stress, required by crossland", SAM_RANGE_NONNEGATIVE, &e->constants.crossland_alpha},
+    {SAM_QUANTITY_DANG_VAN, "-fatigue dang_van", "fatigue_dang_van_alpha",
+     "factor on the mean stress, required by dang_van", SAM_RANGE_NONNEGATIVE, &e->constants.dang_van_alpha},
+    {SAM_QUANTITY_FINDLEY, "-fatigue findley", "fatigue_findley_k",
+     "factor on the largest normal stress, required by findley", SAM_RANGE_NONNEGATIVE, &e->constants.findley_k},
+    {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_fatemi_socie_k",
+     "factor on the largest normal stress, required by fatemi_socie", SAM_RANGE_NONNEGATIVE,
+     &e->constants.fatemi_socie_k},
+    {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_yield", "yield stress, Pa, required by fatemi_socie",
+     SAM_RANGE_POSITIVE, &e->constants.yield},
+  };
+  PetscBool set, print;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&print));
+  for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) {
+    if (!e->wants[all[k].quantity]) SamOptionsKnow(from, all[k].name, all[k].with);
+    if (!e->wants[all[k].quantity] && !print) continue;
+    PetscCall(SamOptionsReal(from, all[k].name, all[k].help, all[k].range, all[k].value, &set));
+    PetscCall(SamOptionsRequire(from, set || print, all[k].name, all[k].help));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadFatigue(const SamOptions *from, SamEvaluation e)
+{
+  static const char *const names[]     = {"crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz"};
+  char                     text[NAMES] = "";
+  PetscBool                set;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsWords(from, "fatigue", "over the steps as one closed cycle: some of " FATIGUE, FATIGUE, text,
+                            sizeof(text), &set));
+  if (set) PetscCall(ReadNames(from, "fatigue", FATIGUE, names, SAM_QUANTITY_CROSSLAND, 6, text, e));
+  PetscCall(ReadConstants(from, e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation e, const SamOptions *from)
+{
+  PetscInt body = 2;
+
+  PetscFunctionBegin;
+  e->dash = "-";
+  PetscCall(SamOptionsInt(from, "body", "1 or 2; z points into it", 1, &body, NULL));
+  PetscCall(SamEvaluationSetBody(e, body));
+  PetscCall(ReadDepths(from, e));
+  PetscCall(ReadSection(from, e));
+  PetscCall(SamOptionsHeading(from, "What"));
+  PetscCall(ReadQuantities(from, e));
+  PetscCall(SamOptionsHeading(from, "Fatigue"));
+  PetscCall(ReadFatigue(from, e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,187 @@
+/*
+  An HDF5 file that all ranks write or read together through MPI-IO.
+
+  Open MPI's collective writes, and HDF5 when it flushes its metadata, may hang for ever if writing fails on one rank
+  only. So rank 0 looks for the likely failures before MPI-IO meets them (disk.c). The file is then still consistent and
+  can be closed.
+*/
+#include <petsam/private/file.h>
+
+/* ---- errors ---- */
+
+/* HDF5 prints its own error stack unless that is switched off. */
+static void Silence(SamFile f)
+{
+  (void)SamFileNote(f, H5Eget_auto2(H5E_DEFAULT, &f->print, &f->print_data));
+  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, NULL, NULL));
+}
+
+static void Unsilence(SamFile f)
+{
+  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, f->print, f->print_data));
+}
+
+PetscErrorCode SamFileBegin(SamFile f)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SamEvents[f->event], 0, 0, 0, 0));
+  Silence(f);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileAgree(SamFile f)
+{
+  struct {
+    int good, rank;
+  } worst;
+
+  PetscFunctionBegin;
+  worst.good = f->failed ? 0 : 1;
+  worst.rank = f->rank;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MINLOC, f->comm));
+  if (!worst.good) {
+    f->failed = PETSC_TRUE;
+    PetscCallMPI(MPI_Bcast(f->reason, (PetscMPIInt)sizeof(f->reason), MPI_CHAR, worst.rank, f->comm));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileEnd(SamFile f)
+{
+  PetscFunctionBegin;
+  Unsilence(f);
+  PetscCall(PetscLogEventEnd(SamEvents[f->event], 0, 0, 0, 0));
+  PetscCall(SamFileAgree(f));
+  PetscCheck(!f->failed, f->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename,
+             f->writing ? "written" : "read", f->reason);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The first entry of an upward walk through HDF5's error stack is the cause. */
+static herr_t TakeReason(unsigned n, const H5E_error2_t *error, void *reason)
+{
+  if (n == 0 && error->desc) (void)snprintf((char *)reason, sizeof(((SamFile)NULL)->reason), "%s", error->desc);
+  return 0;
+}
+
+hid_t SamFileNote(SamFile f, hid_t result)
+{
+  if (result >= 0 || f->failed) return result;
+  f->failed = PETSC_TRUE;
+  (void)snprintf(f->reason, sizeof(f->reason), "HDF5 failed");
+  (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, TakeReason, f->reason);
+  return result;
+}
+
+/* ---- the file ---- */
+
+static PetscErrorCode Allocate(MPI_Comm comm, SamGrid grid, SamEvent event, const char option[], const char filename[],
+                               SamFile *file)
+{
+  SamFile f;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&f));
+  if (grid) PetscCall(SamGridReference(grid));
+  f->comm   = comm;
+  f->grid   = grid;
+  f->event  = event;
+  f->option = option;
+  f->id = f->transfer = -1;
+  PetscCallMPI(MPI_Comm_rank(comm, &f->rank));
+  PetscCall(PetscStrallocpy(filename, &f->filename));
+  *file = f;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Free(SamFile *file)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridDestroy(&(*file)->grid));
+  PetscCall(PetscFree((*file)->filename));
+  PetscCall(PetscFree(*file));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reading is not collective: in a damaged file it may fail on some ranks, and no other shall wait for these. */
+static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
+{
+  hid_t access, creation;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(f));
+  access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
+  if (f->grid) (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->comm, MPI_INFO_NULL));
+  (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
+  creation = SamFileNote(f, H5Pcreate(H5P_FILE_CREATE));
+  if (mode == SAM_FILE_CREATE_SEALED) (void)SamFileNote(f, H5Pset_userblock(creation, SAM_SEAL));
+  f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
+  if (f->writing) (void)SamFileNote(f, H5Pset_dxpl_mpio(f->transfer, H5FD_MPIO_COLLECTIVE));
+  if (f->writing)
+    f->id = SamFileNote(f, H5Fcreate(f->filename, H5F_ACC_TRUNC, creation, access));
+  else
+    f->id = SamFileNote(f, H5Fopen(f->filename, H5F_ACC_RDONLY, access));
+  (void)SamFileNote(f, H5Pclose(access));
+  (void)SamFileNote(f, H5Pclose(creation));
+  if (f->grid) SamFileRemoveLeftOvers(f);
+  PetscCall(SamFileEnd(f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Opens the allocated file, or frees it after an error. */
+static PetscErrorCode OpenOrFree(SamFile *file, SamFileMode mode)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  (*file)->writing = mode != SAM_FILE_READ;
+  ierr             = OpenFile(*file, mode);
+  if (ierr) {
+    (*file)->id = -1; /* not closed: closing would wait for a rank that could not open the file */
+    Silence(*file);
+    SamFileClose(*file);
+    Unsilence(*file);
+    PetscCall(Free(file));
+  }
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFileMode mode,
+                           SamFile *file)
+{
+  PetscFunctionBegin;
+  PetscCall(Allocate(grid->comm, grid, event, option, filename, file));
+  PetscCall(OpenOrFree(file, mode));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file)
+{
+  PetscFunctionBegin;
+  PetscCall(Allocate(PETSC_COMM_SELF, NULL, SAM_EVENT_OUTPUT, option, filename, file));
+  PetscCall(OpenOrFree(file, SAM_FILE_READ));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamFileClose(SamFile f)
+{
+  if (f->transfer >= 0) (void)SamFileNote(f, H5Pclose(f->transfer));
+  if (f->id >= 0) (void)SamFileNote(f, H5Fclose(f->id));
+  f->transfer = f->id = -1;
+}
+
+PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  if (!*file) PetscFunctionReturn(PETSC_SUCCESS);
+  (*file)->failed = PETSC_FALSE; /* what failed before has been raised */
+  PetscCall(SamFileBegin(*file));
+  if (close) SamFileClose(*file);
+  ierr = SamFileEnd(*file);
+  PetscCall(Free(file));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,151 @@
+/* What an HDF5 dataset of lengths says about itself: their unit, whether they are heights, the size of the surface. */
+#include <petsam/private/file.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UNITS "m, cm, mm, um, nm, pm, angstrom, in"
+
+/* The names of each unit, between blanks. */
+static const struct {
+  const char *names;
+  double      metres;
+} units[] = {{" m meter metre ", 1},
+             {" cm centimeter centimetre ", 1e-2},
+             {" mm millimeter millimetre ", 1e-3},
+             {" um \u00b5m \u03bcm micrometer micrometre micron ", 1e-6},
+             {" nm nanometer nanometre ", 1e-9},
+             {" pm picometer picometre ", 1e-12},
+             {" angstrom \u00c5 ", 1e-10},
+             {" in inch ", 0.0254}};
+
+/* Heights are positive out of their body, so both bodies' reduce the separation. */
+static const struct {
+  const char *name;
+  double      sign;
+} quantities[] = {{"separation", 1}, {"height1", -1}, {"height2", -1}};
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+/* The metres of a unit, 0 for one that is not known; full words may be plural. */
+static double Metres(const char unit[])
+{
+  size_t length = strlen(unit);
+  char   word[64];
+
+  if (length > 4 && unit[length - 1] == 's') length--;
+  (void)snprintf(word, sizeof(word), " %.*s ", (int)length, unit);
+  for (size_t k = 0; k < COUNT(units) && length && !strchr(unit, ' '); k++)
+    if (strstr(units[k].names, word)) return units[k].metres;
+  return 0;
+}
+
+/* The metres of the unit that a dataset's attribute names, 0 without the attribute. */
+static PetscErrorCode ReadUnits(SamFile f, hid_t dataset, const char name[], double *metres)
+{
+  char text[48];
+
+  PetscFunctionBegin;
+  *metres = 0;
+  if (!SamTextRead(dataset, "units", text, sizeof(text))) PetscFunctionReturn(PETSC_SUCCESS);
+  *metres = Metres(text);
+  PetscCheck(*metres > 0, f->comm, SAM_ERR_FILE, "-%s %s: %s: its attribute units is \"%s\": known are " UNITS,
+             f->option, f->filename, name, text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadQuantity(SamFile f, hid_t dataset, const char name[], double *sign)
+{
+  char text[48];
+
+  PetscFunctionBegin;
+  *sign = 1;
+  if (!SamTextRead(dataset, "quantity", text, sizeof(text))) PetscFunctionReturn(PETSC_SUCCESS);
+  for (size_t k = 0; k < COUNT(quantities); k++) {
+    *sign = quantities[k].sign;
+    if (!strcmp(text, quantities[k].name)) PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  SETERRQ(f->comm, SAM_ERR_FILE,
+          "-%s %s: %s: its attribute quantity is \"%s\": known are separation, height1, height2 (heights of body 1 or "
+          "2, positive out of the body)",
+          f->option, f->filename, name, text);
+}
+
+/* Reads the attribute size, if there is one. */
+static PetscErrorCode ReadSize(SamFile f, hid_t dataset, const char name[], PetscBool *has, double size[2])
+{
+  hid_t     attribute, space;
+  PetscBool good;
+
+  PetscFunctionBegin;
+  *has = H5Aexists(dataset, "size") > 0;
+  if (!*has) PetscFunctionReturn(PETSC_SUCCESS);
+  attribute = H5Aopen(dataset, "size", H5P_DEFAULT);
+  space     = H5Aget_space(attribute);
+  good = space >= 0 && H5Sget_simple_extent_npoints(space) == 2 && H5Aread(attribute, H5T_NATIVE_DOUBLE, size) >= 0 &&
+         size[0] > 0 && size[1] > 0 && isfinite(size[0] + size[1]);
+  if (space >= 0) (void)H5Sclose(space);
+  if (attribute >= 0) (void)H5Aclose(attribute);
+  PetscCheck(good, f->comm, SAM_ERR_FILE, "-%s %s: %s: its attribute size is not two positive numbers: x, y in m",
+             f->option, f->filename, name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Width of n cells whose centres a dataset holds, in its unit; NaN for another dataset. */
+static double ReadWidth(hid_t axis, hsize_t n)
+{
+  const hid_t space   = H5Dget_space(axis);
+  double     *centres = NULL, width = NAN;
+
+  if (space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_npoints(space) == (hssize_t)n)
+    centres = (double *)malloc(n * sizeof(*centres));
+  if (centres && H5Dread(axis, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, centres) >= 0)
+    width = (centres[n - 1] - centres[0]) * (double)n / ((double)n - 1);
+  free(centres);
+  if (space >= 0) (void)H5Sclose(space);
+  return width;
+}
+
+/* Reads the width from the axis `letter` beside the dataset, if it is there, fits, and has units. */
+static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsize_t n, double *size)
+{
+  const char *slash   = strrchr(dataset, '/');
+  const char  name[2] = {letter, '\0'};
+  char        path[PETSC_MAX_PATH_LEN];
+  double      metres = 0, width = NAN;
+  hid_t       axis;
+
+  PetscFunctionBegin;
+  (void)snprintf(path, sizeof(path), "%.*s%c", slash ? (int)(slash - dataset) + 1 : 0, dataset, letter);
+  axis = H5Lexists(f->id, path, H5P_DEFAULT) > 0 ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
+  if (axis < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (H5Aexists(axis, "units") > 0) width = ReadWidth(axis, n);
+  if (!isnan(width)) PetscCall(ReadUnits(f, axis, name, &metres)); /* else it is something else */
+  (void)H5Dclose(axis);
+  PetscCheck(!(width < 0), f->comm, SAM_ERR_FILE,
+             "-%s %s: %s falls along the file, so the surface would be mirrored: turn it and the values of %s round",
+             f->option, f->filename, name, dataset);
+  if (!isnan(width)) *size = width * metres;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLengthsRead(SamFile f, hid_t dataset, const char name[], const hsize_t shape[2], SamLengths *lengths)
+{
+  double    metres, sign;
+  PetscBool has;
+
+  PetscFunctionBegin;
+  *lengths = (SamLengths){.factor = 1};
+  PetscCheck(H5Aexists(dataset, "scale_factor") <= 0 && H5Aexists(dataset, "add_offset") <= 0, f->comm, SAM_ERR_FILE,
+             "-%s %s: %s: its attributes scale_factor or add_offset say that it is packed: expected the numbers "
+             "themselves, and no such attributes",
+             f->option, f->filename, name);
+  PetscCall(ReadUnits(f, dataset, name, &metres));
+  PetscCall(ReadQuantity(f, dataset, name, &sign));
+  lengths->factor = sign * (metres > 0 ? metres : 1);
+  PetscCall(ReadSize(f, dataset, name, &has, lengths->size));
+  if (has) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ReadAxis(f, name, 'x', shape[1], &lengths->size[0]));
+  PetscCall(ReadAxis(f, name, 'y', shape[0], &lengths->size[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,204 @@
+/* Coulomb's friction: |q| <= mu p, mu being a number or a field, times the factor of the control. */
+#include <petsam/private/lawimpl.h>
+#include <petsam/private/fieldfile.h>
+
+typedef struct {
+  PetscReal friction;
+  Vec       field; /* coefficients by cell; NULL: the number counts */
+} Coulomb;
+
+/* The data of a law of this type. */
+static PetscErrorCode Get(SamLaw law, Coulomb **coulomb)
+{
+  PetscFunctionBegin;
+  PetscCheck(!strcmp(law->type, SAM_LAW_COULOMB), law->grid->comm, PETSC_ERR_ARG_WRONG,
+             "The law %s has no coefficient of friction", law->type);
+  *coulomb = (Coulomb *)law->data;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawSetFriction(SamLaw law, PetscReal friction)
+{
+  Coulomb *c;
+
+  PetscFunctionBegin;
+  PetscCall(Get(law, &c));
+  PetscCheck(friction >= 0 && isfinite(friction), law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "coefficient of friction %g: expected a finite number >= 0", (double)friction);
+  c->friction = friction;
+  PetscCall(VecDestroy(&c->field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawSetFrictionField(SamLaw law, Vec friction)
+{
+  Coulomb      *c;
+  const double *mu;
+  double        bad = 0;
+
+  PetscFunctionBegin;
+  PetscCall(Get(law, &c));
+  PetscCall(SamGridCheckVec(law->grid, 1, friction, "The friction"));
+  PetscCall(VecGetArrayRead(friction, &mu));
+  for (PetscInt k = 0; k < law->grid->cells; k++) bad += mu[k] >= 0 && isfinite(mu[k]) ? 0 : 1;
+  PetscCall(VecRestoreArrayRead(friction, &mu));
+  PetscCall(SamSum(law->grid->comm, 1, &bad));
+  PetscCheck(bad == 0, law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "%.0f cells have a coefficient of friction that is not a finite number >= 0", bad);
+  if (!c->field) PetscCall(SamGridCreateVec(law->grid, 1, &c->field));
+  PetscCall(VecCopy(friction, c->field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction)
+{
+  Coulomb *c;
+
+  PetscFunctionBegin;
+  PetscCall(Get(law, &c));
+  *friction = c->field ? 0 : c->friction;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  Coulomb *const c      = (Coulomb *)law->data;
+  SamFieldFile   source = {
+      .file_option     = "friction_file",
+      .dataset_option  = "friction_dataset",
+      .default_dataset = "/friction",
+      .unit            = "1",
+  };
+  PetscReal      friction = c->friction;
+  PetscBool      set, help;
+  PetscErrorCode ierr = 0;
+  Vec            field;
+
+  PetscFunctionBegin;
+  *asked = PETSC_TRUE; /* without options, of the coefficient 0 */
+  PetscCall(SamOptionsHeading(from, "Friction"));
+  PetscCall(SamOptionsReal(from, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &friction, &set));
+  PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient for each cell, instead"));
+  PetscCall(SamPrintHelp(&help));
+  PetscCheck(!set || !source.file[0], from->comm, SAM_ERR_USER, "-%sfriction and -%sfriction_file: give one of them",
+             source.prefix, source.prefix);
+  if (set) PetscCall(SamLawSetFriction(law, friction));
+  if (!source.file[0] || help) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(law->grid, 1, &field));
+  ierr = SamFieldFileRead(&source, law->grid, field);
+  if (!ierr) PetscCall(SamLawSetFrictionField(law, field));
+  PetscCall(VecDestroy(&field));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
+{
+  const Coulomb *c = (const Coulomb *)law->data;
+  uint64_t       checksum;
+
+  PetscFunctionBegin;
+  if (c->field) PetscCall(SamGridChecksum(law->grid, c->field, &checksum));
+  if (c->field)
+    PetscCall(SamParametersAddChecksum(p, "friction_file", checksum));
+  else
+    PetscCall(SamParametersAddReals(p, "friction", PETSC_TRUE, 1, &c->friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode HasFriction(SamLaw law, PetscBool *has)
+{
+  const Coulomb *c    = (const Coulomb *)law->data;
+  PetscReal      most = c->friction;
+
+  PetscFunctionBegin;
+  if (c->field) PetscCall(VecMax(c->field, NULL, &most));
+  *has = most > 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* b = scale * mu * p for n cells. Returns the sum of b, to find rows without a bound. */
+SAM_VECTORIZED static double BoundRow(PetscInt n, const double *restrict p, const double *restrict mu, double scale,
+                                      double *restrict b)
+{
+  double sum = 0;
+
+#pragma omp simd reduction(+ : sum)
+  for (PetscInt i = 0; i < n; i++) {
+    b[i] = scale * mu[i] * p[i];
+    sum += b[i];
+  }
+  return sum;
+}
+
+static PetscErrorCode FillValue(SamLaw law, const double *field, const SamBoundAt *at, Vec bound)
+{
+  const Coulomb *c  = (const Coulomb *)law->data;
+  const PetscInt nx = law->grid->nx;
+  const double  *pressures;
+  double        *bounds, *number, *row;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(nx, &number, nx, &row));
+  for (PetscInt i = 0; i < nx; i++) number[i] = c->friction;
+  PetscCall(VecGetArray(bound, &bounds));
+  if (at->pressure == bound)
+    pressures = bounds;
+  else
+    PetscCall(VecGetArrayRead(at->pressure, &pressures));
+  for (ptrdiff_t k = 0; k < law->grid->cells; k += nx) {
+    const double sum = BoundRow(nx, pressures + k, field ? field + k : number, at->friction_scale, row);
+
+    /* a row without a bound is not written to, so that untouched pages take no memory */
+    if (sum != 0)
+      PetscCall(PetscArraycpy(bounds + k, row, nx));
+    else
+      SamZero(nx, bounds + k);
+  }
+  if (at->pressure != bound) PetscCall(VecRestoreArrayRead(at->pressure, &pressures));
+  PetscCall(VecRestoreArray(bound, &bounds));
+  PetscCall(PetscFree2(number, row));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Bound(SamLaw law, const SamBoundAt *at, const SamBound *bound)
+{
+  const Coulomb *c     = (const Coulomb *)law->data;
+  const double  *field = NULL;
+  double        *mu;
+
+  PetscFunctionBegin;
+  if (c->field) PetscCall(VecGetArrayRead(c->field, &field));
+  if (bound->value) PetscCall(FillValue(law, field, at, bound->value));
+  if (bound->by_pressure) {
+    PetscCall(VecGetArrayWrite(bound->by_pressure, &mu));
+    for (PetscInt k = 0; k < law->grid->cells; k++) mu[k] = at->friction_scale * (field ? field[k] : c->friction);
+    PetscCall(VecRestoreArrayWrite(bound->by_pressure, &mu));
+  }
+  if (bound->by_slip) PetscCall(VecSet(bound->by_slip, 0));
+  if (c->field) PetscCall(VecRestoreArrayRead(c->field, &field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&((Coulomb *)law->data)->field));
+  PetscCall(PetscFree(law->data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Coulomb(SamLaw law)
+{
+  Coulomb *c;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&c));
+  law->data               = c;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.addparameters  = AddParameters;
+  law->ops.hasfriction    = HasFriction;
+  law->ops.bound          = Bound;
+  law->ops.destroy        = Destroy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,240 @@
+/*
+  Hardness: the pressure has a limit H, and where it is reached the surfaces overlap and yield.
+
+  In a step 0 <= p <= H, and the gap g of the surfaces as they were before it is 0 between these bounds, >= 0 where
+  p = 0 and <= 0 where p = H. The overlap -g there is the depth by which the surfaces yield in the step. It is added to
+  the separation from then on, so the gap of the yielded surfaces is 0 in these cells. With them the pressure of the
+  step is still a solution for the same loads, now one without any overlap, and the only one: reloading comes back to
+  it, unloading before that is elastic, and a step that changes nothing yields nothing.
+*/
+#include <petsam/private/lawimpl.h>
+#include <petsam/normal.h>
+
+typedef struct {
+  PetscReal limit; /* Pa */
+} Hardness;
+
+#define DEPTH "plastic_depth"
+/* The numbers of a step, one after the other from CELLS on. */
+enum { CELLS, AREA, MOST, ENERGY, NUMBERS };
+
+PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal limit)
+{
+  Hardness *const h = (Hardness *)law->data;
+
+  PetscFunctionBegin;
+  PetscCheck(!strcmp(law->type, SAM_LAW_HARDNESS), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no hardness",
+             law->type);
+  PetscCheck(limit > 0, law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "hardness %g: expected a number > 0, or inf",
+             (double)limit);
+  if (limit != h->limit) law->revision++;
+  h->limit = limit;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  Hardness *const h = (Hardness *)law->data;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHeading(from, "Plastic deformation"));
+  PetscCall(SamOptionsReal(from, "pressure_limit", "hardness: the maximum pressure, where the surfaces yield (Pa)",
+                           SAM_RANGE_POSITIVE_INF, &h->limit, NULL));
+  *asked = isfinite(h->limit) != 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
+{
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddReals(p, "pressure_limit", PETSC_TRUE, 1, &((Hardness *)law->data)->limit));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  static const SamStateField  depth            = {.name        = DEPTH,
+                                                  .unit        = "m",
+                                                  .text        = "depth by which both surfaces have yielded",
+                                                  .components  = 1,
+                                                  .generations = 2,
+                                                  .kept        = PETSC_TRUE,
+                                                  .result      = SAM_RESULT_USUAL};
+  static const SamStateNumber numbers[NUMBERS] = {
+    {"plastic_cells", "1", "cells at the pressure limit", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE},
+    {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE},
+    {"plastic_depth_max", "m", "maximum depth by which the surfaces have yielded", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_TRUE},
+    {"plastic_energy", "J", "plastic work of the pressure in the load step", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_TRUE}};
+  PetscInt id;
+
+  PetscFunctionBegin;
+  (void)law;
+  PetscCall(SamStateDeclareField(state, &depth, &id));
+  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
+{
+  const PetscInt id    = SamStateFindField(state, DEPTH);
+  const Vec      depth = id < 0                    ? NULL
+                         : generation == SAM_TRIED ? SamStateReadField(state, id)
+                                                   : SamStateGetField(state, id, generation);
+
+  PetscFunctionBegin;
+  (void)law;
+  if (depth) *adds = PETSC_TRUE;
+  if (depth && h) PetscCall(VecAXPY(h, 1, depth));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Limit(SamLaw law, PetscReal *most)
+{
+  PetscFunctionBegin;
+  *most = ((Hardness *)law->data)->limit;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a step ---- */
+
+/* The overlap of the step is added to the depth; `gap` is that before the surfaces yield. */
+static PetscErrorCode AddOverlap(SamLaw law, SamLawStep *step, Vec before, Vec depth)
+{
+  const double  saturated = SAM_SATURATED * ((Hardness *)law->data)->limit;
+  const double *p, *g;
+  double       *w;
+  Vec           gap;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(step->grid, 1, &gap));
+  PetscCall(SamLawStepGetGap(step, gap));
+  if (before)
+    PetscCall(VecCopy(before, depth));
+  else
+    PetscCall(VecSet(depth, 0));
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  PetscCall(VecGetArrayRead(gap, &g));
+  PetscCall(VecGetArray(depth, &w));
+  for (PetscInt k = 0; k < step->grid->cells; k++) w[k] += p[k] >= saturated && g[k] < 0 ? -g[k] : 0;
+  PetscCall(VecRestoreArray(depth, &w));
+  PetscCall(VecRestoreArrayRead(gap, &g));
+  PetscCall(VecRestoreArrayRead(step->pressure, &p));
+  PetscCall(VecDestroy(&gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Cells at the limit, the maximum depth, and the work of the pressure on what has been added to it. When a load comes
+  back that has yielded, all that was at the limit is there again, to the tolerance of the solver.
+*/
+#define AT_LIMIT (1 - 1e-6)
+static PetscErrorCode CountYielded(SamLaw law, SamLawStep *step, Vec before, Vec depth)
+{
+  const SamGrid grid  = step->grid;
+  const double  limit = AT_LIMIT * ((Hardness *)law->data)->limit, area = grid->dx * grid->dy;
+  enum { AT, WORK, SUMS };
+  SamTotal      totals[SUMS] = {{0}};
+  double        sums[SUMS], most = 0, *numbers;
+  const double *p, *w, *w_before;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  PetscCall(VecGetArrayRead(depth, &w));
+  PetscCall(VecGetArrayRead(before ? before : depth, &w_before));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row[SUMS] = {0};
+
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const ptrdiff_t k = (ptrdiff_t)j * grid->nx + i;
+
+      row[AT] += p[k] >= limit ? 1 : 0;
+      row[WORK] += p[k] * (w[k] - (before ? w_before[k] : 0));
+      most = PetscMax(most, w[k]);
+    }
+    SamAddAll(SUMS, totals, row);
+  }
+  PetscCall(VecRestoreArrayRead(before ? before : depth, &w_before));
+  PetscCall(VecRestoreArrayRead(depth, &w));
+  PetscCall(VecRestoreArrayRead(step->pressure, &p));
+  PetscCall(SamSumTotals(grid->comm, SUMS, totals, sums));
+  PetscCall(SamMax(grid->comm, 1, &most));
+  numbers         = SamStateNumbers(step->state, SamStateFindNumber(step->state, "plastic_cells"), SAM_TRIED);
+  numbers[CELLS]  = sums[AT];
+  numbers[AREA]   = sums[AT] * area;
+  numbers[MOST]   = most;
+  numbers[ENERGY] = sums[WORK] * area;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  const PetscInt id     = SamStateFindField(step->state, DEPTH);
+  const Vec      before = SamStateGetField(step->state, id, SAM_COMMITTED);
+  Vec            depth  = before;
+
+  PetscFunctionBegin;
+  /* a pressure that stays has yielded before; what is left of its gap is rounding */
+  if (!step->same_pressure || !before) {
+    PetscCall(SamStateSetField(step->state, id, &depth));
+    PetscCall(AddOverlap(law, step, before, depth));
+  }
+  PetscCall(CountYielded(law, step, before, depth));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the tried step has added to the depth. */
+static PetscErrorCode Overlap(SamLaw law, SamState state, Vec overlap)
+{
+  const PetscInt id     = SamStateFindField(state, DEPTH);
+  const Vec      before = SamStateGetField(state, id, SAM_COMMITTED), depth = SamStateReadField(state, id);
+
+  PetscFunctionBegin;
+  (void)law;
+  if (depth) PetscCall(VecAXPY(overlap, 1, depth));
+  if (before) PetscCall(VecAXPY(overlap, -1, before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
+{
+  const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "plastic_cells"));
+
+  PetscFunctionBegin;
+  (void)law;
+  if (numbers[MOST] > 0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g m2 at the limit, depth up to %.6g m, work %.6g J\n",
+                                     "plastic", numbers[AREA], numbers[MOST], numbers[ENERGY]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(law->data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Hardness(SamLaw law)
+{
+  Hardness *h;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&h));
+  h->limit                = INFINITY; /* PETSC_INFINITY is a finite number */
+  law->data               = h;
+  law->option             = "pressure_limit";
+  law->bytes              = 40;
+  law->forbids_jumps      = PETSC_TRUE;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.addparameters  = AddParameters;
+  law->ops.declare        = Declare;
+  law->ops.separation     = Separation;
+  law->ops.limit          = Limit;
+  law->ops.overlap        = Overlap;
+  law->ops.view           = View;
+  law->ops.advance        = Advance;
+  law->ops.destroy        = Destroy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,178 @@
+/* The class SamLaw: its registry, and what all laws share. */
+#include <petsam/private/lawimpl.h>
+
+/* ---- the registry ---- */
+
+static SamLawType names[SAM_LAWS];
+static PetscErrorCode (*creators[SAM_LAWS])(SamLaw);
+static PetscInt  count;
+static PetscBool registered;
+
+static PetscErrorCode FreeList(void)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < count; k++) PetscCall(PetscFree(names[k]));
+  count      = 0;
+  registered = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RegisterAll(void)
+{
+  PetscFunctionBegin;
+  if (registered) PetscFunctionReturn(PETSC_SUCCESS);
+  registered = PETSC_TRUE;
+  PetscCall(SamLawRegisterAll());
+  PetscCall(PetscRegisterFinalize(FreeList));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscInt Find(const char name[])
+{
+  PetscInt k = 0;
+
+  while (k < count && strcmp(names[k], name)) k++;
+  return k;
+}
+
+PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw))
+{
+  PetscInt k;
+  char    *copy;
+
+  PetscFunctionBegin;
+  PetscCall(RegisterAll()); /* first, so that a user's type replaces ours of the same name */
+  k = Find(name);
+  PetscCheck(k < SAM_LAWS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "More than %d types of law: %s", SAM_LAWS, name);
+  creators[k] = create;
+  if (k < count) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrallocpy(name, &copy));
+  names[count++] = copy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawGetTypes(PetscInt *n, const SamLawType **types)
+{
+  PetscFunctionBegin;
+  PetscCall(RegisterAll());
+  *n     = count;
+  *types = names;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamLawIsRegistered(const char name[])
+{
+  return RegisterAll() == PETSC_SUCCESS && Find(name) < count;
+}
+
+PetscInt SamLawOrder(SamLawType type)
+{
+  return Find(type);
+}
+
+/* ---- creation ---- */
+
+PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *law)
+{
+  SamLaw   l;
+  PetscInt k;
+
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(RegisterAll());
+  k = Find(type);
+  PetscCheck(k < count, PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown law %s", type);
+  PetscCall(PetscNew(&l));
+  l->references = 1;
+  PetscCall(SamElasticityReference(elasticity));
+  l->elasticity = elasticity;
+  PetscCall(SamElasticityGetGrid(elasticity, &l->grid));
+  PetscCall(PetscStrncpy(l->type, names[k], sizeof(l->type)));
+  PetscCall(creators[k](l));
+  *law = l;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawReference(SamLaw law)
+{
+  PetscFunctionBegin;
+  law->references++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawDestroy(SamLaw *law)
+{
+  SamLaw l = *law;
+
+  PetscFunctionBegin;
+  *law = NULL;
+  if (!l || --l->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (l->ops.destroy) PetscCall(l->ops.destroy(l));
+  PetscCall(SamElasticityDestroy(&l->elasticity));
+  PetscCall(PetscFree(l));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawGetType(SamLaw law, SamLawType *type)
+{
+  PetscFunctionBegin;
+  *type = law->type;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  PetscFunctionBegin;
+  *asked = PETSC_FALSE;
+  if (law->ops.setfromoptions) PetscCall(law->ops.setfromoptions(law, from, asked));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters)
+{
+  PetscFunctionBegin;
+  if (law->ops.addparameters) PetscCall(law->ops.addparameters(law, parameters));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a step ---- */
+
+/* Makes a field of the step unless it is there; `made`: it has to be computed. */
+static PetscErrorCode Make(SamLawStep *step, Vec *field, PetscBool wanted, Vec *made)
+{
+  PetscFunctionBegin;
+  *made = NULL;
+  if (!wanted || *field) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(step->grid, 1, field));
+  *made = *field;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work)
+{
+  Vec made[3];
+
+  PetscFunctionBegin;
+  PetscCall(Make(step, &step->path, path != NULL, &made[0]));
+  PetscCall(Make(step, &step->pressed, pressed != NULL, &made[1]));
+  PetscCall(Make(step, &step->work, work != NULL, &made[2]));
+  if (made[0] || made[1] || made[2]) PetscCall(step->friction(step, made[0], made[1], made[2]));
+  if (path) *path = step->path;
+  if (pressed) *pressed = step->pressed;
+  if (work) *work = step->work;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawStepGetGap(SamLawStep *step, Vec gap)
+{
+  PetscFunctionBegin;
+  PetscCall(step->gap(step, gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawStepGetSlope(SamLawStep *step, Vec by_pressure)
+{
+  PetscFunctionBegin;
+  PetscCall(step->slope(step, by_pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

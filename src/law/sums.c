@@ -1,0 +1,90 @@
+/* Laws that only remember: the accumulated slip, and the frictional work, cell by cell over all steps. */
+#include <petsam/private/lawimpl.h>
+
+/* What a sum adds in a step. */
+typedef struct {
+  SamStateField field;
+  const char   *option, *text;
+  PetscBool     work; /* the frictional work; else the slip */
+} Sum;
+
+static const Sum sums[] = {{{.name        = SAM_LAW_SLIP_PATH,
+                             .unit        = "m",
+                             .text        = "accumulated slip: sum of |ds| over all steps",
+                             .components  = 1,
+                             .generations = 2,
+                             .kept        = PETSC_TRUE,
+                             .result      = SAM_RESULT_OFFERED},
+                            "sum_slip_path",
+                            "accumulate the slip over all steps (field slip_path)",
+                            PETSC_FALSE},
+                           {{.name        = SAM_LAW_FRICTION_ENERGY,
+                             .unit        = "J/m2",
+                             .text        = "frictional work: sum of -q.ds over all steps",
+                             .components  = 1,
+                             .generations = 2,
+                             .kept        = PETSC_TRUE,
+                             .result      = SAM_RESULT_OFFERED},
+                            "sum_friction_energy",
+                            "accumulate the frictional work over all steps (field friction_energy)",
+                            PETSC_TRUE}};
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  const Sum *sum = (const Sum *)law->data;
+
+  PetscFunctionBegin;
+  if (!sum->work) PetscCall(SamOptionsHeading(from, "Sums over all steps"));
+  PetscCall(SamOptionsBool(from, sum->option, sum->text, asked, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateDeclareField(state, &((const Sum *)law->data)->field, &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  const PetscInt  id   = SamStateFindField(step->state, law->type);
+  const PetscBool work = ((const Sum *)law->data)->work;
+  const Vec       from = SamStateGetField(step->state, id, SAM_COMMITTED);
+  Vec             to, more;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawStepGetFriction(step, work ? NULL : &more, NULL, work ? &more : NULL));
+  PetscCall(SamStateSetField(step->state, id, &to));
+  PetscCall(VecCopy(more, to));
+  if (from) PetscCall(VecAXPY(to, 1, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create(SamLaw law, const Sum *sum)
+{
+  PetscFunctionBegin;
+  law->data               = (void *)(uintptr_t)sum;
+  law->accumulates        = PETSC_TRUE;
+  law->bytes              = 16;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.declare        = Declare;
+  law->ops.advance        = Advance;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_SlipPath(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(Create(law, &sums[0]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(Create(law, &sums[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

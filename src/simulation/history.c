@@ -1,0 +1,412 @@
+/* The load program: made of options and a file, asked for its steps. */
+#include "historyimpl.h"
+#include <petsam/private/arguments.h>
+#include <petsam/private/help.h>
+#include <float.h>
+#include <math.h>
+
+/* Times nearer than this part of their size are refused: they may be the same number. */
+#define TIME_ROUNDING (4 * DBL_EPSILON)
+
+#define FRICTION "friction_scale"
+
+struct _n_SamHistory {
+  SamControl constant; /* the kind of control of each component, and the values of those without a column */
+  SamControl before;   /* what the first row's change begins from */
+  PetscInt   rows, increments;
+  PetscInt   start;                        /* steps up to the first row */
+  SamTable   table;                        /* empty without a file */
+  PetscInt   time, friction;               /* columns; -1: none */
+  PetscInt   column[SAM_COMPONENTS];       /* column of each component, -1: constant */
+  PetscInt   bulk[2][SAM_BULK_COMPONENTS]; /* the same of each bulk stress */
+};
+
+PetscErrorCode SamHistoryClaimOption(void)
+{
+  PetscErrorCode code = PetscOptionsCreateDefault(); /* no PetscCall(): PETSc is not initialized yet */
+
+  return code ? code : PetscOptionsSetAlias(NULL, "-history", "-load_history");
+}
+
+/* What reading needs: whose options, and the file. */
+typedef struct {
+  const SamOptions   *from;
+  const SamArguments *arguments;
+  const char         *file;
+} Reader;
+
+/*
+  A value that has a column too: refused if it is given for this run. One that is only in an options file does not
+  count, and that is said: such files are shared by several runs.
+*/
+static PetscErrorCode Override(const Reader *r, const char name[], const char column[], PetscBool *set)
+{
+  const char *prefix = SamOptionsPrefix(r->from);
+  char        option[96];
+  PetscBool   given = PETSC_TRUE;
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(option, sizeof(option), "%s%s", prefix, name));
+  if (r->arguments) PetscCall(SamArgumentsHas(r->from->comm, r->arguments, option, &given));
+  PetscCheck(!given, r->from->comm, SAM_ERR_USER, "-%s: %s has the column %s: give one of them", option, r->file,
+             column);
+  *set = PETSC_FALSE;
+  PetscCallMPI(MPI_Comm_rank(r->from->comm, &rank));
+  if (rank == 0)
+    fprintf(stderr, "petsam: warning: -%s of the options file is not used: %s has the column %s\n", option, r->file,
+            column);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the column of a component, that of its load or that of its displacement, which decides what is prescribed. */
+static PetscErrorCode FindColumn(SamHistory h, MPI_Comm comm, const char file[], PetscInt c)
+{
+  const SamComponentName *name = &SamComponentNames[c];
+  const PetscInt          load = SamTableFind(&h->table, name->load), rigid = SamTableFind(&h->table, name->rigid);
+
+  PetscFunctionBegin;
+  PetscCheck(load < 0 || rigid < 0, comm, SAM_ERR_USER,
+             "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file,
+             h->table.header_line, name->load, name->rigid);
+  h->column[c]         = PetscMax(load, rigid);
+  h->constant.force[c] = rigid < 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads one component: its load or its displacement, from an option or a column, but only one of these four. */
+static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
+{
+  const SamOptions *const from   = r->from;
+  const SamComponentName *name   = &SamComponentNames[c];
+  const char             *prefix = SamOptionsPrefix(from), *column;
+  PetscReal               load = 0, rigid = 0;
+  PetscBool               has_load, has_rigid, help;
+  char                    text[96];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s), or instead %s", name->load_text, name->load_unit, name->rigid));
+  PetscCall(SamOptionsReal(from, name->load, text, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &load, &has_load));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", name->rigid_text, name->rigid_unit));
+  PetscCall(SamOptionsReal(from, name->rigid, text, SAM_RANGE_ANY, &rigid, &has_rigid));
+  PetscCall(FindColumn(h, from->comm, r->file, c));
+  column = h->constant.force[c] ? name->load : name->rigid;
+  if (h->column[c] >= 0) {
+    PetscCall(Override(r, name->load, column, &has_load));
+    PetscCall(Override(r, name->rigid, column, &has_rigid));
+  }
+  PetscCheck(!has_load || !has_rigid, from->comm, SAM_ERR_USER,
+             "-%s%s and -%s%s are conjugate, one follows from the other: give one of them", prefix, name->load, prefix,
+             name->rigid);
+  if (has_rigid) h->constant.force[c] = PETSC_FALSE;
+  h->constant.value[c] = has_rigid ? rigid : has_load ? load : 0;
+  if (c != SAM_COMPONENT_N) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamOptionsRequire(from, has_load || has_rigid || h->column[c] >= 0 || help, "load_n or -disp_z",
+                              "the normal force (N) or the approach (m)"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads one bulk stress, from an option or a column. */
+static PetscErrorCode ReadBulkStress(SamHistory h, const Reader *r, PetscInt body, PetscInt k)
+{
+  const SamBulkName *name     = &SamBulkNames[body][k];
+  PetscReal *const   constant = &h->constant.bulk_stress[body][k];
+  char               text[96];
+  PetscBool          set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (Pa), parallel to the surface", name->text));
+  PetscCall(SamOptionsReal(r->from, name->name, text, SAM_RANGE_ANY, constant, &set));
+  h->bulk[body][k] = SamTableFind(&h->table, name->name);
+  if (h->bulk[body][k] < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Override(r, name->name, name->name, &set));
+  *constant = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Checks that times increase, and that normal force and friction are >= 0. */
+static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
+{
+  const SamTable *t        = &h->table;
+  const PetscInt  least[2] = {SamTableFind(t, SamComponentNames[SAM_COMPONENT_N].load), h->friction};
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < t->rows; r++) {
+    const double *row = t->value + r * t->columns, *before = row - t->columns;
+
+    PetscCheck(r == 0 || row[h->time] > before[h->time], comm, SAM_ERR_USER,
+               "%s, line %" PetscInt_FMT ": time %g: expected more than %g, that of the row before", file, t->line[r],
+               row[h->time], before[h->time]);
+    for (PetscInt k = 0; k < 2; k++)
+      PetscCheck(least[k] < 0 || row[least[k]] >= 0, comm, SAM_ERR_USER,
+                 "%s, line %" PetscInt_FMT ": %s %g: expected a number >= 0", file, t->line[r], t->name[least[k]],
+                 row[least[k]]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The options database has the name -load_history (SamHistoryClaimOption()); the help and messages say -history. */
+static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t size, PetscBool *set)
+{
+  const SamOptionHelp option = {"history", "<file>", "text file with one row for each load step: see -help history", "",
+                                ""};
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsDescribe(from, &option));
+  SamOptionsKnow(from, "load_history", NULL);
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-load_history", file, size, set));
+  PetscCheck(!*set || file[0], from->comm, SAM_ERR_USER, "-history has no value: expected the name of a file");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, PetscInt *increments)
+{
+  PetscFunctionBegin;
+  *increments = 1;
+  PetscCall(SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, increments, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryDestroy(SamHistory *history)
+{
+  PetscFunctionBegin;
+  if (!*history) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamTableDestroy(&(*history)->table));
+  PetscCall(PetscFree(*history));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryGetCount(SamHistory h, PetscInt *steps)
+{
+  PetscFunctionBegin;
+  *steps = h->start + (h->rows - 1) * h->increments;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryGetIncrements(SamHistory h, PetscInt *increments)
+{
+  PetscFunctionBegin;
+  *increments = h->increments;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryGetStart(SamHistory h, PetscInt *steps)
+{
+  PetscFunctionBegin;
+  *steps = h->start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryHas(SamHistory h, PetscBool *friction_scale, PetscBool *bulk_stress)
+{
+  PetscFunctionBegin;
+  *friction_scale = h->friction >= 0;
+  *bulk_stress    = PETSC_FALSE;
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
+      if (h->bulk[body][k] >= 0 || h->constant.bulk_stress[body][k] != 0) *bulk_stress = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Row r of a column. Below, row -1 stands for the start, before the first row. */
+static double Entry(SamHistory h, PetscInt column, PetscInt r)
+{
+  return h->table.value[r * h->table.columns + column];
+}
+
+static double TimeOfRow(SamHistory h, PetscInt r)
+{
+  if (!h->table.rows) return (double)(r + 1);
+  if (r >= 0) return Entry(h, h->time, r);
+  if (Entry(h, h->time, 0) > (double)h->before.time) return (double)h->before.time;
+  return Entry(h, h->time, 0) - (h->table.rows > 1 ? Entry(h, h->time, 1) - Entry(h, h->time, 0) : 1);
+}
+
+/*
+  Checks that each row's change can be divided into its steps: that it is a number, and that the times of the steps
+  differ.
+*/
+static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[])
+{
+  const SamTable *t = &h->table;
+
+  PetscFunctionBegin;
+  for (PetscInt r = h->start < h->increments ? 1 : 0; r < t->rows; r++) {
+    const double now = TimeOfRow(h, r), before = TimeOfRow(h, r - 1), each = (now - before) / (double)h->increments;
+
+    for (PetscInt c = 0; c < t->columns; c++)
+      PetscCheck(isfinite(Entry(h, c, r) - (c == h->time ? before
+                                            : r > 0      ? Entry(h, c, r - 1)
+                                                         : 0)),
+                 comm, SAM_ERR_USER, "%s, line %" PetscInt_FMT ": %s %g: its change since the row before is too large",
+                 file, t->line[r], t->name[c], Entry(h, c, r));
+    PetscCheck(each >= TIME_ROUNDING * PetscMax(fabs(now), fabs(before)) && each > 0, comm, SAM_ERR_USER,
+               "%s, line %" PetscInt_FMT ": time %.17g: too near to %.17g, that of the row before, for -steps "
+               "%" PetscInt_FMT ": its steps would have the same time",
+               file, t->line[r], now, before, h->increments);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Part k of the control (SamControlPart()), which has a column, or is constant. */
+static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
+{
+  const PetscInt bulk   = k - SAM_COMPONENTS;
+  const PetscInt column = bulk < 0 ? h->column[k] : h->bulk[bulk / SAM_BULK_COMPONENTS][bulk % SAM_BULK_COMPONENTS];
+
+  if (r < 0) return (double)SamControlPart(&h->before, k);
+  return column >= 0 ? Entry(h, column, r) : (double)SamControlPart(&h->constant, k);
+}
+
+/* Whether nothing is prescribed in the first row that differs from the start. */
+static PetscBool IsAtRest(SamHistory h)
+{
+  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++)
+    if (ValueOfRow(h, k, 0) != ValueOfRow(h, k, -1)) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* The names of columns that there may be, NULL at the end: those of options, but for time and friction. */
+#define NAMES (2 + 2 * SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS + 1)
+static void ListNames(const char *names[NAMES])
+{
+  PetscInt n = 0;
+
+  names[n++] = "time";
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].load;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].rigid;
+  names[n++] = FRICTION;
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
+    names[n++] = SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name;
+  names[n] = NULL;
+}
+
+static void TakeTable(SamHistory h)
+{
+  h->rows     = h->table.rows;
+  h->time     = SamTableFind(&h->table, "time");
+  h->friction = SamTableFind(&h->table, FRICTION);
+}
+
+static PetscErrorCode Create(SamHistory *history)
+{
+  SamHistory h;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&h));
+  *history      = h;
+  h->rows       = 1;
+  h->increments = 1;
+  h->time = h->friction = -1;
+  PetscCall(SamControlInitialize(&h->constant));
+  PetscCall(SamControlInitialize(&h->before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void SetIncrements(SamHistory h, PetscInt increments)
+{
+  h->increments = increments;
+  h->start      = h->table.rows && IsAtRest(h) ? 1 : increments;
+}
+
+static PetscErrorCode CheckTable(SamHistory h, MPI_Comm comm, const char file[])
+{
+  PetscFunctionBegin;
+  PetscCall(CheckRows(h, comm, file));
+  PetscCall(CheckChanges(h, comm, file));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const SamControl *before,
+                                const char columns[], PetscInt rows, const double values[], PetscInt increments,
+                                SamHistory *history)
+{
+  static const char what[] = "history";
+
+  const char *names[NAMES];
+  SamHistory  h;
+
+  PetscFunctionBegin;
+  PetscCall(Create(history));
+  h           = *history;
+  h->constant = *constant;
+  ListNames(names);
+  PetscCall(SamTableCreate(comm, what, columns, rows, values, names, &h->table));
+  TakeTable(h);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(FindColumn(h, comm, what, c));
+  PetscCheck(increments > 0 && increments <= PETSC_MAX_INT / rows, comm, SAM_ERR_USER,
+             "%s: %" PetscInt_FMT " increments of %" PetscInt_FMT " rows: expected a number > 0 that can be counted",
+             what, increments, rows);
+  PetscCheck(h->column[SAM_COMPONENT_N] >= 0, comm, SAM_ERR_USER, "%s: expected the column load_n or disp_z", what);
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++) {
+    const PetscInt body = k / SAM_BULK_COMPONENTS, b = k % SAM_BULK_COMPONENTS;
+
+    h->bulk[body][b] = SamTableFind(&h->table, SamBulkNames[body][b].name);
+  }
+  if (before) h->before = *before;
+  for (PetscInt c = 0; c < SAM_COMPONENTS && before; c++) /* a load and a displacement have nothing between them */
+    if (before->force[c] != h->constant.force[c]) h->before.value[c] = ValueOfRow(h, c, 0);
+  SetIncrements(h, increments);
+  PetscCall(CheckTable(h, comm, what));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArguments *arguments, SamHistory *history)
+{
+  SamHistory  h;
+  char        file[PETSC_MAX_PATH_LEN] = "";
+  Reader      reader                   = {.from = from, .arguments = arguments, .file = file};
+  PetscInt    increments               = 1;
+  const char *names[NAMES];
+  PetscBool   has_file;
+
+  PetscFunctionBegin;
+  PetscCall(Create(history));
+  h = *history;
+  PetscCall(SamOptionsHeading(from, "Loads and displacements"));
+  PetscCall(ReadFileName(from, file, sizeof(file), &has_file));
+  PetscCall(SamHistoryReadIncrements(from, &increments));
+  ListNames(names);
+  if (has_file) PetscCall(SamTableRead(from->comm, "history", file, names, &h->table));
+  if (has_file) TakeTable(h);
+  PetscCheck(increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
+             "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
+             " rows is more steps than can be counted (%" PetscInt_FMT ")",
+             SamOptionsPrefix(from), increments, h->rows, PETSC_MAX_INT);
+  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) /* so that none is taken for another one misspelled */
+    SamOptionsKnow(from, k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load, NULL);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) PetscCall(ReadBulkStress(h, &reader, body, k));
+  SetIncrements(h, increments);
+  if (has_file) PetscCall(CheckTable(h, from->comm, file));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static double FrictionOfRow(SamHistory h, PetscInt r)
+{
+  return h->friction >= 0 ? Entry(h, h->friction, PetscMax(r, 0)) : 1;
+}
+
+PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
+{
+  const PetscInt r = k < h->start ? 0 : 1 + (k - h->start) / h->increments, steps = r ? h->increments : h->start;
+  const PetscInt i    = (r ? (k - h->start) % h->increments : k) + 1;
+  const double   part = (double)i / (double)steps;
+
+  PetscFunctionBegin;
+  *control = h->constant;
+/* linear between the rows; at a row exactly its own value */
+#define BETWEEN(before, after) (i == steps ? (after) : (before) + part * ((after) - (before)))
+  control->time           = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
+  control->friction_scale = BETWEEN(FrictionOfRow(h, r - 1), FrictionOfRow(h, r));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    control->value[c] = BETWEEN(ValueOfRow(h, c, r - 1), ValueOfRow(h, c, r));
+  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
+    control->bulk_stress[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS] =
+      BETWEEN(ValueOfRow(h, SAM_COMPONENTS + n, r - 1), ValueOfRow(h, SAM_COMPONENTS + n, r));
+#undef BETWEEN
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,227 @@
+/* The life of a joint: a cycle at a time is computed and written, then some are jumped over. */
+#include "simulationimpl.h"
+
+/* An error of a fixed jump that is told. */
+#define LARGE 0.1
+
+/* ---- what the life asks for ---- */
+
+/* Step `step` of the cycle; the steps before, up to the history's first row, lead to its start. */
+static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, SamControl *control)
+{
+  SamSimulation s = (SamSimulation)context;
+  PetscInt      start;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetStart(s->history, &start));
+  PetscCall(SamHistoryGetStep(s->history, start + step, control));
+  control->friction_scale *= SamPlanFriction(&s->plan, cycles);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The time of a step in the life: all cycles take as long as the first one. */
+static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
+{
+  SamControl first, last;
+  PetscInt   start;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetStart(s->history, &start));
+  PetscCall(SamHistoryGetStep(s->history, start - 1, &first));
+  PetscCall(SamHistoryGetStep(s->history, s->needs.steps - 1, &last));
+  *time += cycles * (last.time - first.time);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Gives the numbers of the tried step its cycle, and its time in the life. */
+static PetscErrorCode Place(SamSimulation s, PetscReal cycles, PetscReal time)
+{
+  SamState state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  if (!SamStateHasTried(state)) PetscCall(SamStateBegin(state)); /* a jump has failed, and no step */
+  *SamStateNumbers(state, SamStateFindNumber(state, "cycle"), SAM_TRIED) = (double)cycles;
+  *SamStateNumbers(state, SamStateFindNumber(state, "time"), SAM_TRIED)  = (double)time;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes a step of a computed cycle. */
+static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, const SamStep *result)
+{
+  const SamSimulation s      = (SamSimulation)context;
+  SamStep             told   = *result;
+  const PetscBool     failed = told.status == SAM_STATUS_NOT_CONVERGED;
+  PetscInt            start;
+  PetscBool           due;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetStart(s->history, &start));
+  due = SamPlanIsOutput(&s->plan, cycles) && ((step + 1) % s->output_every == 0 || step + 1 == s->needs.steps - start);
+  if (!step) s->last_time = PETSC_NINFINITY; /* the fields of the step before are not those of a step in the file */
+  PetscCall(TimeOf(s, cycles, &told.control.time));
+  PetscCall(Place(s, cycles, told.control.time));
+  if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &told));
+  s->point.steps++;
+  s->point.times = SamOutputAddTime(s->point.times, told.control.time);
+  PetscCall(SamSimulationTell(
+    s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
+  PetscCall(SamSimulationWriteStep(s, &told, due || failed));
+  PetscCall(SamSimulationExamine(s, start + step, &told));
+  s->told = SamStepIsSolved(&told) ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the life ---- */
+
+static PetscErrorCode TellMessage(SamSimulation s, const char where[], const SamStep *step)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_MESSAGE, .text = where, .result = step}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves the steps up to the history's first row, where the cycle starts. They do not wear and are not written. */
+static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
+{
+  PetscInt start;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetStart(s->history, &start));
+  for (PetscInt k = 0; k < start && !*ended; k++) {
+    SamControl control;
+    SamStep    step;
+
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    PetscCall(SamContactTry(s->setup.contact, &control, &step));
+    *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
+    if (*ended) {
+      PetscCall(TellMessage(s, "before the first cycle", &step));
+      s->point.worst = step.status;
+    } else {
+      PetscCall(SamContactCommit(s->setup.contact));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Marks in the history a step that failed before its cycle was written, as one of the cycle after the last written. */
+static PetscErrorCode WriteFailure(SamSimulation s, const SamLifeReport *r)
+{
+  SamStep  step = r->step;
+  SamState state;
+
+  PetscFunctionBegin;
+  PetscCall(TimeOf(s, r->cycles + 1, &step.control.time));
+  PetscCall(Place(s, r->cycles, step.control.time));
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  *SamStateNumbers(state, SamStateFindNumber(state, "status"), SAM_TRIED) = step.status;
+  s->point.steps++;
+  PetscCall(SamSimulationWriteStep(s, &step, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Says where a step failed, or reached the edge, and ends the life there. */
+static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const char where[])
+{
+  SamStep said = r->step;
+  char    text[96];
+
+  PetscFunctionBegin;
+  PetscCall(SamSimulationAdviseEdge(s, &said));
+  (void)snprintf(text, sizeof(text), "%s %.10g cycles, step %" PetscInt_FMT " of the cycle", where, (double)r->cycles,
+                 r->at + 1);
+  PetscCall(TellMessage(s, text, &said));
+  s->point.worst = r->step.status;
+  if (!s->told) PetscCall(SamSimulationWriteLastFields(s));
+  if (!s->told && !SamStepIsSolved(&r->step)) PetscCall(WriteFailure(s, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A jump that is beyond all bounds because the user has fixed it, once. */
+static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
+{
+  const SamLifeSettings *set  = &s->plan.life;
+  SamStep                said = {.status = SAM_STATUS_CONVERGED, .setting = "wear_jump"};
+
+  PetscFunctionBegin;
+  if (!set->fixed || s->warned) PetscFunctionReturn(PETSC_SUCCESS);
+  if (set->type == SAM_LIFE_EXPLICIT && r->jump > r->limit)
+    (void)snprintf(said.message, sizeof(said.message),
+                   "after %.10g cycles: explicit jumps over more than %.4g cycles are not stable: pressure and depth "
+                   "are wrong",
+                   (double)r->cycles, (double)r->limit);
+  else if (r->error > LARGE)
+    (void)snprintf(said.message, sizeof(said.message), "after %.10g cycles: the error of the last jump is %.2g",
+                   (double)r->cycles, (double)r->error);
+  s->warned = said.message[0] ? PETSC_TRUE : s->warned;
+  PetscCall(TellMessage(s, "", &said));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes a cycle and writes it; `ended`: it failed, or was the last one. */
+static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
+{
+  SamLifeReport r;
+
+  PetscFunctionBegin;
+  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_BEGINS}));
+  PetscCall(SamLifeCompute(s->life, &r));
+  *ended = r.cycles >= s->plan.cycles || r.step.status != SAM_STATUS_CONVERGED;
+  if (r.step.status != SAM_STATUS_CONVERGED) PetscCall(EndLife(s, &r, "after"));
+  if (!SamStepIsSolved(&r.step)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s->warned && r.step.status == SAM_STATUS_CONVERGED) PetscCall(TellMessage(s, "", &r.step));
+  s->warned = r.step.message[0] ? PETSC_TRUE : s->warned;
+  PetscCall(WarnOfJump(s, &r));
+  s->writing = PETSC_TRUE;
+  PetscCall(SamLifeRecord(s->life, &r));
+  if (s->output) PetscCall(SamOutputWriteCycle(s->output));
+  s->writing = PETSC_FALSE;
+  s->point.rows++;
+  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE, .cycle = &r, .cycles = s->plan.cycles}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Jump(SamSimulation s, PetscBool *ended)
+{
+  SamLifeState  state;
+  SamLifeReport r;
+
+  PetscFunctionBegin;
+  PetscCall(SamLifeGetState(s->life, &state));
+  PetscCall(SamLifeJump(s->life, SamPlanNextStop(&s->plan, state.cycles), &r));
+  *ended = SamStepIsSolved(&r.step) ? PETSC_FALSE : PETSC_TRUE;
+  if (*ended) PetscCall(EndLife(s, &r, "in the cycles after"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationLive(SamSimulation s)
+{
+  PetscBool ended = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (!s->point.restarted) PetscCall(Start(s, &ended));
+  while (!ended && !s->stopped) {
+    PetscCall(ComputeCycle(s, &ended));
+    if (!ended) PetscCall(Jump(s, &ended));
+    if (!ended) PetscCall(SamSimulationCheckpoint(s));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationCreateLife(SamSimulation s)
+{
+  SamLifeCycle       cycle = {.control = Control, .solved = WriteStep, .context = s};
+  SamOutputSettings *set   = &s->output_settings;
+  PetscInt           start;
+
+  PetscFunctionBegin;
+  if (s->plan.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamHistoryGetStart(s->history, &start));
+  cycle.steps = s->needs.steps - start;
+  PetscCall(SamLifeCreate(s->setup.contact, &cycle, &s->plan.life, &s->life));
+  PetscCall(SamLifeGetSeries(s->life, &set->cycles, &set->cycles_name));
+  s->point.life   = s->life;
+  s->point.cycles = s->plan.cycles;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,195 @@
+/* What a simulation reads: contact, load program or life, files; and what of it does not go together. */
+#include "simulationimpl.h"
+#include <petsam/private/arguments.h>
+#include <petsam/private/lawimpl.h>
+
+#define FLUSH 2.0 /* s that steps without fields wait to be written */
+
+/* Refuses bulk stress of a rigid body, and of bodies that bear none. */
+static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control, SamElasticityTraits traits,
+                                      const SamOptions *from)
+{
+  const char       *prefix = SamOptionsPrefix(from);
+  SamElasticityType type;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetType(s->setup.elasticity, &type));
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
+      const double stress = (double)control->bulk_stress[body][k], young = (double)s->setup.pair.young[body];
+
+      PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
+                 "-%s%s, or its column in -history: %g is more than Young's modulus, %g", prefix,
+                 SamBulkNames[body][k].name, stress, young);
+
+      PetscCheck(stress == 0 || !isinf(s->setup.pair.young[body]), from->comm, SAM_ERR_USER,
+                 "-%s%s, or its column in -history: %g: -%sbody%" PetscInt_FMT
+                 "_young is inf: a rigid body does not stretch",
+                 prefix, SamBulkNames[body][k].name, stress, prefix, body + 1);
+      PetscCheck(stress == 0 || traits.stretch, from->comm, SAM_ERR_USER,
+                 "-%s%s, or its column in -history: %g: has no meaning with -%selasticity %s, whose bodies bear none",
+                 prefix, SamBulkNames[body][k].name, stress, prefix, type);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses moments, rotations and bulk stress where the bodies have none, by the name that the user gave. */
+static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
+{
+  SamElasticityTraits traits;
+  SamElasticityType   type;
+  PetscInt            count;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
+  PetscCall(SamElasticityGetType(s->setup.elasticity, &type));
+  PetscCall(SamHistoryGetCount(s->history, &count));
+  for (PetscInt k = 0; k < count; k++) {
+    SamControl control;
+
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    PetscCall(CheckBulkStress(s, &control, traits, from));
+    for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
+      PetscCheck(control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX], from->comm, SAM_ERR_USER,
+                 "-%s%s %g: has no meaning with -%selasticity %s, which has no such moment or rotation",
+                 SamOptionsPrefix(from), control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid,
+                 (double)control.value[c], SamOptionsPrefix(from), type);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses laws that do not go with the rest. */
+static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
+{
+  const SamLaw *laws;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetLaws(s->setup.problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscCheck(!laws[k]->needs_friction || s->needs.friction, from->comm, SAM_ERR_USER,
+               "-%s is given without -friction: it acts where the surfaces slip under friction", laws[k]->option);
+    PetscCheck(!laws[k]->forbids_jumps || !s->needs.life, from->comm, SAM_ERR_USER,
+               "-%s with -wear_cycles: cycle jumps ignore what it changes in skipped cycles: repeat the rows in "
+               "-history, or omit one option",
+               laws[k]->option);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads how cycles are lived; a table of friction gives the problem its coefficient at the start. */
+static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOptions *from)
+{
+  SamPlan *const w = &s->plan;
+
+  PetscFunctionBegin;
+  PetscCall(SamPlanSetFromOptions(w, given, from));
+  if (w->points) PetscCall(SamProblemSetFriction(s->setup.problem, w->friction[0]));
+  PetscCall(SamProblemHasFriction(s->setup.problem, &s->needs.friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
+{
+  PetscBool help;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHeading(from, "Results and resources"));
+  PetscCall(
+    SamOptionsFile(from, "output", "HDF5 file of the results", s->filename, sizeof(s->filename), &s->has_output));
+  s->output_every = 1;
+  PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
+                          &s->output_every, NULL));
+  PetscCall(SamOptionsBool(from, "stiffness", "tangent stiffness of every step, for steps that go on and reverse",
+                           &s->needs.stiffness, NULL));
+  PetscCall(SamOutputSettingsSetFromOptions(&s->output_settings, from));
+  s->output_settings.flush = FLUSH;
+  PetscCall(SamOptionsReal(from, "output_flush", "s that steps without fields may wait to be written, 0: none",
+                           SAM_RANGE_NONNEGATIVE, &s->output_settings.flush, NULL));
+  PetscCall(SamOutputSettingsAddLaws(&s->output_settings, s->setup.problem));
+  PetscCall(SamPrintHelp(&help));
+  PetscCheck(!s->needs.stiffness || s->has_output || help, from->comm, SAM_ERR_USER,
+             "-stiffness is given without -output, the file that it goes to");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Bodies, gap, friction; and files. */
+static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
+{
+  SamElasticityTraits traits;
+
+  PetscFunctionBegin;
+  PetscCall(SamSetupReadOptions(&s->setup, from));
+  PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
+  s->needs.coupled = traits.coupled;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadFiles(SamSimulation s, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointsCreateFromOptions(from, &s->checkpoints));
+  PetscCall(SamCheckpointsSetSignals(s->checkpoints, s->signals));
+  s->restart_gap = SamCheckpointsChangeGap(s->checkpoints);
+  PetscCall(ReadResults(s, from));
+  PetscCall(SamProblemGetBytes(s->setup.problem, &s->needs.laws));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes over a load program, and `cycles` of it (0: once). */
+static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal cycles, const SamOptions *from)
+{
+  PetscBool help;
+
+  PetscFunctionBegin;
+  if (s->history != history) PetscCall(SamHistoryDestroy(&s->history));
+  s->history       = history;
+  s->point.history = history;
+  s->needs.life    = cycles > 0;
+  PetscCall(SamHistoryGetCount(history, &s->needs.steps));
+  PetscCall(SamPrintHelp(&help));
+  if (help) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamPlanSetCycles(&s->plan, cycles, s->setup.problem, from));
+  PetscCall(SamPlanCheckCycle(&s->plan, history, from));
+  PetscCall(CheckLaws(s, from));
+  PetscCall(CheckComponents(s, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *from, const SamArguments *arguments)
+{
+  PetscFunctionBegin;
+  PetscCall(ReadContact(s, from));
+  PetscCall(SamHistoryCreateFromOptions(from, arguments, &s->history));
+  PetscCall(ReadPlan(s, PETSC_FALSE, from));
+  PetscCall(SetProgram(s, s->history, s->plan.cycles, from));
+  PetscCall(ReadFiles(s, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation s, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCall(ReadContact(s, from));
+  PetscCall(ReadPlan(s, PETSC_TRUE, from));
+  PetscCall(ReadFiles(s, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetProgram(SamSimulation s, SamHistory *history, PetscReal cycles)
+{
+  const SamOptions from = {s->comm, NULL};
+  SamHistory       h    = *history;
+
+  PetscFunctionBegin;
+  *history = NULL;
+  PetscCall(SamOutputDestroy(&s->output)); /* of a run that ended with an error */
+  PetscCall(SamLifeDestroy(&s->life));
+  s->point    = (SamSimulationPoint){.steps = 0};
+  s->start    = (SamSimulationStart){.steps = 0};
+  s->most     = (SamLoadsMost){.steps = 0};
+  s->prepared = s->stopped = s->examined = s->warned = s->told = PETSC_FALSE;
+  PetscCall(PetscArrayzero(s->advised, SAM_LAWS));
+  PetscCall(SetProgram(s, h, cycles, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,62 @@
+/* The parameters that define a run, named as its options. */
+#include "simulationimpl.h"
+
+/*
+  The loads and bulk stresses of the last step. The steps of a history are in /history of the results, and checkpoints
+  compare them themselves (checkpoints.c).
+*/
+static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
+{
+  SamControl control;
+  PetscInt   count, increments;
+  PetscReal  steps;
+  PetscBool  friction, bulk;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetCount(history, &count));
+  PetscCall(SamHistoryGetIncrements(history, &increments));
+  steps = (PetscReal)increments;
+  PetscCall(SamParametersAddReals(p, "steps", PETSC_TRUE, 1, &steps));
+  PetscCall(SamHistoryGetStep(history, count - 1, &control));
+  PetscCall(SamHistoryHas(history, &friction, &bulk));
+  for (PetscInt k = 0; k < (bulk ? SAM_CONTROL_PARTS : SAM_COMPONENTS); k++) {
+    const PetscReal value = SamControlPart(&control, k);
+
+    PetscCall(SamParametersAddReals(p, SamControlPartName(&control, k), PETSC_FALSE, 1, &value));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A life can go on with more cycles, and in other jumps. */
+static PetscErrorCode AddLife(SamParameters *p, const SamPlan *w)
+{
+  uint64_t sum = 0;
+
+  PetscFunctionBegin;
+  if (w->cycles > 0) {
+    PetscCall(SamParametersAddReals(p, "wear_cycles", PETSC_FALSE, 1, &w->cycles));
+    PetscCall(
+      SamParametersAddText(p, "wear_type", PETSC_FALSE, w->life.type == SAM_LIFE_EXPLICIT ? "explicit" : "implicit"));
+    PetscCall(SamParametersAddReals(p, w->life.fixed ? "wear_jump" : "wear_rtol", PETSC_FALSE, 1,
+                                    w->life.fixed ? &w->life.jump : &w->life.rtol));
+  }
+  if (!w->points) {
+    PetscCall(SamParametersAddText(p, "wear_friction", PETSC_TRUE, "none"));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt k = 0; k < w->points; k++)
+    sum = SamHashMix(sum + SamHashBits(w->at[k]) + 3 * SamHashBits(w->friction[k]));
+  PetscCall(SamParametersAddChecksum(p, "wear_friction", sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationCollectParameters(SamSimulation s)
+{
+  PetscFunctionBegin;
+  s->parameters.count = 0;
+  PetscCall(SamSetupAddParameters(&s->setup, &s->parameters));
+  PetscCall(AddLoads(&s->parameters, s->history));
+  PetscCall(AddLife(&s->parameters, &s->plan));
+  s->parameters.free = s->restart_gap ? "gap_" : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,44 @@
+/* What a run is asked to wear: laws, and the cycles of a life. */
+#ifndef PETSAM_PLAN_H
+#define PETSAM_PLAN_H
+
+#include <petsam/life.h>
+#include <petsam/setup.h>
+#include <petsam/history.h>
+
+#define SAM_PLAN_OUTPUTS 256 /* most cycles whose fields are asked for */
+
+typedef struct {
+  PetscReal       cycles; /* of a life; 0: the history runs once, and every step wears */
+  SamLifeSettings life;
+  PetscInt        outputs;
+  PetscReal       output[SAM_PLAN_OUTPUTS]; /* cycles whose fields are written, increasing; the last ones always are */
+  PetscInt        points;                   /* of the table of friction; 0: none */
+  PetscReal      *at, *friction;            /* its cycles, increasing, and the coefficients there */
+} SamPlan;
+
+/*
+  SamPlanSetFromOptions - reads the -wear_ options of a life, and the table of friction; `given`: the cycles come from
+  SamPlanSetCycles(), which the other case calls too. Collective. Errors: SAM_ERR_USER naming the option, or file and
+  line; SAM_ERR_FILE for a table that cannot be read.
+  SamPlanSetCycles - how many cycles; 0: none, the steps wear one by one. Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamPlanSetFromOptions(SamPlan *plan, PetscBool given, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamPlanSetCycles(SamPlan *plan, PetscReal cycles, SamProblem problem,
+                                             const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamPlanDestroy(SamPlan *plan);
+/*
+  SamPlanCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again.
+  Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamPlanCheckCycle(const SamPlan *plan, SamHistory history, const SamOptions *from);
+/* SamPlanNextStop - after so many cycles, up to where they may be jumped over. Not collective. */
+PETSC_INTERN PetscReal SamPlanNextStop(const SamPlan *plan, PetscReal cycles);
+/* SamPlanCountOutputs - the number of cycles whose fields are asked for. Not collective. */
+PETSC_INTERN PetscInt SamPlanCountOutputs(const SamPlan *plan);
+/* SamPlanIsOutput - whether the fields of the cycle after so many are asked for. Not collective. */
+PETSC_INTERN PetscBool SamPlanIsOutput(const SamPlan *plan, PetscReal cycles);
+/* SamPlanFriction - the friction after so many cycles over that at the start. Not collective. */
+PETSC_INTERN PetscReal SamPlanFriction(const SamPlan *plan, PetscReal cycles);
+
+#endif

@@ -1,0 +1,161 @@
+/* The results file of a simulation: created, gone on with, or begun as a branch; and how large it will be. */
+#include "simulationimpl.h"
+#include <string.h>
+#include <unistd.h>
+
+/* ---- opening ---- */
+
+static PetscErrorCode Create(SamSimulation s)
+{
+  char *all;
+
+  PetscFunctionBegin;
+  PetscCall(SamOutputCreate(s->setup.grid, s->filename, &s->output_settings, &s->output));
+  PetscCall(PetscOptionsGetAll(NULL, &all));
+  PetscCall(SamOutputSetText(s->output, "options", all));
+  PetscCall(PetscFree(all));
+  PetscCall(SamOutputSetParameters(s->output, &s->parameters));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Opens the results of the stopped simulation, up to its checkpoint. */
+static PetscErrorCode Continue(SamSimulation s)
+{
+  const SamSimulationPoint *p     = &s->point;
+  const SamOutputPoint      point = {
+         .first = p->first, .steps = p->steps - p->first, .cycles = p->rows - p->first_row, .times = p->times};
+  SamControl last;
+
+  PetscFunctionBegin;
+  if (!s->life) {
+    PetscCall(SamHistoryGetStep(s->history, p->steps - 1, &last));
+    s->last_time = last.time;
+  }
+  PetscCall(SamOutputContinue(s->setup.grid, s->filename, &s->output_settings, &s->parameters, &point, &s->output));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A file of the steps after the checkpoint. It says what they follow. */
+static PetscErrorCode Branch(SamSimulation s, const char checkpoint[])
+{
+  SamSimulationPoint *p    = &s->point;
+  const PetscReal     step = (PetscReal)p->steps;
+  SamLifeState        life;
+
+  PetscFunctionBegin;
+  p->first     = p->steps;
+  p->first_row = p->rows;
+  p->times     = 0;
+  PetscCall(Create(s));
+  PetscCall(SamOutputSetReals(s->output, SAM_OUTPUT_BRANCH, 1, &step));
+  PetscCall(SamOutputSetText(s->output, "branch_checkpoint", checkpoint));
+  PetscCall(SamOutputSetText(s->output, "branch_results", p->results[0] ? p->results : "none"));
+  PetscCall(SamOutputSetText(s->output, "branch_gap", s->restart_gap ? "of this run" : "as before"));
+  s->start.branch = PETSC_TRUE;
+  s->start.gap    = s->restart_gap;
+  PetscCall(PetscStrncpy(s->start.followed, p->results, sizeof(s->start.followed)));
+  if (!s->life) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamLifeGetState(s->life, &life));
+  PetscCall(SamOutputSetReals(s->output, "branch_cycles", 1, &life.cycles));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether there is a file of that name, by rank 0. */
+static PetscErrorCode Exists(SamGrid grid, const char filename[], PetscBool *exists)
+{
+  PetscMPIInt rank, there = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  if (!rank) there = access(filename, F_OK) == 0;
+  PetscCallMPI(MPI_Bcast(&there, 1, MPI_INT, 0, grid->comm));
+  *exists = there != 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationOpenResults(SamSimulation s, const char checkpoint[])
+{
+  PetscBool exists;
+
+  PetscFunctionBegin;
+  if (checkpoint) {
+    PetscCall(Exists(s->setup.grid, s->filename, &exists));
+    PetscCheck(
+      !exists || !s->restart_gap, s->comm, SAM_ERR_USER,
+      "-output %s: is there, and results with another gap (-restart_gap) need a file of their own: give another "
+      "name",
+      s->filename);
+    if (!exists && strcmp(s->filename, s->point.results))
+      PetscCall(Branch(s, checkpoint));
+    else /* where the stopped run's own file is missing, that is an error */
+      PetscCall(Continue(s));
+  } else {
+    PetscCall(Create(s));
+  }
+  PetscCall(PetscStrncpy(s->point.results, s->filename, sizeof(s->point.results)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- size ---- */
+
+/* Steps first + 1 ... last whose fields are saved. */
+static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
+{
+  return last / s->output_every - first / s->output_every + (last > first && last % s->output_every ? 1 : 0);
+}
+
+/* A size that a person reads. */
+static void PrintBytes(double bytes, char text[], size_t size)
+{
+  const int    power   = bytes < 1e6 ? 1 : bytes < 1e9 ? 2 : bytes < 1e12 ? 3 : 4;
+  const double units[] = {1, 1e3, 1e6, 1e9, 1e12};
+
+  (void)snprintf(text, size, "%.3g %cB", bytes / units[power], " kMGT"[power]);
+}
+
+/* The size of the whole file, and what is still to come of it. In a life the cycles that will be computed count not. */
+static PetscErrorCode Estimate(SamSimulation s, double *whole, double *rest)
+{
+  const SamSimulationPoint *p    = &s->point;
+  const PetscInt            last = s->needs.steps;
+  PetscInt                  start, cycles;
+
+  PetscFunctionBegin;
+  if (s->life) {
+    PetscCall(SamHistoryGetIncrements(s->history, &start));
+    cycles = SamPlanCountOutputs(&s->plan);
+    PetscCall(SamOutputForecast(s->output, (double)cycles * (double)(last - start),
+                                (double)cycles * (double)CountSaved(s, 0, last - start), whole));
+    *rest = *whole;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamOutputForecast(s->output, (double)(last - p->first), (double)CountSaved(s, p->first, last), whole));
+  PetscCall(SamOutputForecast(s->output, (double)(last - p->steps), (double)CountSaved(s, p->steps, last), rest));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
+{
+  double whole, rest, space;
+  char   words[3][32];
+  char   advice[PETSC_MAX_PATH_LEN + 200];
+
+  PetscFunctionBegin;
+  PetscCall(Estimate(s, &whole, &rest));
+  PetscCall(SamOutputGetSpace(s->output, &space));
+  PrintBytes(whole, words[0], sizeof(words[0]));
+  PrintBytes(rest, words[1], sizeof(words[1]));
+  PrintBytes(space, words[2], sizeof(words[2]));
+  (void)snprintf(text, size, "%s %s, %s free there",
+                 s->life                           ? "at least"
+                 : s->output_settings.compress > 0 ? "at most"
+                                                   : "about",
+                 words[0], words[2]);
+  if (rest <= space) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(advice, sizeof(advice),
+                 "-output %s: needs %s %s, and %s are free there: a larger -output_every, fewer -output_fields, or "
+                 "-output_single make it smaller",
+                 s->filename, s->output_settings.compress > 0 ? "up to" : "about", words[1], words[2]);
+  PetscCall(SamSimulationWarn(s, advice, ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,340 @@
+/* A simulation: makes the objects, solves the load steps, writes results and checkpoints. */
+#include "simulationimpl.h"
+
+/* ---- creation ---- */
+
+PetscErrorCode SamSimulationCreate(MPI_Comm comm, SamSimulation *simulation)
+{
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(PetscNew(simulation));
+  (*simulation)->comm = comm;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
+{
+  const SamSimulation s = *simulation;
+
+  PetscFunctionBegin;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOutputDestroy(&s->output));
+  PetscCall(SamCheckpointsDestroy(&s->checkpoints));
+  PetscCall(SamLifeDestroy(&s->life));
+  PetscCall(SamPlanDestroy(&s->plan));
+  PetscCall(SamHistoryDestroy(&s->history));
+  PetscCall(SamSetupDestroy(&s->setup));
+  PetscCall(PetscFree(*simulation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetMonitor(SamSimulation s, SamSimulationMonitor monitor, void *context)
+{
+  PetscFunctionBegin;
+  s->monitor = monitor;
+  s->context = context;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetSignals(SamSimulation s, volatile sig_atomic_t signals[2])
+{
+  PetscFunctionBegin;
+  s->signals = signals;
+  if (s->checkpoints) PetscCall(SamCheckpointsSetSignals(s->checkpoints, signals));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationTell(SamSimulation s, const SamSimulationNews *news)
+{
+  PetscFunctionBegin;
+  if (s->monitor) PetscCall(s->monitor(s->context, s->setup.contact, news));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamSimulationTell((SamSimulation)simulation,
+                              &(SamSimulationNews){.kind = SAM_NEWS_ADVICE, .text = text, .setting = setting}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- set-up ---- */
+
+/* Makes numbers of each step what varies. */
+static PetscErrorCode Offer(SamSimulation s)
+{
+  SamState  state;
+  PetscBool friction, bulk;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryHas(s->history, &friction, &bulk));
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  if (friction || s->plan.points) PetscCall(SamStateOfferNumber(state, "friction_scale", 1));
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS && bulk; k++)
+    PetscCall(SamStateOfferNumber(state, SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name, 0));
+  if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What follows from contact and load program together. */
+static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSimulationCreateLife(s));
+  PetscCall(Offer(s));
+  PetscCall(SamOutputSettingsPrepare(&s->output_settings, s->setup.contact, from));
+  PetscCall(SamSimulationCollectParameters(s));
+  s->prepared = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
+{
+  PetscBool help;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamSetupCreateContact(&s->setup, from));
+  if (s->history && !help) PetscCall(Prepare(s, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- results ---- */
+
+/* Restores the state of a stopped simulation, and says where that was. */
+static PetscErrorCode Restart(SamSimulation s)
+{
+  SamSimulationStart *const start = &s->start;
+  SamLifeState              life;
+
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointsRestart(s->checkpoints, s->setup.contact, &s->parameters, &s->point));
+  PetscCall(PetscSNPrintf(start->after, sizeof(start->after), "step %" PetscInt_FMT, s->point.steps));
+  if (!s->life) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamLifeGetState(s->life, &life));
+  (void)snprintf(start->after, sizeof(start->after), "%.10g cycles", (double)life.cycles);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Restores, opens the results, and tells of the beginning. */
+static PetscErrorCode Begin(SamSimulation s)
+{
+  SamSimulationStart *const start = &s->start;
+
+  PetscFunctionBegin;
+  s->last_time = PETSC_NINFINITY;
+  start->steps = s->needs.steps;
+  PetscCall(SamCheckpointsGetNames(s->checkpoints, NULL, &start->restart));
+  if (start->restart) PetscCall(Restart(s));
+  PetscCall(SamCheckpointsBegin(s->checkpoints, s->setup.grid, s->point.steps));
+  if (s->has_output) PetscCall(SamSimulationOpenResults(s, start->restart));
+  s->point.output = s->output;
+  if (s->output) {
+    start->results = s->filename;
+    PetscCall(SamOutputHasReplaced(s->output, &start->replaced));
+    PetscCall(SamSimulationForecast(s, start->size, sizeof(start->size)));
+  }
+  SamCheckpointsDescribe(s->checkpoints, start->when, sizeof(start->when));
+  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_BEGIN, .start = start}));
+  PetscCall(SamSimulationPrepareAdvice(s, s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationWriteLastFields(SamSimulation s)
+{
+  PetscReal saved;
+
+  PetscFunctionBegin;
+  if (!s->output) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOutputGetSaved(s->output, NULL, NULL, &saved));
+  if (s->last_time <= saved) PetscFunctionReturn(PETSC_SUCCESS);
+  s->writing = PETSC_TRUE;
+  PetscCall(SamOutputWriteFields(s->output, s->last_time));
+  s->writing = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationWriteStep(SamSimulation s, const SamStep *step, PetscBool due)
+{
+  const PetscBool none = step->status == SAM_STATUS_NO_EQUILIBRIUM;
+
+  PetscFunctionBegin;
+  if (!s->output) PetscFunctionReturn(PETSC_SUCCESS);
+  if (none) PetscCall(SamSimulationWriteLastFields(s));
+  s->writing = PETSC_TRUE;
+  PetscCall(SamOutputWriteStep(s->output, due && !none));
+  s->writing   = PETSC_FALSE;
+  s->last_time = step->control.time;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TellFile(SamSimulation s, const char name[], const char content[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_FILE, .text = name, .setting = content}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Closes the results, and tells of all files. */
+static PetscErrorCode Finish(SamSimulation s)
+{
+  char        content[96];
+  const char *xdmf, *checkpoint;
+  PetscInt    steps, saved, last;
+
+  PetscFunctionBegin;
+  if (s->output) {
+    PetscCall(SamOutputGetSaved(s->output, &steps, &saved, NULL));
+    PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, steps,
+                            steps == 1 ? "" : "s", saved));
+    PetscCall(TellFile(s, s->filename, content));
+    PetscCall(SamOutputGetXdmf(s->output, &xdmf));
+    if (xdmf) PetscCall(TellFile(s, xdmf, "the same for ParaView and VisIt"));
+  }
+  s->writing = PETSC_TRUE;
+  PetscCall(SamOutputDestroy(&s->output));
+  s->writing = PETSC_FALSE;
+  PetscCall(SamCheckpointsGetNames(s->checkpoints, &checkpoint, NULL));
+  PetscCall(SamCheckpointsGetLast(s->checkpoints, &last));
+  PetscCall(PetscSNPrintf(content, sizeof(content), "checkpoint after step %" PetscInt_FMT, last));
+  if (last) PetscCall(TellFile(s, checkpoint, content));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- steps ---- */
+
+/*
+  Solves one load step; `ended`: it failed, so that no further step can be solved, or the contact is at the edge of the
+  grid, so that none should.
+*/
+static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
+{
+  const PetscInt k = s->point.steps, last = s->needs.steps - 1;
+  SamControl     control;
+  SamStep        step;
+  PetscBool      due;
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetStep(s->history, k, &control));
+  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP_BEGINS, .step = k}));
+  PetscCall(SamContactTry(s->setup.contact, &control, &step));
+  if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &step));
+  PetscCall(SamSimulationAdviseEdge(s, &step));
+  *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
+  due    = (k + 1) % s->output_every == 0 || k == last || *ended;
+  PetscCall(SamSimulationWriteStep(s, &step, due));
+  /* after writing: a step that is told of is in the file */
+  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
+  PetscCall(SamSimulationExamine(s, k, &step));
+  if (SamStepIsSolved(&step)) PetscCall(SamSimulationExamineLaws(s, k));
+  if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
+  if (*ended || !s->point.worst) s->point.worst = step.status;
+  s->point.steps++;
+  s->point.times = SamOutputAddTime(s->point.times, control.time);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationCheckpoint(SamSimulation s)
+{
+  char      said[PETSC_MAX_PATH_LEN + 128];
+  PetscBool stop;
+
+  PetscFunctionBegin;
+  s->writing = PETSC_TRUE;
+  PetscCall(
+    SamCheckpointsAfterStep(s->checkpoints, s->setup.contact, &s->parameters, &s->point, &stop, said, sizeof(said)));
+  s->writing = PETSC_FALSE;
+  if (stop) s->stopped = PETSC_TRUE;
+  if (said[0])
+    PetscCall(SamSimulationTell(
+      s, &(SamSimulationNews){.kind = stop ? SAM_NEWS_STOPPED : SAM_NEWS_ADVICE, .text = said, .setting = ""}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves the remaining steps; ends early when a step fails, or with a checkpoint. */
+static PetscErrorCode SolveSteps(SamSimulation s)
+{
+  PetscBool ended = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  while (s->point.steps < s->needs.steps && !ended && !s->stopped) {
+    PetscCall(SolveStep(s, &ended));
+    if (!ended) PetscCall(SamSimulationCheckpoint(s));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationRun(SamSimulation s)
+{
+  PetscFunctionBegin;
+  PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load program");
+  if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
+  PetscCall(Begin(s));
+  if (s->life)
+    PetscCall(SamSimulationLive(s));
+  else
+    PetscCall(SolveSteps(s));
+  PetscCall(Finish(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what others ask ---- */
+
+PetscErrorCode SamSimulationGetSetup(SamSimulation s, const SamSetup **setup)
+{
+  PetscFunctionBegin;
+  *setup = &s->setup;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationGetNeeds(SamSimulation s, SamSimulationNeeds *needs)
+{
+  PetscFunctionBegin;
+  *needs = s->needs;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationGetFiles(SamSimulation s, SamSimulationFiles *files)
+{
+  PetscFunctionBegin;
+  files->output = s->has_output ? s->filename : NULL;
+  files->xdmf   = s->output_settings.xdmf;
+  PetscCall(SamCheckpointsGetNames(s->checkpoints, &files->checkpoint, &files->restart));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationGetStatus(SamSimulation s, SamStatus *worst, PetscBool *stopped)
+{
+  PetscFunctionBegin;
+  *worst   = s->point.worst;
+  *stopped = s->stopped;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationGetSeries(SamSimulation s, SamState *series)
+{
+  const char *name;
+
+  PetscFunctionBegin;
+  *series = NULL;
+  if (s->life) PetscCall(SamLifeGetSeries(s->life, series, &name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationStop(SamSimulation s)
+{
+  PetscFunctionBegin;
+  s->stopped = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamSimulationIsWriting(SamSimulation s)
+{
+  return s->writing;
+}
+
+void SamSimulationAbandon(SamSimulation s)
+{
+  (void)SamCheckpointsDestroy(&s->checkpoints);
+}

@@ -1,0 +1,118 @@
+/* The edges of contact and stick of a solution, and tractions at the centres of cells. */
+#include <petsam/private/solutionimpl.h>
+
+/*
+  What vanishes at the edges like the distance, of this rank's cells: of the contact p^2, of the stick zone the square
+  of what the pressure exceeds |q|/mu by.
+*/
+static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
+{
+  const PetscBool stick = which == SAM_EDGE_STICK;
+  const double   *p, *b, *q;
+  double         *square;
+  PetscInt        cells;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(w, &cells));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayWrite(w, &square));
+  for (PetscInt k = 0; k < cells; k++) {
+    const double slack = stick && b[k] > 0 ? p[k] * (1 - hypot(q[k], q[k + cells]) / b[k]) : p[k];
+
+    square[k] = 0;
+    if (p[k] > 0 && (!stick || SamCellStateOf(p[k], q[k], q[k + cells], b[k]) == SAM_CELL_STICK))
+      square[k] = slack * slack;
+  }
+  PetscCall(VecRestoreArrayWrite(w, &square));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The reconstructed edge. */
+static PetscErrorCode Reconstruct(SamGrid grid, const SamSolution *s, SamEdgeOf which, Vec point, SamEdge *edge)
+{
+  Vec w;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &w));
+  PetscCall(FillSquares(s, which, w));
+  PetscCall(SamEdgeReconstruct(grid, w, point, edge));
+  PetscCall(VecDestroy(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionFindEdge(SamProblem problem, SamState state, const SamSolution *s, SamEdgeOf which, Vec point,
+                                   SamEdge *edge)
+{
+  PetscBool found = PETSC_FALSE;
+  SamGrid   grid;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  if (which == SAM_EDGE_CONTACT) PetscCall(SamProblemFindEdge(problem, state, s->pressure, point, edge, &found));
+  if (!found) PetscCall(Reconstruct(grid, s, which, point, edge));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- at the centres of cells ---- */
+
+/* The root of what vanishes at an edge, at the cells' centres. */
+static PetscErrorCode ComputeRoots(SamProblem problem, SamState state, const SamSolution *s, SamEdgeOf which, Vec root)
+{
+  SamEdge  edge;
+  double  *value;
+  PetscInt cells;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionFindEdge(problem, state, s, which, root, &edge));
+  PetscCall(SamEdgeDestroy(&edge));
+  PetscCall(VecGetLocalSize(root, &cells));
+  PetscCall(VecGetArray(root, &value));
+  for (PetscInt k = 0; k < cells; k++) value[k] = value[k] > 0 ? sqrt(value[k]) : 0;
+  PetscCall(VecRestoreArray(root, &value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, SamState state, const SamSolution *s, Vec pressure)
+{
+  PetscFunctionBegin;
+  PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_CONTACT, pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The shear keeps its direction; its size is mu times what the pressure exceeds the slack by, both at the centre. */
+PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, SamState state, const SamSolution *s,
+                                             PetscInt component, Vec shear)
+{
+  const double *p, *b, *q, *at;
+  double       *value;
+  PetscInt      cells;
+  Vec           pressure;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(shear, &pressure));
+  PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_CONTACT, pressure));
+  PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_STICK, shear));
+  PetscCall(VecGetLocalSize(shear, &cells));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(pressure, &at));
+  PetscCall(VecGetArray(shear, &value));
+  for (PetscInt k = 0; k < cells; k++) {
+    const double size = hypot(q[k], q[k + cells]);
+
+    value[k] = size > 0 ? PetscMax(at[k] - value[k], 0) * b[k] / p[k] * q[k + component * cells] / size : 0;
+  }
+  PetscCall(VecRestoreArray(shear, &value));
+  PetscCall(VecRestoreArrayRead(pressure, &at));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(VecDestroy(&pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,245 @@
+/*
+  Fields that follow from a solution: the gap u_z + h - rigid, the slip u_t + stretch - rigid, the state of each cell.
+
+  They are not stored, but computed row by row where they are needed, always by these functions: so they are the same to
+  the last bit in the check, in the next step and in the results.
+*/
+#include <petsam/private/solutionimpl.h>
+
+SamStretch SamStretchOf(const SamPair *pair, const SamControl *control)
+{
+  SamStretch e = {0, 0, 0};
+
+  for (int body = 0; body < 2; body++) {
+    const PetscReal *s = control->bulk_stress[body], nu = pair->poisson[body], sign = body ? 1 : -1;
+
+    e.xx += sign * (s[SAM_BULK_XX] - nu * s[SAM_BULK_YY]) / pair->young[body];
+    e.yy += sign * (s[SAM_BULK_YY] - nu * s[SAM_BULK_XX]) / pair->young[body];
+    e.xy += sign * (1 + nu) * s[SAM_BULK_XY] / pair->young[body];
+  }
+  return e;
+}
+
+PetscErrorCode SamMotionSet(SamMotion *m, SamProblem problem, const SamSolution *s)
+{
+  SamBalance     rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
+  SamElasticity  elasticity;
+  SamGrid        grid;
+  const SamPair *pair;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamElasticityGetPair(elasticity, &pair));
+  for (PetscInt kind = 0; kind < 2; kind++)
+    for (PetscInt k = 0; k < 3; k++) rigid[kind].rigid[k] = s->rigid[SamComponentsOf[kind][k]];
+  PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
+  PetscCall(SamFrameSetGiven(&m->tangential, grid, &rigid[1]));
+  m->stretch = SamStretchOf(pair, &s->control);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamMotionRow SamMotionOfGap(const SamMotion *m, PetscInt j)
+{
+  const double *a = m->normal.fixed;
+
+  return (SamMotionRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
+}
+
+/* The rigid displacement minus the stretch. */
+SamMotionRow SamMotionOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
+{
+  const SamGrid    grid = m->tangential.grid;
+  const double    *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
+  const SamStretch e    = m->stretch;
+  const double     y    = grid->center[1] + eta * grid->length;
+  const double     at_x = component ? e.xy : e.xx, at_y = component ? e.yy : e.xy;
+  SamMotionRow     row = component ? (SamMotionRow){a[1], a[2]} : (SamMotionRow){SamFrameX(a, eta), 0};
+
+  row.a -= at_x * grid->center[0] + at_y * y;
+  row.b -= at_x * grid->length;
+  return row;
+}
+
+SAM_VECTORIZED static void SubtractRow(PetscInt n, const double *restrict u, SamMotionRow r, double xi0, double dxi,
+                                       double *restrict value)
+{
+  const double a = r.a, b = r.b;
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) value[i] = u[i] - (a + b * (xi0 + (double)i * dxi));
+}
+
+SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const double *restrict h, SamMotionRow r,
+                                  double xi0, double dxi, double *restrict value)
+{
+  const double a = r.a, b = r.b;
+
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) value[i] = u[i] + h[i] - (a + b * (xi0 + (double)i * dxi));
+}
+
+void SamMotionSubtract(const SamMotion *m, SamMotionRow row, const double u[], double value[])
+{
+  SubtractRow(m->normal.grid->nx, u, row, m->normal.xi0, m->normal.dxi, value);
+}
+
+void SamMotionGap(const SamMotion *m, SamMotionRow row, const double u[], const double h[], double value[])
+{
+  GapRow(m->normal.grid->nx, u, h, row, m->normal.xi0, m->normal.dxi, value);
+}
+
+PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *s, PetscInt component, double slip[])
+{
+  SamMotion     motion;
+  SamGrid       grid;
+  const double *u;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamMotionSet(&motion, problem, s));
+  PetscCall(VecGetArrayRead(s->displacement_t, &u));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
+
+    SamMotionSubtract(&motion, SamMotionOfSlip(&motion, component, j), u + component * grid->cells + k, slip + k);
+  }
+  PetscCall(VecRestoreArrayRead(s->displacement_t, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
+                                  SamIncrement *s)
+{
+  SamGrid grid;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(PetscMemzero(s, sizeof(*s)));
+  s->grid     = grid;
+  s->v_now    = now->displacement_t;
+  s->v_before = before ? before->displacement_t : NULL;
+  PetscCall(PetscMalloc3(grid->nx, &s->row[0], grid->nx, &s->row[1], grid->nx, &s->scratch));
+  PetscCall(PetscMalloc2(grid->nx, &s->slip[0], grid->nx, &s->slip[1]));
+  PetscCall(SamMotionSet(&s->now, problem, now));
+  PetscCall(VecGetArrayRead(s->v_now, &s->u_now));
+  if (!before) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamMotionSet(&s->before, problem, before));
+  PetscCall(VecGetArrayRead(s->v_before, &s->u_before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamIncrementDestroy(SamIncrement *s)
+{
+  PetscFunctionBegin;
+  if (s->v_before) PetscCall(VecRestoreArrayRead(s->v_before, &s->u_before));
+  PetscCall(VecRestoreArrayRead(s->v_now, &s->u_now));
+  PetscCall(PetscFree3(s->row[0], s->row[1], s->scratch));
+  PetscCall(PetscFree2(s->slip[0], s->slip[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
+{
+  for (PetscInt c = 0; c < 2; c++) {
+    const ptrdiff_t k = (ptrdiff_t)c * s->grid->cells + (ptrdiff_t)j * s->grid->nx;
+
+    SamMotionSubtract(&s->now, SamMotionOfSlip(&s->now, c, j), s->u_now + k, s->slip[c]);
+    if (s->u_before)
+      SamMotionSubtract(&s->before, SamMotionOfSlip(&s->before, c, j), s->u_before + k, s->scratch);
+    else
+      SamZero(s->grid->nx, s->scratch);
+    for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] = s->slip[c][i] - s->scratch[i];
+  }
+}
+
+PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec *h)
+{
+  PetscBool adds;
+  SamGrid   grid;
+  Vec       gap;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGap(problem, &gap));
+  PetscCall(SamProblemAddSeparation(problem, state, generation, NULL, &adds));
+  *h = gap;
+  if (!adds) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamGridCreateVec(grid, 1, h));
+  PetscCall(VecCopy(gap, *h));
+  PetscCall(SamProblemAddSeparation(problem, state, generation, *h, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *h)
+{
+  Vec gap;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGap(problem, &gap));
+  if (*h != gap) PetscCall(VecDestroy(h));
+  *h = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *s, Vec separation, Vec gap)
+{
+  SamMotion     motion;
+  SamGrid       grid;
+  const double *u, *h;
+  double       *g;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamMotionSet(&motion, problem, s));
+  PetscCall(VecGetArrayRead(separation, &h));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u));
+  PetscCall(VecGetArrayWrite(gap, &g));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
+
+    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, g + k);
+  }
+  PetscCall(VecRestoreArrayWrite(gap, &g));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
+  PetscCall(VecRestoreArrayRead(separation, &h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionComputeStates(const SamSolution *s, Vec state)
+{
+  const double *p, *q, *b;
+  double       *states;
+  PetscInt      cells;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(state, &cells));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArrayWrite(state, &states));
+  for (PetscInt k = 0; k < cells; k++) states[k] = SamCellStateOf(p[k], q[k], q[k + cells], b[k]);
+  PetscCall(VecRestoreArrayWrite(state, &states));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->shear, &q));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[])
+{
+  for (PetscInt k = 0; k < 3; k++) {
+    load[SamComponentsOf[balance->kind][k]]  = balance->load[k];
+    rigid[SamComponentsOf[balance->kind][k]] = balance->rigid[k];
+  }
+}
+
+PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind)
+{
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt c = SamComponentsOf[kind][k];
+
+    if (a->force[c] != b->force[c] || a->value[c] != b->value[c]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}

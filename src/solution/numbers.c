@@ -1,0 +1,229 @@
+/* The numbers of a step that follow from its solution: cells and areas, energies. */
+#include <petsam/private/rows.h>
+#include <petsam/private/solutionimpl.h>
+
+/*
+  Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of
+  the tractions on the displacements, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
+  while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
+  steps second order. Before the first step there is no bound; its pressure counts as there before its slip.
+*/
+enum { CONTACT, STICK, DISSIPATED, STORED, SUMS };
+enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
+
+/* The fields of the step's solution, and the bound before it; `rim`, NULL: none, of cells whose centres are outside. */
+typedef struct {
+  const double *p, *b, *b_before, *q, *u_z, *u_t, *rim;
+} Fields;
+
+static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first, double sums[SUMS],
+                   double most[MOSTS])
+{
+  const PetscInt nx = increment->grid->nx, cells = increment->grid->cells;
+  const double  *p = f->p, *b = f->b, *q = f->q, *sx = increment->slip[0], *sy = increment->slip[1];
+
+  for (PetscInt i = 0; i < nx; i++) {
+    const ptrdiff_t    k = first + i, l = k + cells;
+    const SamCellState state = SamCellStateOf(p[k], q[k], q[l], b[k]);
+
+    if (state == SAM_CELL_OPEN) continue;
+    most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
+    most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
+    if (!f->rim || p[k] > f->rim[k]) most[SLIP] = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
+    sums[CONTACT] += 1;
+    sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
+    sums[STORED] += 0.5 * (p[k] * f->u_z[k] + q[k] * f->u_t[k] + q[l] * f->u_t[l]);
+    sums[DISSIPATED] -= (q[k] * increment->row[0][i] + q[l] * increment->row[1][i]) *
+                        (state == SAM_CELL_SLIP && b[k] > 0 ? 0.5 * (f->b_before[k] + b[k]) / b[k] : 1);
+  }
+}
+
+/* The numbers, side by side in the state in this order. */
+enum {
+  CONTACT_AREA,
+  STICK_AREA,
+  FRACTION,
+  CONTACT_CELLS,
+  STICK_CELLS,
+  PRESSURE_MAX,
+  SHEAR_MAX,
+  SLIP_MAX,
+  EDGE_ACCEPTED,
+  DISSIPATED_ENERGY,
+  STORED_ENERGY,
+  NUMBERS
+};
+#define REAL(name, unit, text) \
+  { \
+    name, unit, text, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE \
+  }
+#define INT(name, text) \
+  { \
+    name, "1", text, SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE \
+  }
+static const SamStateNumber declared[NUMBERS] = {
+  REAL("contact_area", "m2", "area in contact"),
+  REAL("stick_area", "m2", "area in stick"),
+  REAL("contact_fraction", "1", "area in contact relative to that of the grid"),
+  INT("contact_cells", "cells in contact"),
+  INT("stick_cells", "cells in stick"),
+  REAL("pressure_max", "Pa", "maximum pressure"),
+  REAL("shear_max", "Pa", "maximum shear"),
+  REAL("slip_max", "m", "maximum slip since the start of a cell in contact"),
+  REAL("edge_accepted", "1", "share of the edges of contact and stick that are reconstructed"),
+  REAL("dissipated_energy", "J", "frictional work of the load step"),
+  REAL("stored_energy", "J", "elastic energy of both bodies")};
+
+PetscErrorCode SamSolutionDeclareNumbers(SamState state)
+{
+  PetscInt id;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &declared[k], &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolution *last, const SamSolution *s,
+                               double numbers[NUMBERS])
+{
+  SamTotal     totals[SUMS] = {{0}};
+  double       sums[SUMS], most[MOSTS] = {0}, area;
+  SamGrid      grid;
+  SamIncrement increment;
+  Fields       f = {.rim = NULL};
+  Vec          rim;
+  const Vec    before = last ? last->bound : s->bound;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamProblemGetLeast(problem, state, &rim));
+  PetscCall(SamIncrementCreate(problem, last, s, &increment));
+  PetscCall(VecGetArrayRead(s->pressure, &f.p));
+  PetscCall(VecGetArrayRead(s->bound, &f.b));
+  PetscCall(VecGetArrayRead(before, &f.b_before));
+  PetscCall(VecGetArrayRead(s->shear, &f.q));
+  PetscCall(VecGetArrayRead(s->displacement_z, &f.u_z));
+  PetscCall(VecGetArrayRead(s->displacement_t, &f.u_t));
+  if (rim) PetscCall(VecGetArrayRead(rim, &f.rim));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row[SUMS] = {0};
+
+    SamIncrementComputeRow(&increment, j);
+    SumRow(&f, &increment, (ptrdiff_t)j * grid->nx, row, most);
+    SamAddAll(SUMS, totals, row);
+  }
+  if (rim) PetscCall(VecRestoreArrayRead(rim, &f.rim));
+  PetscCall(VecRestoreArrayRead(s->displacement_t, &f.u_t));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &f.u_z));
+  PetscCall(VecRestoreArrayRead(s->shear, &f.q));
+  PetscCall(VecRestoreArrayRead(before, &f.b_before));
+  PetscCall(VecRestoreArrayRead(s->bound, &f.b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &f.p));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscCall(SamSumTotals(grid->comm, SUMS, totals, sums));
+  PetscCall(SamMax(grid->comm, MOSTS, most));
+  area                       = grid->dx * grid->dy;
+  numbers[PRESSURE_MAX]      = most[PRESSURE];
+  numbers[SHEAR_MAX]         = sqrt(most[SHEAR]);
+  numbers[SLIP_MAX]          = sqrt(most[SLIP]);
+  numbers[CONTACT_CELLS]     = sums[CONTACT];
+  numbers[STICK_CELLS]       = sums[STICK];
+  numbers[CONTACT_AREA]      = sums[CONTACT] * area;
+  numbers[STICK_AREA]        = sums[STICK] * area;
+  numbers[DISSIPATED_ENERGY] = sums[DISSIPATED] * area;
+  numbers[STORED_ENERGY]     = sums[STORED] * area;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- edges ---- */
+
+#define BEHIND 2 /* cells about a point of the stick edge that must be in contact */
+
+/* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
+static PetscBool IsInside(const SamSeen *p, PetscInt i, PetscInt j)
+{
+  for (PetscInt b = j - BEHIND; b <= j + BEHIND; b++)
+    for (PetscInt a = i - BEHIND; a <= i + BEHIND; a++)
+      if (a < 0 || a >= p->rows.grid->nx || b < p->rows.first || b >= p->rows.first + p->rows.count ||
+          !(p->at[0][(ptrdiff_t)(b - p->rows.first) * p->rows.grid->nx + a] > 0))
+        return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
+static double SquareAt(const SamSeen *p, double x, double y)
+{
+  const PetscInt nx = p->rows.grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
+  const double   tx = x - (double)i, ty = y - (double)j, *q = p->at[0] + (ptrdiff_t)(j - p->rows.first) * nx + i;
+
+  return (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
+         ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
+}
+
+/*
+  The largest shear at the edge of the stick zone, where it is mu p: larger than that of any cell, which is a mean. The
+  pressure is interpolated in p^2, which is smooth up to the contact's edge. Where that edge is near, cells count only,
+  as what slips there is not resolved.
+*/
+static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge *stick, double *peak)
+{
+  const double *b;
+  SamSeen       p;
+
+  PetscFunctionBegin;
+  PetscCall(SamSee(grid, s->pressure, 1, BEHIND + 1, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  for (PetscInt n = 0; n < stick->count; n++) {
+    const PetscInt k = stick->cell[n];
+    /* counted from the grid's first row and not from the rank's, whose sums would round otherwise */
+    const double x = (double)((stick->x[n] - SamGridX(grid, 0)) / grid->dx),
+                 y = (double)((stick->y[n] - SamGridY(grid, 0)) / grid->dy);
+
+    const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
+
+    if (IsInside(&p, i, j)) *peak = PetscMax(*peak, b[k] / p.own[k] * sqrt(SquareAt(&p, x, y)));
+  }
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(SamForget(&p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The areas by the edges of contact and stick, and the peak of the shear between stick and slip. */
+static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSolution *s, double numbers[NUMBERS])
+{
+  SamEdge edge[2];
+  SamGrid grid;
+  double  peak = numbers[SHEAR_MAX];
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_CONTACT, NULL, &edge[0]));
+  PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_STICK, NULL, &edge[1]));
+  PetscCall(FindPeak(grid, s, &edge[1], &peak));
+  PetscCall(SamMax(grid->comm, 1, &peak));
+  numbers[SHEAR_MAX]    = peak;
+  numbers[CONTACT_AREA] = edge[0].area;
+  numbers[STICK_AREA]   = edge[1].area;
+  numbers[EDGE_ACCEPTED] =
+    edge[0].faces + edge[1].faces > 0 ? (edge[0].good + edge[1].good) / (edge[0].faces + edge[1].faces) : 1;
+  for (PetscInt k = 0; k < 2; k++) PetscCall(SamEdgeDestroy(&edge[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
+                                         const SamSolution *s, PetscBool edges)
+{
+  double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
+  SamGrid       grid;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SumCells(problem, state, before, s, numbers));
+  PetscCall(SamProblemAddEnergy(problem, state, s->pressure, s->displacement_z, &numbers[STORED_ENERGY]));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
+  numbers[EDGE_ACCEPTED] = 0;
+  if (edges) PetscCall(FindEdges(problem, state, s, numbers));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
+  numbers[FRACTION] = numbers[CONTACT_AREA] / (grid->width[0] * grid->width[1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,414 @@
+/* The class SamState: declarations, and values in generations. */
+#include <petsam/private/baseimpl.h>
+#include <petsam/state.h>
+
+/* A declared field: its vectors, and whether the tried one has been set in this try. */
+typedef struct {
+  SamStateField declared;
+  Vec           value[SAM_GENERATIONS];
+  PetscBool     set;
+} Field;
+
+typedef struct {
+  SamStateNumber declared;
+  char           name[48], unit[32], text[96]; /* of it, as whoever declares it may go */
+  PetscInt       id;                           /* place of the first value */
+  double         before;                       /* value of steps in which it was no result */
+} Number;
+
+struct _n_SamState {
+  SamGrid        grid;
+  PetscInt       fields, numbers, values, results;
+  Field          field[SAM_STATE_MOST];
+  Number         number[SAM_STATE_DECLARED];
+  SamStateResult result[SAM_STATE_MOST];
+  char           names[SAM_STATE_MOST][48];   /* of results that are components of fields */
+  char           texts[SAM_STATE_MOST][96];   /* and theirs */
+  double        *generation[SAM_GENERATIONS]; /* the numbers */
+  PetscBool      tried;
+};
+
+/* ---- creation ---- */
+
+PetscErrorCode SamStateCreate(SamGrid grid, SamState *state)
+{
+  SamState s;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&s));
+  PetscCall(SamGridReference(grid));
+  s->grid = grid;
+  for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscCalloc1(SAM_STATE_NUMBERS, &s->generation[g]));
+  *state = s;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateCreateLike(SamState state, SamState *other)
+{
+  SamState s;
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateCreate(state->grid, &s));
+  for (PetscInt k = 0; k < state->fields; k++) PetscCall(SamStateDeclareField(s, &state->field[k].declared, &id));
+  for (PetscInt k = 0; k < state->numbers; k++) PetscCall(SamStateDeclareNumber(s, &state->number[k].declared, &id));
+  *other = s;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyFields(SamState s)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->fields; k++)
+    for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(VecDestroy(&s->field[k].value[g]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateDestroy(SamState *state)
+{
+  SamState s = *state;
+
+  PetscFunctionBegin;
+  *state = NULL;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DestroyFields(s));
+  for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscFree(s->generation[g]));
+  PetscCall(SamGridDestroy(&s->grid));
+  PetscCall(PetscFree(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- declarations ---- */
+
+PetscErrorCode SamStateOffer(SamState s, const SamStateResult *result)
+{
+  PetscFunctionBegin;
+  if (SamStateFindResult(s, result->name) >= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(s->results < SAM_STATE_MOST, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "More than %d fields of results: %s",
+             SAM_STATE_MOST, result->name);
+  s->result[s->results++] = *result;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Offers the components of a remembered field. */
+static PetscErrorCode OfferField(SamState s, PetscInt id)
+{
+  const SamStateField *f = &s->field[id].declared;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < f->components; c++) {
+    SamStateResult result = {f->name, f->unit, f->text, SAM_FIELD_REAL, f->result, NULL, NULL, c, id};
+    char *const    name   = s->names[PetscMin(s->results, SAM_STATE_MOST - 1)];
+
+    PetscCall(PetscSNPrintf(name, sizeof(s->names[0]), f->components > 1 ? "%s_%c" : "%s", f->name, c ? 'y' : 'x'));
+    result.name = name;
+    if (f->components > 1) {
+      char *const  text = s->texts[PetscMin(s->results, SAM_STATE_MOST - 1)];
+      const size_t word = strcspn(f->text, ",");
+
+      (void)snprintf(text, sizeof(s->texts[0]), "%.*s along %c%s", (int)word, f->text, c ? 'y' : 'x', f->text + word);
+      result.text = text;
+    }
+    PetscCall(SamStateOffer(s, &result));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateDeclareField(SamState s, const SamStateField *field, PetscInt *id)
+{
+  PetscFunctionBegin;
+  *id = SamStateFindField(s, field->name);
+  if (*id >= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(s->fields < SAM_STATE_MOST, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "More than %d remembered fields: %s",
+             SAM_STATE_MOST, field->name);
+  *id                    = s->fields++;
+  s->field[*id].declared = *field;
+  if (field->result != SAM_RESULT_NONE) PetscCall(OfferField(s, *id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The value of numbers of which a step has none. */
+static void SetNone(SamState s, const Number *n, SamGeneration g)
+{
+  for (PetscInt k = 0; k < n->declared.count; k++)
+    s->generation[g][n->id + k] =
+      n->declared.result && (n->declared.kind == SAM_NUMBER_REAL || n->declared.kind == SAM_NUMBER_MATRIX) ? NAN : 0;
+}
+
+PetscErrorCode SamStateDeclareNumber(SamState s, const SamStateNumber *number, PetscInt *id)
+{
+  Number *n;
+
+  PetscFunctionBegin;
+  *id = SamStateFindNumber(s, number->name);
+  if (*id >= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(s->values + number->count <= SAM_STATE_NUMBERS && s->numbers < SAM_STATE_DECLARED, s->grid->comm,
+             PETSC_ERR_ARG_OUTOFRANGE, "More than %d remembered numbers: %s", SAM_STATE_DECLARED, number->name);
+  n           = &s->number[s->numbers++];
+  n->declared = *number;
+  (void)snprintf(n->name, sizeof(n->name), "%s", number->name);
+  (void)snprintf(n->unit, sizeof(n->unit), "%s", number->unit);
+  (void)snprintf(n->text, sizeof(n->text), "%s", number->text);
+  n->declared.name = n->name;
+  n->declared.unit = n->unit;
+  n->declared.text = n->text;
+  n->id = *id = s->values;
+  n->before   = number->kind == SAM_NUMBER_INT ? 0 : NAN;
+  s->values += number->count;
+  for (PetscInt g = 0; g < SAM_GENERATIONS; g++) SetNone(s, n, (SamGeneration)g);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateOfferNumber(SamState s, const char name[], double before)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->numbers; k++) {
+    Number *n = &s->number[k];
+
+    if (n->declared.result || strcmp(n->declared.name, name)) continue;
+    n->declared.result = PETSC_TRUE;
+    n->before          = before;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- generations ---- */
+
+PetscErrorCode SamStateBegin(SamState s)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStateReject(s));
+  s->tried = PETSC_TRUE;
+  PetscCall(PetscArraycpy(s->generation[SAM_TRIED], s->generation[SAM_COMMITTED], s->values));
+  for (PetscInt k = 0; k < s->numbers; k++)
+    if (s->number[k].declared.result) SetNone(s, &s->number[k], SAM_TRIED);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateForgetFields(SamState s)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->fields; k++) s->field[k].set = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateReject(SamState s)
+{
+  PetscFunctionBegin;
+  s->tried = PETSC_FALSE;
+  PetscCall(SamStateForgetFields(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateReset(SamState s)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStateReject(s));
+  PetscCall(DestroyFields(s));
+  for (PetscInt k = 0; k < s->numbers; k++)
+    for (PetscInt g = 0; g < SAM_GENERATIONS; g++) SetNone(s, &s->number[k], (SamGeneration)g);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The oldest generation of a field becomes the tried one, whose vector is then written anew. */
+static void Rotate(Field *f)
+{
+  const Vec      tried  = f->value[SAM_TRIED];
+  const PetscInt oldest = f->declared.generations - 1;
+
+  f->value[SAM_TRIED] = f->value[oldest];
+  if (oldest == SAM_BEFORE) f->value[SAM_BEFORE] = f->value[SAM_COMMITTED];
+  f->value[SAM_COMMITTED] = tried;
+}
+
+PetscErrorCode SamStateCommit(SamState s)
+{
+  double *const recycled = s->generation[SAM_BEFORE];
+
+  PetscFunctionBegin;
+  PetscCheck(s->tried, s->grid->comm, PETSC_ERR_ORDER, "There is no tried generation");
+  for (PetscInt k = 0; k < s->fields; k++)
+    if (s->field[k].set) Rotate(&s->field[k]);
+  s->generation[SAM_BEFORE]    = s->generation[SAM_COMMITTED];
+  s->generation[SAM_COMMITTED] = s->generation[SAM_TRIED];
+  s->generation[SAM_TRIED]     = recycled;
+  PetscCall(SamStateReject(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamStateHasTried(SamState s)
+{
+  return s->tried;
+}
+
+/* ---- values ---- */
+
+PetscErrorCode SamStateRestoreField(SamState s, PetscInt id, SamGeneration g, Vec *field)
+{
+  Field *f = &s->field[id];
+
+  PetscFunctionBegin;
+  if (!f->value[g]) PetscCall(SamGridCreateVec(s->grid, f->declared.components, &f->value[g]));
+  *field = f->value[g];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateSetField(SamState s, PetscInt id, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStateRestoreField(s, id, SAM_TRIED, field));
+  s->field[id].set = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+Vec SamStateGetField(SamState s, PetscInt id, SamGeneration g)
+{
+  return g == SAM_TRIED && !s->field[id].set ? NULL : s->field[id].value[g];
+}
+
+Vec SamStateReadField(SamState s, PetscInt id)
+{
+  return SamStateGetField(s, id, s->field[id].set ? SAM_TRIED : SAM_COMMITTED);
+}
+
+double *SamStateNumbers(SamState s, PetscInt id, SamGeneration g)
+{
+  return s->generation[g] + id;
+}
+
+double *SamStateReadNumbers(SamState s, PetscInt id)
+{
+  return SamStateNumbers(s, id, s->tried ? SAM_TRIED : SAM_COMMITTED);
+}
+
+/* Copies one generation of a field; NULL: it has no values. */
+static PetscErrorCode CopyField(SamState to, PetscInt id, SamGeneration g, Vec from)
+{
+  Vec field = to->field[id].value[g];
+
+  PetscFunctionBegin;
+  if (from) PetscCall(SamStateRestoreField(to, id, g, &field));
+  if (from)
+    PetscCall(SamVecCopyNonzero(from, field));
+  else if (field)
+    PetscCall(SamVecZero(field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateCopy(SamState from, SamState to)
+{
+  PetscFunctionBegin;
+  PetscCheck(from->grid->nx == to->grid->nx && from->grid->ny == to->grid->ny, to->grid->comm, PETSC_ERR_ARG_SIZ,
+             "The state to be copied is of a grid of %" PetscInt_FMT " x %" PetscInt_FMT
+             " cells: expected %" PetscInt_FMT " x %" PetscInt_FMT,
+             from->grid->nx, from->grid->ny, to->grid->nx, to->grid->ny);
+  PetscCall(SamStateReject(to));
+  for (PetscInt k = 0; k < from->fields; k++) {
+    const char *name = from->field[k].declared.name;
+
+    PetscCheck(SamStateFindField(to, name) >= 0 || !from->field[k].value[SAM_COMMITTED], to->grid->comm,
+               PETSC_ERR_ARG_INCOMP, "The state to be copied has a field %s, which this contact does not have", name);
+  }
+  for (PetscInt k = 0; k < to->fields; k++) {
+    const PetscInt other = SamStateFindField(from, to->field[k].declared.name);
+
+    for (PetscInt g = SAM_COMMITTED; g < to->field[k].declared.generations; g++)
+      PetscCall(CopyField(to, k, (SamGeneration)g, other < 0 ? NULL : from->field[other].value[g]));
+  }
+  for (PetscInt k = 0; k < to->numbers; k++) {
+    const Number  *n     = &to->number[k];
+    const PetscInt other = SamStateFindNumber(from, n->declared.name);
+
+    for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS; g++)
+      if (other < 0)
+        SetNone(to, n, (SamGeneration)g);
+      else
+        PetscCall(PetscArraycpy(to->generation[g] + n->id, from->generation[g] + other, n->declared.count));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- lists ---- */
+
+PetscInt SamStateCountFields(SamState s)
+{
+  return s->fields;
+}
+
+const SamStateField *SamStateFieldOf(SamState s, PetscInt id)
+{
+  return &s->field[id].declared;
+}
+
+PetscInt SamStateFindField(SamState s, const char name[])
+{
+  for (PetscInt k = 0; k < s->fields; k++)
+    if (!strcmp(s->field[k].declared.name, name)) return k;
+  return -1;
+}
+
+PetscInt SamStateCountNumbers(SamState s)
+{
+  return s->numbers;
+}
+
+const SamStateNumber *SamStateNumberOf(SamState s, PetscInt k, PetscInt *id)
+{
+  if (id) *id = s->number[k].id;
+  return &s->number[k].declared;
+}
+
+double SamStateMissingNumber(SamState s, PetscInt k)
+{
+  return s->number[k].before;
+}
+
+PetscInt SamStateCountValues(SamState s)
+{
+  return s->values;
+}
+
+PetscInt SamStateFindNumber(SamState s, const char name[])
+{
+  for (PetscInt k = 0; k < s->numbers; k++)
+    if (!strcmp(s->number[k].declared.name, name)) return s->number[k].id;
+  return -1;
+}
+
+PetscInt SamStateCountResults(SamState s)
+{
+  return s->results;
+}
+
+const SamStateResult *SamStateResultOf(SamState s, PetscInt k)
+{
+  return &s->result[k];
+}
+
+PetscInt SamStateFindResult(SamState s, const char name[])
+{
+  for (PetscInt k = 0; k < s->results; k++)
+    if (!strcmp(s->result[k].name, name)) return k;
+  return -1;
+}
+
+PetscErrorCode SamStateFindValues(SamState s, PetscInt k, Vec work, Vec *holder, PetscInt *component)
+{
+  const SamStateResult *r = &s->result[k];
+
+  PetscFunctionBegin;
+  *holder    = work;
+  *component = 0;
+  if (r->compute) {
+    PetscCall(r->compute(r->owner, s, r->component, work));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  *holder = SamStateReadField(s, r->field);
+  if (*holder) {
+    *component = r->component;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  *holder = work;
+  PetscCall(VecSet(work, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,234 @@
+/* The linear system of frozen sets of cells: its fields, products with its matrix, and an approximate inverse. */
+#include "stiffnessimpl.h"
+#include <math.h>
+
+/* ---- fields ---- */
+
+static PetscInt Components(const SamFrozen *f)
+{
+  return f->part == SAM_FROZEN_BOTH ? 3 : f->part == SAM_FROZEN_TANGENTIAL ? 2 : 1;
+}
+
+PetscInt SamFrozenSize(const SamFrozen *f)
+{
+  return Components(f) * f->count;
+}
+
+/* The pressure of a field, and its shear; NULL where the system has none. */
+static PetscInt PressureAt(const SamFrozen *f)
+{
+  return f->part == SAM_FROZEN_TANGENTIAL ? -1 : 0;
+}
+static PetscInt ShearAt(const SamFrozen *f)
+{
+  return f->part == SAM_FROZEN_NORMAL ? -1 : f->part == SAM_FROZEN_BOTH ? f->count : 0;
+}
+
+/* Takes off the parts of a packed shear along e, and all of it where there is no friction. */
+static void Project(const SamFrozen *f, double y[])
+{
+  double *x = y, *z = y + f->count;
+
+  for (PetscInt m = 0; m < f->count; m++) {
+    const double part = x[m] * f->e[0][m] + z[m] * f->e[1][m];
+
+    x[m] = f->free[m] * (x[m] - part * f->e[0][m]);
+    z[m] = f->free[m] * (z[m] - part * f->e[1][m]);
+  }
+}
+
+/* Takes off a packed pressure what lies on cells that yield. */
+static void Bear(const SamFrozen *f, double p[])
+{
+  for (PetscInt m = 0; m < f->count; m++) p[m] *= f->bears[m];
+}
+
+void SamFrozenMotion(const SamFrozen *f, PetscInt k, double values[])
+{
+  const SamGrid   grid  = f->grid;
+  const SamFrame *frame = k < 3 ? &f->normal : &f->tangential;
+  double          a[3]  = {0, 0, 0};
+
+  a[k % 3] = 1;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const double eta = SamFrameEta(frame, j);
+
+    for (PetscInt m = f->start[j]; m < f->start[j + 1]; m++) {
+      const double xi = frame->xi0 + (double)(f->cell[m] - j * grid->nx) * frame->dxi;
+
+      if (k < 3) {
+        values[m] = SamFrameNormal(a, xi, eta);
+      } else {
+        values[m]            = SamFrameX(a, eta);
+        values[m + f->count] = SamFrameY(a, xi);
+      }
+    }
+  }
+}
+
+void SamFrozenColumn(const SamFrozen *f, PetscInt k, double column[])
+{
+  const PetscInt at = k < 3 ? PressureAt(f) : ShearAt(f);
+
+  for (PetscInt m = 0; m < SamFrozenSize(f); m++) column[m] = 0;
+  if (at < 0) return;
+  SamFrozenMotion(f, k, column + at);
+  if (k >= 3)
+    Project(f, column + at);
+  else
+    Bear(f, column + at);
+}
+
+void SamFrozenFollow(const SamFrozen *f, const double p[], double q[])
+{
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++) q[m + c * f->count] += f->follow[m] * f->e[c][m] * p[m];
+}
+
+PetscErrorCode SamFrozenTakeSlip(const SamFrozen *f, PetscInt k, double slip[])
+{
+  const double *u;
+
+  PetscFunctionBegin;
+  SamFrozenMotion(f, k, slip);
+  PetscCall(VecGetArrayRead(f->u_t, &u));
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++)
+      slip[m + c * f->count] = u[f->cell[m] + c * f->grid->cells] - slip[m + c * f->count];
+  PetscCall(VecRestoreArrayRead(f->u_t, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrozenDots(const SamFrozen *f, PetscInt n, double *const fields[], const double field[],
+                             double dots[])
+{
+  PetscFunctionBegin;
+  for (PetscInt from = 0; from < n; from += SAM_TOTALS) {
+    const PetscInt some               = PetscMin(n - from, SAM_TOTALS);
+    SamTotal       totals[SAM_TOTALS] = {{0}};
+
+    for (PetscInt k = 0; k < some; k++)
+      for (PetscInt j = 0; j < f->grid->rows; j++) {
+        double row = 0;
+
+        for (PetscInt c = 0; c < Components(f); c++)
+          for (PetscInt m = f->start[j] + c * f->count; m < f->start[j + 1] + c * f->count; m++)
+            row += fields[from + k][m] * field[m];
+        SamAdd(&totals[k], row);
+      }
+    PetscCall(SamSumTotals(f->grid->comm, some, totals, dots + from));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the matrix ---- */
+
+/* Writes packed components to a field, which is zero elsewhere. */
+static PetscErrorCode Unpack(const SamFrozen *f, PetscInt components, const double values[], Vec field)
+{
+  double *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &to));
+  for (PetscInt c = 0; c < components; c++)
+    for (PetscInt m = 0; m < f->count; m++) to[f->cell[m] + c * f->grid->cells] = values[m + c * f->count];
+  PetscCall(VecRestoreArray(field, &to));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Pack(const SamFrozen *f, PetscInt components, Vec field, double values[])
+{
+  const double *from;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(field, &from));
+  for (PetscInt c = 0; c < components; c++)
+    for (PetscInt m = 0; m < f->count; m++) values[m + c * f->count] = from[f->cell[m] + c * f->grid->cells];
+  PetscCall(VecRestoreArrayRead(field, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* u_z and u_t of the tractions p and q, as far as the system has them. */
+static PetscErrorCode ComputeDisplacements(SamFrozen *f)
+{
+  PetscFunctionBegin;
+  f->applies++;
+  if (f->part != SAM_FROZEN_TANGENTIAL) PetscCall(SamElasticityApplyNormal(f->elasticity, f->p, f->u_z));
+  if (f->part != SAM_FROZEN_NORMAL) PetscCall(SamElasticityApplyTangential(f->elasticity, f->q, f->u_t));
+  if (f->part != SAM_FROZEN_BOTH) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticityApplyTangentialToNormal(f->elasticity, f->q, f->w_z));
+  PetscCall(VecAXPY(f->u_z, 1, f->w_z));
+  PetscCall(SamElasticityApplyNormalToTangential(f->elasticity, f->p, f->w_t));
+  PetscCall(VecAXPY(f->u_t, 1, f->w_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
+{
+  const PetscInt p = PressureAt(f), y = ShearAt(f);
+
+  PetscFunctionBegin;
+  if (p >= 0) PetscCall(Unpack(f, 1, x + p, f->p));
+  if (p >= 0 && y >= 0) { /* Ax is room for the whole shear */
+    PetscCall(PetscArraycpy(Ax, x + y, 2 * f->count));
+    SamFrozenFollow(f, x + p, Ax);
+    PetscCall(Unpack(f, 2, Ax, f->q));
+  } else if (y >= 0) {
+    PetscCall(Unpack(f, 2, x + y, f->q));
+  }
+  PetscCall(ComputeDisplacements(f));
+  if (p >= 0) PetscCall(Pack(f, 1, f->u_z, Ax + p));
+  if (p >= 0) Bear(f, Ax + p);
+  if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Pack(f, 2, f->u_t, Ax + y));
+  Project(f, Ax + y);
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++) Ax[y + m + c * f->count] += f->stiff[m] * x[y + m + c * f->count];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- its approximate inverse ---- */
+
+static PetscErrorCode PreconditionNormal(SamFrozen *f, const double r[], double z[])
+{
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < f->count; m++) f->r[f->cell[m]] = (float)r[m];
+  PetscCall(SamElasticityPreconditionNormalSingle(f->elasticity, f->self[0], f->r, f->z));
+  for (PetscInt m = 0; m < f->count; m++) z[m] = (double)f->z[f->cell[m]] / f->self[0];
+  Bear(f, z);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PreconditionTangential(SamFrozen *f, const double r[], double z[])
+{
+  const double    self  = f->self[1];
+  const ptrdiff_t cells = f->grid->cells;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++)
+      f->r[f->cell[m] + c * cells] = (float)(sqrt(self / (self + f->stiff[m])) * r[m + c * f->count]);
+  PetscCall(SamElasticityPreconditionTangentialSingle(f->elasticity, self, f->r, f->z));
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++) {
+      const double h = self / (self + f->stiff[m]);
+
+      z[m + c * f->count] =
+        (sqrt(h) * (double)f->z[f->cell[m] + c * cells] + 0.5 * (1 - h) * h * r[m + c * f->count]) / self;
+    }
+  Project(f, z);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrozenPrecondition(SamFrozen *f, const double r[], double z[])
+{
+  const PetscInt p = PressureAt(f), y = ShearAt(f);
+
+  PetscFunctionBegin;
+  f->preconditions++;
+  if (p >= 0) PetscCall(PreconditionNormal(f, r + p, z + p));
+  if (p >= 0 && y >= 0) /* they share the array of residuals, which is zero outside of the contact */
+    PetscCall(PetscArrayzero(f->r + f->grid->cells, f->grid->cells));
+  if (y >= 0) PetscCall(PreconditionTangential(f, r + y, z + y));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,58 @@
+/* The numbers of computed cycles, by name. */
+#include "lifeimpl.h"
+
+enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA, PRESSURE, COMPUTED, NUMBERS };
+#define NUMBER(name, unit, text, kind) \
+  { \
+    name, unit, text, kind, 1, PETSC_FALSE, PETSC_TRUE \
+  }
+static const SamStateNumber declared[NUMBERS] = {
+  NUMBER("cycle", "1", "cycles before this one", SAM_NUMBER_REAL),
+  NUMBER("jump", "1", "cycles jumped over before this one", SAM_NUMBER_REAL),
+  NUMBER("error", "1", "estimated relative error of the jump", SAM_NUMBER_REAL),
+  NUMBER("volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL),
+  NUMBER("volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL),
+  NUMBER("depth_max1", "m", "maximum depth removed of body 1", SAM_NUMBER_REAL),
+  NUMBER("depth_max2", "m", "maximum depth removed of body 2", SAM_NUMBER_REAL),
+  NUMBER("dissipated_energy", "J", "frictional work of the cycle", SAM_NUMBER_REAL),
+  NUMBER("contact_area", "m2", "area in contact at the end of the cycle", SAM_NUMBER_REAL),
+  NUMBER("pressure_max", "Pa", "maximum pressure at the end of the cycle", SAM_NUMBER_REAL),
+  NUMBER("computed", "1", "cycles computed so far", SAM_NUMBER_INT)};
+
+PetscErrorCode SamLifeDeclare(SamLife l)
+{
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateCreate(l->grid, &l->series));
+  for (int k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(l->series, &declared[k], &id));
+  PetscCall(SamStateDeclareNumber(l->memory, &declared[CYCLE], &id)); /* of each step */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeGetSeries(SamLife l, SamState *series, const char **name)
+{
+  PetscFunctionBegin;
+  *series = l->series;
+  *name   = "wear";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeRecord(SamLife l, const SamLifeReport *r)
+{
+  double *n = SamStateNumbers(l->series, 0, SAM_COMMITTED);
+
+  PetscFunctionBegin;
+  n[CYCLE] = r->cycles;
+  n[JUMP]  = r->jump;
+  n[ERROR] = r->error;
+  for (int body = 0; body < 2; body++) {
+    n[VOLUME + body] = r->volume[body];
+    n[DEPTH + body]  = r->depth[body];
+  }
+  n[ENERGY]   = r->dissipated_energy;
+  n[AREA]     = r->contact_area;
+  n[PRESSURE] = r->pressure;
+  n[COMPUTED] = (double)r->computed;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

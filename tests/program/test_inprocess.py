@@ -1,0 +1,188 @@
+"""Histories and lives in process: the bits of the program; copies; what is refused."""
+
+import h5py
+import numpy as np
+
+from support import ROOT
+from test_embed import run_python
+
+CASE = dict(
+    grid_n=(45, 40),
+    grid_size=(3e-3, 2.8e-3),
+    body1_young=210e9,
+    body1_poisson=0.3,
+    body2_young=70e9,
+    body2_poisson=0.2,
+    friction=0.4,
+    gap_type="sphere",
+    gap_radius1=0.1,
+    gap_radius2="inf",
+)
+COLUMNS = "time,load_n,disp_x,load_ty"
+ROWS = [(1, 500.0, 0.0, 0.0), (2, 800.0, 3e-7, 20.0), (3, 700.0, -2e-7, -30.0), (4.5, 900.0, 1e-7, 0.0)]
+CYCLE = [(k, 1000.0, 4e-7 * x) for k, x in enumerate((0, 0.5, 1, 0.5, 0, -0.5, -1, -0.5, 0))]
+HISTORY = f"dict(zip({COLUMNS.split(',')!r}, np.transpose({ROWS!r})))"
+BEGIN = f"import numpy as np, petsam\ncase = {CASE!r}\nhistory = {HISTORY}\n"
+
+
+def write(path, columns, rows):
+    path.write_text("\n".join([columns, *(",".join(map(repr, row)) for row in rows)]))
+
+
+def test_history_has_the_bits_of_the_program(petsam, tmp_path):
+    """Given as arrays and as the program's own file, which may have comments and other separators."""
+    write(tmp_path / "h.csv", COLUMNS, ROWS)
+    (tmp_path / "h.txt").write_text("# a history\n" + (tmp_path / "h.csv").read_text().replace(",", " ; "))
+    petsam(dict(CASE, history="h.csv", steps=3, output="h.h5", output_fields="all"))
+    run_python(
+        BEGIN
+        + """
+found = {}
+for name, given in ("a", history), ("f", "h.txt"):
+    with petsam.Contact(steps=3, **case) as contact:
+        steps = contact.run(given)
+        for number in "time", "load_tx", "disp_z", "dissipated_energy", "contact_area", "normal_iterations":
+            found[f"{name}/{number}"] = [getattr(step, number) for step in steps]
+        for field in "pressure", "shear_x", "slip_y", "gap":
+            found[f"{name}/{field}"] = contact.field(field)
+np.savez("found.npz", **found)
+""",
+        tmp_path,
+    )
+    found = np.load(tmp_path / "found.npz")
+    with h5py.File(tmp_path / "h.h5") as f:
+        assert len(f["history/time"]) == 12
+        for key in found:
+            name = key.split("/")[1]
+            expected = f["history"][name][:] if name in f["history"] else f[name][-1]
+            assert found[key].astype(float).tobytes() == np.asarray(expected, dtype=float).tobytes(), key
+
+
+def test_life_has_the_bits_of_the_program(petsam, tmp_path):
+    """Its log, its fields, and the file that it writes itself; and a second life goes on from the worn surfaces."""
+    write(tmp_path / "c.csv", "time,load_n,disp_x", CYCLE)
+    wear = dict(CASE, wear_coefficient1=1e-12, wear_rtol=0.03)
+    petsam(dict(wear, history="c.csv", wear_cycles=1e5, output="c.h5"))
+    run_python(
+        f"""
+import numpy as np, petsam
+cycle = dict(zip(("time", "load_n", "disp_x"), np.transpose({CYCLE!r})))
+with petsam.Contact(output="own.h5", **{wear!r}) as contact:
+    log = contact.live(1e5, cycle)
+    found = {{name: [one.numbers[name] for one in log] for name in log[0].numbers}}
+    depth = contact.field("wear_depth1")
+    again = contact.live(1e3, cycle)
+    assert again[0].cycle == 0 and again[0].depth_max1 == log[-1].depth_max1 < again[-1].depth_max1
+np.savez("found.npz", depth=depth, **found)
+""",
+        tmp_path,
+    )
+    found = np.load(tmp_path / "found.npz")
+    with h5py.File(tmp_path / "c.h5") as f, h5py.File(tmp_path / "own.h5") as own:
+        assert f["wear/cycle"][-1] == 1e5 and len(f["wear/cycle"]) > 3
+        for name in found.files:
+            expected = f["wear_depth1"][-1] if name == "depth" else f["wear"][name][:]
+            assert found[name].astype(float).tobytes() == np.asarray(expected, dtype=float).tobytes(), name
+        assert own["wear/cycle"][-1] == 1e3  # the file of the last life
+
+
+def test_history_goes_on_from_the_committed_state(tmp_path):
+    """In one call or in two, with increments between them, the steps are the same."""
+    out = run_python(
+        BEGIN
+        + """
+with petsam.Contact(steps=4, **case) as one, petsam.Contact(steps=4, **case) as two:
+    a = one.run(history)
+    b = two.run({name: values[:2] for name, values in history.items()})
+    assert len(b) == 8
+    b += two.run({name: values[2:] for name, values in history.items()})
+    print([s.time for s in a] == [s.time for s in b], all(np.array_equal(s.load, t.load) for s, t in zip(a, b)),
+          all(np.array_equal(s.rigid, t.rigid) for s, t in zip(a, b)), len(a))
+""",
+        tmp_path,
+    )
+    assert out.split() == ["True", "True", "True", "16"]
+
+
+def test_copy_and_reset(tmp_path):
+    """A copy goes on as its original would, to the last bit, and leaves it alone; after reset() all begins anew."""
+    run_python(
+        BEGIN
+        + """
+with petsam.Contact(**case) as contact:
+    contact.friction = np.linspace(0.3, 0.4, 45)
+    first = contact.run(history)
+    with contact.copy() as other:
+        a = other.try_step(time=9, load_n=600, load_tx=50)
+        other.commit()
+        shear = other["shear_x"]
+    b = contact.try_step(time=9, load_n=600, load_tx=50)
+    assert np.array_equal(a.rigid, b.rigid) and a.numbers == b.numbers and np.array_equal(contact["shear_x"], shear)
+    contact.reset()
+    again = contact.run(history)
+    assert [s.numbers for s in again] == [s.numbers for s in first]
+""",
+        tmp_path,
+    )
+
+
+def test_function_is_called_after_each_step_and_may_stop(tmp_path):
+    run_python(
+        BEGIN
+        + """
+with petsam.Contact(**case) as contact:
+    seen = []
+    def each(contact, step):
+        seen.append((step.time, contact["pressure"].max() == step.pressure_max))
+        return len(seen) == 3
+    assert len(contact.run(history, each)) == 3
+    assert seen == [(1, True), (2, True), (3, True)]
+    step = contact.try_step(time=4.5, load_n=900, disp_x=1e-7)  # the third one is committed
+    def fail(contact, step):
+        raise KeyError("mine")
+    try:
+        contact.run(history, fail)
+    except KeyError as error:
+        assert error.args == ("mine",)
+    else:
+        raise SystemExit("no exception")
+""",
+        tmp_path,
+    )
+
+
+def test_mistakes_are_told_and_leave_a_contact_that_goes_on(tmp_path):
+    run_python(
+        BEGIN
+        + """
+def refused(says, call, kind=petsam.ContactError):
+    try:
+        call()
+    except kind as error:
+        assert says in str(error), str(error)
+        return error
+    raise SystemExit(f"not refused: {says}")
+
+with petsam.Contact(wear_coefficient1=1e-14, **case) as contact:
+    refused("is load_n meant?", lambda: contact.run(dict(history, lod_n=history["load_n"])))
+    refused("expected more than 2", lambda: contact.run(dict(history, time=[1, 2, 2, 3])))
+    refused("load_n or disp_z", lambda: contact.run(dict(time=[1.0], disp_x=[0.0])))
+    refused("not a finite number", lambda: contact.run(dict(history, load_n=[1, 2, 3, np.nan])))
+    refused("not a closed cycle", lambda: contact.live(10, history))
+    refused("number > 0", lambda: contact.live(0, history))
+    refused("whole number", lambda: contact.live(1.5, history))
+    slides = dict(time=[1, 2, 3], load_n=[500] * 3, load_tx=[0, 100, 1e4])
+    error = refused("gross slip", lambda: contact.run(slides), petsam.NoEquilibrium)
+    assert len(error.steps) == 2 and error.step.time == 3 and abs(error.steps[1].load_tx - 100) < 1e-6
+    assert contact.try_step(time=4, load_n=500, load_tx=120).status == 0
+with petsam.Contact(**case) as contact:
+    refused("no wear", lambda: contact.live(10, dict(time=[0, 1, 2], load_n=[1, 1, 1], disp_x=[0, 1e-8, 0])))
+refused("-wear_cycles: ", lambda: petsam.Contact(wear_cycles=10, wear_coefficient1=1e-14, **case))
+""",
+        tmp_path,
+    )
+
+
+def test_examples_run(tmp_path):
+    for name, says in ("history", "81 steps"), ("life", "  100000 cycles"), ("fatigue", "(33, 1, 96)"):
+        assert says in run_python((ROOT / f"examples/embed/python/{name}.py").read_text(), tmp_path)

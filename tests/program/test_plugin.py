@@ -1,0 +1,214 @@
+"""Types from outside the tree: the plugin of examples/embed, built on the installed files and chosen by options."""
+
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from conftest import environment, execute, make_install
+from support import ROOT
+from test_install import library_flags, pkg_config
+
+SPHERE = dict(
+    grid_n=(45, 40),
+    grid_size=(2.4e-3, 2.2e-3),
+    body1_young=210e9,
+    body1_poisson=0.3,
+    body2_young=210e9,
+    body2_poisson=0.3,
+    friction=0.3,
+    gap_type="sphere",
+    gap_radius1=0.1,
+    gap_radius2="inf",
+)
+FADING = dict(fading_length=2e-7, fading_final=0.4)
+MOVES = [1e-7, 4e-7, 1.1e-6, 2e-7, -6e-7, 8e-7]
+HISTORY = "\n".join(["time,load_n,disp_x,load_ty", *(f"{k}.0,900,{d},{k}" for k, d in enumerate(MOVES, 1))])
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory):
+    """make install."""
+    folder = tmp_path_factory.mktemp("prefix")
+    make_install(f"prefix={folder}")
+    return folder
+
+
+def build(prefix, out, *sources):
+    command = ["mpicc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", *map(str, sources)]
+    command += ["-o", str(out), *pkg_config(prefix, "--cflags"), *library_flags(prefix, "shared")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return out
+
+
+@pytest.fixture(scope="module")
+def plugin(prefix, tmp_path_factory):
+    """The plugin, with nothing of the sources in reach."""
+    sources = sorted((prefix / "share/petsam/examples/embed/plugin").glob("*.c"))
+    assert len(sources) == 5
+    return build(prefix, tmp_path_factory.mktemp("plugin") / "plugin.so", *sources)
+
+
+@pytest.fixture
+def petsam(prefix, launcher, tmp_path):
+    """The installed program in tmp_path."""
+    (tmp_path / "history.csv").write_text(HISTORY)
+
+    def run(*options, ranks=1, check=0, program="petsam"):
+        return execute(launcher, tmp_path, options, ranks, check, program=prefix / "bin" / program)
+
+    return run
+
+
+def bits(path):
+    """All datasets of the results but times of the clock."""
+    with h5py.File(path) as file:
+        found = {name: file[name][:] for name in ("pressure", "shear_x", "fading_path")}
+        found.update({name: data[:] for name, data in file["history"].items() if "seconds" not in name})
+    return {name: data.tobytes() for name, data in found.items()}
+
+
+# ---- the program
+
+
+def test_help_lists_the_types_and_their_options(petsam, plugin):
+    lines = petsam("-help", dict(plugin=plugin)).stdout
+    for text in ("coated, halfspace or periodic", "cone, ellipsoid,", "activeset or spectral", "Fading friction"):
+        assert text in lines
+    for option in ("-fading_length", "-fading_final", "-coating_compliance", "-gap_slope"):
+        assert option in lines
+    assert "fading" not in petsam("-help").stdout
+
+
+def test_law_is_in_results_checkpoint_and_restart_with_the_same_bits_on_any_number_of_ranks(petsam, plugin, tmp_path):
+    case = (SPHERE, FADING, dict(plugin=plugin, history="history.csv", output_fields="pressure,shear_x,fading_path"))
+    found = []
+    for ranks in (1, 2, 3):
+        whole = dict(output=f"whole{ranks}.h5", checkpoint=f"state{ranks}.h5", checkpoint_every=3)
+        petsam(*case, whole, ranks=ranks)
+        # the checkpoint of step 3, where the last one is of the end
+        petsam(*case, dict(output=f"on{ranks}.h5", restart=f"state{ranks}.h5.1"), ranks=ranks)
+        found.append(bits(tmp_path / f"whole{ranks}.h5"))
+        on = bits(tmp_path / f"on{ranks}.h5")
+        with h5py.File(tmp_path / f"on{ranks}.h5") as branch, h5py.File(tmp_path / f"whole{ranks}.h5") as file:
+            assert branch["fading_path"].shape[0] == 3 and file["fading_path"].attrs["units"] == "m"
+            for name in ("pressure", "shear_x", "fading_path"):
+                assert branch[name][:].tobytes() == file[name][3:].tobytes()
+        assert on["load_tx"] in found[-1]["load_tx"]
+    assert found[0] == found[1] == found[2]
+    with h5py.File(tmp_path / "whole1.h5") as file:
+        p, q, path = (file[name][:] for name in ("pressure", "shear_x", "fading_path"))
+        assert path[0].max() > 0 and np.all(np.diff(path, axis=0) >= 0) and np.all(path[p == 0] == 0)
+        # the bound of the law, by what it has remembered after the step
+        bound = 0.3 * p * (0.4 + 0.6 * np.exp(-path / 2e-7))
+        assert np.all(np.abs(q) <= bound + 1e-6 * bound.max()) and np.abs(q).max() < 0.29 * p.max()
+
+
+def test_law_of_another_length_refuses_the_checkpoint(petsam, plugin):
+    case = (SPHERE, dict(plugin=plugin, history="history.csv"))
+    petsam(*case, FADING, dict(checkpoint="state.h5", checkpoint_every=3))
+    done = petsam(*case, dict(FADING, fading_length=3e-7), dict(restart="state.h5"), check=None)
+    assert done.code in (2, 3) and "fading_length" in done.stderr
+
+
+def test_law_is_refused_by_name_where_it_is_not_known_what_to_do(petsam, plugin, tmp_path):
+    case = (SPHERE, FADING, dict(plugin=plugin, history="history.csv", output="out.h5"))
+    assert "stiffness" in petsam(*case, "-stiffness", check=2).complaint[0]
+    (tmp_path / "history.csv").write_text("time,load_n,disp_x\n1,900,1e-7\n2,900,-1e-7\n3,900,1e-7\n")
+    life = dict(wear_cycles=100, wear_coefficient1=1e-13)
+    done = petsam(*case, life, check=2)
+    assert "-fading_length with -wear_cycles" in done.complaint[0]
+
+
+def test_body_gap_and_method_are_chosen_by_options(petsam, plugin, tmp_path):
+    cone = dict(SPHERE, plugin=plugin, gap_type="cone", gap_slope=4e-3, gap_radius1=None, gap_radius2=None, load_n=300)
+    found = {}
+    for body, method in (("halfspace", "activeset"), ("coated", "activeset"), ("coated", "spectral")):
+        options = dict(elasticity=body, normal_type=method, coating_compliance=1e-15 if body == "coated" else None)
+        petsam(cone, options, dict(output="out.h5", output_fields="pressure,gap,displacement_z"))
+        with h5py.File(tmp_path / "out.h5") as file:
+            found[body, method] = {name: file[name][-1] for name in ("pressure", "gap", "displacement_z")}
+            x, y = np.meshgrid(file["x"][:], file["y"][:])
+            rigid = file["history/disp_z"][-1]
+    coated, other = found["coated", "activeset"], found["coated", "spectral"]
+    np.testing.assert_allclose(other["pressure"], coated["pressure"], atol=1e-6 * coated["pressure"].max())
+    height = other["gap"] + rigid - other["displacement_z"]
+    np.testing.assert_allclose(height, 4e-3 * np.hypot(x, y), atol=1e-12)
+    assert coated["pressure"].max() < 0.98 * found["halfspace", "activeset"]["pressure"].max()
+
+
+def test_stresses_in_a_body_of_a_plugin(petsam, plugin):
+    body = dict(SPHERE, plugin=plugin, elasticity="coated", coating_compliance=1e-15, load_n=400)
+    petsam(body, dict(output="out.h5"))
+    stress = dict(input="out.h5", output="stress.h5", depths="0:1e-4:3", section="y=0")
+    assert "coated" in petsam(stress, program="petsam-stress", check=None).stderr
+    petsam(stress, dict(plugin=plugin), program="petsam-stress")
+
+
+def test_plugin_that_is_none_is_refused_by_name(petsam, prefix, tmp_path):
+    (tmp_path / "empty.c").write_text("extern int nothing;\nint nothing;\n")
+    build(prefix, tmp_path / "empty.so", tmp_path / "empty.c")
+    for name, text in (("missing.so", "cannot be loaded"), ("empty.so", "SamPluginRegister"), ("history.csv", "load")):
+        for ranks in (1, 2):
+            done = petsam(SPHERE, dict(load_n=100, plugin=name), check=3, ranks=ranks)
+            assert f"-plugin {name}: " in done.stderr and text in done.stderr
+
+
+STATIC = """
+#include <petsam.h>
+int main(int argc, char **argv)
+{
+  PetscErrorCode code;
+
+  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  code = SamOptionsPlugins(&(SamOptions){PETSC_COMM_WORLD, NULL});
+  return PetscFinalize() || code != SAM_ERR_FILE;
+}
+"""
+
+
+def test_program_with_a_copy_of_the_library_refuses_a_plugin(prefix, plugin, tmp_path):
+    (tmp_path / "static.c").write_text(STATIC)
+    command = ["mpicc", "-std=c11", str(tmp_path / "static.c"), "-o", str(tmp_path / "static")]
+    command += [*pkg_config(prefix, "--cflags"), *library_flags(prefix, "static")]
+    subprocess.run(command, check=True, timeout=120)
+    command = [str(tmp_path / "static"), "-plugin", str(plugin)]
+    done = subprocess.run(command, capture_output=True, text=True, env=environment(), timeout=60)
+    assert done.returncode == 0 and f"-plugin {plugin}: uses another copy of libpetsam" in done.stderr
+
+
+# ---- embedded
+
+PYTHON = """
+import sys
+import petsam
+
+case, moves = eval(sys.argv[1]), eval(sys.argv[2])
+with petsam.Contact(**case) as contact:
+    for k, d in enumerate(moves, 1):
+        contact.try_step(load_n=900, disp_x=d, load_ty=k)
+        contact.commit()
+    contact.field("fading_path").tofile(sys.argv[3])
+"""
+
+
+def test_python_has_the_field_of_the_law(petsam, prefix, plugin, tmp_path):
+    petsam(SPHERE, FADING, dict(plugin=plugin, history="history.csv", output="out.h5", output_fields="fading_path"))
+    case = dict(SPHERE, **FADING, plugin=str(plugin))
+    env = dict(
+        environment(), PETSAM_LIBRARY=str(prefix / "lib/libpetsam.so"), PYTHONPATH=str(prefix / "share/petsam/scripts")
+    )
+    command = [sys.executable, "-c", PYTHON, repr(case), repr(MOVES), "path.bin"]
+    done = subprocess.run(command, cwd=tmp_path, env=env, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(tmp_path / "out.h5") as file:
+        assert (tmp_path / "path.bin").read_bytes() == file["fading_path"][-1].tobytes()
+
+
+def test_sources_of_the_plugin_are_short_and_named_in_the_manual():
+    manual = (ROOT / "include/README.md").read_text()
+    for path in (ROOT / "examples/embed/plugin").glob("*.c"):
+        assert len(path.read_text().splitlines()) < 120 and path.name in manual

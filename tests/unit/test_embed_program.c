@@ -1,0 +1,149 @@
+/* Histories and lives in another program: the same bits on any number of ranks, what a monitor may do, copies. */
+#include "contacts.h"
+
+#include <petsam/embed.h>
+
+#define OPTIONS \
+  "-body1_young 210e9 -body1_poisson 0.3 -body2_young 70e9 -body2_poisson 0.2 -gap_type sphere -gap_radius1 0.1 " \
+  "-gap_radius2 inf -grid_n 37,29 -grid_size 3e-3,2.4e-3 -friction 0.3 -wear_coefficient2 1e-12 -steps 2"
+
+enum { ROWS = 5, STEPS = 2 * (ROWS - 1) + 1 };
+
+static const char   columns[]        = "time,disp_z,disp_x";
+static const double values[3 * ROWS] = {0, 7e-6, 0, 1, 7e-6, 5e-7, 2, 7e-6, 0, 3, 7e-6, -5e-7, 4, 7e-6, 0};
+
+static petsam_contact *NewContact(int comm)
+{
+  petsam_contact *c    = NULL;
+  const int       code = petsam_create(comm, OPTIONS, &c);
+
+  if (code) print_error("%d: %s\n", code, petsam_message(NULL));
+  sam_assert(code == 0 && c);
+  return c;
+}
+
+static int World(void)
+{
+  return (int)MPI_Comm_c2f(PETSC_COMM_WORLD);
+}
+
+/* The numbers of the steps or cycles of a run, as the monitor sees them; it stops after `most`. */
+typedef struct {
+  int    count, most, refused;
+  double number[64][3];
+} Log;
+
+static int Note(void *context, petsam_contact *c, int cycle)
+{
+  static const char *const names[2][3] = {{"load_tx", "wear_volume2", "dissipated_energy"},
+                                          {"wear/volume2", "wear/jump", "wear/pressure_max"}};
+  Log *const               log         = (Log *)context;
+
+  if (log->count == 64) return 1;
+  for (int k = 0; k < 3; k++)
+    if (petsam_get_number(c, names[cycle != 0][k], &log->number[log->count][k])) return 1;
+  log->refused += petsam_reject(c) == 2 && petsam_commit(c) == 2;
+  return ++log->count == log->most;
+}
+
+static void AssertSameLogs(const Log *a, const Log *b)
+{
+  sam_assert(a->count == b->count && !memcmp(a->number, b->number, sizeof(a->number[0]) * (size_t)a->count));
+}
+
+static void test_history_has_the_same_bits_on_any_ranks(void **state)
+{
+  petsam_contact *all = NewContact(World()), *one = NewContact(-1);
+  Log             a = {.most = 0}, b = {.most = 0};
+
+  (void)state;
+  sam_assert(petsam_history(all, columns, ROWS, values, Note, &a) == 0 && a.count == STEPS + 1);
+  sam_assert(petsam_history(one, columns, ROWS, values, Note, &b) == 0);
+  AssertSameLogs(&a, &b);
+  sam_assert(a.refused == a.count);
+  petsam_destroy(&all);
+  petsam_destroy(&one);
+}
+
+static void test_life_has_the_same_bits_on_any_ranks(void **state)
+{
+  petsam_contact *all = NewContact(World()), *one = NewContact(-1);
+  Log             a = {.most = 0}, b = {.most = 0};
+
+  (void)state;
+  sam_assert(petsam_live(all, 500, columns, ROWS, values, Note, &a) == 0 && a.count > 2);
+  sam_assert(petsam_live(one, 500, columns, ROWS, values, Note, &b) == 0);
+  AssertSameLogs(&a, &b);
+  sam_assert(a.number[a.count - 1][0] > a.number[0][0] && a.number[0][0] == 0);
+  petsam_destroy(&all);
+  petsam_destroy(&one);
+}
+
+/* Steps that were solved before the stop are committed: another contact that does only these is the same. */
+static void test_monitor_stops_after_a_step(void **state)
+{
+  petsam_contact *c = NewContact(World()), *other = NewContact(World());
+  Log             a = {.most = 6}, b = {.most = 0};
+  double          load[6], same[6];
+  const int       force[6] = {0, 0, 1, 1, 1, 1};
+  const double    given[6] = {7e-6, 2e-7, 0, 0, 0, 0};
+
+  (void)state;
+  sam_assert(petsam_history(c, columns, ROWS, values, Note, &a) == 0 && a.count == 6);
+  sam_assert(petsam_history(other, columns, 3, values, Note, &b) == 0 && b.count == 6);
+  AssertSameLogs(&a, &b);
+  sam_assert(petsam_try(c, 9, force, given, load, NULL) == 0 && petsam_try(other, 9, force, given, same, NULL) == 0);
+  sam_assert(!memcmp(load, same, sizeof(load)));
+  petsam_destroy(&c);
+  petsam_destroy(&other);
+}
+
+static void test_copy_goes_on_and_reset_begins_anew(void **state)
+{
+  petsam_contact *c = NewContact(World()), *copy = NewContact(World());
+  Log             first = {.most = 0}, again = {.most = 0};
+  double          load[6], same[6];
+  const int       force[6] = {0, 0, 1, 1, 1, 1};
+  const double    given[6] = {7e-6, 2e-7, 0, 0, 0, 0};
+
+  (void)state;
+  sam_assert(petsam_history(c, columns, ROWS, values, Note, &first) == 0);
+  sam_assert(petsam_copy(copy, c) == 0);
+  sam_assert(petsam_try(c, 9, force, given, load, NULL) == 0 && petsam_try(copy, 9, force, given, same, NULL) == 0);
+  sam_assert(!memcmp(load, same, sizeof(load)));
+  sam_assert(petsam_reset(copy) == 0 && petsam_history(copy, columns, ROWS, values, Note, &again) == 0);
+  AssertSameLogs(&first, &again);
+  petsam_destroy(&c);
+  petsam_destroy(&copy);
+}
+
+static void test_mistakes_are_named(void **state)
+{
+  petsam_contact *c      = NewContact(World());
+  double          bad[3] = {0, 7e-6, NAN};
+
+  (void)state;
+  sam_assert(petsam_history(c, NULL, ROWS, values, NULL, NULL) == 2);
+  sam_assert(petsam_history(c, columns, 0, values, NULL, NULL) == 2 && strstr(petsam_message(c), "no row"));
+  sam_assert(petsam_history(c, columns, 1, bad, NULL, NULL) == 2 && strstr(petsam_message(c), "disp_x"));
+  sam_assert(petsam_history(c, "time,disp_z,dispx", ROWS, values, NULL, NULL) == 2);
+  sam_assert(strstr(petsam_message(c), "is disp_x meant?") != NULL);
+  sam_assert(petsam_live(c, 0.5, columns, ROWS, values, NULL, NULL) == 2);
+  sam_assert(petsam_live(c, 10, columns, ROWS - 1, values, NULL, NULL) == 2);
+  sam_assert(strstr(petsam_message(c), "not a closed cycle") != NULL);
+  sam_assert(petsam_history(c, columns, ROWS, values, NULL, NULL) == 0);
+  petsam_destroy(&c);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_history_has_the_same_bits_on_any_ranks),
+    cmocka_unit_test(test_life_has_the_same_bits_on_any_ranks),
+    cmocka_unit_test(test_monitor_stops_after_a_step),
+    cmocka_unit_test(test_copy_goes_on_and_reset_begins_anew),
+    cmocka_unit_test(test_mistakes_are_named),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}

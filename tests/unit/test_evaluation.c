@@ -1,0 +1,279 @@
+/* Stresses and fatigue parameters of load steps, by the library's object and in other programs. */
+#include "fields.h"
+
+#include <petsam/embed.h>
+#include <petsam/evaluation.h>
+
+#define OPTIONS \
+  "-body1_young 210e9 -body1_poisson 0.3 -body2_young 70e9 -body2_poisson 0.2 -gap_type sphere -gap_radius1 0.1 " \
+  "-gap_radius2 inf -grid_n 24,21 -grid_size 3e-3 -friction 0.3 -bulk2_stress_xx 3e7"
+
+enum { NX = 24, NY = 21, DEPTHS = 3, STEPS = 3 };
+
+/* ---- the object ---- */
+
+/* What an evaluation has handed over. */
+typedef struct {
+  SamGrid grid;
+  double *xx[2][2]; /* stress xx of (step, depth) */
+  int     calls[SAM_QUANTITIES];
+} Kept;
+
+static PetscErrorCode Keep(void *context, SamQuantity quantity, PetscInt component, PetscInt step, PetscInt depth,
+                           PetscInt depths, const double values[])
+{
+  Kept *const kept = (Kept *)context;
+
+  kept->calls[quantity]++;
+  if (depths == 1 && quantity == SAM_QUANTITY_STRESS && component == 0)
+    memcpy(kept->xx[step][depth], values, sizeof(double) * (size_t)kept->grid->cells);
+  return 0;
+}
+
+/* A pressure about the middle of the grid, and a shear of its parts mu and mu/2 along x and y. */
+static void NewTractions(SamGrid g, double mu, Vec *pressure, Vec *shear)
+{
+  double *p, *q;
+
+  sam_call(SamGridCreateVec(g, 1, pressure));
+  sam_call(SamGridCreateVec(g, 2, shear));
+  sam_call(VecGetArray(*pressure, &p));
+  sam_call(VecGetArray(*shear, &q));
+  for (PetscInt k = 0; k < g->cells; k++) {
+    const double x = 2 * (double)(SamGridX(g, k % g->nx) / g->width[0]),
+                 y = 2 * (double)(SamGridY(g, g->row_start + k / g->nx) / g->width[1]), r = 0.5 - x * x - y * y;
+
+    p[k]            = r > 0 ? 1e9 * sqrt(r) : 0;
+    q[k]            = mu * p[k];
+    q[g->cells + k] = 0.5 * mu * p[k];
+  }
+  sam_call(VecRestoreArray(*shear, &q));
+  sam_call(VecRestoreArray(*pressure, &p));
+}
+
+/* The stress xx of a map at each depth, by the class of stresses, and a bulk stress. */
+static int IsMap(SamElasticity elasticity, const Kept *kept, int step, Vec pressure, Vec shear, double bulk)
+{
+  const PetscReal depth[2] = {0, 1e-4};
+  const PetscInt  n        = kept->grid->cells;
+  int             good     = 1;
+  SamStress       stress;
+  Vec             field;
+
+  sam_call(SamElasticityCreateStress(elasticity, 2, NULL, &stress));
+  sam_call(SamGridCreateVec(kept->grid, SAM_STRESS_COMPONENTS, &field));
+  for (int d = 0; d < 2; d++) {
+    const double *p, *q;
+    double       *a;
+
+    sam_call(VecGetArrayRead(pressure, &p));
+    sam_call(VecGetArrayRead(shear, &q));
+    sam_call(VecGetArray(field, &a));
+    memcpy(a + SAM_STRESS_ZZ * n, p, sizeof(*a) * (size_t)n);
+    memcpy(a + SAM_STRESS_XZ * n, q, sizeof(*a) * (size_t)n);
+    memcpy(a + SAM_STRESS_YZ * n, q + n, sizeof(*a) * (size_t)n);
+    sam_call(VecRestoreArray(field, &a));
+    sam_call(VecRestoreArrayRead(shear, &q));
+    sam_call(VecRestoreArrayRead(pressure, &p));
+    sam_call(SamStressSetDepth(stress, depth[d]));
+    sam_call(SamStressApply(stress, field));
+    sam_call(VecGetArray(field, &a));
+    for (PetscInt k = 0; k < n; k++) good = good && a[SAM_STRESS_XX * n + k] + bulk == kept->xx[step][d][k];
+    sam_call(VecRestoreArray(field, &a));
+  }
+  sam_call(VecDestroy(&field));
+  sam_call(SamStressDestroy(&stress));
+  return good;
+}
+
+static void test_added_steps_have_the_stresses_of_their_tractions(void **state)
+{
+  const PetscReal depths[2]             = {0, 1e-4};
+  const PetscBool wants[SAM_QUANTITIES] = {[SAM_QUANTITY_STRESS] = PETSC_TRUE, [SAM_QUANTITY_SWT] = PETSC_TRUE};
+  Sphere          s                     = NewSphereOf(NewPair(210e9, 0.3, 70e9, 0.2), 24, 1.5);
+  Kept            kept                  = {.grid = s.grid};
+  Vec             pressure[2], shear[2];
+  SamEvaluation   e;
+  SamLargest      largest;
+  SamControl      control;
+
+  (void)state;
+  sam_call(SamControlInitialize(&control));
+  control.bulk_stress[1][SAM_BULK_XX] = 3e7;
+  sam_call(SamEvaluationCreate(PETSC_COMM_WORLD, &e));
+  sam_call(SamEvaluationSetDepths(e, 2, depths));
+  sam_call(SamEvaluationSetQuantities(e, wants));
+  sam_call(SamEvaluationSetElasticity(e, s.elasticity, NULL, "these bodies"));
+  for (int step = 0; step < 2; step++) {
+    NewTractions(s.grid, step ? -0.2 : 0.3, &pressure[step], &shear[step]);
+    sam_call(SamEvaluationAddStep(e, pressure[step], shear[step], NULL, &control));
+    for (int d = 0; d < 2; d++) kept.xx[step][d] = (double *)calloc((size_t)kept.grid->cells + 1, sizeof(double));
+  }
+  sam_call(SamEvaluationCompute(e, Keep, &kept));
+  sam_assert(kept.calls[SAM_QUANTITY_STRESS] == 2 * 2 * SAM_STRESS_COMPONENTS && kept.calls[SAM_QUANTITY_MISES] == 0);
+  sam_assert(kept.calls[SAM_QUANTITY_SWT] == 2 * SamQuantityComponents(SAM_QUANTITY_SWT));
+  for (int step = 0; step < 2; step++) sam_assert(IsMap(s.elasticity, &kept, step, pressure[step], shear[step], 3e7));
+  sam_call(SamEvaluationGetLargest(e, SAM_QUANTITY_SWT, 0, &largest));
+  sam_assert(largest.value > 0 && largest.place[2] == 0);
+  for (int step = 0; step < 2; step++) {
+    sam_call(VecDestroy(&pressure[step]));
+    sam_call(VecDestroy(&shear[step]));
+    for (int d = 0; d < 2; d++) free(kept.xx[step][d]);
+  }
+  sam_call(SamEvaluationDestroy(&e));
+  DestroySphere(&s);
+}
+
+static void test_settings_that_cannot_be_are_refused(void **state)
+{
+  const PetscReal wrong[2] = {1e-4, 0}, little = 1e-15;
+  const PetscBool ruiz[SAM_QUANTITIES] = {[SAM_QUANTITY_RUIZ] = PETSC_TRUE};
+  Sphere          s                    = NewSphereOf(NewPair(210e9, 0.3, 210e9, 0.3), 24, 1.5);
+  SamControl      control;
+  Vec             pressure, shear;
+  SamEvaluation   e;
+
+  (void)state;
+  sam_call(SamControlInitialize(&control));
+  NewTractions(s.grid, 0.1, &pressure, &shear);
+  sam_call(SamEvaluationCreate(PETSC_COMM_WORLD, &e));
+  BeginCatching();
+  sam_assert(SamEvaluationSetBody(e, 3) == SAM_ERR_USER && strstr(CaughtMessage(), "body 3: expected 1 or 2"));
+  sam_assert(SamEvaluationSetDepths(e, 2, wrong) == SAM_ERR_USER);
+  sam_assert(SamEvaluationSetUp(e) == PETSC_ERR_ORDER);
+  sam_call(SamEvaluationSetElasticity(e, s.elasticity, NULL, "these bodies"));
+  sam_call(SamEvaluationSetDepths(e, 1, &little));
+  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER);
+  sam_call(SamEvaluationSetDepths(e, 1, wrong));
+  sam_call(SamEvaluationSetQuantities(e, ruiz));
+  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER); /* no cycle */
+  for (int k = 0; k < 2; k++) sam_call(SamEvaluationAddStep(e, pressure, shear, NULL, &control));
+  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER); /* not on the surface */
+  sam_call(SamEvaluationSetDepths(e, 1, &wrong[1]));
+  sam_call(SamEvaluationSetUp(e));
+  sam_call(SamEvaluationSetSection(e, SAM_SECTION_X, 1));
+  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER);
+  sam_call(SamEvaluationSetSection(e, SAM_SECTION_X, 0));
+  sam_assert(SamEvaluationCompute(e, Keep, NULL) == SAM_ERR_USER); /* without slip */
+  EndCatching();
+  sam_call(SamEvaluationDestroy(&e));
+  sam_call(VecDestroy(&pressure));
+  sam_call(VecDestroy(&shear));
+  DestroySphere(&s);
+}
+
+/* ---- in other programs ---- */
+
+static int TryLoads(petsam_contact *c, double N, double T)
+{
+  const int    force[6] = {1, 1, 1, 1, 1, 1};
+  const double value[6] = {N, T, 0, 0, 0, 0};
+
+  return petsam_try(c, 1, force, value, NULL, NULL) == 0 && petsam_commit(c) == 0;
+}
+
+static petsam_contact *NewContact(int comm)
+{
+  petsam_contact *c = NULL;
+
+  sam_assert(petsam_create(comm, OPTIONS, &c) == 0 && petsam_record(c, 1) == 0);
+  for (int k = 0; k < STEPS; k++) sam_assert(TryLoads(c, 1000, k % 2 ? -150 : 150));
+  return c;
+}
+
+/* All results of the last call of a contact on all ranks are the rows of those of one on this rank alone. */
+static int AreAlike(petsam_contact *c, const int shape[4], petsam_contact *alone, const int whole[4], int first_row)
+{
+  const char *name;
+  int         dimensions, good = 1, count = 0;
+
+  for (; (name = petsam_stress_name(alone, count, &dimensions)); count++) {
+    const size_t lines = dimensions == 1 ? 1 : (size_t)(dimensions == 3 ? whole[1] : whole[0] * whole[1]);
+    const size_t row   = dimensions == 1 ? 1 : (size_t)whole[3];
+    const int    y     = dimensions > 1 || !strcmp(name, "y");
+    const size_t size  = (size_t)whole[0] * (size_t)whole[1] * (size_t)whole[2] * (size_t)whole[3];
+    double      *mine = (double *)malloc(sizeof(double) * size), *all = (double *)malloc(sizeof(double) * size);
+    const size_t rows = (size_t)(y ? shape[2] : dimensions == 1 ? 1 : 0), of = (size_t)whole[2];
+
+    good = good && !strcmp(name, petsam_stress_name(c, count, NULL));
+    good = good && petsam_get_stress(c, name, mine) == 0 && petsam_get_stress(alone, name, all) == 0;
+    for (size_t k = 0; good && k < lines; k++)
+      good =
+        !memcmp(mine + k * rows * row, all + (k * of + (size_t)(y ? first_row : 0)) * row, sizeof(double) * rows * row);
+    free(mine);
+    free(all);
+  }
+  return good && count > 4 && !petsam_stress_name(c, count, NULL);
+}
+
+static void test_embedded_stresses_do_not_depend_on_the_ranks(void **state)
+{
+  static const char *const where[] = {"-depths 0,1e-4,2e-4", "-section y=0 -depths 0:2e-4:3",
+                                      "-section x=1e-4 -body 1 -depths 0,1e-4,2e-4"};
+
+  petsam_contact *c = NewContact((int)MPI_Comm_c2f(PETSC_COMM_WORLD)), *alone = NewContact(-1);
+  int             shape[4], whole[4], first;
+
+  (void)state;
+  sam_assert(petsam_grid(c, NULL, NULL, NULL, &first, NULL) == 0);
+  for (int k = 0; k < 3; k++) {
+    const int row = k ? 0 : first;
+    char      text[256];
+
+    sam_assert(petsam_stress(c, where[k], shape) == 0 && petsam_stress(alone, where[k], whole) == 0);
+    sam_assert(whole[0] == 1 && whole[1] == DEPTHS && whole[2] == (k == 1 ? 1 : NY) && whole[3] == (k == 2 ? 1 : NX));
+    sam_assert(AreAlike(c, shape, alone, whole, row));
+    (void)snprintf(text, sizeof(text), "-fatigue swt,ruiz -quantities mises %s", where[k]);
+    sam_assert(petsam_fatigue(c, text, shape) == 0 && petsam_fatigue(alone, text, whole) == 0);
+    sam_assert(whole[0] == STEPS && shape[3] == whole[3] && AreAlike(c, shape, alone, whole, row));
+  }
+  petsam_destroy(&c);
+  petsam_destroy(&alone);
+}
+
+static int Says(const petsam_contact *c, const char *words)
+{
+  if (!strstr(petsam_message(c), words)) print_error("\"%s\" lacks \"%s\"\n", petsam_message(c), words);
+  return strstr(petsam_message(c), words) != NULL;
+}
+
+static void test_mistakes_in_embedded_stresses_are_named(void **state)
+{
+  petsam_contact *c     = NewContact((int)MPI_Comm_c2f(PETSC_COMM_WORLD)), *fresh;
+  double         *mises = (double *)malloc(sizeof(double) * NX * NY);
+  int             shape[4];
+
+  (void)state;
+  sam_assert(petsam_create((int)MPI_Comm_c2f(PETSC_COMM_WORLD), OPTIONS, &fresh) == 0);
+  sam_assert(petsam_stress(fresh, "", shape) == 2 && Says(fresh, "no step has been solved"));
+  sam_assert(petsam_fatigue(fresh, "-fatigue swt", shape) == 2 && Says(fresh, "two at least, and not 0"));
+  sam_assert(petsam_get_stress(fresh, "mises", mises) == 2 && !petsam_stress_name(fresh, 0, NULL));
+  sam_assert(petsam_stress(c, "-depth 0", shape) == 2 && Says(c, "-depth 0: unknown option"));
+  sam_assert(petsam_stress(c, "-depths 1,0", shape) == 2 && Says(c, "-depths 1,0"));
+  sam_assert(petsam_stress(c, "-fatigue swt", shape) == 2 && Says(c, "two at least, and not 1"));
+  sam_assert(petsam_stress(c, "-help", shape) == 2 && petsam_stress(c, "-h", shape) == 2);
+  sam_assert(petsam_stress(c, NULL, shape) == 2 && petsam_stress(c, "", NULL) == 2 &&
+             petsam_stress(NULL, "", shape) == 2);
+  sam_assert(petsam_get_stress(c, "mises", mises) == 2 && Says(c, "mises"));
+  sam_assert(petsam_stress(c, "-section y=0", shape) == 0 && petsam_get_stress(c, "mises", mises) == 0);
+  sam_assert(mises[NX / 2] > 0 && petsam_get_stress(c, "swt", mises) == 2 && Says(c, "swt"));
+  sam_assert(petsam_fatigue(c, "-fatigue swt -section y=0", shape) == 0 && !petsam_message(c)[0]);
+  sam_assert(petsam_record(c, 1) == 0 && TryLoads(c, 900, 0) && TryLoads(c, 800, 0));
+  sam_assert(petsam_fatigue(c, "-fatigue swt -section y=0", shape) == 0 && Says(c, "not a closed cycle"));
+  sam_assert(petsam_record(c, 0) == 0 && petsam_fatigue(c, "-fatigue swt", shape) == 2);
+  free(mises);
+  petsam_destroy(&c);
+  petsam_destroy(&fresh);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_added_steps_have_the_stresses_of_their_tractions),
+    cmocka_unit_test(test_settings_that_cannot_be_are_refused),
+    cmocka_unit_test(test_embedded_stresses_do_not_depend_on_the_ranks),
+    cmocka_unit_test(test_mistakes_in_embedded_stresses_are_named),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
