@@ -4,20 +4,10 @@ import h5py
 import numpy as np
 
 from support import ROOT
+from test_embed import CASE as EMBEDDED
 from test_embed import run_python
 
-CASE = dict(
-    grid_n=(45, 40),
-    grid_size=(3e-3, 2.8e-3),
-    body1_young=210e9,
-    body1_poisson=0.3,
-    body2_young=70e9,
-    body2_poisson=0.2,
-    friction=0.4,
-    gap_type="sphere",
-    gap_radius1=0.1,
-    gap_radius2="inf",
-)
+CASE = dict(EMBEDDED, friction=0.4)
 COLUMNS = "time,load_n,disp_x,load_ty"
 ROWS = [(1, 500.0, 0.0, 0.0), (2, 800.0, 3e-7, 20.0), (3, 700.0, -2e-7, -30.0), (4.5, 900.0, 1e-7, 0.0)]
 CYCLE = [(k, 1000.0, 4e-7 * x) for k, x in enumerate((0, 0.5, 1, 0.5, 0, -0.5, -1, -0.5, 0))]
