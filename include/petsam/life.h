@@ -53,7 +53,7 @@ typedef struct {
   problem of surfaces that yield (SamNormalSolveYielding()). A jump is made once as a whole and once in two halves, with
   a cycle computed between them; their difference is the error, and tells the size of the next jump; what is kept is
   their extrapolation, which is of second order. Jumps are whole numbers of cycles; one of a single cycle is taken
-  whatever its error: faster wear is for steps that wear one by one (SamWearApply()).
+  whatever its error: faster wear is for steps that wear one by one, without a life.
 
   SamLifeCompute() and SamLifeJump() take turns.
 */
