@@ -56,6 +56,12 @@ PETSC_EXTERN PetscErrorCode SamContactGetCoupling(SamContact contact, PetscBool 
 */
 PETSC_EXTERN PetscErrorCode SamContactSetWarmStart(SamContact contact, PetscBool warm);
 /*
+  SamContactSetCycleMemory - how many bytes, on all ranks, steps of a repeated load cycle may take. A step that was met
+  in the cycle before starts from that one then; the solution is the same within the tolerances (default: 5e8; 0: none;
+  option -cycle_memory). Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a negative number.
+*/
+PETSC_EXTERN PetscErrorCode SamContactSetCycleMemory(SamContact contact, PetscReal bytes);
+/*
   SamContactAllowEdge - whether contact at the grid's edge is only a warning and not a status (default: false). Option
   -allow_edge_contact. Not collective.
 */

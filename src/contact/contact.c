@@ -1,6 +1,8 @@
 /* The class SamContact: its parts and settings, and what others ask of it. */
 #include "contactimpl.h"
 
+#define CYCLE_MEMORY 5e8 /* bytes: 240 steps of 512 x 512 cells, a third of them in contact */
+
 /* ---- creation ---- */
 
 PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
@@ -16,12 +18,15 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   c->edges           = PETSC_TRUE;
   c->coupling_rtol   = 1e-6;
   c->coupling_max_it = 100;
+  c->cycle_memory    = CYCLE_MEMORY;
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
+  PetscCall(SamRecallCreate(c->grid, &c->recall));
+  SamRecallSetMemory(c->recall, c->cycle_memory);
   PetscCall(SamContactDeclare(c));
   PetscCall(SamContactView(c));
   c->revision[SAM_COMMITTED] = -1;
@@ -38,6 +43,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(SamNormalDestroy(&c->normal));
   PetscCall(SamTangentialDestroy(&c->tangential));
   PetscCall(SamStateDestroy(&c->state));
+  SamRecallDestroy(&c->recall);
   PetscCall(SamProblemDestroy(&c->problem));
   PetscCall(PetscFree(*contact));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -78,6 +84,16 @@ PetscErrorCode SamContactSetWarmStart(SamContact c, PetscBool warm)
 {
   PetscFunctionBegin;
   c->warm = warm;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactSetCycleMemory(SamContact c, PetscReal bytes)
+{
+  PetscFunctionBegin;
+  PetscCheck(bytes >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "cycle memory = %g: expected a number >= 0",
+             (double)bytes);
+  c->cycle_memory = bytes;
+  SamRecallSetMemory(c->recall, bytes);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -122,7 +138,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
                                                                                              "deferred", NULL};
   const SamOptions from     = {c->grid->comm, c->prefix};
   PetscInt         coupling = c->coupling ? 1 : 0, max_it = c->coupling_max_it;
-  PetscReal        rtol  = c->coupling_rtol;
+  PetscReal        rtol  = c->coupling_rtol, memory = c->cycle_memory;
   PetscInt         edges = c->edges;
   PetscBool        warm = c->warm, edge = c->allow_edge, spots = c->spots;
 
@@ -136,6 +152,9 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
   PetscCall(
     SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
+  PetscCall(SamOptionsReal(&from, "cycle_memory",
+                           "bytes for steps of a cycle, from which those of the next cycle start; 0: none",
+                           SAM_RANGE_NONNEGATIVE, &memory, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &edge, NULL));
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",
                            edge_words, &edges, NULL));
@@ -144,6 +163,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
   PetscCall(SamContactSetCoupling(c, coupling != 0, rtol, max_it));
   PetscCall(SamContactSetWarmStart(c, warm));
+  PetscCall(SamContactSetCycleMemory(c, memory));
   PetscCall(SamContactAllowEdge(c, edge));
   PetscCall(SamContactSetSpots(c, spots));
   PetscCall(SamContactSetEdges(c, edges > 0));
@@ -195,6 +215,7 @@ PetscErrorCode SamContactSetState(SamContact c, SamState state, PetscBool gap_is
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateCopy(state, c->state));
+  SamRecallForget(c->recall);
   PetscCall(SamContactView(c));
   PetscCall(SamContactReject(c));
   PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_COMMITTED]));
@@ -206,6 +227,7 @@ PetscErrorCode SamContactReset(SamContact c)
 {
   PetscFunctionBegin;
   PetscCall(SamStateReset(c->state));
+  SamRecallForget(c->recall);
   PetscCall(SamContactView(c));
   PetscCall(SamContactReject(c));
   c->revision[SAM_COMMITTED] = -1;

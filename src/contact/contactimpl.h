@@ -3,7 +3,7 @@
 #define PETSAM_CONTACTIMPL_H
 
 #include <petsam/contact.h>
-#include <petsam/private/solutionimpl.h>
+#include "recall.h"
 
 /* The numbers of the solvers, side by side in the state in this order. */
 enum {
@@ -17,7 +17,7 @@ struct _n_SamContact {
   /* what the user set */
   char      prefix[SAM_PREFIX];
   PetscBool coupling, warm, allow_edge, edges, spots;
-  PetscReal coupling_rtol;
+  PetscReal coupling_rtol, cycle_memory;
   PetscInt  coupling_max_it;
   PetscBool coupling_monitor, print_check;
   /* its parts */
@@ -31,6 +31,7 @@ struct _n_SamContact {
   SamState         state;
   PetscBool        has_tried;                      /* a tried solution */
   SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
+  SamRecall        recall;                         /* steps of the cycle before */
   PetscObjectState revision[SAM_GENERATIONS];      /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt         time, solution, given, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
@@ -70,6 +71,7 @@ PETSC_INTERN double *SamContactWindow(SamContact contact, SamGeneration generati
 typedef struct {
   PetscBool pressure, shear; /* whether the tried solution holds a guess of the pressure; of the shear */
   double    rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
+  SamKept   kept;            /* the same step one cycle before; NULL: none */
 } SamStepStart;
 
 /* SamContactPredict - makes the guess for a step, where the steps before allow one (predict.c). Collective. */

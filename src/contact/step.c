@@ -12,7 +12,11 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
                             SamSolve *w)
 {
   PetscFunctionBegin;
-  *w            = (SamSolve){.c = c, .s = &c->generation[SAM_TRIED], .step = step, .same_pressure = same_pressure};
+  *w            = (SamSolve){.c             = c,
+                             .s             = &c->generation[SAM_TRIED],
+                             .step          = step,
+                             .same_pressure = same_pressure,
+                             .kept          = start->kept};
   w->coupled    = SamContactIsCoupled(c);
   w->before     = SamContactBefore(c);
   w->counts     = SamStateNumbers(c->state, c->counts, SAM_TRIED);
@@ -138,6 +142,11 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
     PetscCall(TakePressure(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  if (SamKeptHasPressure(w->kept, &w->s->control, w->c->revision[SAM_TRIED])) {
+    PetscCall(SamKeptGetPressure(w->kept, w->c->grid, w->s));
+    w->known_pressure = PETSC_TRUE;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(GetSeparation(w, &h));
   if (has_shear) {
     PetscCall(SamGridCreateVec(w->c->grid, 1, &predicted));
@@ -256,17 +265,55 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  From the same step one cycle before: the shear under the bound, if that start is near. `solved`: it was, and the
+  tangential problem is.
+*/
+static PetscErrorCode SolveFromKept(SamSolve *w, SamKept kept, Vec offset, SamBalance *balance, PetscBool *solved)
+{
+  const SamContact c       = w->c;
+  SamProduct       product = {.rounding = 0};
+  SamSolverReason  reason;
+  Vec              shear;
+
+  PetscFunctionBegin;
+  *solved = PETSC_FALSE;
+  PetscCall(SamGridCreateVec(c->grid, 2, &product.field));
+  PetscCall(SamGridCreateVec(c->grid, 2, &shear));
+  PetscCall(SamKeptGetShear(kept, c->elasticity, w->before, w->s->bound, shear, &product, solved));
+  if (*solved) {
+    SamSolverSetEffort(SamTangentialAsSolver(c->tangential), 0, SAM_EFFORT_NEAR);
+    PetscCall(SamTangentialSolveKeeping(c->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
+    SamSolverSetEffort(SamTangentialAsSolver(c->tangential), 0, SAM_EFFORT_FULL);
+    PetscCall(SamSolverGetReason(SamTangentialAsSolver(c->tangential), &reason));
+    *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
+  }
+  if (*solved)
+    PetscCall(SamVecCopyNonzero(shear, w->s->shear));
+  else
+    PetscCall(Count(SamTangentialAsSolver(c->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+  PetscCall(VecDestroy(&shear));
+  PetscCall(VecDestroy(&product.field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
 {
-  SamBalance balance = w->tangential;
+  SamBalance balance = w->tangential, given;
+  PetscBool  solved  = PETSC_FALSE;
   Vec        offset;
 
   PetscFunctionBegin;
   PetscCall(CreateOffset(w, &offset));
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
-  PetscCall(SamTangentialSolveKeeping(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
-                                      w->coupled ? &w->shear_product : NULL));
+  given = balance;
+  if (w->kept) PetscCall(SolveFromKept(w, w->kept, offset, &balance, &solved));
+  if (!solved) {
+    balance = given;
+    PetscCall(SamTangentialSolveKeeping(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
+                                        w->coupled ? &w->shear_product : NULL));
+  }
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
@@ -337,7 +384,7 @@ static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
   PetscFunctionBegin;
   if (w->coupled) PetscCall(VecSet(w->h, 0));
   PetscCall(SamSolveNormal(w, start->pressure, start->shear));
-  if (!w->same_pressure) PetscCall(SamSolveJudgeNormal(w));
+  if (!w->same_pressure && !w->known_pressure) PetscCall(SamSolveJudgeNormal(w));
   if (w->step->status == SAM_STATUS_CONVERGED) PetscCall(Correct(w));
   PetscCall(SolveShear(w, start->shear));
   PetscFunctionReturn(PETSC_SUCCESS);

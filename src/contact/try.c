@@ -274,6 +274,8 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
   PetscCall(SamContactPredict(c, &given, &start));
+  if (c->warm && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
+    SamRecallFind(c->recall, &given, &start.kept);
   PetscCall(SamContactSolveStep(c, &start, same_pressure, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
     SetUnknown(step);
@@ -294,6 +296,7 @@ PetscErrorCode SamContactCommit(SamContact c)
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
   *SamStateNumbers(c->state, c->steps, SAM_TRIED) += 1;
+  PetscCall(SamRecallKeep(c->recall, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
   PetscCall(SamStateCommit(c->state));
   c->revision[SAM_COMMITTED] = c->revision[SAM_TRIED];
   c->has_tried               = PETSC_FALSE;

@@ -249,7 +249,7 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
   }
   PetscCall(PetscLogEventEnd(SamEvents[kind->event], 0, 0, 0, 0));
   PetscCheck(s->reason, s->comm, PETSC_ERR_PLIB, "Method %s set no reason", s->type);
-  if (s->effort == SAM_EFFORT_MEASURE) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->effort == SAM_EFFORT_MEASURE || s->effort == SAM_EFFORT_NEAR) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolverViewFromOptions(s));
   PetscCheck(s->reason > 0 || !s->error_if_not_converged ||
                (s->effort == SAM_EFFORT_BRIEF && s->reason == SAM_SOLVER_DIVERGED_ITS),

@@ -1,0 +1,383 @@
+/*
+  The start of a step from the same step one cycle before.
+
+  In a load history that repeats itself, the change of the shear from one step to the next is nearly that of one cycle
+  before, and in steady state it is the same. So a step starts from q = q_now + (q_k - q_(k-1)), k being the step of the
+  cycle before; this keeps what sticks stuck. Its product C q follows from the committed displacement and the kept
+  change of that of step k: the start costs no application of the operator. q may leave its discs by the distance from
+  the steady state; the solver's first trial then goes to the nearest admissible shear (newton.c), and a start whose
+  error is too large is dropped for that of predict.c.
+
+  For bodies whose pressure does not depend on the shear, the pressure of step k is that of this step, if what is
+  prescribed of it and the gap are the same to the bit.
+
+  A step is recognised by what it prescribes and what the step before did, not by its number. Only steps that were met
+  before are kept: histories that do not repeat themselves cost nothing, and the second cycle is the first one that is
+  kept. A kept step replaces that of the cycle before. Changes are stored on the contact's part of each row, as integers
+  in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All decisions are those
+  of global numbers: the same on any number of ranks.
+*/
+#include "recall.h"
+#include <math.h>
+#include <petsam/private/tangentialimpl.h>
+
+/* What was prescribed in so many of the last steps is remembered: longer cycles are not recognised. */
+#define STEPS 4096
+/* Numbers that differ by less, relative to the largest of their kind so far, prescribe the same. */
+#define SAME 1e-9
+/* Columns by which the part of a row is wider than the contact: it may change by a cell. */
+#define MARGIN 1
+/* An upper bound of the influence of single cells' shear on their neighbours, in units of the self-influence. */
+#define SPREAD 4
+#define UNITS  1073741824.0
+
+/* ---- what is kept of a step ---- */
+
+enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y, CHANGES };
+
+struct _n_SamKept {
+  PetscInt        *first, *last;    /* of each row of this rank */
+  int32_t         *change[CHANGES]; /* of the step, one row after the other */
+  double           unit[2];         /* of the shear (Pa), of the product (m) */
+  double          *pressure;        /* NULL: that of the step before */
+  double           bytes, cells;    /* on all ranks */
+  PetscObjectState revision;        /* of the problem that the pressure was solved with */
+  SamControl       control;
+  double           load[3], rigid[3];
+};
+
+typedef struct {
+  SamControl control;
+  SamKept    kept; /* NULL: nothing is */
+} Entry;
+
+struct _n_SamRecall {
+  SamGrid  grid;
+  double   limit, bytes; /* on all ranks */
+  PetscInt count, newest, found;
+  Entry    entry[STEPS]; /* a ring */
+  double   largest[SAM_CONTROL_NUMBERS];
+};
+
+static void DestroyKept(SamRecall r, SamKept *kept)
+{
+  const SamKept k = *kept;
+
+  if (!k) return;
+  r->bytes -= k->bytes;
+  for (PetscInt c = 0; c < CHANGES; c++) SamFree(k->change[c]);
+  SamFree(k->pressure);
+  SamFree(k->first);
+  SamFree(k->last);
+  SamFree(k);
+  *kept = NULL;
+}
+
+PetscErrorCode SamRecallCreate(SamGrid grid, SamRecall *recall)
+{
+  PetscFunctionBegin;
+  PetscCall(SamAllocateZeros(sizeof(**recall), recall));
+  (*recall)->grid  = grid;
+  (*recall)->found = -1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamRecallForget(SamRecall r)
+{
+  for (PetscInt k = 0; k < r->count; k++) DestroyKept(r, &r->entry[k].kept);
+  r->count = r->newest = 0;
+  r->found             = -1;
+}
+
+void SamRecallDestroy(SamRecall *recall)
+{
+  if (!*recall) return;
+  SamRecallForget(*recall);
+  SamFree(*recall);
+  *recall = NULL;
+}
+
+void SamRecallSetMemory(SamRecall r, PetscReal bytes)
+{
+  r->limit = (double)bytes;
+  if (r->bytes > r->limit) SamRecallForget(r);
+}
+
+/* ---- which step this is ---- */
+
+/* The numbers of a control but its time; `size`: those that are prescribed. */
+static void Numbers(const SamControl *control, double numbers[SAM_CONTROL_NUMBERS])
+{
+  SamControl timeless = *control;
+
+  timeless.time = 0;
+  SamControlPack(&timeless, numbers);
+}
+
+static PetscBool IsSame(SamRecall r, const SamControl *a, const SamControl *b)
+{
+  double x[SAM_CONTROL_NUMBERS], y[SAM_CONTROL_NUMBERS];
+
+  Numbers(a, x);
+  Numbers(b, y);
+  for (PetscInt k = 0; k < SAM_CONTROL_NUMBERS; k++)
+    if (fabs(x[k] - y[k]) > SAME * r->largest[k]) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* The k-th entry before the newest one. */
+static PetscInt Before(SamRecall r, PetscInt k)
+{
+  return (r->newest - k + STEPS) % STEPS;
+}
+
+void SamRecallFind(SamRecall r, const SamControl *next, SamKept *kept)
+{
+  double numbers[SAM_CONTROL_NUMBERS];
+
+  *kept    = NULL;
+  r->found = -1;
+  Numbers(next, numbers);
+  for (PetscInt k = 0; k < SAM_CONTROL_NUMBERS; k++) r->largest[k] = PetscMax(r->largest[k], fabs(numbers[k]));
+  for (PetscInt k = 0; r->limit > 0 && k + 2 < r->count && r->found < 0; k++)
+    if (IsSame(r, &r->entry[Before(r, k)].control, next) &&
+        IsSame(r, &r->entry[Before(r, k + 1)].control, &r->entry[r->newest].control))
+      r->found = Before(r, k);
+  if (r->found >= 0) *kept = r->entry[r->found].kept;
+}
+
+/* ---- keeping ---- */
+
+/* The part of row j that is kept: where there is or was a bound. */
+static void FindPart(PetscInt nx, const double before[], const double now[], PetscInt *first, PetscInt *last)
+{
+  PetscInt a[2], b[2];
+
+  SamBoundRange(nx, before, &a[0], &b[0]);
+  SamBoundRange(nx, now, &a[1], &b[1]);
+  *first = *last = 0;
+  if (PetscMax(b[0], b[1]) <= PetscMin(a[0], a[1])) return;
+  *first = PetscMax(PetscMin(a[0], a[1]) - MARGIN, 0);
+  *last  = PetscMin(PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0) + MARGIN, nx);
+}
+
+/* Stores the changes of both components of a field from `before` to `now`, in units of their largest. */
+static PetscErrorCode KeepChange(SamRecall r, SamKept k, Vec before, Vec now, double *unit, int32_t *const to[2])
+{
+  const SamGrid grid = r->grid;
+  const double *a, *b;
+  double        most = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(before, &a));
+  PetscCall(VecGetArrayRead(now, &b));
+  for (PetscInt pass = 0; pass < 2; pass++) {
+    for (PetscInt c = 0; c < 2; c++) {
+      ptrdiff_t n = 0;
+
+      for (PetscInt j = 0; j < grid->rows; j++)
+        for (PetscInt i = k->first[j]; i < k->last[j]; i++, n++) {
+          const ptrdiff_t cell   = c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx + i;
+          const double    change = b[cell] - a[cell];
+
+          if (pass == 0)
+            most = PetscMax(most, fabs(change));
+          else
+            to[c][n] = *unit > 0 ? (int32_t)lrint(change / *unit) : 0;
+        }
+    }
+    if (pass == 0) {
+      PetscCall(SamMax(grid->comm, 1, &most));
+      *unit = most / UNITS;
+    }
+  }
+  PetscCall(VecRestoreArrayRead(now, &b));
+  PetscCall(VecRestoreArrayRead(before, &a));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the parts of the rows, and makes room for them if the limit allows it. */
+static PetscErrorCode CreateKept(SamRecall r, Vec bound_before, Vec bound, PetscBool pressure, SamKept *kept)
+{
+  const SamGrid grid = r->grid;
+  const double *a, *b;
+  size_t        cells = 0;
+  double        total;
+  SamKept       k;
+
+  PetscFunctionBegin;
+  *kept = NULL;
+  PetscCall(SamAllocateZeros(sizeof(*k), &k));
+  PetscCall(SamAllocateZeros(sizeof(*k->first) * (size_t)(grid->rows + 1), &k->first));
+  PetscCall(SamAllocateZeros(sizeof(*k->last) * (size_t)(grid->rows + 1), &k->last));
+  PetscCall(VecGetArrayRead(bound_before, &a));
+  PetscCall(VecGetArrayRead(bound, &b));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    FindPart(grid->nx, a + (ptrdiff_t)j * grid->nx, b + (ptrdiff_t)j * grid->nx, &k->first[j], &k->last[j]);
+    cells += (size_t)(k->last[j] - k->first[j]);
+  }
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  PetscCall(VecRestoreArrayRead(bound_before, &a));
+  total = (double)cells;
+  PetscCall(SamSum(grid->comm, 1, &total));
+  k->cells = total;
+  k->bytes = total * (double)(CHANGES * sizeof(int32_t) + (pressure ? sizeof(double) : 0));
+  r->bytes += k->bytes;
+  if (r->bytes > r->limit) {
+    DestroyKept(r, &k);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt c = 0; c < CHANGES; c++) PetscCall(SamAllocate(sizeof(int32_t) * (cells + 1), &k->change[c]));
+  if (pressure) PetscCall(SamAllocate(sizeof(double) * (cells + 1), &k->pressure));
+  *kept = k;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode KeepPressure(SamRecall r, SamKept k, const SamSolution *now)
+{
+  const SamGrid grid = r->grid;
+  const double *p;
+  double       *to = k->pressure;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; c++) {
+    k->load[c]  = now->load[SamComponentsOf[SAM_BALANCE_NORMAL][c]];
+    k->rigid[c] = now->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][c]];
+  }
+  PetscCall(VecGetArrayRead(now->pressure, &p));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const PetscInt n = k->last[j] - k->first[j];
+
+    PetscCall(PetscArraycpy(to, p + (ptrdiff_t)j * grid->nx + k->first[j], n));
+    to += n;
+  }
+  PetscCall(VecRestoreArrayRead(now->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSolution *now, PetscObjectState revision)
+{
+  Entry    *e;
+  PetscBool pressure;
+
+  PetscFunctionBegin;
+  if (r->limit <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (r->found >= 0) DestroyKept(r, &r->entry[r->found].kept);
+  r->newest = r->count ? (r->newest + 1) % STEPS : 0;
+  r->count  = PetscMin(r->count + 1, STEPS);
+  e         = &r->entry[r->newest];
+  DestroyKept(r, &e->kept);
+  e->control = now->control;
+  if (r->found < 0 || !before || !before->displacement_t) PetscFunctionReturn(PETSC_SUCCESS);
+  pressure = SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL) ? PETSC_FALSE : PETSC_TRUE;
+  PetscCall(CreateKept(r, before->bound, now->bound, pressure, &e->kept));
+  r->found = -1;
+  if (!e->kept) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(KeepChange(r, e->kept, before->shear, now->shear, &e->kept->unit[0], &e->kept->change[SHEAR_X]));
+  PetscCall(KeepChange(r, e->kept, before->displacement_t, now->displacement_t, &e->kept->unit[1],
+                       &e->kept->change[PRODUCT_X]));
+  e->kept->revision = revision;
+  e->kept->control  = now->control;
+  if (pressure) PetscCall(KeepPressure(r, e->kept, now));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- recalling ---- */
+
+PetscBool SamKeptHasPressure(SamKept k, const SamControl *control, PetscObjectState revision)
+{
+  if (!k || !k->pressure || revision < 0 || k->revision != revision) return PETSC_FALSE;
+  return SamControlIsSame(&k->control, control, SAM_BALANCE_NORMAL);
+}
+
+PetscErrorCode SamKeptGetPressure(SamKept k, SamGrid grid, SamSolution *s)
+{
+  const double *from = k->pressure;
+  double       *p;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayWrite(s->pressure, &p));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double        *row = p + (ptrdiff_t)j * grid->nx;
+    const PetscInt n   = k->last[j] - k->first[j];
+
+    PetscCall(PetscArrayzero(row, grid->nx));
+    PetscCall(PetscArraycpy(row + k->first[j], from, n));
+    from += n;
+  }
+  PetscCall(VecRestoreArrayWrite(s->pressure, &p));
+  for (PetscInt c = 0; c < 3; c++) {
+    s->load[SamComponentsOf[SAM_BALANCE_NORMAL][c]]  = k->load[c];
+    s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][c]] = k->rigid[c];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the kept changes of a component of shear or product to the part of a row. */
+static void AddRow(PetscInt n, double unit, const int32_t change[], double to[])
+{
+  for (PetscInt i = 0; i < n; i++) to[i] += unit * (double)change[i];
+}
+
+/*
+  Shear outside of the bound is rounding, or the change of the contact's edge since: it is dropped, and what it would
+  displace nearby goes to the account of rounding. Returns its square; `open`: the cells under a bound that are not in
+  the part of their row.
+*/
+static double TrimRow(PetscInt nx, PetscInt first, PetscInt last, const double bound[], double *qx, double *qy,
+                      double *open)
+{
+  double lost = 0;
+
+  for (PetscInt i = 0; i < nx; i++) {
+    if (bound[i] > 0) {
+      *open += i < first || i >= last;
+      continue;
+    }
+    lost += qx[i] * qx[i] + qy[i] * qy[i];
+    qx[i] = qy[i] = 0;
+  }
+  return lost;
+}
+
+PetscErrorCode SamKeptGetShear(SamKept k, SamElasticity elasticity, const SamSolution *now, Vec bound, Vec shear,
+                               SamProduct *product, PetscBool *found)
+{
+  SamGrid       grid;
+  PetscReal     self;
+  double       *q, *u, open = 0, lost;
+  const double *b;
+  ptrdiff_t     n     = 0;
+  SamTotal      total = {0};
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetGrid(elasticity, &grid));
+  PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
+  PetscCall(VecCopy(now->shear, shear));
+  PetscCall(VecCopy(now->displacement_t, product->field));
+  PetscCall(VecGetArray(shear, &q));
+  PetscCall(VecGetArray(product->field, &u));
+  PetscCall(VecGetArrayRead(bound, &b));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t row = (ptrdiff_t)j * grid->nx, cell = row + k->first[j];
+    const PetscInt  count = k->last[j] - k->first[j];
+
+    for (PetscInt c = 0; c < 2; c++) {
+      AddRow(count, k->unit[0], k->change[SHEAR_X + c] + n, q + c * (ptrdiff_t)grid->cells + cell);
+      AddRow(count, k->unit[1], k->change[PRODUCT_X + c] + n, u + c * (ptrdiff_t)grid->cells + cell);
+    }
+    SamAdd(&total, TrimRow(grid->nx, k->first[j], k->last[j], b + row, q + row, q + grid->cells + row, &open));
+    n += count;
+  }
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  PetscCall(VecRestoreArray(product->field, &u));
+  PetscCall(VecRestoreArray(shear, &q));
+  PetscCall(SamSumTotals(grid->comm, 1, &total, &lost));
+  PetscCall(SamMax(grid->comm, 1, &open));
+  product->first[0] = product->first[1] = 0;
+  product->n[0]                         = grid->nx;
+  product->n[1]                         = grid->ny;
+  product->rounding = sqrt(k->cells) * (k->unit[1] / (double)self + SPREAD * k->unit[0]) + SPREAD * sqrt(lost);
+  *found            = open > 0 ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
