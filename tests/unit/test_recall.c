@@ -1,0 +1,151 @@
+/* Repeated load cycles: a step starts from the same step one cycle before, with the same solution. */
+#include "contacts.h"
+
+#define STEPS 12
+
+/* Step k of a cycle: N varies by `swing` of its mean, the tangential loads about it. */
+static SamControl Step(const Case *c, PetscInt k, double swing)
+{
+  const double turn = 2 * PETSC_PI / STEPS * (double)(k % STEPS);
+
+  return Loads(c, 1 + swing * sin(turn), 0.5 * cos(turn), 0.1 * sin(turn), 0.05 * cos(turn));
+}
+
+/* Applications of both operators in so many cycles, those of the last cycle; all steps are good. */
+typedef struct {
+  double normal, tangential;
+} Work;
+
+static Work RunCycles(const Case *c, PetscInt cycles, double swing)
+{
+  Work work = {0, 0};
+
+  for (PetscInt k = 0; k < cycles * STEPS; k++) {
+    const SamControl control = Step(c, k, swing);
+    const SamStep    step    = Solve(c, &control);
+
+    AssertGood(&step);
+    if (k < (cycles - 1) * STEPS) continue;
+    work.normal += NumberOf(c, "normal_applies");
+    work.tangential += NumberOf(c, "tangential_applies");
+  }
+  return work;
+}
+
+/* The largest difference of the shears of two contacts, relative to the largest shear. */
+static double ShearDifference(const Case *a, const Case *b)
+{
+  Vec       difference = NewField(a->s.grid, 2);
+  PetscReal size, most;
+
+  sam_call(VecNorm(SolutionOf(a)->shear, NORM_INFINITY, &size));
+  sam_call(VecWAXPY(difference, -1, SolutionOf(a)->shear, SolutionOf(b)->shear));
+  sam_call(VecNorm(difference, NORM_INFINITY, &most));
+  sam_call(VecDestroy(&difference));
+  return (double)(most / size);
+}
+
+/* Runs cycles with and without memory for them, and compares the ends. */
+static void Compare(double swing, const char *memory, Work *with, Work *without)
+{
+  Case c = NewCase(Steel(), 31, 1.5, MU, memory), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 0");
+
+  *with    = RunCycles(&c, 5, swing);
+  *without = RunCycles(&d, 5, swing);
+  sam_assert(ShearDifference(&c, &d) < 3e-4); /* the shear's tolerance, 1e-6, times the condition at the edges */
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
+static void test_repeated_cycle_takes_half_the_products_under_constant_normal_load(void **state)
+{
+  Work with, without;
+
+  (void)state;
+  Compare(0, "", &with, &without);
+  sam_assert(with.tangential < 0.6 * without.tangential);
+}
+
+static void test_repeated_pressure_is_not_solved_again(void **state)
+{
+  Work with, without;
+
+  (void)state;
+  Compare(0.3, "", &with, &without);
+  sam_assert(with.normal == 0 && without.normal > STEPS);
+  sam_assert(with.tangential < 0.6 * without.tangential);
+}
+
+static void test_without_room_nothing_is_kept(void **state)
+{
+  Work with, without;
+
+  (void)state;
+  Compare(0.3, "-cycle_memory 100", &with, &without);
+  sam_assert(with.normal == without.normal && with.tangential == without.tangential);
+}
+
+/* A load that was never met is followed by the cycle again, from another state than in the cycle before. */
+static void test_cycle_after_another_load_has_the_same_solution(void **state)
+{
+  Case c = NewCase(Steel(), 31, 1.5, MU, ""), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 0");
+
+  (void)state;
+  for (PetscInt k = 0; k < 4 * STEPS + 5; k++) {
+    const SamControl control = k == 3 * STEPS + 4 ? Loads(&c, 1, -0.8, 0.3, 0) : Step(&c, k, 0);
+    SamStep          step    = Solve(&c, &control);
+
+    AssertGood(&step);
+    step = Solve(&d, &control);
+    AssertGood(&step);
+    sam_assert(ShearDifference(&c, &d) < 3e-4);
+  }
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
+static void test_another_gap_needs_another_pressure(void **state)
+{
+  Case       c = NewCase(Steel(), 31, 1.5, MU, "");
+  SamControl control;
+
+  (void)state;
+  (void)RunCycles(&c, 3, 0.3);
+  control = Step(&c, 0, 0.3);
+  (void)Try(&c, &control);
+  sam_assert(NumberOf(&c, "normal_applies") == 0);
+  sam_call(VecScale(c.s.h, 1.01));
+  sam_call(SamProblemSetGap(c.problem, c.s.h));
+  (void)Try(&c, &control);
+  sam_assert(NumberOf(&c, "normal_applies") > 0);
+  DestroyCase(&c);
+}
+
+/* After a reset the first cycle is the first: as in a new contact, to the last bit. */
+static void test_reset_forgets_the_cycles(void **state)
+{
+  Case c = NewCase(Steel(), 31, 1.5, MU, ""), d = NewCase(Steel(), 31, 1.5, MU, "");
+
+  (void)state;
+  (void)RunCycles(&c, 3, 0.3);
+  sam_call(SamContactReset(c.contact));
+  (void)RunCycles(&c, 2, 0.3);
+  (void)RunCycles(&d, 2, 0.3);
+  sam_assert(ShearDifference(&c, &d) == 0);
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_repeated_cycle_takes_half_the_products_under_constant_normal_load),
+    cmocka_unit_test(test_repeated_pressure_is_not_solved_again),
+    cmocka_unit_test(test_without_room_nothing_is_kept),
+    cmocka_unit_test(test_cycle_after_another_load_has_the_same_solution),
+    cmocka_unit_test(test_another_gap_needs_another_pressure),
+    cmocka_unit_test(test_reset_forgets_the_cycles),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
