@@ -4,9 +4,11 @@ import csv
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 
 import h5py
@@ -17,8 +19,9 @@ from conftest import PROGRAM as PETSAM
 from conftest import environment
 from petsam.study import cases as study_cases
 from petsam.study import command as study_command
+from petsam.study import runs as study_runs
 from petsam.study.slurm import ranges
-from support import ROOT, ball, slide_limit, words
+from support import ROOT, ball, limit, slide_limit, words
 
 PROGRAM = ROOT / "scripts" / "petsam-study"
 CASE = ball(n=32)
@@ -114,7 +117,7 @@ def table(tmp_path, text, name="cases.csv"):
 
 def until(condition, seconds=60):
     """Wait for what another process does."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + limit(seconds)
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)
@@ -135,6 +138,21 @@ def test_csv_columns_are_options(tmp_path):
     assert one.words() == ["-load_tx", "10", "-grid_center", "0,1e-4", "-grid_n", "64", "-allow_edge_contact"]
     assert two.words() == ["-load_tx", "20", "-grid_n", "64", "-allow_edge_contact"]
     assert (one.name, one.ranks, two.name, two.ranks) == ("one", 2, "two", 3)
+
+
+def test_columns_may_be_separated_by_semicolons(tmp_path):
+    path = table(tmp_path, 'load_tx; -grid_center; case\n10; 0,1e-4; one\n20; "0;1"; two\n')
+    one, two = study_cases.read(str(path))
+    assert one.words() == ["-load_tx", "10", "-grid_center", "0,1e-4"] and (one.name, two.name) == ("one", "two")
+    assert two.options["grid_center"] == "0;1"
+
+
+def test_the_table_with_files_in_the_help_is_one(run, tmp_path):
+    text = run("--help")
+    example = text[text.index("  options: {history") : text.index("\nOptions after")]
+    cases = study_cases.read(str(table(tmp_path, textwrap.dedent(example), "t.yaml")))
+    assert [case.files["cycle.csv"].split()[-1] for case in cases] == ["80", "400"]
+    assert cases[0].options["history"] == "cycle.csv"
 
 
 def test_yaml_combines_all_lists_and_computes_expressions(tmp_path):
@@ -660,7 +678,9 @@ def slurm(tmp_path, fake):
     when the file `limit` does.
     """
     executable(
-        tmp_path / "bin" / "srun", '#!/bin/sh\n[ "$1" = -n ] && { RANKS=$2; export RANKS; shift 2; }\nexec "$@"\n'
+        tmp_path / "bin" / "srun",
+        f'#!/bin/sh\necho "$@" >>{tmp_path}/srun.txt\n[ "$1" != --cpu-bind=cores ] || shift\n'
+        '[ "$1" = -n ] && { RANKS=$2; export RANKS; shift 2; }\nexec "$@"\n',
     )
     executable(tmp_path / "bin" / "scontrol", f'#!/bin/sh\necho "$@" >>{tmp_path}/scontrol.txt\n')
     executable(
@@ -734,6 +754,35 @@ def test_a_study_is_submitted_as_arrays_and_collected(run, tmp_path, slurm):
     assert "--array=2 " in lines(tmp_path / "sbatch.txt")[3]
 
 
+@pytest.mark.parametrize("words", [("--sbatch", "--time=2:00:00"), ("--sbatch=--time=2:00:00",)])
+def test_a_single_option_of_sbatch_is_taken_as_the_help_writes_it(run, tmp_path, slurm, words):
+    table(tmp_path, "load_tx\n1\n")
+    run("cases.csv", "--slurm", *words, **slurm)
+    assert all(" --time=2:00:00 " in line for line in lines(tmp_path / "sbatch.txt"))
+    assert "--sbatch requires --slurm" in run("cases.csv", *words, check=2, **slurm)
+
+
+def test_each_rank_of_a_task_is_bound_to_its_cores(run, tmp_path, slurm):
+    table(tmp_path, "load_tx,ranks\n1,2\n")
+    run("cases.csv", "--slurm", "--cores", 2, **slurm)
+    assert any(line.startswith("--cpu-bind=cores -n 2 ") for line in lines(tmp_path / "srun.txt"))
+
+
+def test_the_grace_of_a_run_is_the_time_that_the_job_has_left(monkeypatch):
+    monkeypatch.delenv("GRACE", raising=False)
+    monkeypatch.delenv("SLURM_JOB_END_TIME", raising=False)
+    assert study_runs.grace() == 90.0
+    monkeypatch.setenv("SLURM_JOB_END_TIME", str(int(time.time()) + 600))
+    assert 560.0 < study_runs.grace() <= 570.0
+    monkeypatch.setenv("SLURM_JOB_END_TIME", "5")
+    assert study_runs.grace() == 1.0
+    monkeypatch.setenv("GRACE", "7")
+    assert study_runs.grace() == 7.0
+    monkeypatch.setenv("GRACE", "long")
+    with pytest.raises(study_runs.Error, match="GRACE is long"):
+        study_runs.grace()
+
+
 @pytest.mark.parametrize(
     "words, passed",
     [
@@ -776,7 +825,7 @@ trap 'echo "$$ $RANDOM" >"$file"; exit 75' USR1
 def large(tmp_path, slurm):
     """large(script): runs scripts/slurm/run.sbatch with a petsam that does script; exit code and requeues."""
 
-    def submit(script, limit=False):
+    def submit(script, *more, limit=False, **variables):
         executable(tmp_path / "bin" / "petsam", LARGE.format(tmp_path, script))
         for name in ("started.txt", "scontrol.txt", "codes.txt"):
             (tmp_path / name).unlink(missing_ok=True)
@@ -787,9 +836,11 @@ def large(tmp_path, slurm):
             **{k: str(v) for k, v in slurm.items()},
             "CHECKPOINT": "big.checkpoint.h5",
             "GRACE": "1",
+            **variables,
         }
+        script, words = ROOT / "scripts/slurm/run.sbatch", ["-grid_n", "64", "-output", "big.h5", *more]
         subprocess.run(
-            ["sbatch", "--nodes=2", str(ROOT / "scripts/slurm/run.sbatch"), "-grid_n", "64", "-output", "big.h5"],
+            ["sbatch", "--nodes=2", str(script), *words],
             cwd=tmp_path,
             env=env,
             check=True,
@@ -822,3 +873,22 @@ def test_a_large_run_without_a_new_checkpoint_is_not_queued_again(large, tmp_pat
 def test_a_step_longer_than_the_grace_goes_on_from_the_checkpoint_before(large):
     """The program takes no notice of USR1, but has written a checkpoint in this job."""
     assert large("trap '' USR1; echo state >$file; exec sleep 60", limit=True) == (0, ["requeue 1"])
+
+
+def test_a_large_run_is_bound_and_knows_how_much_time_is_left(large, tmp_path):
+    end = str(int(time.time()) + 3600)
+    large("exit 0", SLURM_JOB_END_TIME=end)
+    large("exit 0", "-max_walltime", "5:00", SLURM_JOB_END_TIME=end)
+    large("exit 0", SLURM_JOB_END_TIME="5", MARGIN="10")
+    first, second, third = lines(tmp_path / "runs.txt")
+    assert 3400 < int(re.search(r"-checkpoint_every 10 -max_walltime (\d+)$", first).group(1)) <= 3540
+    assert second.count("-max_walltime") == 1 and "-max_walltime 5:00" in second
+    assert third.endswith("-max_walltime 1")
+    assert all(line.startswith("--cpu-bind=cores ") for line in lines(tmp_path / "srun.txt"))
+
+
+def test_a_long_step_gets_the_time_that_is_left(large):
+    """The program takes two seconds to stop; with GRACE it would be ended after one, without a new checkpoint."""
+    slow = "trap 'sleep 2; echo state >$file; exit 75' USR1; sleep 60 & wait"
+    assert large(slow, limit=True)[1] == []
+    assert large(slow, limit=True, GRACE="", SLURM_JOB_END_TIME=str(int(time.time()) + 600)) == (0, ["requeue 2"])

@@ -1,7 +1,8 @@
 """The cases of a study, from its table: a CSV file with a row a case, or a small YAML file of combinations.
 
 CSV: the first line names options of petsam (with or without their dash), each further row is a case; an empty cell
-leaves the option out, `#` starts a comment. A column `ranks` gives a case's MPI ranks, a column `case` its name.
+leaves the option out, `#` starts a comment. Semicolons separate the columns if the first line has one. A column
+`ranks` gives a case's MPI ranks, a column `case` its name.
 
 YAML: `options` maps options of petsam to a value or to a list; every combination of the lists is a case. `parameters`
 is the same for names that are no options, `files` maps names of files that every case gets in its own folder to their

@@ -4,11 +4,24 @@
     petsam-study study.yaml --cores 16 --ranks 4
     petsam-study study.yaml --slurm --sbatch "--time=2:00:00 --partition=short"
 
-The table is CSV (a column an option, a row a case) or YAML (all combinations of lists of values); options after `--`
-hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that
-have finished with the same inputs are not run again, so the same command goes on after an interruption (Ctrl-C, or the
-end of a job). Results of all go to DIRECTORY/results.csv and results.h5. A study has at most 100000 cases.
-petsam-plot draws results.h5. Of histories with cycles the table has the energies of some: --turns, --period, --cycle.
+The table is CSV (one column per option, one row per case; commas or semicolons) or YAML (all combinations of lists).
+Sections of a YAML table:
+  options     options of petsam: a value or a list of values
+  parameters  names of your own for {expressions}, likewise
+  files       NAME: text of a file that each case gets in its folder, with {expressions}; an option refers to NAME
+  ranks       MPI ranks of a case
+
+  options: {history: cycle.csv, load_n: 1000, friction: [0.1, 0.5]}
+  files:
+    cycle.csv: |
+      time, load_tx
+      1,    {0.8 * friction * load_n}
+
+Options after `--` hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in
+DIRECTORY/NAME. Cases that have finished with the same inputs are not run again, so the same command resumes after an
+interruption (Ctrl-C, or the end of a job). The results of all cases are written to DIRECTORY/results.csv and
+results.h5. A study has at most 100000 cases. petsam-plot draws results.h5. For histories with cycles the table lists
+the energies of some: --turns, --period, --cycle.
 """
 
 import argparse
@@ -70,6 +83,15 @@ def _cycle_options(parser):
     )
 
 
+def _taken(words):
+    """Words in which the value of --sbatch, which begins with dashes itself, is joined to it."""
+    found = list(words)
+    while "--sbatch" in found[:-1]:
+        at = found.index("--sbatch")
+        found[at : at + 2] = [f"--sbatch={found[at + 1]}"]
+    return found
+
+
 def arguments():
     """Read the command line: the options, and the words after --."""
     words = sys.argv[1:]
@@ -102,9 +124,9 @@ def arguments():
     what.add_argument("--slurm", action="store_true", help="submit a job array of the cases, and a job that collects")
     parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
     _cycle_options(parser)
-    options = parser.parse_args(joined(words[:at]))
+    options = parser.parse_args(joined(_taken(words[:at])))
     if options.sbatch and not options.slurm:
-        parser.error("--sbatch: is for --slurm")
+        parser.error("--sbatch requires --slurm")
     options.words = words[at + 1 :]
     options.directory = os.path.abspath(options.directory or os.path.splitext(os.path.basename(options.table))[0])
     return options

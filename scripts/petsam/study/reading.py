@@ -72,9 +72,9 @@ def _encodes(text):
 # ---------------------------------------------------------------- CSV
 
 
-def _cells(path, number, line):
+def _cells(path, number, line, separator):
     """The cells of one line; a quoted one ends on it, too."""
-    table = csv.reader([line, ""], skipinitialspace=True)
+    table = csv.reader([line, ""], skipinitialspace=True, delimiter=separator)
     try:
         row = next(table)
     except csv.Error as error:
@@ -99,11 +99,12 @@ def read_csv(path):
     """Names of the columns, and rows as (line's number, values by name without the empty ones)."""
     text = io.StringIO(_text_of(path, CSV), newline="")
     # blank lines and comments go, but lines are counted
-    rows = [
-        (number, _cells(path, number, line))
-        for number, line in enumerate(text, 1)
-        if line.strip() and not line.lstrip().startswith("#")
+    lines = [
+        (number, line) for number, line in enumerate(text, 1) if line.strip() and not line.lstrip().startswith("#")
     ]
+    # as in histories: spreadsheets write semicolons where the decimal sign is a comma
+    separator = ";" if lines and ";" in lines[0][1] else ","
+    rows = [(number, _cells(path, number, line, separator)) for number, line in lines]
     if len(rows) < 2:
         raise TableError(f"{path}: expected a line of option names and at least one case")
     names = [_plain(name) for name in rows[0][1]]

@@ -30,7 +30,8 @@ MEANINGS = {
     STOPPED: "stopped early, to be run again",
 }
 PATIENCE = 10.0  # seconds that runs get to end when asked to
-GRACE = 90.0  # seconds that they get to write a checkpoint and stop; the variable GRACE overrides it
+GRACE = 90.0  # seconds that they get to write a checkpoint and stop, where no variable says how much time is left
+RESERVE = 30.0  # seconds before the end of a Slurm job in which it is queued again
 WORDS = 1000  # characters of a run's own words on how it ended
 PAUSE = 0.05  # seconds between looks at the runs
 
@@ -100,16 +101,26 @@ def _message(log, code):
     return one_line(lines[-1], WORDS) if lines and code else ""
 
 
-def grace():
-    """Seconds that runs get to write a checkpoint and stop."""
-    text = os.environ.get("GRACE") or str(GRACE)
+def _seconds(name):
+    """A variable's number of seconds, or None where it is not set."""
+    text = os.environ.get(name)
+    if not text:
+        return None
     try:
         seconds = float(text)
     except ValueError:
         seconds = math.nan
     if not 0.0 <= seconds < math.inf:
-        raise Error(f"the variable GRACE is {text}; expected a number of seconds")
+        raise Error(f"the variable {name} is {short(text)}; expected a number of seconds")
     return seconds
+
+
+def grace():
+    """Seconds from now that runs get to write a checkpoint and stop: $GRACE, the job's time left, or GRACE."""
+    seconds, end = _seconds("GRACE"), _seconds("SLURM_JOB_END_TIME")
+    if seconds is not None:
+        return seconds
+    return GRACE if end is None else max(1.0, end - time.time() - RESERVE)
 
 
 def check_folders(directory, cases):
@@ -129,15 +140,15 @@ def check_folders(directory, cases):
 class Run:
     """A case that is running."""
 
-    def __init__(self, case, directory, command, checkpoint_every=None, patience=GRACE):
-        """Make the folder ready and start `command -n RANKS petsam ...` in it; patience is that of grace()."""
+    def __init__(self, case, directory, command, checkpoint_every=None):
+        """Make the folder ready and start `command -n RANKS petsam ...` in it."""
         self.case, self.folder = case, os.path.join(directory, case.name)
         os.makedirs(self.folder, exist_ok=True)
         self.lock = self._lock()
         goes_on = self._goes_on(directory, checkpoint_every)
         for name, text in case.files.items():
             write_atomically(os.path.join(self.folder, name), text)
-        self.start, self.told, self.patience = time.monotonic(), None, patience
+        self.start, self.told, self.patience = time.monotonic(), None, 0.0
         self.before = record(directory, case).get("seconds", 0.0) if goes_on else 0.0
         self._note(None, "")
         words = [
@@ -226,8 +237,8 @@ class Run:
         return code
 
     def tell(self):
-        """Ask for a checkpoint and an early end; it does not get to go on for long."""
-        self.told = time.monotonic()
+        """Ask for a checkpoint and an early end, within the seconds of grace()."""
+        self.told, self.patience = time.monotonic(), grace()
         self.signal(signal.SIGUSR1)
 
     def signal(self, number):
@@ -254,7 +265,7 @@ class Study:
         self.directory, self.command, self.cores = directory, command, cores
         self.report, self.tick, self.checkpoint_every = report, tick, checkpoint_every
         self.running, self.interrupted, self.stop = [], 0, False
-        self.patience = grace()
+        grace()  # refuses variables that are no numbers
 
     def _catch(self, number, _frame):
         if number == signal.SIGUSR1:  # Slurm's notice of the end: the runs write their checkpoints and stop
@@ -296,7 +307,7 @@ class Study:
 
     def _start(self, case):
         try:
-            self.running.append(Run(case, self.directory, self.command, self.checkpoint_every, self.patience))
+            self.running.append(Run(case, self.directory, self.command, self.checkpoint_every))
         except Busy:
             self.report(case, None)
 
