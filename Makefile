@@ -51,7 +51,7 @@ VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p'
 SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install clean
+.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -196,7 +196,7 @@ lint: $(PROGRAMS:%=$(B)/help/%.h) ## cppcheck over the sources
 	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude -I$(B) --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) $(PROGRAMS:%=src/app/%.c)
 
 # what is installed for users; scripts that build and maintain petsam are not
-SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
+SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name setup.py ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
 # the manual's parts outside of scripts and examples
 MANUAL := README.md include/README.md src/README.md tests/README.md tests/bench/README.md
@@ -231,6 +231,10 @@ $(B)/share/bash-completion/completions/%: $(B)/bin/% scripts/maintain/completion
 	@mkdir -p $(@D)
 	$(say) COMPLETION $@
 	$(Q)$(PYTHON) scripts/maintain/completion.py $< > $@
+
+# the environment's Python has pip
+wheel: all pages $(B)/venv/done ## make a wheel of the Python package with the programs and the library in build/wheel
+	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(B)
 
 clean: ## remove what was built
 	rm -rf $(B)

@@ -22,7 +22,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .environment import TREE
+from . import __version__
+from .environment import PREFIX, TREE
 from .errors import Error, Missing, short, there_are
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
@@ -113,12 +114,21 @@ def _candidates():
     """Where libpetsam may be: $PETSAM_LIBRARY, the build tree, the prefix of these scripts or of petsam on PATH."""
     if os.environ.get("PETSAM_LIBRARY"):
         return [os.environ["PETSAM_LIBRARY"]]
-    folders = [TREE / "build" / "lib", TREE.parents[1] / "lib"]
+    folders = [TREE / "build" / "lib", PREFIX / "lib"]
     program = os.environ.get("PETSAM") or shutil.which("petsam")
     if program:
         folders.append(Path(program).resolve().parents[1] / "lib")
-    found = [str(folder / "libpetsam.so") for folder in folders if (folder / "libpetsam.so").exists()]
-    return [*found, "libpetsam.so"]
+    # a wheel has the library by the version of its interface only
+    names = ("libpetsam.so", "libpetsam.so." + ".".join(__version__.split(".")[:2]))
+    return [*[str(folder / name) for folder in folders for name in names if (folder / name).exists()], "libpetsam.so"]
+
+
+def _needs(name):
+    """What a wheel says has to be installed where its library cannot be loaded."""
+    try:
+        return "; " + Path(name + ".needs").read_text(encoding="utf-8").strip()
+    except OSError:
+        return ""
 
 
 def _share_mpi():
@@ -142,7 +152,7 @@ def _find():
             found.petsam_destroy.restype = None
             return found
         except OSError as error:
-            reason = reason or str(error)
+            reason = reason or str(error) + _needs(name)
         except AttributeError:
             reason = reason or f"{name} is another library, or an older one"
     raise Missing(

@@ -9,9 +9,6 @@ import subprocess
 from .. import environment
 from ..errors import Error, short
 
-SCRIPT = environment.SCRIPTS / "slurm" / "array.sbatch"
-STUDY = environment.SCRIPTS / "petsam-study"
-
 
 class SubmitError(Error):
     """sbatch is missing or refuses; the message is its own."""
@@ -70,6 +67,7 @@ def _study_words(options):
 def submit(options, cases, waiting):
     """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables at the end."""
     words, extra = _study_words(options), environment.split(options.sbatch, "--sbatch")
+    script, study = environment.script("slurm/array.sbatch"), environment.script("petsam-study")
     common = ["--", *options.words] if options.words else []
     log = "--output=" + os.path.join(options.directory, "slurm-%A_%a.out")
     jobs = []
@@ -82,9 +80,9 @@ def submit(options, cases, waiting):
                 f"--ntasks={ranks}",
                 "--chdir=" + os.getcwd(),
                 log,
-                f"--export=ALL,PETSAM_STUDY={STUDY}",
+                f"--export=ALL,PETSAM_STUDY={study}",
                 *extra,
-                str(SCRIPT),
+                str(script),
                 *words,
                 *common,
             ]
@@ -94,7 +92,7 @@ def submit(options, cases, waiting):
     if not jobs:
         print(f"all {len(cases)} cases need not run")
         return 0
-    collect = shlex.join([str(STUDY), *words, "--collect", *common])
+    collect = shlex.join([str(study), *words, "--collect", *common])
     job = _sbatch(
         [
             "--dependency=afterany:" + ":".join(jobs),
