@@ -220,15 +220,15 @@ def test_a_file_of_any_option_is_found_and_its_change_noticed(tmp_path, option):
         ("t.csv", "load_tx\n", "at least one case"),
         ("t.csv", "load_tx\n1\n2\n1\n", "t.csv, line 4: the same name, load_tx=1, as"),
         ("t.csv", "load_tx,ranks\n1,0\n", "t.csv, line 2: ranks 0"),
-        ("t.csv", "load_tx,output\n1,a.h5\n", "t.csv, line 2: -output: petsam-study names the results"),
+        ("t.csv", "load_tx,output\n1,a.h5\n", "t.csv, line 2: -output: petsam-study chooses the file"),
         ("t.csv", "load_tx,case\n1,../a\n", "t.csv, line 2: case ../a"),
         ("t.yaml", "options:\n  load_tx: [1\n", "t.yaml, line 3:"),
         ("t.yaml", "options:\n  load_tx: 1\nrank: 1\n", "t.yaml: rank: unknown"),
-        ("t.yaml", 'options:\n  load_tx: "{2 * a}"\n', "t.yaml: {2 * a}: there is no parameter or option a"),
+        ("t.yaml", 'options:\n  load_tx: "{2 * a}"\n', "t.yaml: {2 * a}: unknown parameter or option a"),
         ("t.yaml", 'options:\n  load_tx: "{load_tx}"\n', "refers to itself"),
         ("t.yaml", 'options:\n  load_tx: "{1 / 0}"\n', "t.yaml: {1 / 0}: "),
         ("t.yaml", 'options:\n  load_tx: "{open(1)}"\n', "only numbers, names"),
-        ("t.yaml", 'options:\n  a: x\n  load_tx: "{2 * a}"\n', "a = x is no number"),
+        ("t.yaml", 'options:\n  a: x\n  load_tx: "{2 * a}"\n', "a = x is not a number"),
         ("t.yaml", "options:\n  load_tx: {a: 1}\n", "t.yaml: options: load_tx: expected a value or a list"),
         ("t.yaml", "options:\n  load_tx: 1\nfiles:\n  ../a: b\n", "t.yaml: files: expected names without folders"),
         ("t.yaml", "options:\n  a: 1\nparameters:\n  a: 1\n", "t.yaml: a: is both"),
@@ -286,8 +286,8 @@ def test_ranks_are_whole_numbers(tmp_path, monkeypatch, capsys, ranks):
     [
         (b"load_tx\n\xe9\n", "line 2: is not UTF-8"),
         ("load_tx\n1\n".encode("utf-16"), "line 1: is UTF-16"),
-        ("load_tx\n1\n".encode("utf-16-le"), "line 1: holds a NUL"),
-        (b"load_tx\n1\0\n", "line 2: holds a NUL"),
+        ("load_tx\n1\n".encode("utf-16-le"), "line 1: contains a NUL"),
+        (b"load_tx\n1\0\n", "line 2: contains a NUL"),
         (bytes(range(256)) * 9, "line "),
         (b"", "expected"),
     ],
@@ -305,7 +305,7 @@ def test_a_table_that_is_no_text_is_refused(tmp_path, monkeypatch, capsys, name,
         ("load_tx\n1\n" + "1" * 100000, "line 3: a value of 100000 characters"),
         ('load_tx,a\n"1,2\n3,4\n', "line 2: a quote is not closed"),
         ('load_tx,a\n1,2\n"1\n2",3\n', "line 3: a quote is not closed"),
-        ("load_tx\n" + "".join(f"{k}\n" for k in range(100001)), "100001 cases: expected at most 100000"),
+        ("load_tx\n" + "".join(f"{k}\n" for k in range(100001)), "100001 cases; use at most 100000"),
     ],
 )
 def test_a_bad_csv_table_names_its_line(tmp_path, monkeypatch, capsys, text, message):
@@ -322,22 +322,22 @@ SECTION = "options:\n  load_tx: "
         ("options: " + "[" * 20000, "nested too deeply"),
         ("options: {load_tx: &a [1, *a]}", "expected a value or a list"),
         ("options: &o\n  <<: *o\n", "line 2: "),
-        ("options:\n  1: 2\n", "line 2: options: 1: is no name"),
+        ("options:\n  1: 2\n", "line 2: options: 1: is not a name"),
         ("options:\n  ? [a]\n  : 1\n", "line 2: "),
-        ("options:\n  a/b: 1\n", "options: a/b: is no option's name"),
+        ("options:\n  a/b: 1\n", "options: a/b: is not an option's name"),
         ("options:\n\tload_tx: 1\n", "line 2: "),
         (SECTION + "1\n  load_tx: 2\n", "line 3: load_tx: appears twice"),
         (SECTION + "1\n---\na: 1\n", "line 3: expected a single document"),
         (SECTION + "9" * 6000, "line 2: "),
         (SECTION + '"\\0"\n', "line 2: "),
         (SECTION + '"\\ud800"\n', "line 2: "),
-        (SECTION + '"\\Uffffffff"\n', "is no YAML"),
+        (SECTION + '"\\Uffffffff"\n', "is not YAML"),
         (SECTION + "!!int abc\n", "line 2: abc"),
         (SECTION + "!!binary aGk=\n", "line 2: "),
         (SECTION + "[[1], [2]]\n", "expected a value or a list"),
         (SECTION + "1\nfiles: {1: a}\n", "line 3: "),
         (SECTION + "1\nranks: [1, 2]\n", "line 3: ranks: expected a number"),
-        ("options:\n" + "".join(f"  a{k}: [1, 2, 3]\n" for k in range(900)), "expected at most 100000"),
+        ("options:\n" + "".join(f"  a{k}: [1, 2, 3]\n" for k in range(900)), "use at most 100000"),
     ],
 )
 def test_a_bad_yaml_table_is_refused(tmp_path, monkeypatch, capsys, text, message):
@@ -375,7 +375,7 @@ def test_names_that_refer_to_names_take_no_time(tmp_path, monkeypatch, capsys, c
 @pytest.mark.parametrize("name", ["results.csv", "results.h5", "results.csv.tmp", "results.h5.tmp", "slurm-1_2.out"])
 def test_a_case_cannot_have_the_name_of_a_file_of_the_study(tmp_path, monkeypatch, capsys, name):
     code, said = in_process(monkeypatch, capsys, table(tmp_path, f"case,load_tx\na,1\n{name},2\n"), "--list")
-    assert code == 2 and f"line 3: case {name}: is the name of a file" in refused(said)
+    assert code == 2 and f"line 3: case {name}: is reserved for a file" in refused(said)
     table(tmp_path, f"case,load_tx\n{name.upper()},2\n")
     assert in_process(monkeypatch, capsys, tmp_path / "cases.csv", "--list") == (0, "")
 
@@ -808,7 +808,9 @@ def test_a_task_of_the_array_that_was_stopped_is_queued_again(run, tmp_path, slu
 
 def test_without_sbatch_slurm_is_refused(run, tmp_path, fake):
     table(tmp_path, "load_tx\n1\n")
-    assert "no sbatch on PATH" in run("cases.csv", "--slurm", check=2, PATH=os.path.dirname(sys.executable), **fake)
+    assert "sbatch not found on PATH" in run(
+        "cases.csv", "--slurm", check=2, PATH=os.path.dirname(sys.executable), **fake
+    )
 
 
 # one large run: the program writes checkpoints to the path it is given

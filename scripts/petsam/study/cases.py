@@ -29,10 +29,10 @@ PATHS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file"
 HASHED = ("options_file", "history", "load_history")
 SMALL = 16 << 20  # bytes; a larger text is compared as the others are
 TAKEN = {
-    "output": "petsam-study names the results",
-    "checkpoint": "see --checkpoint",
-    "restart": "see --checkpoint",
-    "checkpoint_every": "see --checkpoint",
+    "output": "petsam-study chooses the file; remove the option",
+    "checkpoint": "use --checkpoint instead",
+    "restart": "use --checkpoint instead",
+    "checkpoint_every": "use --checkpoint instead",
 }
 
 
@@ -111,7 +111,7 @@ def _ranks(text, where):
     except ValueError:
         ranks = math.nan
     if not (1 <= ranks <= RANKS and ranks == int(ranks)):
-        raise TableError(f"{where}: ranks {short(text)}: expected a whole number from 1 to {RANKS}")
+        raise TableError(f"{where}: ranks {short(text)}: use an integer from 1 to {RANKS}")
     return int(ranks)
 
 
@@ -131,7 +131,7 @@ def common_options(words):
             name = word[1:]
             options[name] = None
         elif name is None or options[name] is not None:
-            raise TableError(f"{word}: expected an option, that is a word that begins with a dash")
+            raise TableError(f"{word}: expected an option: it begins with a dash")
         else:
             options[name] = word
     return _located(options, {}, os.getcwd())
@@ -159,7 +159,7 @@ def _csv_cases(path, _common):
 
 def _need_few(path, count):
     if count > CASES:
-        raise TableError(f"{path}: {count:.6g} cases: expected at most {CASES}")
+        raise TableError(f"{path}: {count:.6g} cases; use at most {CASES}")
 
 
 def _yaml_cases(path, common):
@@ -195,13 +195,13 @@ def _yaml_cases(path, common):
 def _check_name(name, where, seen):
     """Error unless the name can be that of a case's folder."""
     if not re.fullmatch(r"[A-Za-z0-9.,=+_-]+", name) or not name.strip("."):
-        raise TableError(f"{where}: case {short(name)}: expected letters, digits and .,=+_-")
+        raise TableError(f"{where}: case {short(name)}: use letters, digits and .,=+_-")
     if len(name) > NAME:
-        raise TableError(f"{where}: case {short(name)}: expected at most {NAME} characters")
+        raise TableError(f"{where}: case {short(name)}: use at most {NAME} characters")
     if OWN.fullmatch(name):
-        raise TableError(f"{where}: case {name}: is the name of a file that petsam-study writes")
+        raise TableError(f"{where}: case {name}: is reserved for a file of petsam-study; use another name")
     if name in seen:
-        raise TableError(f"{where}: the same name, {name}, as {seen[name]}; a column `case` tells them apart")
+        raise TableError(f"{where}: the same name, {name}, as {seen[name]}; add a column `case` with names")
 
 
 def read(path, common=None, ranks=1):

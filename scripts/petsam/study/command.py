@@ -46,7 +46,7 @@ def positive(text):
     except ValueError:
         value = 0
     if not 1 <= value <= MOST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a whole number from 1 to {MOST}")
+        raise argparse.ArgumentTypeError(f"{short(text)}: use an integer from 1 to {MOST}")
     return value
 
 
@@ -65,21 +65,25 @@ def numbers(text):
     except ValueError:
         values = (0,)
     if 0 in values or max(map(abs, values)) > MOST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected whole numbers from 1, or from -1, and commas")
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected integers separated by commas: from 1, or from -1 backwards"
+        )
     return values
 
 
 def _cycle_options(parser):
     of_cycles = parser.add_argument_group("energies of cycles in the table")
     how = of_cycles.add_mutually_exclusive_group()
-    how.add_argument("--turns", metavar="NAME", help="cycles by turning points of this scalar (a displacement)")
-    how.add_argument("--period", type=period, metavar="T[,START]", help="cycles by time, s, instead")
+    how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
+    how.add_argument(
+        "--period", type=period, metavar="T[,START]", help="instead: duration of a cycle, and its start (s)"
+    )
     of_cycles.add_argument(
         "--cycle",
         type=numbers,
         metavar="K,...",
         default=(),
-        help="further cycles than the last; -2 is the one before it",
+        help="cycles in addition to the last; -2 is the second last",
     )
 
 
@@ -104,8 +108,8 @@ def arguments():
     )
     parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
     parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")
-    parser.add_argument("--cores", type=positive, help="cores to use (all that this process may)")
-    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases whose table says nothing (1)")
+    parser.add_argument("--cores", type=positive, help="cores to use (all available to this process)")
+    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases without a value in the table (1)")
     parser.add_argument(
         "--launcher", metavar="WORDS", help="MPI launcher, to which -n RANKS is added ($MPIRUN, mpirun)"
     )
@@ -113,15 +117,17 @@ def arguments():
         "--checkpoint",
         type=positive,
         metavar="M",
-        help="write a checkpoint every M steps; a case that was stopped goes on from it",
+        help="write a checkpoint every M steps; a stopped case resumes from it",
     )
-    parser.add_argument("--skip-failed", action="store_true", help="do not run again what has failed before")
+    parser.add_argument("--skip-failed", action="store_true", help="do not rerun failed cases")
     parser.add_argument("--quiet", action="store_true", help="print failures only")
     what = parser.add_mutually_exclusive_group()
-    what.add_argument("--list", action="store_true", help="print the cases and how they stand, run nothing")
-    what.add_argument("--case", type=positive, metavar="K", help="run the K-th case of --list only, write no tables")
-    what.add_argument("--collect", action="store_true", help="write the tables, run nothing")
-    what.add_argument("--slurm", action="store_true", help="submit a job array of the cases, and a job that collects")
+    what.add_argument("--list", action="store_true", help="print the cases and their status only")
+    what.add_argument("--case", type=positive, metavar="K", help="run only the K-th case of --list, without tables")
+    what.add_argument("--collect", action="store_true", help="write the tables only")
+    what.add_argument(
+        "--slurm", action="store_true", help="submit a job array of the cases, and a job that writes the tables"
+    )
     parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
     _cycle_options(parser)
     options = parser.parse_args(joined(_taken(words[:at])))
@@ -141,7 +147,7 @@ def due(options, cases):
     """Cases that are to be run, in order."""
     wanted = cases if options.case is None else cases[options.case - 1 : options.case]
     if not wanted:
-        raise TableError(f"--case {options.case}: there are {len(cases)} cases")
+        raise TableError(f"--case {options.case}: use 1 to {len(cases)}")
     waiting = []
     for case in wanted:
         code = record(options.directory, case).get("exit_code")
@@ -157,13 +163,15 @@ def run(options, cases, waiting):
     program = environment.petsam()
     for case in waiting:
         if case.ranks > cores and options.case is None:
-            raise TableError(f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; see --cores")
+            raise TableError(
+                f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; use fewer ranks or larger --cores"
+            )
     cores = max([cores, *[case.ranks for case in waiting]]) if options.case else cores
     before = len(cases) - len(waiting)
     if not options.quiet and options.case is None:
         print(
             "{} cases{}, {} cores, {}".format(
-                len(waiting), f" ({before} more need not run)" if before else "", cores, options.directory
+                len(waiting), f" ({before} others skipped)" if before else "", cores, options.directory
             ),
             flush=True,
         )
@@ -184,12 +192,12 @@ def run(options, cases, waiting):
 def prepare(options, cases):
     """Make the study's folder; Error where what is to be written there would replace something else."""
     if os.path.lexists(options.directory) and not os.path.isdir(options.directory):
-        raise Error(f"{options.directory}: is not a folder; --directory names another")
+        raise Error(f"{options.directory}: is not a folder; choose another by --directory")
     os.makedirs(options.directory, exist_ok=True)
     for name in ("results.csv", "results.h5"):
         path = os.path.join(options.directory, name)
         if same(path, options.table) or same(path + ".tmp", options.table):
-            raise Error(f"{options.table}: would be replaced by the results; --directory names another folder")
+            raise Error(f"{options.table}: would be replaced by the results; choose another folder by --directory")
     check_folders(options.directory, cases)
 
 
@@ -221,7 +229,7 @@ def carry_out(options):
         write(options, cases)
     code = summary(options.directory, cases)
     if ended:
-        print("petsam-study: interrupted; the same command goes on from here", file=sys.stderr)
+        print("petsam-study: interrupted; run the same command again to resume", file=sys.stderr)
     return 128 + ended if ended else code
 
 

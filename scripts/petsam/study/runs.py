@@ -23,7 +23,7 @@ LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "c
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
 MEANINGS = {
     2: "bad usage",
-    3: "a file",
+    3: "file error",
     10: "not converged",
     11: "no equilibrium",
     12: "contact at the grid's edge",
@@ -131,7 +131,7 @@ def check_folders(directory, cases):
     for case in cases:
         folder = os.path.join(directory, case.name)
         if os.path.lexists(folder) and not os.path.isdir(folder):
-            raise Error(f"{folder}: is not a folder; it has the name of a case")
+            raise Error(f"{folder}: is not a folder, but has the name of a case; rename or remove it")
 
 
 # ---------------------------------------------------------------- one case

@@ -28,7 +28,7 @@ def ranges(numbers):
 def _sbatch(words):
     """Submit; the job's number."""
     if not shutil.which("sbatch"):
-        raise SubmitError("--slurm: no sbatch on PATH")
+        raise SubmitError("--slurm: sbatch not found on PATH")
     try:
         done = subprocess.run(
             ["sbatch", "--parsable", *words],
@@ -46,7 +46,7 @@ def _sbatch(words):
         )
     job = done.stdout.strip().split(";")[0]  # number;cluster
     if not re.fullmatch(r"[0-9]+", job):
-        raise SubmitError(f"sbatch: says {short(job) or 'nothing'} instead of a job's number")
+        raise SubmitError(f"sbatch: printed {short(job) or 'nothing'} instead of a job number")
     return job
 
 
@@ -90,7 +90,7 @@ def submit(options, cases, waiting):
         print("job {}: {} cases of {} rank{}".format(job, len(numbers), ranks, "s" if ranks > 1 else ""))
         jobs.append(job)
     if not jobs:
-        print(f"all {len(cases)} cases need not run")
+        print(f"no case to submit: none of {len(cases)} is left to run")
         return 0
     collect = shlex.join([str(study), *words, "--collect", *common])
     job = _sbatch(
@@ -104,5 +104,5 @@ def submit(options, cases, waiting):
             collect,
         ]
     )
-    print("job {}: writes {} when they have ended".format(job, os.path.join(options.directory, "results.csv")))
+    print("job {}: writes {} after the others".format(job, os.path.join(options.directory, "results.csv")))
     return 0

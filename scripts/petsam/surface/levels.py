@@ -137,9 +137,9 @@ def levelled(one, kind):
         if kind == "second-order":
             xx, xy, yy = coefficients[3:] / length**2
             said.append(f"curvatures {2 * xx:.4g} and {2 * yy:.4g} 1/m in x and y, twist {xy:.3g} 1/m")
-        return replace(one, values=one.values - surface), f"{kind} taken off: " + ", ".join(said)
+        return replace(one, values=one.values - surface), f"{kind} removed: " + ", ".join(said)
     surface, radius = _fit(one, kind)
-    return replace(one, values=one.values - surface), f"{kind} taken off: radius {radius:.6g} m"
+    return replace(one, values=one.values - surface), f"{kind} removed: radius {radius:.6g} m"
 
 
 def tilt(one):

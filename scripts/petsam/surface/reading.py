@@ -45,9 +45,9 @@ def _read_npy(path, _):
     except OSError:
         raise
     except Exception as error:  # the header is read as Python, so a damaged one raises anything
-        raise Error(f"{path}: is no array of NumPy: {short(error)}") from error
+        raise Error(f"{path}: is not an array of NumPy: {short(error)}") from error
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "iuf":
-        raise Error(f"{path}: holds no array of real numbers")
+        raise Error(f"{path}: contains no array of real numbers")
     if values.ndim != 2:
         raise Error(f"{path}: has shape {values.shape}: a map has two dimensions, (ny, nx)")
     return Told(values)
@@ -71,7 +71,7 @@ def _unit(path, data, name):
     """Metres of what the attribute units says; None without it."""
     text = _attribute(path, data, "units")
     if text is not None and metres(text) is None:
-        raise Error(f"{path}: {name}: its attribute units is {short(text)!r}: known are {KNOWN}")
+        raise Error(f"{path}: {name}: its attribute units is {short(text)!r}; use one of {KNOWN}")
     return None if text is None else metres(text)
 
 
@@ -97,14 +97,14 @@ def _read_hdf5(path, options):
         name = (options.dataset or ("height" if "height" in file else "separation")).strip("/")
         data = file.get(name)
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
-            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); --dataset names another")
+            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); choose another by --dataset")
         if "scale_factor" in data.attrs or "add_offset" in data.attrs:
             raise Error(f"{path}: /{name}: its attributes scale_factor or add_offset say that it is packed")
         values = data[:]
         quantity = _attribute(path, data, "quantity")
         if quantity is not None and quantity not in QUANTITIES:
             known = ", ".join(QUANTITIES)
-            raise Error(f"{path}: /{name}: its attribute quantity is {short(quantity)!r}: known are {known}")
+            raise Error(f"{path}: /{name}: its attribute quantity is {short(quantity)!r}; use one of {known}")
         unit, group = _unit(path, data, "/" + name), data.parent
         axes = [_axis(path, group, letter, n) for letter, n in zip("xy", values.shape[::-1])]
     if None in axes:
@@ -146,7 +146,7 @@ def _read_instrument(path, options):
         with library.open_topography(path) as reader:
             channel = _channel(path, reader, options.channel)
             if channel.dim != 2:
-                raise Error(f"{path}: {short(channel.name)} is a line, expected a map")
+                raise Error(f"{path}: {short(channel.name)} is a line, not a map")
             sizes = channel.physical_sizes
             unknown = {} if sizes is not None else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}
             topography = channel.topography(**unknown)
@@ -157,13 +157,13 @@ def _read_instrument(path, options):
     except Exception as error:  # of a library that raises whatever a reader meets
         reason = type(error).__name__
         if reason == "CannotDetectFileFormat":  # its text is that of each of its readers
-            raise Error(f"{path}: is of no format that {LIBRARY} knows") from error
+            raise Error(f"{path}: has no format known to {LIBRARY}") from error
         raise Error(f"{path}: {LIBRARY} cannot read it: {error or reason}") from error
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
     unit = None if text is None else metres(THEIRS.get(text, text))
     if text is not None and unit is None:
         raise Error(
-            f"{path}: {short(channel.name)} is in {short(text)}, which is none of {KNOWN}; --channel names another"
+            f"{path}: {short(channel.name)} is in {short(text)}, not in one of {KNOWN}; choose another by --channel"
         )
     remarks = ()
     if len(names) > 1:
@@ -184,7 +184,7 @@ def _agreed(path, told, given, option):
     if told is None or given is None:
         return given if told is None else told
     if not (told == given if isinstance(told, (str, bool)) else np.allclose(told, given, rtol=SAME, atol=0.0)):
-        raise Error(f"{path}: says something else itself than {option}: leave the option out")
+        raise Error(f"{path}: contradicts {option}: leave the option out")
     return told
 
 
@@ -221,7 +221,7 @@ def _told(path, options):
     for option, given, said in (("transpose", options.transpose, told.size), ("depths", options.depths, told.quantity)):
         if given and said is not None:
             what = "which direction is x" if option == "transpose" else "what its values are"
-            raise Error(f"{path}: says {what} itself: leave out --{option}")
+            raise Error(f"{path}: already states {what}: leave out --{option}")
     return told
 
 
@@ -232,7 +232,7 @@ def _top(path, told, options):
         place = "largest" if options.first_row == "top" else "smallest"
         return options.first_row == "top", [f"first row at the {place} y{turned_round}"]
     if options.first_row and (options.first_row == "top") != told.top:
-        raise Error(f"{path}: says itself which way y goes: leave out --first-row")
+        raise Error(f"{path}: already states the direction of y: leave out --first-row")
     return told.top, []
 
 

@@ -101,13 +101,13 @@ def read_table(path, decimal="point", skip_rows=0, skip_columns=0):
         first = first or number
         rows.append(row)
     if not rows:
-        raise Error(f"{path}: has no numbers")
+        raise Error(f"{path}: contains no numbers")
     values = np.array(rows)
     if values.shape[1] > 1 and np.all(np.isnan(values[:, -1])) and line.rstrip(" ").endswith((",", ";", "\t")):
         values = values[:, :-1]  # every line ends with a separator
     if values.shape[1] == 3 and values.shape[0] >= POINTS:
         raise Error(
-            f"{path}: three numbers a line are points x, y, z: a map has a line for each y and a number for each x; "
+            f"{path}: three numbers a line are points x, y, z: a map has one line per y and one number per x; "
             "--format surfacetopography reads points on a regular grid"
         )
     return values, header
