@@ -26,7 +26,7 @@ from support import ROOT, ball, limit, slide_limit, words
 PROGRAM = ROOT / "scripts" / "petsam-study"
 CASE = ball(n=32)
 LIMIT = slide_limit(CASE)[0]
-AT_ONCE = 60.0  # seconds, on the busiest machine: what it guards against takes hours
+AT_ONCE = 60.0  # seconds on an idle machine: what it guards against takes hours
 
 
 def executable(path, text):
@@ -343,7 +343,7 @@ SECTION = "options:\n  load_tx: "
 def test_a_bad_yaml_table_is_refused(tmp_path, monkeypatch, capsys, text, message):
     start = time.monotonic()
     code, said = in_process(monkeypatch, capsys, table(tmp_path, text, "t.yaml"), "--list")
-    assert code == 2 and message in refused(said) and time.monotonic() - start < AT_ONCE
+    assert code == 2 and message in refused(said) and time.monotonic() - start < limit(AT_ONCE)
 
 
 @pytest.mark.parametrize(
@@ -358,7 +358,7 @@ def test_an_expression_without_a_finite_value_is_refused_at_once(tmp_path, monke
     start = time.monotonic()
     path = table(tmp_path, SECTION + "'{" + expression.replace("'", "''") + "}'\n", "t.yaml")
     code, said = in_process(monkeypatch, capsys, path, "--list")
-    assert code == 2 and "t.yaml: {" in refused(said) and time.monotonic() - start < AT_ONCE
+    assert code == 2 and "t.yaml: {" in refused(said) and time.monotonic() - start < limit(AT_ONCE)
 
 
 @pytest.mark.parametrize("count, link", [(25, "{%s + %s}"), (200, "{%s + %s}"), (29, "{%s}{%s}"), (3000, "{%s}%.0s")])
@@ -368,7 +368,7 @@ def test_names_that_refer_to_names_take_no_time(tmp_path, monkeypatch, capsys, c
     chain = "".join("  a{}: '{}'\n".format(k, link % (f"a{k + 1}", f"a{k + 1}")) for k in range(count))
     text = "parameters:\n" + chain + f"  a{count}: 1\n" + SECTION + "'{a0}'\n"
     code, said = in_process(monkeypatch, capsys, table(tmp_path, text, "t.yaml"), "--list")
-    assert time.monotonic() - start < AT_ONCE
+    assert time.monotonic() - start < limit(AT_ONCE)
     assert code == 0 if count == 25 else code == 2 and "a" in refused(said)
 
 
