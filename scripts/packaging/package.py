@@ -6,7 +6,7 @@
 #   spack repo add ~/petsam-repo/spack_repo/petsam_local
 #   spack dev-build petsam@main          in a clone; or set `git` below, then spack install petsam
 #
-# Its requirements are those of the Makefile and of scripts/requirements.txt. README.md tells how far it was tried.
+# Its requirements are those of the Makefile and of scripts/requirements.txt. README.md: how far it was tried.
 
 from spack.package import *
 from spack_repo.builtin.build_systems.makefile import MakefilePackage
@@ -56,7 +56,7 @@ class Petsam(MakefilePackage):
         return self._words() + ["prefix=" + self.prefix, "install"]
 
     def test_version(self):
-        """The installed program says its version."""
+        """The installed program prints its version."""
         petsam = which(self.prefix.bin.petsam)
         out = petsam("--version", output=str.split, error=str.split)
         assert "petsam" in out

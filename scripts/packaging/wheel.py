@@ -77,7 +77,7 @@ def copy(source, path):
 
 
 def stage(build, tree):
-    """The package's sources in `tree`, and in `tree`/data what setup.py puts into the environment beside it."""
+    """The package's sources in `tree`, and in `tree`/data the files for the environment beside it."""
     shutil.rmtree(tree, ignore_errors=True)
     shutil.copytree(ROOT / "scripts", tree, ignore=shutil.ignore_patterns(
         "__pycache__", "*.egg-info", "build", "maintain", "packaging"))  # fmt: skip

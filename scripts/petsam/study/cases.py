@@ -39,7 +39,7 @@ TAKEN = {
 CASES = 100000  # of a study at most
 FILES = 100 << 20  # characters of all files that the cases of a YAML table get
 RANKS = 1000000  # of a case at most
-# what petsam-study itself writes beside the cases' folders
+# files of petsam-study beside the cases' folders
 OWN = re.compile(r"results\.(csv|h5)(\.tmp)?|slurm-\d+(_\d+)?\.out")
 NAME = 255  # bytes of a file's name
 
@@ -82,7 +82,7 @@ def _content(path):
         with open(path, encoding="utf-8", errors="replace") as file:
             return file.read()
     except (OSError, Error):
-        return path  # petsam will say so
+        return path  # petsam reports it
 
 
 def _stamp(path):
@@ -97,7 +97,7 @@ def _stamp(path):
 
 
 def _name(inputs):
-    """A folder's name for what differs, which does not change when cases are added."""
+    """A folder's name from the inputs that vary; it does not change when cases are added."""
     text = "_".join("{}={}".format(name, os.path.basename(value or "")) for name, value in inputs.items()) or "case"
     text = re.sub(r"[^A-Za-z0-9.,=+_-]", "-", text)
     if len(text) > 100:
@@ -116,7 +116,7 @@ def _ranks(text, where):
 
 
 def _located(options, files, folder):
-    """Options with their files' absolute paths; those that the case gets in its own folder stay."""
+    """Options with their files' absolute paths; names of files in the case's own folder stay."""
     return {
         name: os.path.normpath(os.path.join(folder, value)) if name in PATHS and value and value not in files else value
         for name, value in options.items()
@@ -138,7 +138,7 @@ def common_options(words):
 
 
 def _csv_cases(path, _common):
-    """(where, inputs, options, files, ranks, name) of each row; what differs makes the name."""
+    """(where, inputs, options, files, ranks, name) of each row; the inputs that vary make the name."""
     names, rows = read_csv(path)
     _need_few(path, len(rows))
     varied = [
@@ -163,7 +163,7 @@ def _need_few(path, count):
 
 
 def _yaml_cases(path, common):
-    """The same of each combination; what is common to all counts in expressions, too."""
+    """The same of each combination; expressions may use the common options, too."""
     table = read_yaml(path)
     choices = {**table.parameters, **table.options}
     choices.update({name: [value] for name, value in common.items() if name in table.options})
@@ -205,7 +205,7 @@ def _check_name(name, where, seen):
 
 
 def read(path, common=None, ranks=1):
-    """The cases of a table, with options common to all (which override the table's) and the ranks of those without."""
+    """The cases of a table, with options common to all (which override the table's) and the default number of ranks."""
     kind = _yaml_cases if path.lower().endswith((".yaml", ".yml")) else _csv_cases
     folder, common, cases, seen = os.path.dirname(os.path.abspath(path)), common or {}, [], {}
     for where, inputs, options, files, (count, place), name in kind(path, common):

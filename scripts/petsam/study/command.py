@@ -88,7 +88,7 @@ def _cycle_options(parser):
 
 
 def _taken(words):
-    """Words in which the value of --sbatch, which begins with dashes itself, is joined to it."""
+    """Join --sbatch to its value, which begins with dashes."""
     found = list(words)
     while "--sbatch" in found[:-1]:
         at = found.index("--sbatch")
@@ -157,7 +157,7 @@ def due(options, cases):
 
 
 def run(options, cases, waiting):
-    """Run what waits; the number of the signal that ended it, or 0."""
+    """Run the waiting cases; the number of the signal that ended the study, or 0."""
     cores = options.cores or available_cores()
     words = environment.launcher(options.launcher)
     program = environment.petsam()
@@ -190,7 +190,7 @@ def run(options, cases, waiting):
 
 
 def prepare(options, cases):
-    """Make the study's folder; Error where what is to be written there would replace something else."""
+    """Make the study's folder; Error where the results would replace another file."""
     if os.path.lexists(options.directory) and not os.path.isdir(options.directory):
         raise Error(f"{options.directory}: is not a folder; choose another by --directory")
     os.makedirs(options.directory, exist_ok=True)
@@ -212,7 +212,7 @@ def write(options, cases):
 
 
 def carry_out(options):
-    """Do what the options ask for; the exit code."""
+    """Carry out the options; the exit code."""
     cases = read(options.table, common_options(options.words), options.ranks)
     if options.list:
         for case in cases:

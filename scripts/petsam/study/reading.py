@@ -1,4 +1,4 @@
-"""The text of a study's table, CSV or YAML, as names and values; errors of whatever it holds, with their place."""
+"""The text of a study's table, CSV or YAML, as names and values; errors with their place."""
 
 import collections
 import csv
@@ -17,7 +17,7 @@ VALUE = 16384  # characters of a value: the system bounds the words of a command
 NAME = re.compile(r"[A-Za-z]\w*")  # of an option or a parameter
 KEYS = ("options", "parameters", "files", "ranks")
 EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
-# what a case's folder holds anyway (runs.py), and what petsam writes beside it
+# files in the folder of every case (runs.py), and of petsam
 FOLDER = re.compile(r"(petsam\.log|record\.json|lock|results\.(h5|xdmf)|checkpoint.*)(\..*)?")
 FILE_NAME = 251  # bytes: it is written as NAME.tmp first
 SCALARS = {"tag:yaml.org,2002:" + kind for kind in ("null", "bool", "int", "float", "str", "timestamp")}
@@ -141,7 +141,7 @@ class _Reader:
         return TableError("{}{}: {}".format(self.path, f", line {node.start_mark.line + 1}" if node else "", text))
 
     def pairs(self, node, key):
-        """{name: node} of a mapping; key is what it belongs to."""
+        """{name: node} of a mapping below a key."""
         if not isinstance(node, yaml.MappingNode):
             raise self.error(f"{key}: expected names and values")
         found = {}
@@ -178,7 +178,7 @@ class _Reader:
         return value
 
     def choices(self, node, key):
-        """Name: list of texts, of a section; and the names of those with lists."""
+        """Name: list of texts, of a section; and the names of the entries with lists."""
         choices, lists = {}, []
         for name, value in self.pairs(node, key).items():
             values = value.value if isinstance(value, yaml.SequenceNode) else [value]
@@ -236,7 +236,7 @@ class _Reader:
 
 
 def _problem(error, text):
-    """Line, if known, and words of what YAML says."""
+    """Line, if known, and words of YAML's message."""
     mark, words = getattr(error, "problem_mark", None), getattr(error, "problem", None) or ""
     if isinstance(error, yaml.reader.ReaderError):
         return text.count("\n", 0, error.position) + 1, "contains a character that YAML does not allow"
@@ -255,6 +255,6 @@ def read_yaml(path):
         line, words = _problem(error, text)
         raise TableError("{}{}: {}".format(path, f", line {line}" if line else "", words)) from error
     except (RecursionError, ValueError, TypeError, AttributeError, LookupError, ArithmeticError, MemoryError) as error:
-        # what PyYAML raises besides, of nodes in nodes and of escapes that mean no character
+        # other exceptions of PyYAML, for deep nesting and for invalid escapes
         reason = "is nested too deeply" if isinstance(error, RecursionError) else f"is not YAML: {error}"
         raise TableError(f"{path}: {reason}") from error

@@ -30,7 +30,7 @@ MEANINGS = {
     STOPPED: "stopped early, to be run again",
 }
 PATIENCE = 10.0  # seconds that runs get to end when asked to
-GRACE = 90.0  # seconds that they get to write a checkpoint and stop, where no variable says how much time is left
+GRACE = 90.0  # seconds that they get to write a checkpoint and stop, unless a variable gives the time that is left
 RESERVE = 30.0  # seconds before the end of a Slurm job in which it is queued again
 WORDS = 1000  # characters of a run's own words on how it ended
 PAUSE = 0.05  # seconds between looks at the runs
@@ -44,7 +44,7 @@ class Busy(Exception):
 
 
 def write_atomically(path, text):
-    """The file holds either what it held before or all of the text."""
+    """The file contains either its old text or all of the new one."""
     beside = path + ".tmp"
     need_replaceable(beside)
     with open(beside, "w", encoding="utf-8", errors="backslashreplace") as file:  # names of files need not be text
@@ -124,7 +124,7 @@ def grace():
 
 
 def check_folders(directory, cases):
-    """Error where something else has the name of what is to be written, before any case runs."""
+    """Error where a result or a case would replace another file, before any case runs."""
     for name in ("results.csv", "results.h5"):
         for path in (os.path.join(directory, name), os.path.join(directory, name + ".tmp")):
             need_replaceable(path)
@@ -224,7 +224,7 @@ class Run:
         )
 
     def ended(self):
-        """Exit code when the run has ended by itself, which is then on record; else None."""
+        """Exit code, also on record, once the run has ended by itself; else None."""
         code = self.process.poll()
         if self.told and code is None and time.monotonic() > self.told + self.patience:
             self.signal(signal.SIGTERM)
@@ -277,7 +277,7 @@ class Study:
 
     def run(self, cases):
         """Run all; the number of the signal that ended it early, or 0."""
-        # what the caller ignores (nohup) stays ignored
+        # signals that the caller ignores (nohup) stay ignored
         caught = [
             number
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
@@ -319,7 +319,7 @@ class Study:
                 self.report(run.case, code)
 
     def _end(self):
-        """Ask what still runs to end, and make it; their records say that they have not ended by themselves."""
+        """End the runs that are left; their records show that they have not ended by themselves."""
         for run in self.running:
             run.signal(signal.SIGTERM)
         until = time.monotonic() + PATIENCE

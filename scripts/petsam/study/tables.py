@@ -41,7 +41,7 @@ LAST = Figures()
 
 
 def of_cycles(results, figures):
-    """Name: (value, unit) of what the cycles of a file say, empty where it has none; NaN for cycles it has not."""
+    """Name: (value, unit) from the cycles of a file, empty where it has none; NaN for missing cycles."""
     if results.has_life:
         energies, count = results.wear[ENERGY], results.wear["cycle"][-1].item()
         by_number = dict(zip(results.wear["cycle"].tolist(), energies.tolist()))
@@ -188,7 +188,7 @@ def write_hdf5(path, found, study):
 
 
 def write(directory, cases, study, figures=LAST):
-    """Both tables; their names, and what is wrong with the cycles asked for, or None."""
+    """Both tables; their names, and the error in the chosen cycles, or None."""
     found, complaint = rows(directory, cases, figures)
     names = [os.path.join(directory, "results" + ending) for ending in (".csv", ".h5")]
     write_csv(names[0], found)

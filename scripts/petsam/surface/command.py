@@ -145,7 +145,7 @@ def _joined(words):
 
 
 def prepared(path, options, quantity):
-    """The map of one file after all that is done to a single map; says what that was."""
+    """The processed map of one file; prints the steps."""
     one, remarks = read_map(path, options, quantity)
     if options.window:
         one = cut(one, options.window)
@@ -173,7 +173,7 @@ def prepared(path, options, quantity):
     return one
 
 
-def said(one):
+def description(one):
     """Lines that describe a map."""
     n, cell, size, center = one.n, one.cell, one.size, one.center
     low, high = (shown(float(value)) for value in (one.values.min(), one.values.max()))
@@ -198,7 +198,7 @@ def petsam_options(one, path):
 
 
 def carry_out(options, words):
-    """Read, combine, write, draw and say; in a child, as files are read here."""
+    """Read, combine, write, draw and print; in a child, as files are read here."""
     outputs = [options.output] + ([] if options.no_picture else [options.picture])
     for name in outputs:
         if any(same(name, path) for path in options.files):
@@ -217,7 +217,7 @@ def carry_out(options, words):
     if not options.no_picture:
         picture.save(one, options.picture)
     print(f"{options.output}: /{writing.dataset(one)}, {QUANTITIES[one.quantity]}, m")
-    print("\n".join("  " + line for line in said(one)))
+    print("\n".join("  " + line for line in description(one)))
     if not options.no_picture:
         print("wrote " + options.picture)
     gap, rough = petsam_options(one, options.output)
@@ -234,7 +234,7 @@ def _child(options, words):
 
 
 def main():
-    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or does not say enough."""
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks information."""
 
     def parent():
         words = sys.argv[1:]

@@ -52,7 +52,7 @@ def new_map(values, size, quantity, name, center=(0.0, 0.0)):
     if min(values.shape) < SMALLEST:
         rows, columns = values.shape
         raise Error(f"{name}: has {rows} x {columns} points (rows x columns): a map has at least 2 x 2")
-    values = np.array(values, dtype=np.float64)  # a copy: what comes may be read-only, or in another order
+    values = np.array(values, dtype=np.float64)  # a copy: the array may be read-only, or in another order
     values[~np.isfinite(values)] = np.nan
     largest = np.max(np.abs(values), initial=0.0, where=~np.isnan(values))
     if largest > HIGHEST * max(size):

@@ -1,4 +1,4 @@
-"""Maps in text files: a line a row of the map, a column a point; what cannot be a map is named by its line."""
+"""Maps in text files: one line per row of the map, one column per point; errors name the line."""
 
 import codecs
 import re
@@ -8,7 +8,7 @@ import numpy as np
 from ..errors import Error, short
 
 COMMENTS = ("#", "%")
-# what instruments and spreadsheets write for a point without a value
+# missing points as instruments and spreadsheets write them
 MISSING = {"", "nan", "na", "n/a", "bad", "null", "none", "-", "--", "***", "---", "#n/a"}
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
 POINTS = 9  # lines of three numbers from which on they are taken for points x, y, z
@@ -43,7 +43,7 @@ def _has_decimal_commas(words, separator):
 
 
 def _words(line, decimal):
-    """The words of a line, and what separates them."""
+    """The words of a line, and their separator."""
     separator = _separator(line.replace(",", "") if decimal == "comma" else line)
     if separator == "," and all(DECIMAL_COMMA.fullmatch(word) for word in line.split()) and len(line.split()) > 1:
         separator = None  # 0,1 0,2 0,3
@@ -52,7 +52,7 @@ def _words(line, decimal):
 
 
 def _number(word):
-    """A word as a number, NaN for what stands for a missing point; None for another text."""
+    """A word as a number, NaN for a missing point; None for another text."""
     if word.lower() in MISSING:
         return np.nan
     try:
@@ -76,7 +76,7 @@ def _row(path, number, words, separator, decimal):
         column = values.index(None) + 1
         raise Error(
             f"{path}: line {number}, column {column}: {short(repr(word))} is not a number; "
-            "--skip-rows and --skip-columns leave out what is no height"
+            "--skip-rows and --skip-columns skip text and other columns"
         )
     return np.array(values, dtype=float)
 
