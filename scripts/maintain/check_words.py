@@ -6,7 +6,7 @@
 Searched are pages (*.md), help texts (*.help), and the strings of C and Python in src, include, scripts and examples,
 without comments and the docstrings of functions; tests, which quote messages, only in their pages. In pages the tables
 between <!-- petsam: ... --> and <!-- end --> are left out, as their texts are strings in C, and so are comments and
-addresses. Pages have besides no cell of a table over 300 characters, and README.md at most 130 lines. --only names words
+addresses. No cell of a table may exceed 300 characters, nor README.md 130 lines. --only names words
 of the files' paths, --count prints a number for each folder. Exit code 1 when a word is found.
 """
 
