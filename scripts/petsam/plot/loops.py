@@ -1,7 +1,7 @@
 """Loops of a load over its displacement, and the energy of every cycle, of results.Results.
 
-Cycles are those of petsam.cycles, given as one Cycles per file. The energy written beside a loop is that of this load on
-this displacement in one cycle; the dissipated energy of a cycle is that of all loads.
+Cycles are those of petsam.cycles, given as one Cycles per file. The energy beside a loop is that of this load on this
+displacement in one cycle; the dissipated energy of a cycle is that of all loads.
 """
 
 import numpy as np

@@ -82,9 +82,9 @@ def _loops(panel, one, factors, loops):
 
 
 def fretting_log(files, pair=None, find=None, wanted=None):
-    """Loops of some cycles, or of those wanted, one panel per file; pair names the load, that which does most work if None.
+    """Loops of some cycles, or of those wanted, one panel per file; pair names the load (that which does most work).
 
-    Of a life these are computed cycles, of another history those of find(file), petsam.cycles.Cycles.
+    Of wear over cycles these are computed cycles, of another history those of find(file), petsam.cycles.Cycles.
     """
     need_few(len(files), "files")
     need_few(len(wanted or ()), "cycles")
@@ -243,7 +243,7 @@ def _life_legend(panel, files):
 
 
 def life(files):
-    """Volume, maximum depth, energy of a cycle, contact area and maximum pressure over the cycles, one line per file."""
+    """Volume, maximum depth, energy, contact area and maximum pressure over the cycles, one line per file."""
     for one in files:
         one.need_life()
     figure, axes = plt.subplots(2, 3, figsize=(12.6, 6.2), sharex=True, constrained_layout=True)

@@ -1,4 +1,4 @@
-"""What petsam-study says: a line a case, how all stand, and what has failed."""
+"""The printout of petsam-study: one line per case, the state of all, and the failures."""
 
 import os
 import sys
