@@ -12,6 +12,7 @@ from matplotlib.colors import ListedColormap
 
 import petsam
 from petsam import comparison, cycles
+from petsam.plot.loops import cycle_energy
 from petsam.plot.maps import STATES
 from petsam.plot.style import bar, extent, field, frame, plt, save, tint
 
@@ -33,6 +34,7 @@ class Comparison:
         self.numbers = {
             "stick": float(history["stick_area"][-1] / history["contact_area"][-1]),
             "energy": float(cycles.find(self.cycle).energies[-1]),
+            "loop": cycle_energy(self.cycle, cycles.PAIRS["tx"], cycles.find(self.cycle).numbered(-1)),
             "swt": float(self.swt[z, x]), "x": float(self.place[0]), "z": float(self.place[1]),
             "volume": float(wear["volume1"][-1]), "depth": float(wear["depth_max1"][-1]),
             "computed": int(wear["computed"][-1]), "cycles": float(wear["cycle"][-1]),
@@ -42,7 +44,7 @@ class Comparison:
         """What is printed."""
         n = self.numbers
         yield f"stick area over contact area at the peak: {n['stick']:.3f}"
-        yield f"energy of the cycle: {1e6 * n['energy']:.1f} uJ"
+        yield f"energy of the cycle: {1e6 * n['energy']:.1f} uJ, of which T_x spends {1e6 * n['loop']:.1f} uJ on d_x"
         yield f"maximum SWT: {1e-6 * n['swt']:.3f} MPa at x = {1e3 * n['x']:.3f} mm, z = {1e6 * n['z']:.0f} um"
         yield (
             f"wear of each body after {n['cycles']:g} cycles: depth {1e6 * n['depth']:.3f} um, volume "
@@ -76,8 +78,8 @@ class Comparison:
         rows = cycles.find(self.cycle).numbered(-1).rows
         panel.plot(way[rows], load[rows], color=tint(0, 3), linewidth=1.5)
         panel.fill(way[rows], load[rows], color=tint(0, 3), alpha=0.12)
-        energy = 1e6 * self.numbers["energy"]
-        frame(panel, f"fretting loop: {energy:.0f} µJ dissipated in a cycle", "$d_x$, µm", "$T_x$, N")
+        energy = 1e6 * self.numbers["loop"]
+        frame(panel, f"fretting loop of $T_x$: {energy:.0f} µJ per cycle", "$d_x$, µm", "$T_x$, N")
 
     def _scar(self, panel):
         depth = 1e6 * (self.worn["wear_depth1"] + self.worn["wear_depth2"])
@@ -92,10 +94,10 @@ class Comparison:
         image = panel.contourf(x, z, values, levels=30, cmap="inferno")
         panel.plot(1e3 * self.place[0], 1e3 * self.place[1], "+", color="white", markersize=10, markeredgewidth=2,
                    clip_on=False, zorder=5)  # fmt: skip
-        bar(panel, image, "SWT, MPa", ticks=np.linspace(0.0, np.floor(10.0 * values.max()) / 10.0, 6).round(2))
+        bar(panel, image, "SWT, MPa", ticks=np.arange(0.0, values.max(), 0.2).round(1))
         frame(
             panel,
-            f"fatigue under the pad, $y = 0$: maximum {values.max():.2f} MPa at the contact edge",
+            f"fatigue under the pad, $y = 0$: maximum {values.max():.2f} MPa",
             "$x$, mm",
             "depth $z$, mm",
             (-0.9, 0.9),

@@ -14,10 +14,10 @@
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
 if friction works, and the history, of three cycles or more their loops and energies, too; of a wear simulation
-(-wear_cycles) its fretting log, scar and curves over the cycles instead of these; of a file of petsam-stress its section
-or maps, the profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that vary, over the input with
-the most values. Constant scalars and fields that are zero to rounding are drawn only by name. An option
-that none of the pictures uses is rejected.
+(-wear_cycles) its fretting log, scar and curves over the cycles instead of these; of a file of petsam-stress its
+section or maps, the profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that
+vary, over the input with the most values. Constant scalars and fields that are zero to rounding are drawn only by name.
+An option that none of the pictures uses is rejected.
 Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
 """
 

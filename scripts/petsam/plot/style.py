@@ -133,8 +133,8 @@ def field(axes, values, edges, low=0.0, high=None, color_map="viridis", norm=Non
 
 
 class _Plain(LogFormatterMathtext):
-    """Numbers of a logarithmic axis as they are written elsewhere: 30, not 3 times 10 to the first; of those between the
-    decades no more than there is room for."""
+    """Numbers of a logarithmic axis as they are written elsewhere: 30, not 3 times 10 to the first; of those between
+    the decades no more than there is room for."""
 
     # decades on the axis at most, and the first digits that are written
     ROOM = ((0.2, range(1, 10)), (0.45, (1, 2, 3, 4, 5, 6, 8)), (0.9, (1, 2, 3, 5)), (2.2, (1, 2, 5)))

@@ -5,7 +5,7 @@
     petsam-study study.yaml --slurm --sbatch "--time=2:00:00 --partition=short"
 
 The table is CSV (one column per option, one row per case) or YAML (all combinations of lists of values). Options
-after `--` are those of all cases. Cases run side by side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that
+after `--` are those of all cases. Cases run side by side while their ranks fit, each in DIRECTORY/NAME. Cases that
 have finished with the same inputs are not run again, so the same command resumes after an interruption (Ctrl-C, or the
 end of a job). Results of all go to DIRECTORY/results.csv and results.h5. A study has at most 100000 cases.
 petsam-plot draws results.h5. Of histories with cycles the table has the energies of some: --turns, --period, --cycle.
