@@ -106,17 +106,18 @@ class Comparison:
         million, saved = life.cycle * 1e-6, [row["cycle"] * 1e-6 for row in rows]
         figure, axes = plt.subplots(2, 2, figsize=(9.0, 5.8), constrained_layout=True)
         panels = (
-            ("areas over that of the flat base", million, {
+            ("areas", "relative to the flat base", million, {
                 "contact": life.wear["contact_area"] / life.base, "stick zone": life.stick / life.base}),
-            ("maximum pressure, MPa", million, {None: life.wear["pressure_max"] * 1e-6}),
-            (f"maximum von Mises stress at z = {z:g} c, MPa", saved, {None: [row["mises"] for row in rows]}),
-            (f"maximum SWT parameter at z = {z:g} c, MPa", saved, {None: [row["swt"] for row in rows]}),
+            ("maximum pressure", "$p$, MPa", million, {None: life.wear["pressure_max"] * 1e-6}),
+            (f"maximum von Mises stress at $z$ = {z:g} $c$", "$\\sigma_M$, MPa", saved, {
+                None: [row["mises"] for row in rows]}),
+            (f"maximum SWT parameter at $z$ = {z:g} $c$", "SWT, MPa", saved, {None: [row["swt"] for row in rows]}),
         )  # fmt: skip
-        for panel, (title, cycles, curves) in zip(axes.flat, panels):
+        for panel, (title, unit, cycles, curves) in zip(axes.flat, panels):
             for k, (label, values) in enumerate(curves.items()):
                 joined(panel, cycles, values, tint(k, 2), "o-", label=label, markersize=3.6)
             top = 1.08 * max(np.max(values) for values in curves.values())
-            frame(panel, title, "million cycles", "", None, (0.0, top))
+            frame(panel, title, "million cycles", unit, None, (0.0, top))
         axes[0, 0].legend(loc="lower left")
         save(figure, directory, "wear.png")
 
