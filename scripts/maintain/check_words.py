@@ -113,8 +113,9 @@ HEADING = re.compile(r"^#+ (?:What|Where|Why|How|When|Which)\b.*", re.M)  # of p
 
 
 def compiled(rule):
-    """The rule between words, its spaces any white space, one character of it in a look-behind."""
-    spaced = re.sub(r"(\(\?<[!=][^)]*\))| ", lambda m: m[1].replace(" ", r"\s") if m[1] else r"\s+", rule)
+    """The rule between words, its spaces any white space without a blank line, in a look-behind one character."""
+    space = r"(?:[^\S\n]+|[^\S\n]*\n[^\S\n]*)"
+    spaced = re.sub(r"(\(\?<[!=][^)]*\))| ", lambda m: m[1].replace(" ", r"\s") if m[1] else space, rule)
     bounded = spaced if rule.startswith("<") else rf"(?<![\w-])(?:{spaced})(?!\w)"
     return re.compile(bounded, re.I if rule[:8] == rule[:8].lower() else 0)
 
