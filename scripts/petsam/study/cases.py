@@ -1,4 +1,4 @@
-"""The cases of a study, from its table: a CSV file with one row per case, or a small YAML file of combinations.
+"""The cases of a study, from its table: a CSV file with a row a case, or a small YAML file of combinations.
 
 CSV: the first line names options of petsam (with or without their dash), each further row is a case; an empty cell
 leaves the option out, `#` starts a comment. A column `ranks` gives a case's MPI ranks, a column `case` its name.
@@ -200,7 +200,7 @@ def _check_name(name, where, seen):
     if OWN.fullmatch(name):
         raise TableError(f"{where}: case {name}: is the name of a file that petsam-study writes")
     if name in seen:
-        raise TableError(f"{where}: the same name, {name}, as {seen[name]}; add a column `case`")
+        raise TableError(f"{where}: the same name, {name}, as {seen[name]}; a column `case` tells them apart")
 
 
 def read(path, common=None, ranks=1):

@@ -4,9 +4,9 @@
     petsam-study study.yaml --cores 16 --ranks 4
     petsam-study study.yaml --slurm --sbatch "--time=2:00:00 --partition=short"
 
-The table is CSV (one column per option, one row per case) or YAML (all combinations of lists of values). Options
-after `--` are those of all cases. Cases run side by side while their ranks fit, each in DIRECTORY/NAME. Cases that
-have finished with the same inputs are not run again, so the same command resumes after an interruption (Ctrl-C, or the
+The table is CSV (a column an option, a row a case) or YAML (all combinations of lists of values); options after `--`
+hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that
+have finished with the same inputs are not run again, so the same command goes on after an interruption (Ctrl-C, or the
 end of a job). Results of all go to DIRECTORY/results.csv and results.h5. A study has at most 100000 cases.
 petsam-plot draws results.h5. Of histories with cycles the table has the energies of some: --turns, --period, --cycle.
 """
@@ -59,7 +59,7 @@ def numbers(text):
 def _cycle_options(parser):
     of_cycles = parser.add_argument_group("energies of cycles in the table")
     how = of_cycles.add_mutually_exclusive_group()
-    how.add_argument("--turns", metavar="NAME", help="cycles by reversals of this scalar (a displacement)")
+    how.add_argument("--turns", metavar="NAME", help="cycles by turning points of this scalar (a displacement)")
     how.add_argument("--period", type=period, metavar="T[,START]", help="cycles by time, s, instead")
     of_cycles.add_argument(
         "--cycle",
@@ -83,7 +83,7 @@ def arguments():
     parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
     parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")
     parser.add_argument("--cores", type=positive, help="cores to use (all that this process may)")
-    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases without a column ranks (1)")
+    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases whose table says nothing (1)")
     parser.add_argument(
         "--launcher", metavar="WORDS", help="MPI launcher, to which -n RANKS is added ($MPIRUN, mpirun)"
     )
@@ -91,7 +91,7 @@ def arguments():
         "--checkpoint",
         type=positive,
         metavar="M",
-        help="write a checkpoint every M steps; a stopped case resumes from it",
+        help="write a checkpoint every M steps; a case that was stopped goes on from it",
     )
     parser.add_argument("--skip-failed", action="store_true", help="do not run again what has failed before")
     parser.add_argument("--quiet", action="store_true", help="print failures only")
@@ -199,7 +199,7 @@ def carry_out(options):
         write(options, cases)
     code = summary(options.directory, cases)
     if ended:
-        print("petsam-study: interrupted; the same command resumes from here", file=sys.stderr)
+        print("petsam-study: interrupted; the same command goes on from here", file=sys.stderr)
     return 128 + ended if ended else code
 
 

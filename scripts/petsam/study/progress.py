@@ -1,4 +1,4 @@
-"""The printout of petsam-study: one line per case, the state of all, and the failures."""
+"""What petsam-study says: a line a case, how all stand, and what has failed."""
 
 import os
 import sys

@@ -49,7 +49,7 @@ def _sbatch(words):
         )
     job = done.stdout.strip().split(";")[0]  # number;cluster
     if not re.fullmatch(r"[0-9]+", job):
-        raise SubmitError(f"sbatch: printed {short(job) or 'nothing'} instead of a job's number")
+        raise SubmitError(f"sbatch: says {short(job) or 'nothing'} instead of a job's number")
     return job
 
 

@@ -7,7 +7,7 @@
 Reads NumPy's .npy, text (.csv, .txt: a line for each y, a number for each x), HDF5 (.h5), and through the library
 SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for petsam's -gap_file and -gap_rough_file,
 and a picture beside it. What a file does not say itself (units, size, body) must be given. A map lies about
-x = y = 0 unless its file gives its centre. Heights are positive out of their body, so a peak of either body reduces the
+x = y = 0 unless its file says where. Heights are positive out of their body, so a peak of either body reduces the
 separation. In this order a map is turned, cut, filled, levelled, and brought to another grid; options hold for both
 of two files, which are then laid centre on centre.
 """

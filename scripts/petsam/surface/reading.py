@@ -180,16 +180,16 @@ READERS = {"npy": _read_npy, "table": _read_table, "hdf5": _read_hdf5, "surfacet
 
 
 def _agreed(path, told, given, option):
-    """What the file or the option gives; None if neither does, an Error if one contradicts the other."""
+    """What the file says or the option does; None if neither does, an Error if one contradicts the other."""
     if told is None or given is None:
         return given if told is None else told
     if not (told == given if isinstance(told, (str, bool)) else np.allclose(told, given, rtol=SAME, atol=0.0)):
-        raise Error(f"{path}: contradicts {option}: remove the option")
+        raise Error(f"{path}: says something else itself than {option}: leave the option out")
     return told
 
 
 def _need(path, kind, quantity, unit, size):
-    """An Error that names all that neither the file nor an option gives."""
+    """An Error that names all that neither the file nor an option says."""
     lacking = [
         text
         for value, text in (
@@ -201,7 +201,7 @@ def _need(path, kind, quantity, unit, size):
     ]
     if lacking:
         hint = "" if kind != "table" else f"; a header may, for {LIBRARY}: --format surfacetopography"
-        raise Error(f"{path}: lacks {'; '.join(lacking)}: give the options{hint}")
+        raise Error(f"{path}: does not say {'; nor '.join(lacking)}: give the options{hint}")
 
 
 def _kind(path, options):
@@ -209,7 +209,7 @@ def _kind(path, options):
 
 
 def _told(path, options):
-    """The contents of the file."""
+    """What the file says."""
     try:
         if need_regular(path).st_size == 0:
             raise Error(f"{path}: is empty")
@@ -221,7 +221,7 @@ def _told(path, options):
     for option, given, said in (("transpose", options.transpose, told.size), ("depths", options.depths, told.quantity)):
         if given and said is not None:
             what = "which direction is x" if option == "transpose" else "what its values are"
-            raise Error(f"{path}: defines {what}: remove --{option}")
+            raise Error(f"{path}: says {what} itself: leave out --{option}")
     return told
 
 
@@ -232,7 +232,7 @@ def _top(path, told, options):
         place = "largest" if options.first_row == "top" else "smallest"
         return options.first_row == "top", [f"first row at the {place} y{turned_round}"]
     if options.first_row and (options.first_row == "top") != told.top:
-        raise Error(f"{path}: defines the direction of y: remove --first-row")
+        raise Error(f"{path}: says itself which way y goes: leave out --first-row")
     return told.top, []
 
 

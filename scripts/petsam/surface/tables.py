@@ -1,4 +1,4 @@
-"""Maps in text files: one line per row of the map, one column per point; errors name the line."""
+"""Maps in text files: a line a row of the map, a column a point; what cannot be a map is named by its line."""
 
 import codecs
 import re
