@@ -207,8 +207,8 @@ def test_installed_example_runs_from_anywhere(prefix, tmp_path):
     assert Results(tmp_path / "sphere" / "hertz.h5").saved == 1
 
 
-def test_what_the_README_says_is_installed_is(prefix):
-    """Folders named in README's paragraph on installing."""
-    text = re.search(r"`make install.*?\n\n", (ROOT / "README.md").read_text(), re.S).group()
+def test_what_the_manual_says_is_installed_is(prefix):
+    """Folders named in the paragraph on installing."""
+    text = re.search(r"`make install.*?\n\n", (ROOT / "scripts/README.md").read_text(), re.S).group()
     for place in re.findall(r"`((?:bin|lib|include|share)/[\w/.*-]*)`", text):
         assert list(prefix.glob(place.rstrip("/"))), place
