@@ -72,15 +72,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetElasticity(SamEvaluation evaluation,
                                                        const SamFourierSettings *settings, const char source[]);
 
 /*
-  SamEvaluationAddStep - the next load step: pressure (one component, Pa), shear on body 2 and slip (two components; Pa,
-  m; slip may be NULL), of which `control` gives the bulk stresses. The vectors are referenced: they must stay as they
-  are until the evaluation is destroyed. Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamEvaluationAddStep(SamEvaluation evaluation, Vec pressure, Vec shear, Vec slip,
-                                                 const SamControl *control);
-/*
-  SamEvaluationSource - steps that are read when they are needed, in place of those that are added. `read`: this rank's
-  rows of a field; collective. `bulk`: the bulk stress of the body in each step (Pa). The array is the caller's.
+  SamEvaluationSource - the load steps, read when they are needed. `read`: copies this rank's rows of a field;
+  collective. `bulk`: the bulk stress of the body in each step (Pa). The array is the caller's.
 */
 typedef struct {
   PetscInt steps;

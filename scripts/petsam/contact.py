@@ -209,7 +209,6 @@ class Contact:
             )
             self._check(code)
         self._read_grid()
-        self._further = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
 
     def _read_grid(self):
         n, size, center = (ctypes.c_int * 2)(), (ctypes.c_double * 2)(), (ctypes.c_double * 2)()
@@ -280,10 +279,11 @@ class Contact:
         return step
 
     def _numbers(self):
-        """{name: value} of the further numbers of the last step: a microsecond each."""
+        """{name: value} of the further numbers of the last step; a history may add some. A microsecond each."""
         found, value = {}, ctypes.c_double()
+        names = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
         with _lock:
-            for name in self._further:
+            for name in names:
                 if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
                     found[name] = value.value
         return found

@@ -52,10 +52,7 @@ static PetscErrorCode Save(petsam_contact *c, const char file[])
 
 int petsam_save(petsam_contact *c, const char *file)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!file) return SamEmbedRefuse(c, "petsam_save: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return LeaveFile(c, Save(c, file));
+  return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Save(c, file)) : SAM_EMBED_USAGE;
 }
 
 /* What the restored state says of its step. */
@@ -90,8 +87,5 @@ static PetscErrorCode Load(petsam_contact *c, const char file[])
 
 int petsam_load(petsam_contact *c, const char *file)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!file) return SamEmbedRefuse(c, "petsam_load: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return LeaveFile(c, Load(c, file));
+  return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Load(c, file)) : SAM_EMBED_USAGE;
 }

@@ -31,13 +31,9 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscFunctionBegin;
   *evaluation = NULL;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < e->added; k++)
-    for (int f = 0; f < 3; f++) PetscCall(VecDestroy(&e->step[k].field[f]));
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityDestroy(&e->elasticity));
   PetscCall(PetscFree(e->depth));
-  PetscCall(PetscFree(e->step));
-  PetscCall(PetscFree(e->bulk));
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -131,61 +127,10 @@ PetscErrorCode SamEvaluationSetMonitor(SamEvaluation e, SamEvaluationMonitor mon
 
 /* ---- steps ---- */
 
-/* A field of a step that has been added: components of its vectors, one after the other. */
-static PetscErrorCode ReadAdded(void *context, PetscInt step, SamStepField field, double values[])
-{
-  static const int of[SAM_STEP_FIELDS] = {0, 1, 1, 2, 2}, component[SAM_STEP_FIELDS] = {0, 0, 1, 0, 1};
-
-  SamEvaluation  e = (SamEvaluation)context;
-  const Vec      v = e->step[step].field[of[field]];
-  const PetscInt n = e->grid->cells;
-  const double  *cells;
-
-  PetscFunctionBegin;
-  PetscCheck(v, e->comm, SAM_ERR_USER, "%sfatigue ruiz: step %" PetscInt_FMT " was added without its slip", e->dash,
-             step + 1);
-  PetscCall(SamGridCheckVec(e->grid, of[field] ? 2 : 1, v, "A field of a step"));
-  PetscCall(VecGetArrayRead(v, &cells));
-  PetscCall(PetscArraycpy(values, cells + component[field] * (ptrdiff_t)n, n));
-  PetscCall(VecRestoreArrayRead(v, &cells));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamEvaluationAddStep(SamEvaluation e, Vec pressure, Vec shear, Vec slip, const SamControl *control)
-{
-  const SamAddedStep step = {.field = {pressure, shear, slip}};
-
-  PetscFunctionBegin;
-  if (e->added == e->room) {
-    e->room = 2 * e->room + 16;
-    PetscCall(PetscRealloc(sizeof(*e->step) * (size_t)e->room, &e->step));
-  }
-  for (int f = 0; f < 3; f++)
-    if (step.field[f]) PetscCall(PetscObjectReference((PetscObject)step.field[f]));
-  e->step[e->added] = step;
-  for (int b = 0; b < 2; b++)
-    for (int k = 0; k < SAM_BULK_COMPONENTS; k++) e->step[e->added].bulk[b][k] = (double)control->bulk_stress[b][k];
-  e->source = (SamEvaluationSource){.steps = ++e->added, .read = ReadAdded, .context = e};
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamEvaluationSetSource(SamEvaluation e, const SamEvaluationSource *source)
 {
   PetscFunctionBegin;
   e->source = *source;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The bulk stresses of added steps, of the body that is wanted. */
-static PetscErrorCode CollectBulk(SamEvaluation e)
-{
-  PetscFunctionBegin;
-  if (e->source.read != ReadAdded) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFree(e->bulk));
-  PetscCall(PetscMalloc1(e->added, &e->bulk));
-  for (PetscInt k = 0; k < e->added; k++)
-    PetscCall(PetscArraycpy(e->bulk[k], e->step[k].bulk[e->body - 1], SAM_BULK_COMPONENTS));
-  e->source.bulk = e->bulk;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -251,7 +196,6 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
              "%sfatigue ruiz: is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
   PetscCall(CheckDepths(e));
   PetscCall(FindLine(e));
-  PetscCall(CollectBulk(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -18,12 +18,6 @@ typedef struct {
   PetscBool       edge_lost; /* there is an edge, which is not found */
 } SamStepLargest;
 
-/* A step that has been added. */
-typedef struct {
-  Vec    field[3]; /* pressure, shear, slip */
-  double bulk[2][SAM_BULK_COMPONENTS];
-} SamAddedStep;
-
 struct _n_SamEvaluation {
   MPI_Comm comm;
   /* settings */
@@ -41,12 +35,8 @@ struct _n_SamEvaluation {
   const char               *of; /* whose bodies they are */
   SamGrid                   grid;
   SamStress                 stress;
-  PetscInt                  index; /* of the section's line of cells */
-  /* steps */
-  SamEvaluationSource source;
-  PetscInt            added, room;
-  SamAddedStep       *step;
-  double (*bulk)[SAM_BULK_COMPONENTS]; /* of the added ones */
+  PetscInt                  index;  /* of the section's line of cells */
+  SamEvaluationSource       source; /* of the steps */
   /* results */
   SamEvaluationWrite   write;
   void                *write_context;
