@@ -6,7 +6,6 @@
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
-#include <petsam/private/baseimpl.h>
 #include <stdarg.h>
 
 /* What petsam_create() has to say when there is no contact to say it. */

@@ -1,20 +1,13 @@
 /* The state of a contact in files of the host's: petsam_save() and petsam_load(). */
 #include "embedimpl.h"
-#include <petsam/private/baseimpl.h>
 
-/* Takes the program's option off a message about a file. */
+/* Removes the program's option that a message about a file begins with, -checkpoint or -restart. */
 static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 {
-  static const char *const options[] = {"-checkpoint ", "-restart "};
+  const int         code = SamEmbedLeave(c, error);
+  const char *const rest = c->message[0] == '-' ? strchr(c->message, ' ') : NULL;
 
-  const int code = SamEmbedLeave(c, error);
-
-  for (int k = 0; k < 2; k++) {
-    const size_t length = strlen(options[k]);
-
-    if (!strncmp(c->message, options[k], length))
-      memmove(c->message, c->message + length, strlen(c->message + length) + 1);
-  }
+  if (rest) memmove(c->message, rest + 1, strlen(rest));
   return code;
 }
 

@@ -1,6 +1,5 @@
 /* Load programs in another program: petsam_history(), petsam_live(), and contacts from which several go on. */
 #include "embedimpl.h"
-#include <petsam/private/baseimpl.h>
 
 /* A run, and whom to tell. */
 typedef struct {

@@ -7,7 +7,6 @@
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
-#include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 
 static PetscBool began_mpi = PETSC_FALSE, began_petsc = PETSC_FALSE;

@@ -1,6 +1,5 @@
 /* The stresses under the tractions of load steps: settings, steps, and the order of the work. */
 #include "evaluationimpl.h"
-#include <petsam/private/stressimpl.h>
 
 /* The least depth, in cells: above it the kernels would be those of the surface but for rounding. */
 #define LEAST_DEPTH 1e-6
@@ -59,7 +58,7 @@ PetscErrorCode SamEvaluationGetBody(SamEvaluation e, PetscInt *body)
 PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[])
 {
   PetscFunctionBegin;
-  PetscCheck(n > 0, e->comm, SAM_ERR_USER, "%s: expected one depth at least", said);
+  PetscCheck(n > 0, e->comm, SAM_ERR_USER, "%s: expected at least one depth", said);
   for (PetscInt k = 0; k < n; k++) {
     PetscCheck(depths[k] >= 0 && depths[k] < PETSC_INFINITY, e->comm, SAM_ERR_USER,
                "%s: %g is above the surface: expected numbers >= 0", said, (double)depths[k]);
@@ -208,16 +207,21 @@ PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The largest of all ranks, of equal ones that with the lowest number. */
-static PetscErrorCode Agree(MPI_Comm comm, SamLargestPoint *largest)
+PetscErrorCode SamLargestAgree(MPI_Comm comm, double *value, int n, double place[])
 {
-  PetscReal most = largest->value, place;
+  const double mine = *value;
+  PetscBool    here;
 
   PetscFunctionBegin;
-  PetscCall(SamMax(comm, 1, &most));
-  place = largest->value == most ? -largest->point : -PETSC_INFINITY;
-  PetscCall(SamMax(comm, 1, &place));
-  *largest = (SamLargestPoint){most, -place};
+  PetscCall(SamMax(comm, 1, value));
+  here = (PetscBool)(mine == *value);
+  for (int k = 0; k < n; k++) {
+    double least = here ? -place[k] : -INFINITY;
+
+    PetscCall(SamMax(comm, 1, &least));
+    here     = (PetscBool)(here && place[k] == -least);
+    place[k] = -least;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -245,12 +249,14 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
   e->write_context = context;
   PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
   for (PetscInt s = 0; s < e->source.steps; s++) {
-    PetscCall(Agree(e->comm, &e->largest[s].mises));
-    PetscCall(Agree(e->comm, &e->largest[s].principal));
+    SamStepLargest *const of = &e->largest[s];
+
+    PetscCall(SamLargestAgree(e->comm, &of->mises.value, 1, &of->mises.point));
+    PetscCall(SamLargestAgree(e->comm, &of->principal.value, 1, &of->principal.point));
+    for (int k = 0; k < 2; k++) PetscCall(SamLargestAgree(e->comm, &of->edge[k].value, 2, of->edge[k].place));
   }
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++)
-    if (e->wants[q]) PetscCall(Agree(e->comm, &e->fatigue[q]));
-  PetscCall(SamEdgeStressAgree(e));
+    if (e->wants[q]) PetscCall(SamLargestAgree(e->comm, &e->fatigue[q].value, 1, &e->fatigue[q].point));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -283,30 +289,6 @@ PetscErrorCode SamEvaluationHasCycle(SamEvaluation e, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
-{
-  const SamFatigueConstants *c    = &e->constants;
-  const PetscReal            body = (PetscReal)e->body;
-  PetscReal                  young, poisson;
-
-  PetscFunctionBegin;
-  PetscCall(SamParametersAddReals(p, "body", PETSC_TRUE, 1, &body));
-  SamStressGetConstants(e->stress, 0, &young, &poisson);
-  PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &young));
-  PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &poisson));
-  PetscCall(SamElasticityAddParameters(e->elasticity, p));
-  if (e->wants[SAM_QUANTITY_CROSSLAND])
-    PetscCall(SamParametersAddReals(p, "fatigue_crossland_alpha", PETSC_TRUE, 1, &c->crossland_alpha));
-  if (e->wants[SAM_QUANTITY_DANG_VAN])
-    PetscCall(SamParametersAddReals(p, "fatigue_dang_van_alpha", PETSC_TRUE, 1, &c->dang_van_alpha));
-  if (e->wants[SAM_QUANTITY_FINDLEY])
-    PetscCall(SamParametersAddReals(p, "fatigue_findley_k", PETSC_TRUE, 1, &c->findley_k));
-  if (!e->wants[SAM_QUANTITY_FATEMI_SOCIE]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamParametersAddReals(p, "fatigue_fatemi_socie_k", PETSC_TRUE, 1, &c->fatemi_socie_k));
-  PetscCall(SamParametersAddReals(p, "fatigue_yield", PETSC_TRUE, 1, &c->yield));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamEvaluationGetLargest(SamEvaluation e, SamQuantity quantity, PetscInt step, SamLargest *largest)
 {
   const SamGrid          g   = e->grid;
@@ -329,7 +311,10 @@ PetscErrorCode SamEvaluationGetLargest(SamEvaluation e, SamQuantity quantity, Pe
 PetscErrorCode SamEvaluationGetEdgeLargest(SamEvaluation e, PetscInt step, SamLargest largest[2], PetscBool *lost)
 {
   PetscFunctionBegin;
-  for (int k = 0; k < 2; k++) largest[k] = e->largest[step].edge[k];
+  for (int k = 0; k < 2; k++) {
+    largest[k] = e->largest[step].edge[k];
+    if (largest[k].value == -INFINITY) largest[k] = (SamLargest){NAN, {NAN, NAN, NAN}};
+  }
   *lost = e->largest[step].edge_lost;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
