@@ -171,7 +171,15 @@ def test_every_installed_header_stands_alone(prefix, tmp_path, compiler):
         sources.append(tmp_path / f"{k}.{'c' if compiler.startswith('mpicc') else 'cpp'}")
         sources[-1].write_text(f"#include <{header.relative_to(prefix / 'include')}>\n")
     assert len(sources) > 40
-    command = [*compiler.split(), "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *pkg_config(prefix, "--cflags"), *sources]
+    command = [
+        *compiler.split(),
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-fsyntax-only",
+        *pkg_config(prefix, "--cflags"),
+        *sources,
+    ]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
