@@ -37,7 +37,7 @@ _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctyp
 
 
 class ContactError(Error):
-    """What a contact refuses, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
+    """A call that was rejected, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
 
     def __init__(self, code, message):
         super().__init__(code, message)  # so that it can be pickled
@@ -122,7 +122,7 @@ def _candidates():
 
 
 def _share_mpi():
-    """Makes the symbols of MPI known to the parts that it loads itself; those of HDF5 would disturb h5py's own."""
+    """Make MPI's symbols visible to the modules that it loads itself; HDF5's would disturb h5py's own."""
     try:
         with open("/proc/self/maps") as maps:
             names = {line.split()[-1] for line in maps if "/libmpi.so" in line}
@@ -357,7 +357,7 @@ class Contact:
                 None,
             )
         except (NotConverged, NoEquilibrium) as error:
-            error.steps = found[:-1] if name == "history" else found  # a step that fails is told of too
+            error.steps = found[:-1] if name == "history" else found  # the monitor is called for a failed step too
             error.step = self._last_step(error.code, str(error))
             raise
         if failed:
@@ -403,7 +403,7 @@ class Contact:
         return value.value
 
     def _ask(self, function, name, target):
-        """Call a function that is asked for something by name; an unknown name is an error with those there are."""
+        """Call a function that takes a name; an unknown name is an error that lists the known ones."""
         try:
             self._call(function, name.encode(), target)
         except ContactError as error:

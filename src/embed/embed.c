@@ -8,7 +8,7 @@
 #include <petsam/private/arguments.h>
 #include <stdarg.h>
 
-/* What petsam_create() has to say when there is no contact to say it. */
+/* The message of petsam_create(), which may have no contact to hold it. */
 static char created[SAM_MESSAGE];
 
 /* ---- entering and leaving ---- */
@@ -77,7 +77,7 @@ const char *petsam_message(const petsam_contact *c)
 
 /* ---- creation ---- */
 
-/* Options that only the program has; their names deserve to be told so. Loads are given to petsam_try(). */
+/* Rejects by name the options that only the program has. Loads are given to petsam_try(). */
 static PetscErrorCode RefuseOthers(const petsam_contact *c)
 {
   static const char *const others[] = {"load_history", "wear_cycles"};
@@ -92,8 +92,8 @@ static PetscErrorCode RefuseOthers(const petsam_contact *c)
 
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsHasName(NULL, NULL, option, &set));
-    PetscCheck(!set, c->comm, SAM_ERR_USER,
-               "-%s: loads, displacements and cycles are given with each call, not as options", name);
+    PetscCheck(!set, c->comm, SAM_ERR_USER, "-%s: give loads, displacements and cycles with each call, not as options",
+               name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -177,7 +177,7 @@ void petsam_destroy(petsam_contact **c)
   *c = NULL;
 }
 
-/* Whether a handle has led to no communicator: Open MPI returns no pointer for a number that it does not know. */
+/* Whether a handle belongs to no communicator: Open MPI returns a null pointer for an unknown number. */
 static PetscBool IsNothing(MPI_Comm comm)
 {
 #if defined(OPEN_MPI)
@@ -209,7 +209,7 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
   }
   c->comm = comm == -1 ? MPI_COMM_SELF : MPI_Comm_f2c((MPI_Fint)comm);
   if (c->comm == MPI_COMM_NULL || IsNothing(c->comm))
-    code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or one that this rank does not belong to");
+    code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or this rank does not belong to it");
   else
     code = SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Create(c, options)) : SAM_EMBED_USAGE;
   (void)snprintf(created, sizeof(created), "%s", c->message);
@@ -241,7 +241,7 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
 PetscErrorCode SamEmbedForget(petsam_contact *c)
 {
   PetscFunctionBegin;
-  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "a monitor can ask for fields and numbers only");
+  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "a monitor may query fields and numbers only");
   PetscCall(SamContactReject(c->setup->contact));
   c->last      = c->committed;
   c->has_last  = c->has_committed;
@@ -334,7 +334,7 @@ static PetscErrorCode Commit(petsam_contact *c)
   PetscInt law = 0;
 
   PetscFunctionBegin;
-  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor");
+  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor returns");
   PetscCheck(!c->has_last || c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
              "the last try has no solution, and cannot be committed: %s", c->last.message);
   PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");

@@ -1,4 +1,4 @@
-/* The state of a contact in files of the host's: petsam_save() and petsam_load(). */
+/* The state of a contact in the host's files: petsam_save() and petsam_load(). */
 #include "embedimpl.h"
 
 /* Removes the program's option that a message about a file begins with, -checkpoint or -restart. */
@@ -48,7 +48,7 @@ int petsam_save(petsam_contact *c, const char *file)
   return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Save(c, file)) : SAM_EMBED_USAGE;
 }
 
-/* What the restored state says of its step. */
+/* Takes loads, displacements and time of the committed step from the restored state. */
 static PetscErrorCode KnowState(petsam_contact *c)
 {
   const SamSolution *s;

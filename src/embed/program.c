@@ -1,14 +1,14 @@
-/* Load programs in another program: petsam_history(), petsam_live(), and contacts from which several go on. */
+/* Load histories in another program: petsam_history(), petsam_live(); copies of contacts, and their reset. */
 #include "embedimpl.h"
 
-/* A run, and whom to tell. */
+/* A run, and its monitor. */
 typedef struct {
   petsam_contact *c;
   petsam_monitor  monitor; /* NULL: none */
   void           *context;
 } Run;
 
-/* Whether the host goes on after a step or cycle, as rank 0 has it. */
+/* Calls the host's monitor after a step or cycle; the run stops if rank 0's asks for it. */
 static PetscErrorCode AskHost(const Run *run, int cycle)
 {
   int stop;
@@ -65,7 +65,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is tried and committed after a run. */
+/* Sets what is tried and committed after a run. */
 static PetscErrorCode KnowEnd(petsam_contact *c)
 {
   PetscBool tried, committed;
@@ -126,7 +126,7 @@ int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows,
                 petsam_monitor monitor, void *context)
 {
   if (!c) return SAM_EMBED_USAGE;
-  if (!(cycles > 0)) return SamEmbedRefuse(c, "petsam_live: %g cycles: expected a number > 0", cycles);
+  if (!(cycles > 0)) return SamEmbedRefuse(c, "petsam_live: cycles is %g: use a number > 0", cycles);
   return RunAll(c, __func__, cycles, columns, rows, values, monitor, context);
 }
 

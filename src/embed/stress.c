@@ -1,7 +1,7 @@
 /*
   Stresses and fatigue parameters in another program: petsam_stress(), petsam_record(), petsam_fatigue().
 
-  Steps are kept as the tractions and the slip that a results file would have of them. Of maps each rank has its rows,
+  A step is recorded as the fields that a results file would hold: tractions and slip. Of maps each rank has its rows,
   as of fields; of a section all ranks have all.
 */
 #include "embedimpl.h"
@@ -155,7 +155,7 @@ static PetscErrorCode Keep(void *context, SamQuantity quantity, PetscInt compone
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gives all ranks the depths of a section: the others have bits of zero there. */
+/* Gives all ranks the depths of a section: on each rank the depths of the others are zero bits. */
 static PetscErrorCode GatherSection(petsam_contact *c)
 {
   const SamEmbedStress s = c->stress;
@@ -281,10 +281,10 @@ int petsam_record(petsam_contact *c, int on)
   return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Record(c, on != 0)) : SAM_EMBED_USAGE;
 }
 
-/* The part of the largest traction by which the ends of a cycle may differ. */
+/* The ends of a cycle may differ by this part of the maximum traction. */
 #define CLOSED 0.01
 
-/* Says in the message that the last step has not the tractions of the one before the first. */
+/* Warns, by the message, when the tractions of the last step differ from those before the first. */
 static PetscErrorCode AdviseClosed(petsam_contact *c)
 {
   static const int first[] = {SAM_STEP_PRESSURE, SAM_STEP_SHEAR_X, SAM_STEP_SLIP_X};

@@ -2,7 +2,7 @@
 #include "evaluationimpl.h"
 #include <petsam/edges.h>
 
-/* The least share of the edge that must be found: the largest value may lie where it is not. */
+/* The least share of the edge that must be reconstructed: the maximum may lie on the rest. */
 #define FOUND 0.95
 
 enum { XX, YY, XY, PLANE = 3 };

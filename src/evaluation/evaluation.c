@@ -1,7 +1,7 @@
 /* The stresses under the tractions of load steps: settings, steps, and the order of the work. */
 #include "evaluationimpl.h"
 
-/* The least depth, in cells: above it the kernels would be those of the surface but for rounding. */
+/* The least depth, in cells: at smaller ones the kernels equal those of the surface but for rounding. */
 #define LEAST_DEPTH 1e-6
 
 /* ---- life ---- */
@@ -147,7 +147,7 @@ static PetscErrorCode CheckDepths(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The line of cells nearest to the section. */
+/* Finds the line of cells nearest to the section. */
 static PetscErrorCode FindLine(SamEvaluation e)
 {
   const SamGrid   g     = e->grid;
@@ -175,10 +175,10 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTraits(e->elasticity, &traits));
   PetscCall(SamElasticityGetType(e->elasticity, &type));
-  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: no stresses are known of bodies of type %s", e->of, type);
+  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s", e->of, type);
   PetscCall(SamElasticityGetPair(e->elasticity, &pair));
   PetscCheck(!isinf(pair->young[e->body - 1]), e->comm, SAM_ERR_USER,
-             "%sbody %" PetscInt_FMT ": it is rigid, its stresses are not determined", e->dash, e->body);
+             "%sbody %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->dash, e->body);
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -192,7 +192,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
   PetscCheck(e->source.steps > 1 || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
              "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT, e->dash, e->source.steps);
   PetscCheck(!e->wants[SAM_QUANTITY_RUIZ] || e->depth[0] == 0, e->comm, SAM_ERR_USER,
-             "%sfatigue ruiz: is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
+             "%sfatigue ruiz: it is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
   PetscCall(CheckDepths(e));
   PetscCall(FindLine(e));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -260,7 +260,7 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what is known of it ---- */
+/* ---- queries ---- */
 
 PetscErrorCode SamEvaluationGetLayout(SamEvaluation e, SamStressLayout *layout)
 {

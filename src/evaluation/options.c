@@ -88,8 +88,7 @@ static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
   PetscReal *depths;
 
   PetscFunctionBegin;
-  PetscCall(
-    SamOptionsString(from, "depths", "m from the surface: 0,1e-5,2e-5 or first:last:number", text, sizeof(text), NULL));
+  PetscCall(SamOptionsString(from, "depths", "depths, m: 0,1e-5,2e-5 or first:last:number", text, sizeof(text), NULL));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %s", text));
   PetscCall((strchr(text, ':') ? ReadRange : ReadList)(from->comm, whole, text, &n, &depths));
   PetscCall(SamEvaluationTakeDepths(e, whole, n, depths));
@@ -106,8 +105,9 @@ static PetscErrorCode ReadSection(const SamOptions *from, SamEvaluation e)
   PetscBool set;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "section", "only the cells nearest to a plane, y=0 or x=1e-4 (m), not whole maps",
-                             text, sizeof(text), &set));
+  PetscCall(SamOptionsString(from, "section",
+                             "only the cells nearest to a plane, y=0 or x=1e-4 (m); default: whole maps", text,
+                             sizeof(text), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck((text[0] == 'x' || text[0] == 'y') && text[1] == '=' && ReadNumber(text + 2, &place), from->comm,
              SAM_ERR_USER, "-section %s: expected for example y=0 or x=1e-4", text);
@@ -220,8 +220,8 @@ static PetscErrorCode ReadFatigue(const SamOptions *from, SamEvaluation e)
   PetscBool set;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsWords(from, "fatigue", "over the steps as one closed cycle: some of " FATIGUE, FATIGUE, text,
-                            sizeof(text), &set));
+  PetscCall(SamOptionsWords(from, "fatigue", "parameters over the steps as one closed cycle: some of " FATIGUE, FATIGUE,
+                            text, sizeof(text), &set));
   if (set) PetscCall(ReadNames(from, "fatigue", FATIGUE, SAM_QUANTITY_CROSSLAND, 6, text, e));
   PetscCall(ReadConstants(from, e));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -237,7 +237,7 @@ PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation e, const SamOptions *fr
   PetscCall(SamEvaluationSetBody(e, body));
   PetscCall(ReadDepths(from, e));
   PetscCall(ReadSection(from, e));
-  PetscCall(SamOptionsHeading(from, "What"));
+  PetscCall(SamOptionsHeading(from, "Quantities"));
   PetscCall(ReadQuantities(from, e));
   PetscCall(SamOptionsHeading(from, "Fatigue"));
   PetscCall(ReadFatigue(from, e));
