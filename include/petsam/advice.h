@@ -37,7 +37,8 @@ typedef PetscErrorCode (*SamAdviceFunction)(void *context, const char text[], co
 /*
   None of these is collective.
   SamAdviseStep - gives a function what there is to say of a step that is solved: motions that are not small, bodies
-  that do not touch, a contact of fewer than 20 cells across, and one that is wider than a tenth of a radius of curvature.
+  that do not touch, a contact of fewer than 20 cells across, and one that is wider than a tenth of a radius of
+  curvature.
   SamAdviseEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not.
 */
 PETSC_EXTERN PetscErrorCode SamAdviseStep(const SamSetup *setup, const SamStep *step, const SamExtent *extent,

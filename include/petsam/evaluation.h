@@ -86,8 +86,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, con
 /*
   SamEvaluationSetUp - checks the settings together, and creates the stresses' kernels. SamEvaluationCompute() calls
   it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth above zero
-  but below a millionth of a cell, a section outside of the grid, a cycle of one step, Ruiz's parameters away from the surface;
-  PETSC_ERR_ORDER without elasticity.
+  but below a millionth of a cell, a section outside of the grid, a cycle of one step, Ruiz's parameters away from the
+  surface; PETSC_ERR_ORDER without elasticity.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation);
 /*

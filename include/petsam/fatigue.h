@@ -5,10 +5,10 @@
 #include <petsam/stress.h>
 
 /*
-  SamFatigueParameter - what is computed of the states of one closed cycle, of which no order counts but for Ruiz's.
-  n is the normal of a plane, s_n the stress on it, e_n the strain along it, tau_a the radius of the minimum circumscribed
-  circle of the shear stress path in it; S the deviator, R the radius of the minimum circumscribed sphere of its path in
-  the norm sqrt(S:S), P_H the hydrostatic stress.
+  SamFatigueParameter - what is computed of the states of one closed cycle, whose order counts for Ruiz's only. n is the
+  normal of a plane, s_n the stress on it, e_n the strain along it, tau_a the radius of the minimum circumscribed circle
+  of the shear stress path in it; S the deviator, R the radius of the minimum circumscribed sphere of its path in the
+  norm sqrt(S:S), P_H the hydrostatic stress.
 */
 typedef enum {
   SAM_FATIGUE_CROSSLAND, /* R/sqrt(2) + alpha max P_H, Pa (Crossland 1956) */

@@ -27,7 +27,7 @@ PetscErrorCode SamInitialize(void)
     "SamApplyNT",   "SamPrecondN",  "SamPrecondT",   "SamNormalSolve",  "SamTangSolve", "SamCheck",
     "SamEdges",     "SamStiffness", "SamOutput",     "SamCheckpoint"};
 
-  PetscClassId class;
+  PetscClassId id;
 
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(PETSC_SUCCESS);
@@ -37,8 +37,8 @@ PetscErrorCode SamInitialize(void)
   PetscCallMPI(MPI_Op_create(AddTotals, 1, &add_totals));
   fftw_mpi_init();
   fftwf_mpi_init();
-  PetscCall(PetscClassIdRegister("petsam", &class));
-  for (PetscInt e = 0; e < SAM_EVENT_COUNT; e++) PetscCall(PetscLogEventRegister(names[e], class, &SamEvents[e]));
+  PetscCall(PetscClassIdRegister("petsam", &id));
+  for (PetscInt e = 0; e < SAM_EVENT_COUNT; e++) PetscCall(PetscLogEventRegister(names[e], id, &SamEvents[e]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -23,7 +23,7 @@ PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], cons
 /* SamSealIsOne - whether the first bytes of a file are a seal. Not collective. */
 PETSC_INTERN PetscBool SamSealIsOne(const char head[], size_t size);
 
-extern const char SamXdmfHead[]; /* the first bytes of an XDMF file */
+PETSC_INTERN const char SamXdmfHead[]; /* the first bytes of an XDMF file */
 
 /* ---- lengths (lengths.c) ---- */
 
