@@ -38,7 +38,7 @@ _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctyp
 
 
 class ContactError(Error):
-    """What a contact refuses, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
+    """A call that was rejected, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
 
     def __init__(self, code, message):
         super().__init__(code, message)  # so that it can be pickled
@@ -132,7 +132,7 @@ def _needs(name):
 
 
 def _share_mpi():
-    """Makes the symbols of MPI known to the parts that it loads itself; those of HDF5 would disturb h5py's own."""
+    """Make MPI's symbols visible to the modules that it loads itself; HDF5's would disturb h5py's own."""
     try:
         with open("/proc/self/maps") as maps:
             names = {line.split()[-1] for line in maps if "/libmpi.so" in line}
@@ -219,7 +219,6 @@ class Contact:
             )
             self._check(code)
         self._read_grid()
-        self._further = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
 
     def _read_grid(self):
         n, size, center = (ctypes.c_int * 2)(), (ctypes.c_double * 2)(), (ctypes.c_double * 2)()
@@ -290,10 +289,11 @@ class Contact:
         return step
 
     def _numbers(self):
-        """{name: value} of the further numbers of the last step: a microsecond each."""
+        """{name: value} of the further numbers of the last step; a history may add some. A microsecond each."""
         found, value = {}, ctypes.c_double()
+        names = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
         with _lock:
-            for name in self._further:
+            for name in names:
                 if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
                     found[name] = value.value
         return found
@@ -367,7 +367,7 @@ class Contact:
                 None,
             )
         except (NotConverged, NoEquilibrium) as error:
-            error.steps = found[:-1] if name == "history" else found  # a step that fails is told of too
+            error.steps = found[:-1] if name == "history" else found  # the monitor is called for a failed step too
             error.step = self._last_step(error.code, str(error))
             raise
         if failed:
@@ -413,7 +413,7 @@ class Contact:
         return value.value
 
     def _ask(self, function, name, target):
-        """Call a function that is asked for something by name; an unknown name is an error with those there are."""
+        """Call a function that takes a name; an unknown name is an error that lists the known ones."""
         try:
             self._call(function, name.encode(), target)
         except ContactError as error:

@@ -100,7 +100,8 @@ static size_t CountSlips(const char a[], const char b[])
   return slips[n][m];
 }
 
-PetscBool SamIsNear(const char tried[], const char name[])
+/* Whether one name may be another one misspelled. */
+static PetscBool IsNear(const char tried[], const char name[])
 {
   const size_t length = strlen(tried);
 
@@ -115,7 +116,7 @@ const char *SamNearestName(const char tried[], size_t count, const char *const n
   for (size_t k = 0; k < count; k++) {
     const size_t slips = CountSlips(tried, names[k]);
 
-    if (slips >= least || !SamIsNear(tried, names[k])) continue;
+    if (slips >= least || !IsNear(tried, names[k])) continue;
     least   = slips;
     nearest = names[k];
   }
@@ -179,7 +180,7 @@ static PetscErrorCode FindMisspelled(const char name[], char found[], size_t siz
 
     for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
       if (IsSame(names[k], habits[h].tried) && !strcmp(habits[h].name, name)) habit = PETSC_TRUE;
-    if (habit || (SamIsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)))
+    if (habit || (IsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)))
       (void)snprintf(found, size, "%s", names[k]);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));

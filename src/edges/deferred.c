@@ -14,8 +14,8 @@
   solution stays. It is one of the pressure: a plain shear, bounded by the corrected pressure, is less exact than with
   the plain one, as the errors of p and q of the same operator cancel. So with friction it is refused.
 */
+#include "edgesimpl.h"
 #include <petsam/private/lawimpl.h>
-#include <petsam/private/rows.h>
 
 /* The least share of an edge that must be smooth and resolved for its correction. */
 #define SMOOTH 0.95

@@ -4,7 +4,7 @@
 
   Functions that return an int return 0, an errno, or one of the reasons below.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>

@@ -2,7 +2,7 @@
   A file is examined in a child process, as HDF5 may crash, or never end, on a damaged one: it follows the addresses in
   a file without end if they lead in a circle.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>

@@ -4,8 +4,8 @@
   A file may be wrong in many ways. Rank 0 examines it in a child process, so that all ranks raise the same error. Only
   then all read their rows.
 */
+#include "fileimpl.h"
 #include <petsam/private/fieldfile.h>
-#include <petsam/private/file.h>
 #include <math.h>
 #include <stdlib.h>
 

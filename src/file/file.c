@@ -5,7 +5,7 @@
   only. So rank 0 looks for the likely failures before MPI-IO meets them (disk.c). The file is then still consistent and
   can be closed.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 
 /* ---- errors ---- */
 

@@ -1,5 +1,5 @@
 /* What an HDF5 dataset of lengths says about itself: their unit, whether they are heights, the size of the surface. */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

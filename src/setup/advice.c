@@ -9,6 +9,11 @@
 #include <math.h>
 #include <stdarg.h>
 
+/* A contact of fewer cells across than these is not resolved. */
+#define FEW_CELLS 20
+/* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature. */
+#define STEEPEST 0.1
+
 #define NARROW    0.1   /* part of the contact's cells whose zones, the narrowest, do not count */
 #define ROOM      1.5   /* width of a good grid over that of the contact */
 #define MARGIN    1.1   /* width of a sufficient grid over that of the contact, */
@@ -147,12 +152,12 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   PetscFunctionBegin;
   text[0] = '\0';
   PetscCall(SamGapGetSteepness(s->gap, half, &ratio, &option));
-  if (!(ratio > SAM_STEEPEST)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!(ratio > STEEPEST)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
   for (PetscInt k = 0; k < count; k++)
     if (!strcmp(names[k], option)) radius = values[k];
   (void)snprintf(text, size, "is %.2g of -%s %g, and half-space theory ends at about %g: check the units, N, m, Pa",
-                 (double)ratio, option, (double)radius, SAM_STEEPEST);
+                 (double)ratio, option, (double)radius, STEEPEST);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,9 +186,9 @@ static void AdviseMotion(Receiver *to, const SamExtent *extent, const SamLoadsMo
 {
   const double width = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
 
-  if (most->rotation > SAM_STEEPEST)
+  if (most->rotation > STEEPEST)
     Advise(to, "", "a rotation of %g is prescribed: they are in rad, and small, up to about %g (a degree is 0.0175)",
-           (double)most->rotation, SAM_STEEPEST);
+           (double)most->rotation, STEEPEST);
   else if (extent->zones && (double)most->slide > width)
     Advise(
       to, "",
@@ -208,10 +213,10 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
 {
   char cells[AT_A_TIME], width[AT_A_TIME], zones[AT_A_TIME] = "", better[3 * AT_A_TIME];
 
-  if (extent->across >= SAM_FEW_CELLS) return;
+  if (extent->across >= FEW_CELLS) return;
   /* of periodic bodies all cells may be in contact, and have no width */
   if (extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) return;
-  AdviseGrids(s, half, (SAM_FEW_CELLS + SAME) / (double)across, cells, width);
+  AdviseGrids(s, half, (FEW_CELLS + SAME) / (double)across, cells, width);
   if (extent->zones > 1)
     (void)snprintf(zones, sizeof(zones), "in %lld zones, the narrow ones ", (long long)extent->zones);
   if (s->from_file[0] || s->from_file[1])
@@ -223,7 +228,7 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
   Advise(to, "",
          "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m): expected %d or more%s",
          zones, (double)extent->across, 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0],
-         (double)s->grid->width[1], SAM_FEW_CELLS, better);
+         (double)s->grid->width[1], FEW_CELLS, better);
 }
 
 PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,

@@ -47,7 +47,7 @@ SamMotionRow SamMotionOfGap(const SamMotion *m, PetscInt j)
 }
 
 /* The rigid displacement minus the stretch. */
-SamMotionRow SamMotionOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
+static SamMotionRow MotionOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
 {
   const SamGrid    grid = m->tangential.grid;
   const double    *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
@@ -79,7 +79,8 @@ SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const do
   for (PetscInt i = 0; i < n; i++) value[i] = u[i] + h[i] - (a + b * (xi0 + (double)i * dxi));
 }
 
-void SamMotionSubtract(const SamMotion *m, SamMotionRow row, const double u[], double value[])
+/* value = u - a - b xi along a row of the grid. */
+static void Subtract(const SamMotion *m, SamMotionRow row, const double u[], double value[])
 {
   SubtractRow(m->normal.grid->nx, u, row, m->normal.xi0, m->normal.dxi, value);
 }
@@ -102,7 +103,7 @@ PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *s, 
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    SamMotionSubtract(&motion, SamMotionOfSlip(&motion, component, j), u + component * grid->cells + k, slip + k);
+    Subtract(&motion, MotionOfSlip(&motion, component, j), u + component * grid->cells + k, slip + k);
   }
   PetscCall(VecRestoreArrayRead(s->displacement_t, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -144,9 +145,9 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
   for (PetscInt c = 0; c < 2; c++) {
     const ptrdiff_t k = (ptrdiff_t)c * s->grid->cells + (ptrdiff_t)j * s->grid->nx;
 
-    SamMotionSubtract(&s->now, SamMotionOfSlip(&s->now, c, j), s->u_now + k, s->slip[c]);
+    Subtract(&s->now, MotionOfSlip(&s->now, c, j), s->u_now + k, s->slip[c]);
     if (s->u_before)
-      SamMotionSubtract(&s->before, SamMotionOfSlip(&s->before, c, j), s->u_before + k, s->scratch);
+      Subtract(&s->before, MotionOfSlip(&s->before, c, j), s->u_before + k, s->scratch);
     else
       SamZero(s->grid->nx, s->scratch);
     for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] = s->slip[c][i] - s->scratch[i];

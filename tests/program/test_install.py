@@ -163,6 +163,27 @@ def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, lau
         assert float(tangential) == pytest.approx(4.16312e-7, rel=1e-4)
 
 
+@pytest.mark.parametrize("compiler", ["mpicc -std=c11", "mpicxx -std=c++11"])
+def test_every_installed_header_stands_alone(prefix, tmp_path, compiler):
+    """In C and in C++, without warnings: a header includes what it needs."""
+    sources = []
+    for k, header in enumerate(sorted((prefix / "include").rglob("*.h"))):
+        sources.append(tmp_path / f"{k}.{'c' if compiler.startswith('mpicc') else 'cpp'}")
+        sources[-1].write_text(f"#include <{header.relative_to(prefix / 'include')}>\n")
+    assert len(sources) > 40
+    command = [
+        *compiler.split(),
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-fsyntax-only",
+        *pkg_config(prefix, "--cflags"),
+        *sources,
+    ]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
 def test_programs_need_the_library_by_the_version_of_its_interface(prefix):
     """libpetsam.so is for the linker; programs that were linked with another interface do not find their own."""
     name = re.search(

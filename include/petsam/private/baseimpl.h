@@ -53,7 +53,6 @@ typedef enum {
   SAM_EVENT_COUNT
 } SamEvent;
 PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
-PETSC_EXTERN PetscClassId  SamClassId;
 
 /* ---- errors ---- */
 /* SamKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
@@ -102,8 +101,6 @@ PETSC_EXTERN PetscBool   SamRangeHas(SamRange range, double value);
 PETSC_EXTERN const char *SamRangeDescribe(SamRange range);
 
 /* ---- mistakes in options and names (spelling.c); none is collective, but for SamOptionsRequire() ---- */
-/* SamIsNear - whether one name may be another one misspelled. */
-PETSC_EXTERN PetscBool SamIsNear(const char tried[], const char name[]);
 /* SamNearestName - the name out of these that may be meant; NULL: none. */
 PETSC_EXTERN const char *SamNearestName(const char tried[], size_t count, const char *const names[]);
 /*

@@ -29,9 +29,6 @@ typedef struct {
 } SamMotionRow;
 PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamProblem problem, const SamSolution *solution);
 PETSC_INTERN SamMotionRow   SamMotionOfGap(const SamMotion *motion, PetscInt j);
-PETSC_INTERN SamMotionRow   SamMotionOfSlip(const SamMotion *motion, PetscInt component, PetscInt j);
-/* value = u - a - b xi along a row of the grid. */
-PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, const double u[], double value[]);
 /* value = u + h - a - b xi. */
 PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
                                double value[]);
