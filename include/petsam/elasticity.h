@@ -5,8 +5,6 @@
 #include <petsam/fourier.h>
 #include <petsam/material.h>
 #include <petsam/parameters.h>
-#include <petscmat.h>
-#include <petscpc.h>
 
 /*
   SamElasticity - the 3 x 3 influence operator of a pair of bodies on a grid: relative elastic displacements u (m) from
@@ -148,8 +146,6 @@ PETSC_EXTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity 
                                                                   const float residual[], float p[]);
 PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
                                                                       const float residual[], float q[]);
-PETSC_EXTERN PetscErrorCode SamElasticityPreconditionNormal(SamElasticity elasticity, Vec residual, Vec p);
-PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangential(SamElasticity elasticity, Vec residual, Vec q);
 
 /*
   SamElasticityGetSelfInfluence - displacement of a cell's centre under unit traction on that cell alone, m/Pa: u_z from
@@ -166,9 +162,5 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elastici
 typedef struct _n_SamStress *SamStress;
 PETSC_EXTERN PetscErrorCode  SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
                                                        const SamFourierSettings *settings, SamStress *stress);
-
-/* The same products as PETSc objects, for use with KSP and the like. The elasticity must outlive them. Collective. */
-PETSC_EXTERN PetscErrorCode SamElasticityCreateMat(SamElasticity elasticity, PetscInt components, Mat *mat);
-PETSC_EXTERN PetscErrorCode SamElasticityCreatePC(SamElasticity elasticity, PetscInt components, PC *pc);
 
 #endif

@@ -78,9 +78,6 @@ PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver solver, SamSolverMonit
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver solver);
 
-/* SamSolverView - prints the type and the settings. Collective. */
-PETSC_EXTERN PetscErrorCode SamSolverView(SamSolver solver, PetscViewer viewer);
-
 /* SamSolverGetReason - why the last solve stopped. Not collective. */
 PETSC_EXTERN PetscErrorCode SamSolverGetReason(SamSolver solver, SamSolverReason *reason);
 

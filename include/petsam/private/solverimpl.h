@@ -84,11 +84,9 @@ struct _n_SamSolverKind {
   PetscErrorCode (*solvelevel)(SamSolver solver, SamLevel *level, SamStart start);
   /* the start of a level from the solution on the next coarser grid */
   PetscErrorCode (*prolong)(SamTransfer transfer, const SamLevel *coarse, SamLevel *fine);
-  /* the types that come with the library, the default one first; an empty name ends them */
-  struct {
-    SamSolverType name;
-    PetscErrorCode (*create)(SamSolver);
-  } own[4];
+  /* the default type */
+  SamSolverType type;
+  PetscErrorCode (*create)(SamSolver);
   /* the registry */
   PetscFunctionList types;
   PetscBool         registered;
@@ -112,7 +110,7 @@ struct _n_SamSolver {
   PetscBool keeps_product;
   PetscBool limits_pressure; /* normal: knows frame.most */
   /* what the user set; 0 stands for the type's default */
-  char             type[64], prefix[SAM_PREFIX];
+  char             type[64], prefix[SAM_PREFIX + 16]; /* the prefix with `<kind>_` */
   PetscReal        rtol;
   PetscReal        pressure_limit; /* normal: Pa; infinite: none */
   PetscInt         max_it, levels;
@@ -199,34 +197,12 @@ PETSC_EXTERN PetscErrorCode SamLevelIterated(SamSolver solver, SamLevel *level, 
 /* SamLevelAtMaxIterations - whether this is the finest grid, and max_it iterations have been made. Not collective. */
 PETSC_EXTERN PetscBool SamLevelAtMaxIterations(SamSolver solver, const SamLevel *level);
 
-/* ---- the account of rounding ---- */
-
 /*
-  SamRounding - what rounding may have done to a gradient that is kept up to date. A method computes its gradient (the
-  gap, the slip) in double precision once, and then adds to it the products of its steps, which are in single precision
-  at half the cost. Each of them brings in an error of about SAM_SINGLE_ROUNDING of its size. `bound` is how much that
-  may be by now, in the gradient's units; where it matters, the gradient is computed anew in double precision, which
-  sets it to zero.
+  A method computes its gradient (the gap, the slip) in double precision once, and then adds to it the products of its
+  steps, which are in single precision at half the cost. Each of them has an error of about this much, relative to its
+  size. The method keeps a bound of what these errors have added up to; where that matters, it computes the gradient
+  anew in double precision.
 */
-typedef struct {
-  double bound;
-} SamRounding;
-
-#define SAM_SINGLE_ROUNDING 3e-7 /* error of a product in single precision, relative */
-
-/* The bound grows by the errors of one more product: for norms, where errors add up. */
-static inline void SamRoundingAdd(SamRounding *rounding, double error)
-{
-  rounding->bound += error;
-}
-/* The bound is at least this: for the largest error of a cell, where one product dominates. */
-static inline void SamRoundingRaise(SamRounding *rounding, double error)
-{
-  rounding->bound = SamLarger(rounding->bound, error);
-}
-static inline PetscBool SamRoundingIsWithin(const SamRounding *rounding, double limit)
-{
-  return (PetscBool)(rounding->bound <= limit);
-}
+#define SAM_SINGLE_ROUNDING 3e-7
 
 #endif

@@ -36,14 +36,14 @@ static PetscBool IsSingleEnough(const Work *w)
 /* The rounding of g is no more than the tolerance has room for. */
 static PetscBool IsTrusted(const Work *w)
 {
-  return SamRoundingIsWithin(&w->rounding, DOUBT * Tolerance(w));
+  return w->rounding <= DOUBT * Tolerance(w);
 }
 
 PetscBool SamActiveSetIsStale(const Work *w)
 {
   const double later = SAM_SINGLE_ROUNDING * w->error; /* what rounding will be after a product */
 
-  return !IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding.bound);
+  return !IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding);
 }
 
 /* ---- the gap and the active set ---- */
@@ -173,7 +173,7 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
     PetscCall(Choose(w, 0, motion));
   PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
   PetscCall(Move(w, motion));
-  SamRoundingRaise(&w->rounding, SAM_SINGLE_ROUNDING * w->error);
+  w->rounding = SamLarger(w->rounding, SAM_SINGLE_ROUNDING * w->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -190,7 +190,7 @@ PetscErrorCode SamActiveSetRefresh(Work *w)
     PetscCall(Apply(w));
   }
   PetscCall(FinishGap(w));
-  w->rounding.bound = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
+  w->rounding = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
   PetscCall(SamActiveSetChoose(w, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -207,7 +207,7 @@ PetscErrorCode SamActiveSetStart(Work *w)
   PetscCall(VecGetArrayRead(w->level->product->field, &u));
   PetscCall(PetscArraycpy(w->g, u, w->cells));
   PetscCall(VecRestoreArrayRead(w->level->product->field, &u));
-  w->rounding.bound = w->level->product->rounding;
+  w->rounding = w->level->product->rounding;
   PetscCall(FinishGap(w));
   PetscCall(SamActiveSetChoose(w, NULL));
   if (SamActiveSetIsStale(w)) PetscCall(SamActiveSetRefresh(w));
@@ -229,7 +229,7 @@ PetscErrorCode SamActiveSetKeepProduct(Work *w)
         w->g[row.first + i] - w->h[row.first + i] + SamFrameNormal(w->motion, row.xi0 + (double)i * row.dxi, row.eta);
   }
   PetscCall(VecRestoreArrayWrite(w->level->product->field, &u));
-  SamLevelKeepProduct(w->level, w->rounding.bound + PROJECTION_ROUNDING * w->displacement);
+  SamLevelKeepProduct(w->level, w->rounding + PROJECTION_ROUNDING * w->displacement);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,7 +25,7 @@ typedef struct {
   double          motion[3];      /* rigid displacement in g, fixed part included */
   double          displacement;   /* largest |S p|, m */
   double          error;          /* largest complementarity error, m */
-  SamRounding     rounding;       /* of g, m */
+  double          rounding;       /* bound of that of g, for the largest error of a cell, m */
   double          slope;          /* of the energy along the step: s.g */
   double          shrink;         /* largest part of its distance from a bound that a cell loses in the step */
   double          largest;        /* largest pressure of the trial, Pa */

@@ -2,7 +2,7 @@
   The normal problem as a kind of solver: how it starts, how it goes from grid to grid and into windows, and the cases
   without contact. The methods are in files of their own.
 */
-#include "outside.h"
+#include <petsam/private/normalimpl.h>
 
 /* ---- starts ---- */
 
@@ -291,7 +291,8 @@ static SamSolverKind kind = {
   .error_help         = "largest gap error relative to the displacement",
   .balance            = SAM_BALANCE_NORMAL,
   .event              = SAM_EVENT_NORMAL_SOLVE,
-  .own                = {{SAM_NORMAL_ACTIVESET, SamNormalCreate_ActiveSet}},
+  .type               = SAM_NORMAL_ACTIVESET,
+  .create             = SamNormalCreate_ActiveSet,
   .rtol               = 1e-8,
   .coarse_rtol        = 1e-4,
   .components         = 1,
@@ -307,9 +308,7 @@ static SamSolverKind kind = {
 
 PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver))
 {
-  PetscFunctionBegin;
-  PetscCall(SamSolverRegister(&kind, name, create));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamSolverRegister(&kind, name, create);
 }
 
 PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
@@ -346,44 +345,37 @@ PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveProblem(SamSolver s, const SamLevel *problem, PetscBool guess)
+static PetscErrorCode SolveProblem(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess, Vec p,
+                                   SamProduct *product)
 {
-  const SamBalance *balance = problem->balance;
+  const SamSolver s       = SamNormalAsSolver(normal);
+  const SamLevel  problem = {.balance  = balance,
+                             .given    = {[SAM_NORMAL_SEPARATION] = h, [SAM_NORMAL_DIAGONAL] = diagonal},
+                             .traction = p,
+                             .product  = product};
 
   PetscFunctionBegin;
   PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0",
              (double)balance->load[0]);
   PetscCheck(isinf(s->pressure_limit) || s->limits_pressure, s->comm, PETSC_ERR_SUP,
              "The method %s has no limit of the pressure", s->type);
-  PetscCall(SamSolverSolve(s, problem, guess));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
-                                     SamProduct *product)
-{
-  const SamLevel problem = {
-    .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h}, .traction = p, .product = product};
-
-  PetscFunctionBegin;
-  PetscCall(SolveProblem(SamNormalAsSolver(normal), &problem, guess));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess,
-                                      Vec p)
-{
-  const SamLevel problem = {
-    .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h, [SAM_NORMAL_DIAGONAL] = diagonal}, .traction = p};
-
-  PetscFunctionBegin;
-  PetscCall(SolveProblem(SamNormalAsSolver(normal), &problem, guess));
+  PetscCall(SamSolverSolve(s, &problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p)
 {
-  PetscFunctionBegin;
-  PetscCall(SamNormalSolveKeeping(normal, h, balance, guess, p, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SolveProblem(normal, h, NULL, balance, guess, p, NULL);
+}
+
+PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
+                                     SamProduct *product)
+{
+  return SolveProblem(normal, h, NULL, balance, guess, p, product);
+}
+
+PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess,
+                                      Vec p)
+{
+  return SolveProblem(normal, h, diagonal, balance, guess, p, NULL);
 }

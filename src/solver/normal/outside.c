@@ -4,7 +4,7 @@
   One product in single precision answers that in nearly all cases, as the gap there is far larger than its rounding.
   Where it is not, a product in double precision does, and tells how far a larger window has to reach.
 */
-#include "outside.h"
+#include <petsam/private/normalimpl.h>
 
 /* Gaps that rounding in single precision cannot be blamed for, relative to the largest displacement. */
 #define CLEARANCE 1e-5

@@ -282,7 +282,7 @@ static PetscErrorCode Step(Work *w, double *best)
   t        = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
   t        = w->whole ? 1 : PetscMin(1, t);
   w->whole = PETSC_FALSE;
-  SamRoundingAdd(&w->rounding, SAM_SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self);
+  w->rounding += SAM_SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self;
   PetscCall(Advance(w, t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -290,7 +290,7 @@ static PetscErrorCode Step(Work *w, double *best)
 /* The most that the error can be, rounding included. */
 static double Error(const Work *w)
 {
-  return w->base.error + (w->rounding.bound > 0 ? w->rounding.bound / w->base.scale : 0);
+  return w->base.error + (w->rounding > 0 ? w->rounding / w->base.scale : 0);
 }
 
 /* Computes the slip anew where its rounding matters. */
@@ -299,11 +299,10 @@ static PetscErrorCode Refresh(Work *w)
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  if (SamRoundingIsWithin(&w->rounding, DOUBT * PetscMax(u->error, u->level->rtol) * u->scale))
-    PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->rounding <= DOUBT * PetscMax(u->error, u->level->rtol) * u->scale) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamStickSlipComputeSlip(u));
   PetscCall(Advance(w, 0));
-  w->rounding.bound = 0;
+  w->rounding = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -359,8 +358,8 @@ static PetscErrorCode MoveOnly(Work *w, const double motion[3], PetscBool *bette
   for (PetscInt c = 0; c < 3; c++) u->motion[c] += motion[c];
   PetscCall(SamStickSlipComputeSlip(u));
   PetscCall(Advance(w, 0));
-  w->rounding.bound = 0;
-  *better           = u->error < error;
+  w->rounding = 0;
+  *better     = u->error < error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -400,7 +399,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   PetscCall(Project(w, NULL, NULL, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   /* the slip is still that of the shear before: the step changes s/c by no more than this */
-  SamRoundingAdd(&w->rounding, (1 + w->reach) * sqrt(w->size) * w->unit / u->self);
+  w->rounding += (1 + w->reach) * sqrt(w->size) * w->unit / u->self;
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
   PetscCall(Refresh(w));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -416,7 +415,7 @@ static PetscErrorCode Start(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   w->whole = SamLevelHasProduct(level);
-  if (w->whole) w->rounding.bound = level->product->rounding;
+  if (w->whole) w->rounding = level->product->rounding;
   PetscCall(SamStickSlipStart(&w->base));
   SamLevelForgetProduct(level);
   PetscCall(Advance(w, 0));
@@ -462,7 +461,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   solver->reason = reason;
   solver->error  = Error(&w);
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = u->motion[c];
-  if (level->product && isfinite(u->error)) PetscCall(SamStickSlipKeepProduct(u, w.rounding.bound));
+  if (level->product && isfinite(u->error)) PetscCall(SamStickSlipKeepProduct(u, w.rounding));
   PetscCall(SamNewtonDestroy(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

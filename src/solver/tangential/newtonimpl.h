@@ -22,7 +22,7 @@ typedef struct {
   PetscBool    whole;          /* the next step has length 1, as the shear is not admissible */
   double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
   double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
-  SamRounding  rounding;       /* of s/c, in the 2-norm, Pa */
+  double       rounding;       /* bound of that of s/c, in the 2-norm, Pa */
 } SamNewton;
 
 /* Sums over cells: the slip in the tangent space with the phi and the Gram matrix there, both weighted by h; the work
