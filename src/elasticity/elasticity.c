@@ -9,16 +9,6 @@
 static PetscFunctionList SamElasticityList = NULL;
 static PetscBool         registered        = PETSC_FALSE;
 
-static PetscErrorCode RegisterAll(void);
-
-PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
-{
-  PetscFunctionBegin;
-  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces ours */
-  PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode FreeList(void)
 {
   PetscFunctionBegin;
@@ -32,9 +22,17 @@ static PetscErrorCode RegisterAll(void)
   PetscFunctionBegin;
   if (registered) PetscFunctionReturn(PETSC_SUCCESS);
   registered = PETSC_TRUE;
-  PetscCall(SamElasticityRegister(SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
-  PetscCall(SamElasticityRegister(SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
   PetscCall(PetscRegisterFinalize(FreeList));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
+{
+  PetscFunctionBegin;
+  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces ours */
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -69,7 +67,7 @@ static PetscErrorCode Reset(SamElasticity e)
 {
   PetscFunctionBegin;
   if (e->ops.destroy) PetscCall((*e->ops.destroy)(e));
-  e->data = NULL;
+  PetscCall(PetscFree(e->data));
   PetscCall(SamFourierDestroy(&e->fourier));
   PetscCall(SamTransferDestroy(&e->transfer));
   PetscCall(SamElasticityDestroy(&e->coarse));
@@ -106,9 +104,7 @@ PetscErrorCode SamElasticityGetType(SamElasticity e, SamElasticityType *type)
 
 PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[])
 {
-  PetscFunctionBegin;
-  PetscCall(SamSetPrefix(e->prefix, prefix));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamSetPrefix(e->prefix, prefix);
 }
 
 /* The help lists the options of the other types, too. */

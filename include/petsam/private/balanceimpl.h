@@ -134,18 +134,7 @@ static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *fi
 /* Gram matrices sum phi phi' are stored as their six upper entries 00, 01, 02, 11, 12, 22. */
 #define SAM_GRAM 6
 
-/* Adds a cell to the Gram matrix of the normal phi. */
-static inline void SamGramAddNormal(double gram[SAM_GRAM], double xi, double eta)
-{
-  gram[0] += 1;
-  gram[1] -= eta;
-  gram[2] += xi;
-  gram[3] += eta * eta;
-  gram[4] -= eta * xi;
-  gram[5] += xi * xi;
-}
-
-/* The same for the cells of a row, from their number and their sums of xi and xi^2. */
+/* Adds the cells of a row to the Gram matrix of the normal phi, from their number and their sums of xi and xi^2. */
 static inline void SamGramNormalRow(double gram[SAM_GRAM], double count, double xi, double xi2, double eta)
 {
   gram[0] += count;

@@ -26,7 +26,7 @@ typedef struct {
   /* the type's own parameters, all of them always: recorded, also what identifies its files, and set from a record */
   PetscErrorCode (*addparameters)(SamElasticity, SamParameters *);
   PetscErrorCode (*setparameters)(SamElasticity, const SamParameters *, const char source[]);
-  PetscErrorCode (*destroy)(SamElasticity); /* frees `data` */
+  PetscErrorCode (*destroy)(SamElasticity); /* frees what `data` refers to; the class frees `data` */
   /* required: products, with `factor` in single precision, preconditioners, and a cell's influence on itself */
   PetscErrorCode (*applynormal)(SamElasticity, const double *const p[], double *const u_z[]);
   PetscErrorCode (*applytangential)(SamElasticity, const double *const q[], double *const u_t[]);

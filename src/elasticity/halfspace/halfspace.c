@@ -6,12 +6,14 @@
 #include <petsam/private/halfspace.h>
 #include <math.h>
 
-/* Kernels: row and column of the 3 x 3 operator; the lower triangle follows by symmetry. */
-typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
+/*
+  Kernels: row and column of the 3 x 3 operator, whose lower triangle follows by symmetry; u_z from pressures linear in
+  x and in y.
+*/
+typedef enum { ZZ, XX, YY, XY, XZ, YZ, SLOPE_X, SLOPE_Y, KERNELS } Kind;
 
 typedef struct {
   SamKernel kernel[KERNELS]; /* NULL until needed */
-  SamKernel slope[2];        /* of pressures linear in x and in y; likewise */
 } HalfSpace;
 
 /* A kernel is a sum of at most two integrals over the cell. */
@@ -23,30 +25,20 @@ typedef struct {
 
 static Coefficients GetCoefficients(SamElasticity e, Kind kind)
 {
-  const SamPair *pair = &e->pair;
-  Coefficients   c    = {.dx = e->grid->dx, .dy = e->grid->dy};
+  static const SamIntegral integrals[][2] = {{SAM_INTEGRAL_R},
+                                             {SAM_INTEGRAL_R, SAM_INTEGRAL_XX},
+                                             {SAM_INTEGRAL_R, SAM_INTEGRAL_YY},
+                                             {SAM_INTEGRAL_XY},
+                                             {SAM_INTEGRAL_X},
+                                             {SAM_INTEGRAL_Y}};
+  const SamPair           *p              = &e->pair;
+  const double             factors[][2]   = {{p->normal},   {p->shear, p->shear_xx}, {p->shear, p->shear_xx},
+                                             {p->shear_xx}, {p->coupling},           {p->coupling}};
 
-  switch (kind) {
-  case ZZ:
-    c.integral[0] = SAM_INTEGRAL_R;
-    c.factor[0]   = pair->normal;
-    break;
-  case XX:
-  case YY:
-    c.integral[0] = SAM_INTEGRAL_R;
-    c.factor[0]   = pair->shear;
-    c.integral[1] = kind == XX ? SAM_INTEGRAL_XX : SAM_INTEGRAL_YY;
-    c.factor[1]   = pair->shear_xx;
-    break;
-  case XY:
-    c.integral[0] = SAM_INTEGRAL_XY;
-    c.factor[0]   = pair->shear_xx;
-    break;
-  default:
-    c.integral[0] = kind == XZ ? SAM_INTEGRAL_X : SAM_INTEGRAL_Y;
-    c.factor[0]   = pair->coupling;
-  }
-  return c;
+  return (Coefficients){.dx       = e->grid->dx,
+                        .dy       = e->grid->dy,
+                        .integral = {integrals[kind][0], integrals[kind][1]},
+                        .factor   = {factors[kind][0], factors[kind][1]}};
 }
 
 static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const void *context)
@@ -84,97 +76,108 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
+{
+  SamSlopeRow((const SamSlopeKernel *)context, j, n, values[0]);
+}
+
 static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 {
-  HalfSpace *data = (HalfSpace *)e->data;
+  SamKernel *kept = &((HalfSpace *)e->data)->kernel[kind];
 
   PetscFunctionBegin;
-  if (!data->kernel[kind]) {
+  if (!*kept && kind < SLOPE_X) {
     const Coefficients c        = GetCoefficients(e, kind);
     const PetscBool    odd[][2] = {{kind == XY || kind == XZ, kind == XY || kind == YZ}};
 
-    PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, &data->kernel[kind]));
+    PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, kept));
+  } else if (!*kept) {
+    const int            axis     = kind - SLOPE_X;
+    const PetscBool      odd[][2] = {{axis == 0, axis == 1}};
+    SamSlopeRules        rules;
+    const SamSlopeKernel c = {
+      .rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal};
+
+    PetscCall(SamSlopeRulesCreate(&rules));
+    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, kept));
   }
-  *kernel = data->kernel[kind];
+  *kernel = *kept;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- products ---- */
 
-/* The kernels of u_z from p, and of u_t from q. */
-static PetscErrorCode GetMatrix(SamElasticity e, PetscInt components, SamKernelMatrix *matrix)
+/* The matrix of `scale` times these kernels, row by row. */
+static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
+                                SamKernelMatrix *matrix)
 {
   PetscFunctionBegin;
-  *matrix = (SamKernelMatrix){.n_in = components, .n_out = components, .scale = {{1, 1}, {1, 1}}};
-  PetscCall(GetKernel(e, components == 1 ? ZZ : XX, &matrix->kernel[0][0]));
-  if (components == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetKernel(e, XY, &matrix->kernel[0][1]));
-  PetscCall(GetKernel(e, YY, &matrix->kernel[1][1]));
-  matrix->kernel[1][0] = matrix->kernel[0][1];
+  *matrix = (SamKernelMatrix){.n_in = n_in, .n_out = n_out};
+  for (PetscInt o = 0; o < n_out; o++)
+    for (PetscInt i = 0; i < n_in; i++) {
+      matrix->scale[o][i] = scale;
+      PetscCall(GetKernel(e, kinds[o * n_in + i], &matrix->kernel[o][i]));
+    }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Apply(SamElasticity e, PetscInt components, const double *const in[], double *const out[])
+static PetscErrorCode Apply(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
+                            const double *const in[], double *const out[])
 {
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
-  PetscCall(GetMatrix(e, components, &matrix));
+  PetscCall(GetMatrix(e, n_out, n_in, scale, kinds, &matrix));
   PetscCall(SamConvolve(e->fourier, &matrix, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ApplySingle(SamElasticity e, PetscInt components, double factor, const float *const in[],
-                                  float *const out[])
+static PetscErrorCode ApplySingle(SamElasticity e, PetscInt n, const Kind kinds[], double factor,
+                                  const float *const in[], float *const out[])
 {
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
-  PetscCall(GetMatrix(e, components, &matrix));
+  PetscCall(GetMatrix(e, n, n, 1, kinds, &matrix));
   PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static const Kind normal[] = {ZZ}, tangential[] = {XX, XY, XY, YY}, coupling[] = {XZ, YZ}, slope[] = {SLOPE_X, SLOPE_Y};
+
 static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
 {
-  return Apply(e, 1, p, u_z);
+  return Apply(e, 1, 1, 1, normal, p, u_z);
 }
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
 {
-  return Apply(e, 2, q, u_t);
-}
-
-static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
-{
-  return ApplySingle(e, 1, factor, p, u_z);
-}
-
-static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
-{
-  return ApplySingle(e, 2, factor, q, u_t);
+  return Apply(e, 2, 2, 1, tangential, q, u_t);
 }
 
 static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
 {
-  SamKernelMatrix matrix = {.n_in = 1, .n_out = 2, .scale = {{1}, {1}}};
-
-  PetscFunctionBegin;
-  PetscCall(GetKernel(e, XZ, &matrix.kernel[0][0]));
-  PetscCall(GetKernel(e, YZ, &matrix.kernel[1][0]));
-  PetscCall(SamConvolve(e->fourier, &matrix, p, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return Apply(e, 2, 1, 1, coupling, p, u_t);
 }
 
 static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
 {
-  SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{-1, -1}}};
+  return Apply(e, 1, 2, -1, coupling, q, u_z);
+}
 
-  PetscFunctionBegin;
-  PetscCall(GetKernel(e, XZ, &matrix.kernel[0][0]));
-  PetscCall(GetKernel(e, YZ, &matrix.kernel[0][1]));
-  PetscCall(SamConvolve(e->fourier, &matrix, q, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
+static PetscErrorCode ApplyNormalSlopes(SamElasticity e, const double *const slopes[], double *const u_z[])
+{
+  return Apply(e, 1, 2, 1, slope, slopes, u_z);
+}
+
+static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
+{
+  return ApplySingle(e, 1, normal, factor, p, u_z);
+}
+
+static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
+{
+  return ApplySingle(e, 2, tangential, factor, q, u_t);
 }
 
 /* ---- the spectral preconditioner ---- */
@@ -235,41 +238,6 @@ static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, con
   return Precondition(e, 2, factor, e->pair.shear + e->pair.shear_xx, s, r, q);
 }
 
-/* ---- within cells ---- */
-
-static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
-{
-  SamSlopeRow((const SamSlopeKernel *)context, j, n, values[0]);
-}
-
-/* The kernel for pressures that are linear along an axis. */
-static PetscErrorCode GetSlopeKernel(SamElasticity e, int axis, SamKernel *kernel)
-{
-  HalfSpace *data = (HalfSpace *)e->data;
-
-  PetscFunctionBegin;
-  if (!data->slope[axis]) {
-    const PetscBool odd[][2] = {{axis == 0, axis == 1}};
-    SamSlopeRules   rules;
-    SamSlopeKernel  c = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal};
-
-    PetscCall(SamSlopeRulesCreate(&rules));
-    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, &data->slope[axis]));
-  }
-  *kernel = data->slope[axis];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ApplyNormalSlopes(SamElasticity e, const double *const slopes[], double *const u_z[])
-{
-  SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{1, 1}}};
-
-  PetscFunctionBegin;
-  for (int axis = 0; axis < 2; axis++) PetscCall(GetSlopeKernel(e, axis, &matrix.kernel[0][axis]));
-  PetscCall(SamConvolve(e->fourier, &matrix, slopes, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
 {
   const double   dx = e->grid->dx / (double)sub, dy = e->grid->dy / (double)sub;
@@ -291,17 +259,12 @@ static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, dou
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                    SamStress *stress)
 {
-  PetscFunctionBegin;
-  PetscCall(
-    SamHalfSpaceCreateStress(e->grid, settings, body, e->pair.young[body - 1], e->pair.poisson[body - 1], stress));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamHalfSpaceCreateStress(e->grid, settings, body, e->pair.young[body - 1], e->pair.poisson[body - 1], stress);
 }
 
 static PetscErrorCode SetUp(SamElasticity e)
 {
-  PetscFunctionBegin;
-  PetscCall(SamFourierCreate(e->grid, SAM_FOURIER_FAST, &e->fft, &e->fourier));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamFourierCreate(e->grid, SAM_FOURIER_FAST, &e->fft, &e->fourier);
 }
 
 static PetscErrorCode Destroy(SamElasticity e)
@@ -310,8 +273,6 @@ static PetscErrorCode Destroy(SamElasticity e)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
-  for (PetscInt axis = 0; axis < 2; axis++) PetscCall(SamKernelDestroy(&data->slope[axis]));
-  PetscCall(PetscFree(e->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -271,13 +271,6 @@ static PetscErrorCode SetUp(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Destroy(SamElasticity e)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(e->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
 {
   Periodic *data;
@@ -287,7 +280,6 @@ PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
   e->data   = data;
   e->traits = (SamElasticityTraits){.coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE};
   e->ops    = (SamElasticityOps){.setup                   = SetUp,
-                                 .destroy                 = Destroy,
                                  .applynormal             = ApplyNormal,
                                  .applytangential         = ApplyTangential,
                                  .applynormalsingle       = ApplyNormalSingle,

@@ -76,6 +76,25 @@ typedef SamNewton Work;
 #define SPACE    ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
 #define PRODUCTS ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
 
+typedef void (*RowSums)(const SamNewton *w, SamRow row, double sums[]);
+
+/* The sums of a loop over all rows, at most PRODUCTS, in twice the digits. */
+static PetscErrorCode SumRows(const Work *w, RowSums add, PetscInt n, double sums[])
+{
+  const SamStickSlip *u                = &w->base;
+  SamTotal            totals[PRODUCTS] = {{0}};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < u->rows; j++) {
+    double row[PRODUCTS] = {0};
+
+    add(w, SamStickSlipRow(u, j), row);
+    SamAddAll(n, totals, row);
+  }
+  PetscCall(SamSumTotals(u->level->grid->comm, n, totals, sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* z = 0 outside of the contact's part of each row, which is all that the loops write to. */
 static PetscErrorCode ClearMargins(const Work *w)
 {
@@ -149,20 +168,13 @@ static PetscErrorCode Advance(Work *w, double t)
 /* Step 2: z = P M r + beta P step, conjugate to the last step. */
 static PetscErrorCode NewDirection(Work *w)
 {
-  SamStickSlip     *u                = &w->base;
-  SamTotal          totals[PRODUCTS] = {{0}};
+  SamStickSlip     *u = &w->base;
   SamNewtonProducts sums;
   double            a[3], a_step[3], zv, ev, beta = 0;
 
   PetscFunctionBegin;
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, u->self, w->z, w->z));
-  for (PetscInt j = 0; j < u->rows; j++) {
-    SamNewtonProducts row;
-
-    SamNewtonPreconditionedRow(w, SamStickSlipRow(u, j), &row);
-    SamAddAll(PRODUCTS, totals, (const double *)&row);
-  }
-  PetscCall(SamSumTotals(u->level->grid->comm, PRODUCTS, totals, (double *)&sums));
+  PetscCall(SumRows(w, SamNewtonPreconditionedRow, PRODUCTS, (double *)&sums));
   /* both are made orthogonal to the phi: sum phi'(z - h P phi a) = 0 */
   SamFrameSolve(u->frame, w->gram, sums.z, a);
   SamFrameSolve(u->frame, w->gram, sums.e, a_step);
@@ -181,20 +193,13 @@ static PetscErrorCode NewDirection(Work *w)
 */
 static PetscErrorCode Project(Work *w, const float weight[], double motion[3], PetscBool *found)
 {
-  SamStickSlip *u         = &w->base;
-  SamTotal      totals[4] = {{0}};
+  SamStickSlip *u = &w->base;
   double        sums[4];
 
   PetscFunctionBegin;
   PetscCall(SamFrameProjectTangential(u->frame, u->bound, weight, weight != NULL, w->trial, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt j = 0; j < u->rows; j++) {
-    double row[4] = {0, 0, 0, 0};
-
-    SamNewtonChangeRow(w, SamStickSlipRow(u, j), row);
-    SamAddAll(4, totals, row);
-  }
-  PetscCall(SamSumTotals(u->level->grid->comm, 4, totals, sums));
+  PetscCall(SumRows(w, SamNewtonChangeRow, 4, sums));
   w->slope = sums[0] / w->unit;
   w->along = sums[1];
   w->bend  = sums[2];
@@ -264,19 +269,12 @@ static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
 */
 static PetscErrorCode Step(Work *w, double *best)
 {
-  SamStickSlip *u         = &w->base;
-  SamTotal      totals[2] = {{0}};
+  SamStickSlip *u = &w->base;
   double        sums[2], least, t;
 
   PetscFunctionBegin;
   PetscCall(SamLevelApplySingle(u->solver, u->level, 1 / u->self, w->step, w->u));
-  for (PetscInt j = 0; j < u->rows; j++) {
-    double row[2] = {0, 0};
-
-    SamNewtonCurvatureRow(w, SamStickSlipRow(u, j), row);
-    SamAddAll(2, totals, row);
-  }
-  PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
+  PetscCall(SumRows(w, SamNewtonCurvatureRow, 2, sums));
   *best    = w->along / (sums[0] + w->bend);
   least    = -w->slope / sums[0];
   t        = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);

@@ -51,8 +51,8 @@ PETSC_INTERN void SamNewtonOutsideRow(const SamNewton *w, PetscInt j, double by)
 /* Subtracts the motion a from s; r = -P s, in units, and z = w r; adds to the squares of the error. */
 PETSC_INTERN void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],
                                        double squares[SAM_SQUARES]);
-/* z, which holds M w r, becomes P(w M w r + rest r), see newton.c; its products. */
-PETSC_INTERN void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, SamNewtonProducts *sums);
+/* z, which holds M w r, becomes P(w M w r + rest r), see newton.c; its products, a SamNewtonProducts. */
+PETSC_INTERN void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, double sums[]);
 /* z becomes z - h P a + beta P step. */
 PETSC_INTERN void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const double a[3], float beta);
 /* trial = q + alpha z, with cells that slip beyond their circles. */
