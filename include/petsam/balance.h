@@ -33,7 +33,7 @@ PETSC_EXTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind
 
 /*
   SamBalanceLever - whether a pressure on this grid can balance a normal load under force control: the lever arms
-  (My/N, -Mx/N) must lie among the cell centres. When not, `message` (of that size) says which and the limit. Also
+  (My/N, -Mx/N) must lie among the cell centres. Otherwise `message` (of that size) names the load and the limit. Also
   false for moments without N. True when N is displacement-controlled.
 */
 PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size,
@@ -41,7 +41,7 @@ PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *bala
 
 /*
   SamBalanceCapacity - whether pressures of at most `limit` (Pa) on this grid can carry the normal load under force
-  control, and with it each of the moments for itself. When not, `message` (of that size) says which and the limit.
+  control, and with it each of the moments for itself. Otherwise `message` (of that size) names the load and the limit.
 */
 PETSC_EXTERN PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, PetscReal limit, char message[],
                                                size_t size, PetscBool *possible);

@@ -42,8 +42,8 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
 #define SAM_SATURATED (1 - 1e-9)
 /*
   SamNormalSetPressureLimit - the largest admissible pressure (Pa), of the next solves; infinite (default): none. Not
-  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0. A method that has no such bound refuses to solve with
-  it, PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the present one has it.
+  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0. A method without such a bound rejects it,
+  PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the current method has it.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
 PETSC_EXTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits);
@@ -52,10 +52,10 @@ PETSC_EXTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool 
   SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,
   and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and rigid
   displacements. The relative error is the largest |g| where p > 0 and the largest -g elsewhere, over the largest |S p|;
-  where p is at the limit, only g > 0 counts. Where displacements count from the mean surface (SamElasticityTraits), a
-  given approach must lie below the mean separation unless there is a limit, else NO_EQUILIBRIUM; so is a load beyond
-  the limit on all of the grid. Collective. Not converging is a reason, not an error, unless that was asked for. Errors:
-  SAM_ERR_USER for a normal load below zero.
+  where p is at the limit, only g > 0 counts. Where displacements are measured from the mean planes
+  (SamElasticityTraits), a given approach must lie below the mean separation unless there is a limit, else
+  NO_EQUILIBRIUM; so is a load beyond the limit on all of the grid. Collective. Not converging is a reason, not an
+  error, unless SamSolverSetErrorIfNotConverged() makes it one. Errors: SAM_ERR_USER for a normal load below zero.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
 /*

@@ -50,7 +50,7 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
   sliding, which carries the loads at their limit. The relative error is the
   residual of the projection equation q = D(q - ds/c), D the projection onto the discs |q| <= bound and c the
   self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm. Collective. Not
-  converging is a reason, not an error, unless that was asked for.
+  converging is a reason, not an error, unless SamSolverSetErrorIfNotConverged() makes it one.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
                                                PetscBool guess, Vec q);

@@ -1,4 +1,4 @@
-/* The class of influence operators: types, options, and the operators on coarser grids. */
+/* Influence operators: types, options, and the operators on coarser grids. */
 #include <petsam/private/elasticityimpl.h>
 #include <math.h>
 #include <string.h>
@@ -62,7 +62,7 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElastic
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Everything that the type and what follows from it have made. */
+/* Destroys everything of the type and derived from it. */
 static PetscErrorCode Reset(SamElasticity e)
 {
   PetscFunctionBegin;
@@ -86,7 +86,8 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
-  PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Type %s of elasticity: expected %s", type, types);
+  PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
+             types);
   PetscCheck(e->references == 1, e->grid->comm, PETSC_ERR_ORDER,
              "The type of an elasticity must be set before a problem or a solver refers to it");
   PetscCall(Reset(e));
@@ -236,10 +237,10 @@ PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const S
 {
   PetscFunctionBegin;
   SamElasticityWith(e, createstress);
-  PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are known of it",
+  PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are available",
              e->type);
   PetscCheck((body == 1 || body == 2) && !isinf(e->pair.young[body - 1]), e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Body %" PetscInt_FMT ": expected 1 or 2, and not a rigid one", body);
+             "Body %" PetscInt_FMT ": use 1 or 2, an elastic body", body);
   PetscCall((*e->ops.createstress)(e, body, settings ? settings : &e->fft, stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -78,7 +78,7 @@ static PetscErrorCode CountNonzeros(SamGrid grid, PetscInt components, Vec field
 }
 
 /*
-  The product of a level in a window of it; known there if it is on all of the window, and none of its traction is cut
+  The product of a level in a window of it; valid there if it is on all of the window, and none of its traction is cut
   off.
 */
 static PetscErrorCode TakeProduct(SamWindow window, const SamLevel *from, SamLevel *level, PetscInt components,

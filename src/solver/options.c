@@ -58,11 +58,12 @@ PetscErrorCode SamSolverSetFromOptions(SamSolver s)
   PetscCall(SamOptionsHeading(&from, title));
   PetscCall(SetTypeFromOptions(s, &from));
   PetscCall(SamOptionsReal(&from, "rtol", s->kind->error_help, SAM_RANGE_PART, &rtol, NULL));
-  PetscCall(SamOptionsInt(&from, "max_it", "iterations on the finest grid, 0: the type's default", 0, &max_it, NULL));
-  PetscCall(SamOptionsInt(&from, "levels", "nested grids, 0: the type's default", 0, &levels, NULL));
+  PetscCall(
+    SamOptionsInt(&from, "max_it", "maximum iterations on the finest grid; 0: default of the type", 0, &max_it, NULL));
+  PetscCall(SamOptionsInt(&from, "levels", "number of nested grids; 0: default of the type", 0, &levels, NULL));
   PetscCall(SamOptionsBool(&from, "monitor", "print the error after each iteration", &monitor, NULL));
-  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "stop with an error", &error, NULL));
-  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print why the solver stopped", &ignored));
+  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "raise an error without convergence", &error, NULL));
+  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print the reason for stopping", &ignored));
   PetscCall(SamOptionsHasViewer(&from, "view", "print the solver's settings", &ignored));
   PetscCall(SamSolverSetTolerances(s, rtol, max_it));
   PetscCall(SamSolverSetLevels(s, levels));

@@ -106,7 +106,7 @@ PetscErrorCode SamSolverSetType(SamSolver s, SamSolverType type)
     char types[256];
 
     PetscCall(SamTypesList(s->kind->types, types, sizeof(types)));
-    SETERRQ(s->comm, SAM_ERR_USER, "%s is no type of %s solver: expected %s", type, s->kind->name, types);
+    SETERRQ(s->comm, SAM_ERR_USER, "%s is not a type of %s solver: use %s", type, s->kind->name, types);
   }
   PetscCall(DestroyType(s));
   if (type != s->type) PetscCall(PetscStrncpy(s->type, type, sizeof(s->type)));
@@ -218,7 +218,7 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
   PetscBool            finite;
 
   PetscFunctionBegin;
-  PetscCheck(level.balance->kind == kind->balance, s->comm, PETSC_ERR_ARG_WRONG, "The %s solver wants a %s balance",
+  PetscCheck(level.balance->kind == kind->balance, s->comm, PETSC_ERR_ARG_WRONG, "The %s solver requires a %s balance",
              kind->name, kind->name);
   PetscCall(PetscLogEventBegin(SamEvents[kind->event], 0, 0, 0, 0));
   s->iterations = s->applies = s->preconditions = 0;

@@ -299,7 +299,7 @@ static void test_unknown_type_names_those_registered(void **state)
   sam_call(PetscPushErrorHandler(Listen, NULL));
   AssertFails(SamSolverSetFromOptions(SamNormalAsSolver(normal)), SAM_ERR_USER, "-my_normal_type foo",
               "polonskykeer, toy or zzz");
-  AssertFails(SamSolverSetType(SamNormalAsSolver(normal), "foo"), SAM_ERR_USER, "foo is no type of normal solver",
+  AssertFails(SamSolverSetType(SamNormalAsSolver(normal), "foo"), SAM_ERR_USER, "foo is not a type of normal solver",
               "activeset, polonskykeer");
   sam_call(PetscPopErrorHandler());
   sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));

@@ -104,7 +104,7 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
 
 /*
   Stretches: cells of a row that loops pass over together when none of them takes part, as on a rough surface few cells
-  are in contact. An array `busy` of one char a stretch, row after row, says which ones take part.
+  are in contact. An array `busy` of one char per stretch, row after row, marks the stretches that take part.
 */
 #define SAM_STRETCH 64
 
@@ -192,8 +192,8 @@ PETSC_EXTERN double SamFrameSolveSeen(const SamFrame *frame, const double gram[S
 /*
   SamFrameProjectNormal - p := p + phi a, cut off at 0 and at the frame's `most`, on the cells where mask is 1 (mask
   NULL: all), with the a for which the force-controlled loads are exact: the nearest admissible pressure. Where the mask
-  is 0 p becomes the nearer one of its bounds: 0 without an upper one. `found` is false when there is none; p is then as
-  it was. Collective.
+  is 0 p becomes the nearer one of its bounds: 0 without an upper one. `found` is false if there is none; p is then
+  unchanged. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[],
                                                   PetscBool *found);
@@ -204,7 +204,7 @@ typedef struct {
   const char  *busy; /* stretches with cells in the mask, or with pressure */
   const float *step; /* the pressure goes by `by` times this */
   double       by;
-  PetscBool    nearest; /* the nearest admissible pressure is wanted, even if that takes longer */
+  PetscBool    nearest; /* find the nearest admissible pressure, even if that takes longer */
   float       *made;    /* result: `scale` times the change of the pressure */
   double       scale;
   double       motion[3]; /* result: the combination of the phi that was added before cells were cut off */
@@ -213,7 +213,7 @@ typedef struct {
 /*
   SamFrameProjectNormalStep - the same for p + by step, when that nearly carries the loads. p becomes an admissible
   pressure: the nearest one with `nearest`, or where a single step of Newton's method finds it, else one about as near.
-  Not found: p is as it was, to the rounding of `made`. Collective.
+  Not found: p is unchanged, to the rounding of `made`. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, SamPressureStep *step, double p[],
                                                       PetscBool *found);
@@ -238,8 +238,8 @@ PETSC_EXTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double fi
 /*
   SamFrameProjectTangential - q := D(q + weight phi a), D the projection of each cell's shear onto the disc of radius
   bound, with the a for which the force-controlled loads are exact: the nearest admissible shear, a cell's distance
-  squared counting 1/weight (weight NULL: 1). `motion`, when not NULL, becomes a. `found` is false when there is none; q
-  is then of no use.
+  squared counting 1/weight (weight NULL: 1). `motion`, when not NULL, becomes a. `found` is false if there is none; q
+  is then undefined.
   The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
   faster, it may differ from that by 1e-6 of the change. Collective.
 */

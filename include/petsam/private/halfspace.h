@@ -53,13 +53,13 @@ PETSC_EXTERN void           SamSlopeRow(const SamSlopeKernel *kernel, ptrdiff_t 
   SamHalfSpaceStressCell - the stress in a half-space z >= 0 by uniform tractions on a rectangle of its surface, at a
   point whose place from the rectangle's centre is given (m): of each component by a unit of each traction, by p, which
   presses in the direction of z, and by q_x and q_y, which pull in the direction of x and y. On the surface zz is -p, xz
-  is -q_x, yz is -q_y, and the stress is infinite on the rectangle's edges. The error is below 1e-12 of the largest kernel
-  at that point, up to 16384 sides away. Not collective. Method and sources: stresscell.c.
+  is -q_x, yz is -q_y, and the stress is infinite on the rectangle's edges. The error is below 1e-12 of the largest
+  kernel at that point, up to 16384 sides away. Not collective. Method and sources: stresscell.c.
 */
 PETSC_EXTERN void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal poisson, const PetscReal point[3],
                                          PetscReal stress[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]);
 
-/* SamHalfSpaceSource - unit traction on a cell, seen from a depth. */
+/* SamHalfSpaceSource - unit traction on a cell, as it acts at a depth. */
 typedef struct {
   double side[2]; /* of the cell, m */
   double depth;   /* z >= 0, m */

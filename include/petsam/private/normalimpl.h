@@ -17,8 +17,8 @@ enum {
 };
 
 /*
-  SamNormalSolveKeeping - SamNormalSolve() that knows the product with the guess, where there is one, and leaves that
-  with the result; product NULL: none is kept. The balance then holds the rigid displacements of the guess. Collective.
+  SamNormalSolveKeeping - SamNormalSolve() with the product of the guess, if valid, which becomes that of the result;
+  product NULL: none is kept. The balance then holds the rigid displacements of the guess. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
                                                   SamProduct *product);

@@ -108,7 +108,7 @@ struct _n_SamSolver {
   void     *data; /* the type's own */
   PetscInt  default_levels, default_max_it;
   PetscBool keeps_product;
-  PetscBool limits_pressure; /* normal: knows frame.most */
+  PetscBool limits_pressure; /* normal: obeys frame.most */
   /* what the user set; 0 stands for the type's default */
   char             type[64], prefix[SAM_PREFIX + 16]; /* the prefix with `<kind>_` */
   PetscReal        rtol;
@@ -118,7 +118,7 @@ struct _n_SamSolver {
   PetscInt         monitors;
   SamSolverMonitor monitor[SAM_MONITORS];
   void            *monitor_context[SAM_MONITORS];
-  /* what the caller of the next solves wants */
+  /* of the next solves */
   SamEffort effort;
   PetscReal enough; /* relative error that is enough; 0: the user's rtol */
   /* of the last solve, on the finest grid */
@@ -163,11 +163,11 @@ PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *wh
   collective.
 */
 PETSC_EXTERN void SamSolverSetEffort(SamSolver solver, PetscReal rtol, SamEffort effort);
-/* SamLevelHasProduct - whether the product with the level's traction is known everywhere. Not collective. */
+/* SamLevelHasProduct - whether the level's product is valid everywhere. Not collective. */
 PETSC_EXTERN PetscBool SamLevelHasProduct(const SamLevel *level);
-/* SamLevelKeepProduct - says that it is, with this rounding, and everywhere. Not collective. */
+/* SamLevelKeepProduct - marks it as valid everywhere, with this rounding. Not collective. */
 PETSC_EXTERN void SamLevelKeepProduct(SamLevel *level, double rounding);
-/* SamLevelForgetProduct - says that it is not known. Not collective. */
+/* SamLevelForgetProduct - marks it as invalid. Not collective. */
 PETSC_EXTERN void SamLevelForgetProduct(SamLevel *level);
 
 /* SamLevelGetRigid - writes a level's rigid displacement into the force-controlled components of a balance. */

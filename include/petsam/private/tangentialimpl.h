@@ -98,8 +98,8 @@ PETSC_EXTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *state);
 PETSC_EXTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *state, const SamTotal squares[SAM_SQUARES]);
 
 /*
-  SamTangentialSolveKeeping - SamTangentialSolve() that knows the product with the guess, where there is one, and leaves
-  that with the result; product NULL: none is kept. Collective.
+  SamTangentialSolveKeeping - SamTangentialSolve() with the product of the guess, if valid, which becomes that of the
+  result; product NULL: none is kept. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Vec offset,
                                                       SamBalance *balance, PetscBool guess, Vec q, SamProduct *product);

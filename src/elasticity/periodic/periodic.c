@@ -9,8 +9,8 @@
   by the transforms of 1/r, 2 pi/|k|, of x_a x_b/r^3, (2 pi/|k|)(delta_ab - k_a k_b/|k|^2), and of x/r^2,
   -2 pi i k/|k|^2.
 
-  The mean, k = 0: a uniform traction would displace the surface without bound, so displacements are counted from the
-  mean surface, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
+  The mean, k = 0: a uniform traction would displace the surface without bound, so displacements are measured from the
+  mean planes, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
   mirror image; there a symbol that is odd in its wave number, which would be the mean of both, is 0.
 
   Source of the normal symbol: Westergaard 1939, J. Appl. Mech. 6, A49-A53; Stanley and Kato 1997, J. Tribol. 119,

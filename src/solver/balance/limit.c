@@ -18,7 +18,7 @@
 #define SMOOTHING_OF_SHEAR 6
 /* Rounding of a load or a lever that all pressures at their limit just bear, relative. */
 #define FULL 1e-12
-/* The part of the power that a step must promise for the power to tell its worth. */
+/* The part of the power that a step must promise for the power to measure its gain. */
 #define FLAT 1e-10
 
 /* A row's sums of t and of xi t. */
@@ -139,7 +139,8 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   *possible = load <= most * (1 + FULL);
   if (!*possible)
     PetscCall(PetscSNPrintf(
-      message, size, "load_n = %.8g N is more than pressure_limit = %g Pa on the whole grid bears (limit %.8g N)", load,
+      message, size,
+      "load_n = %.8g N exceeds the load that the whole grid carries under pressure_limit = %g Pa (limit %.8g N)", load,
       (double)limit, most));
   for (PetscInt k = 1; k < 3 && *possible; k++) {
     const double sign  = k == 1 ? -1 : 1, /* lever of Mx along -y, of My along x */
@@ -245,8 +246,8 @@ static double FindStep(const SamFrame *across, const Power *now, double step[3])
 }
 
 /*
-  Newton with halving for one smoothing, moving a within the directions of `across`. Where the power is too flat to tell
-  a step's worth, the slope does: the motion is wanted exactly, and not only its power.
+  Newton with halving for one smoothing, moving a within the directions of `across`. Where the power is too flat to
+  measure a step's gain, the slope does: the motion must be accurate, not only its power.
 */
 static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing,
                                     double a[3])
@@ -268,7 +269,7 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
       t *= 0.5;
     }
     next_slope = FindStep(across, &next, next_step);
-    if (flat ? next_slope > 0.25 * slope : next.value >= now.value) break; /* all is rounding */
+    if (flat ? next_slope > 0.25 * slope : next.value >= now.value) break; /* rounding dominates */
     PetscCall(PetscArraycpy(a, trial, 3));
     PetscCall(PetscArraycpy(step, next_step, 3));
     now   = next;

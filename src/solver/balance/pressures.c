@@ -4,13 +4,13 @@
 
 /* Most projections in a row. */
 #define PROJECT_MAX 4
-/* An error of equilibrium from which one step of Newton's method is likely to reach the solution. */
+/* The error of equilibrium below which one step of Newton's method usually reaches the solution. */
 #define CLOSE 1e-3
 
 /* The cells that take part, where there is no mask: all, those with pressure, those with one between its bounds. */
 typedef enum { ALL, PRESSED, BETWEEN } Which;
 
-/* What a pass over the cells needs to know. */
+/* The input of a pass over the cells. */
 typedef struct {
   const double *field;     /* what is projected */
   const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: */
@@ -21,7 +21,7 @@ typedef struct {
   double        by, scale; /* see SamPressureStep */
   float        *made;
   PetscBool     quick;  /* a single step of Newton's method may do */
-  double       *motion; /* what has been added along the phi; NULL: not wanted */
+  double       *motion; /* result: the sum added along the phi; NULL: unused */
 } Cells;
 
 static const float *MaskOfRow(const Cells *c, const SamFrame *f, PetscInt j)
@@ -149,7 +149,7 @@ static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
 static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], PetscBool *found)
 {
   double   *before = NULL;
-  float    *zeros, *scratch; /* a row of no step, and of changes that are not wanted */
+  float    *zeros, *scratch; /* a row of no step, and of unused changes */
   PetscBool near = PETSC_TRUE;
 
   PetscFunctionBegin;

@@ -393,7 +393,7 @@ static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool downhill, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A start that is known by its product comes with its motion, which A may leave open. */
+/* A start with its product has its motion as well, which A may leave open. */
 static PetscErrorCode StartMotion(Work *w)
 {
   SamFrame given;

@@ -27,7 +27,7 @@ static double Tolerance(const Work *w)
   return w->level->rtol * w->displacement;
 }
 
-/* Single precision for S p is all that the tolerance asks for. */
+/* Single precision of S p suffices for the tolerance. */
 static PetscBool IsSingleEnough(const Work *w)
 {
   return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol;

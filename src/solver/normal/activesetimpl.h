@@ -64,7 +64,7 @@ PETSC_INTERN void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals
 PETSC_INTERN PetscErrorCode SamActiveSetChoose(SamActiveSet *w, SamTotal contact[]);
 /* The first step 1: by the product that the level has, or by a new one. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetStart(SamActiveSet *w);
-/* Leaves S p with the level, if that wants it. Not collective. */
+/* Stores S p in the level, if that keeps products. Not collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetKeepProduct(SamActiveSet *w);
 /* Computes g by a product, and does step 1 by it. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetRefresh(SamActiveSet *w);

@@ -111,7 +111,7 @@ static PetscErrorCode SolveFromPressure(SamSolver s, SamLevel *level, PetscBool 
 }
 
 /*
-  What is asked of a rough solution of the finest grid, as it costs no product: whether the contact, which becomes
+  The check of a rough solution on the finest grid, which costs no product: whether the contact, which becomes
   first, size, keeps clear of the window's border, where that is not the grid's.
 */
 static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt first[2], PetscInt size[2],
@@ -288,7 +288,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 
 static SamSolverKind kind = {
   .name               = "normal",
-  .error_help         = "largest gap error relative to the displacement",
+  .error_help         = "maximum gap error relative to the displacement",
   .balance            = SAM_BALANCE_NORMAL,
   .event              = SAM_EVENT_NORMAL_SOLVE,
   .type               = SAM_NORMAL_ACTIVESET,
@@ -358,7 +358,7 @@ static PetscErrorCode SolveProblem(SamNormal normal, Vec h, Vec diagonal, SamBal
   PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0",
              (double)balance->load[0]);
   PetscCheck(isinf(s->pressure_limit) || s->limits_pressure, s->comm, PETSC_ERR_SUP,
-             "The method %s has no limit of the pressure", s->type);
+             "The method %s does not support a pressure limit", s->type);
   PetscCall(SamSolverSolve(s, &problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -57,8 +57,8 @@
 #define ENERGY_ROUNDING 1e-14
 /*
   Sets and motion depend on each other: how often they are found in turn in an iteration, unless the motion changes by
-  less than STEADY of the largest slip. In the passes of coupled bodies, which say what is enough, they always are:
-  there what is left of the motion's error would be taken for a change of the shear.
+  less than STEADY of the largest slip. In the coupling iterations of dissimilar bodies, which set the tolerance, they
+  always are: there what is left of the motion's error would be taken for a change of the shear.
 */
 #define SWEEPS 2
 #define STEADY 0.3

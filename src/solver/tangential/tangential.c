@@ -224,7 +224,7 @@ static PetscErrorCode SolveWithStarts(SamSolver s, SamLevel *level, PetscBool gu
 }
 
 /*
-  Whether some admissible shear carries the loads is known after the projection of any shear; that of the guess is the
+  The projection of any shear shows whether some admissible shear carries the loads; that of the guess is the
   start as well.
 */
 static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
