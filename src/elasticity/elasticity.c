@@ -7,12 +7,10 @@
 #define COARSEST 32
 
 static PetscFunctionList SamElasticityList = NULL;
-static PetscBool         registered        = PETSC_FALSE;
 
 static PetscErrorCode FreeList(void)
 {
   PetscFunctionBegin;
-  registered = PETSC_FALSE;
   PetscCall(PetscFunctionListDestroy(&SamElasticityList));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -20,8 +18,7 @@ static PetscErrorCode FreeList(void)
 static PetscErrorCode RegisterAll(void)
 {
   PetscFunctionBegin;
-  if (registered) PetscFunctionReturn(PETSC_SUCCESS);
-  registered = PETSC_TRUE;
+  if (SamElasticityList) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
   PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
   PetscCall(PetscRegisterFinalize(FreeList));

@@ -3,7 +3,7 @@
 #include <petsam/material.h>
 #include <math.h>
 
-/* What no pair can be made of: a message that names the body's constant by a prefix, empty when all is well. */
+/* The fault of invalid constants: a message that names the constant with a prefix; empty without fault. */
 static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisson[2], const char prefix[],
                                 char message[], size_t size)
 {

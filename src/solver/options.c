@@ -1,4 +1,4 @@
-/* What a solver reads from the options database, and what it prints. */
+/* Options and printout of a solver. */
 #include <petsam/private/solverimpl.h>
 #include <string.h>
 

@@ -2,9 +2,9 @@
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 
-#define BRIEF 10 /* iterations of a solve that is to be brief */
+#define BRIEF 10 /* iterations of a brief solve */
 
-static SamSolverKind *kinds = NULL; /* those whose registries are in use */
+static SamSolverKind *kinds = NULL; /* the kinds with registries in use */
 
 const char *SamSolverReasonName(SamSolverReason reason)
 {
@@ -20,18 +20,14 @@ const char *SamSolverReasonName(SamSolverReason reason)
 static PetscErrorCode FreeRegistries(void)
 {
   PetscFunctionBegin;
-  for (; kinds; kinds = kinds->next) {
-    kinds->registered = PETSC_FALSE;
-    PetscCall(PetscFunctionListDestroy(&kinds->types));
-  }
+  for (; kinds; kinds = kinds->next) PetscCall(PetscFunctionListDestroy(&kinds->types));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode RegisterAll(SamSolverKind *kind)
 {
   PetscFunctionBegin;
-  if (kind->registered) PetscFunctionReturn(PETSC_SUCCESS);
-  kind->registered = PETSC_TRUE;
+  if (kind->types) PetscFunctionReturn(PETSC_SUCCESS);
   if (!kinds) PetscCall(PetscRegisterFinalize(FreeRegistries));
   kind->next = kinds;
   kinds      = kind;
@@ -42,7 +38,7 @@ static PetscErrorCode RegisterAll(SamSolverKind *kind)
 PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[], PetscErrorCode (*create)(SamSolver))
 {
   PetscFunctionBegin;
-  PetscCall(RegisterAll(kind)); /* first, so that a type from outside replaces one of the same name */
+  PetscCall(RegisterAll(kind)); /* first, so that a type from outside replaces a type of the same name */
   PetscCall(PetscFunctionListAdd(&kind->types, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -22,22 +22,22 @@ typedef struct {
   double         basis[3][3];  /* (count, 3) */
   double         lower[3][3];  /* the components as combinations of the phi = lower * basis */
   double         target[3];    /* what sum phi traction must be along the basis: loads/(dx dy) in the basis */
-  double         fixed[3];     /* the given rigid displacement as a combination of the phi */
-  double         most;         /* normal: the largest admissible pressure, Pa; infinite: there is none */
+  double         fixed[3];     /* the given rigid-body displacement as a combination of the phi */
+  double         most;         /* normal: the maximum admissible pressure, Pa; infinite: there is none */
   double         xi0;          /* xi of the first column */
   double         dxi, deta;    /* steps of xi and eta from cell to cell */
 } SamFrame;
 
-/* SamFrameGetComponent - the rigid displacement of component k of a kind (1 m or rad) as a combination of the phi. */
+/* SamFrameGetComponent - the rigid-body displacement of component k (1 m or rad) as a combination of the phi. */
 PETSC_EXTERN void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3]);
 /*
   SamFrameSet - the frame of a grid (borrowed) for what a balance controls. Its pressures have no upper bound until the
   caller sets `most`. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
-/* SamFrameSetGiven - the same with all rigid displacements given as they stand in the balance. */
+/* SamFrameSetGiven - the same with all rigid-body displacements given as they stand in the balance. */
 PETSC_EXTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
-/* SamFrameGetRigid - rigid displacements of the force-controlled components, from a free combination a of the phi. */
+/* SamFrameGetRigid - rigid-body displacements of the force-controlled components, from a combination a of the phi. */
 PETSC_EXTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
 
 /* eta of this rank's row j: to the last bit the same on whatever rank the row is. */
@@ -74,7 +74,7 @@ static inline double SamFrameDot(const double a[3], const double b[3])
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The normal rigid displacement a at (xi, eta), and the two components of the tangential one. */
+/* The normal rigid-body displacement a at (xi, eta), and the two components of the tangential one. */
 static inline double SamFrameNormal(const double a[3], double xi, double eta)
 {
   return a[0] - a[1] * eta + a[2] * xi;
@@ -230,7 +230,7 @@ PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalBetween(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
-  SamFrameClear - whether some free rigid displacement a leaves no cell with field + phi a > 0, to rounding of the
+  SamFrameClear - whether some free rigid-body displacement a leaves no cell with field + phi a > 0, to rounding of the
   field: bodies that are free to tilt then lose contact. For frames without load. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double field[], double a[3], PetscBool *clear);

@@ -18,7 +18,7 @@ enum {
 
 /*
   SamNormalSolveKeeping - SamNormalSolve() with the product of the guess, if valid, which becomes that of the result;
-  product NULL: none is kept. The balance then holds the rigid displacements of the guess. Collective.
+  product NULL: none is kept. The balance then holds the rigid-body displacements of the guess. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
                                                   SamProduct *product);

@@ -40,14 +40,14 @@ typedef struct {
 typedef struct {
   SamElasticity elasticity;
   SamGrid       grid;
-  SamFrame      frame;            /* the rigid displacements in this grid's coordinates */
+  SamFrame      frame;            /* the rigid-body displacements in this grid's coordinates */
   SamBalance   *balance;          /* what is controlled; the kind writes the results into it */
   Vec           given[SAM_GIVEN]; /* the given fields, as the kind's header numbers them; NULL: zero */
   Vec           traction;         /* the unknown: start and result */
   SamProduct   *product;          /* NULL: not to be kept */
   PetscReal     rtol;
-  PetscBool     finest;   /* only work on the finest grid is counted and shown to monitors */
-  double        rigid[3]; /* start and result: rigid displacement as a combination of the phi, fixed part included */
+  PetscBool     finest; /* only work on the finest grid is counted and shown to monitors */
+  double rigid[3];      /* start and result: rigid-body displacement as a combination of the phi, fixed part included */
 } SamLevel;
 
 /* Where the traction of a level comes from when its solve begins. */
@@ -80,7 +80,7 @@ struct _n_SamSolverKind {
   PetscErrorCode (*preconditionsingle)(SamElasticity elasticity, double factor, const float r[], float z[]);
   /* the whole solve, on the level of the finest grid: sets the reason, the traction and the balance */
   PetscErrorCode (*solve)(SamSolver solver, SamLevel *level, PetscBool guess);
-  /* one of the nested grids, from that start: sets the reason, the traction and the rigid displacement */
+  /* one of the nested grids, from that start: sets the reason, the traction and the rigid-body displacement */
   PetscErrorCode (*solvelevel)(SamSolver solver, SamLevel *level, SamStart start);
   /* the start of a level from the solution on the next coarser grid */
   PetscErrorCode (*prolong)(SamTransfer transfer, const SamLevel *coarse, SamLevel *fine);
@@ -89,7 +89,6 @@ struct _n_SamSolverKind {
   PetscErrorCode (*create)(SamSolver);
   /* the registry */
   PetscFunctionList types;
-  PetscBool         registered;
   SamSolverKind    *next;
 };
 
@@ -151,8 +150,8 @@ PETSC_EXTERN PetscErrorCode SamLevelSolveNested(SamSolver solver, SamLevel *leve
 
 /*
   SamLevelSolveInWindow - takes the given fields, and with `guess` the traction, out of a level into a window of it, has
-  `solve` solve there, and puts the traction back, zero outside. The rigid displacement then is that of the window's
-  frame, which becomes the level's. Collective.
+  `solve` solve there, and puts the traction back, zero outside. The rigid-body displacement then is that of the
+  window's frame, which becomes the level's. Collective.
 */
 typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, PetscBool guess);
 PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
@@ -170,7 +169,7 @@ PETSC_EXTERN void SamLevelKeepProduct(SamLevel *level, double rounding);
 /* SamLevelForgetProduct - marks it as invalid. Not collective. */
 PETSC_EXTERN void SamLevelForgetProduct(SamLevel *level);
 
-/* SamLevelGetRigid - writes a level's rigid displacement into the force-controlled components of a balance. */
+/* SamLevelGetRigid - writes a level's rigid-body displacement into the force-controlled components of a balance. */
 PETSC_EXTERN void SamLevelGetRigid(const SamLevel *level, SamBalance *balance);
 
 /* ---- for methods ---- */

@@ -1,5 +1,5 @@
 /*
-  Which loads can be balanced at all: the lever arms of a normal load, and the limit of sliding.
+  Admissible loads: the lever arms of a normal load, and the limit of sliding.
 
   Sliding: shears with |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of
   loads is convex, and the sum is its support function). So the least sum b |v| dA over the v with F.v = 1 is the factor
@@ -9,7 +9,7 @@
 #include "projectionimpl.h"
 #include <math.h>
 
-/* Of the sum of the bound: an error of equilibrium that is taken for none. */
+/* An error of equilibrium, relative to the sum of the bound, that is ignored. */
 #define TOLERANCE 1e-11
 /*
   Numbers of smoothings, 1, 0.1, ..., and of that of the shear: less would leave rounding in it where the motion turns.
@@ -106,7 +106,7 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
 }
 
 /*
-  The largest moment about the grid's first or last row or column of centres that a load (Pa, a sum over the cells) has
+  The maximum moment about the grid's first or last row or column of centres that a load (Pa, a sum over the cells) has
   under a pressure limit: the outermost lines of cells bear all of it. Returns the place of its resultant (m), along y
   for k = 1, along x for 2; `last`: at the last line.
 */
@@ -278,7 +278,7 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear along a smoothed motion a; a cell at the centre of rotation has what is left to carry. */
+/* The shear along a smoothed motion a; a cell at the centre of rotation carries the rest. */
 static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const double a[3], double smoothing,
                                  Vec shear)
 {

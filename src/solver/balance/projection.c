@@ -71,7 +71,7 @@ typedef struct {
   double  rounding;       /* of the dual's value */
 } Iterate;
 
-/* The dual, its gradient and what goes with them at a. */
+/* The dual, its gradient and rounding at a. */
 static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void *context, Iterate *at)
 {
   SamTotal totals[SAM_DUAL] = {{0}};

@@ -15,7 +15,7 @@
 #define DOUBT 0.03
 /* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
 #define PROJECTION_ROUNDING 1e-9
-/* g is computed anew at the latest when the error has fallen by this factor, for then rounding may dominate it. */
+/* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3
 
 typedef SamActiveSet Work;
@@ -76,7 +76,7 @@ static PetscErrorCode Apply(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g, which holds S p, becomes S p + h - motion; and the largest displacement. */
+/* g, which holds S p, becomes S p + h - motion; and the maximum displacement. */
 static PetscErrorCode FinishGap(Work *w)
 {
   double max = 0;

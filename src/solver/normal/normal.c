@@ -38,18 +38,6 @@ static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A start from the pressure that the level has: makes it admissible, within its bounds and in equilibrium. */
-static PetscErrorCode StartFromPressure(SamLevel *level, PetscBool *found)
-{
-  double *p;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(level->traction, &p));
-  PetscCall(SamFrameProjectNormalOnContact(&level->frame, p, found));
-  PetscCall(VecRestoreArray(level->traction, &p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   The pressure of the coarse grid on the fine one: linear interpolation of its values, but not of its support, which
   that would widen by half a coarse cell. A cell has pressure where the interpolated indicator of the coarse contact
@@ -86,27 +74,26 @@ static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamL
 
 /* ---- one level ---- */
 
-/* The method on this grid, after its start. */
-static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscErrorCode (*start)(SamLevel *, PetscBool *))
+/* The method on this grid; with `guess` from the pressure that the level has, made admissible. */
+static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscBool guess)
 {
   PetscBool found;
+  double   *p;
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&level->frame, level->grid, level->balance));
   level->frame.most = (double)s->pressure_limit;
-  PetscCall(start(level, &found));
+  if (guess) {
+    PetscCall(VecGetArray(level->traction, &p));
+    PetscCall(SamFrameProjectNormalOnContact(&level->frame, p, &found));
+    PetscCall(VecRestoreArray(level->traction, &p));
+  } else {
+    PetscCall(StartAsFoundation(level, &found));
+  }
   if (found)
     PetscCall(s->ops.solve(s, level));
   else
     s->reason = SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SolveFromPressure(SamSolver s, SamLevel *level, PetscBool guess)
-{
-  PetscFunctionBegin;
-  (void)guess;
-  PetscCall(SolveHere(s, level, StartFromPressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -152,7 +139,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
   while (size[0]) {
     PetscCall(SamElasticityChoosePart(level->elasticity, first, size, level->finest, &window, &part));
     if (!window) break;
-    PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveFromPressure));
+    PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveHere));
     if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
     done = !level->finest || s->reason < 0;
     if (!done && s->effort == SAM_EFFORT_GLANCE)
@@ -161,7 +148,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
       PetscCall(SamNormalLookOutside(s, level, window, first, size, &done));
     if (done) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SolveFromPressure(s, level, PETSC_TRUE));
+  PetscCall(SolveHere(s, level, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -173,7 +160,7 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
   PetscFunctionBegin;
   if (start != SAM_START_NONE) PetscCall(VecMax(level->traction, NULL, &most));
   if (most <= 0)
-    PetscCall(SolveHere(s, level, StartAsFoundation));
+    PetscCall(SolveHere(s, level, PETSC_FALSE));
   else
     PetscCall(SolveInWindows(s, level));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -203,7 +190,7 @@ static PetscErrorCode ComputeOverlap(SamGrid grid, Vec separation, const SamFram
 
 /*
   Whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap, or bodies that
-  are free to tilt can clear each other. `apart`: the balance then. A rigid displacement that is not given is not
+  are free to tilt can clear each other. `apart`: the balance then. A rigid-body displacement that is not given is not
   determined by the problem either: the approach becomes 0, or as far back as the bodies need to clear each other, and
   rotations become 0, unless it takes others to clear.
 */

@@ -1,7 +1,7 @@
 /*
   The check of a pressure found in a window: do the bodies touch outside of it?
 
-  One product in single precision answers that in nearly all cases, as the gap there is far larger than its rounding.
+  One product in single precision decides that in nearly all cases, as the gap there is far larger than its rounding.
   Otherwise a product in double precision does, and shows how far a larger window has to reach.
 */
 #include <petsam/private/normalimpl.h>

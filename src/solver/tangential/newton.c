@@ -1,8 +1,8 @@
 /*
   Newton's method and conjugate gradients in one, with changing stick and slip.
 
-  Problem: minimise q.C q/2 + offset.q over the discs |q| <= b in equilibrium (or with given rigid displacements). Its
-  gradient is the slip increment s. It is strictly convex, so there is one solution.
+  Problem: minimise q.C q/2 + offset.q over the discs |q| <= b in equilibrium (or with given rigid-body displacements).
+  Its gradient is the slip increment s. It is strictly convex, so there is one solution.
 
   Algorithm; an iteration takes one product:
     1. Sets: cells that are or should be on their circle, with s against q, slip; the others stick. Unknown are both
@@ -27,7 +27,7 @@
   between them. Stops on the residual of q = D(q - s/c), which is zero at the solution only.
 
   Rounding: steps and their products are in single precision, at half the cost; q and s are in double. The slip is
-  computed anew in double precision before rounding matters.
+  recomputed in double precision before rounding matters.
 
   References: Dostal and Kucera 2010, SIAM J. Optim. 20, 2913 (separable convex constraints); Alart and Curnier 1991,
   CMAME 92, 353 (semi-smooth Newton for friction). The classical alternative is Wang, Jin, Zhang and Keer 2010.
@@ -49,7 +49,7 @@
 /* Least and largest length of a step, in parts of that to the least energy, where these bound it. */
 #define LEAST_PART   0.5
 #define LARGEST_PART 1.8
-/* The part of the error that rounding of the slip may make up before the slip is computed anew. */
+/* The part of the error that rounding of the slip may make up before the slip is recomputed. */
 #define DOUBT 0.2
 /* The least unit of slip, relative to what the shear displaces: the residual may be zero, and steps are not. */
 #define LEAST_UNIT 1e-13
@@ -57,7 +57,7 @@
 #define ENERGY_ROUNDING 1e-14
 /*
   Sets and motion depend on each other: how often they are found in turn in an iteration, unless the motion changes by
-  less than STEADY of the largest slip. In the coupling iterations of dissimilar bodies, which set the tolerance, they
+  less than STEADY of the maximum slip. In the coupling iterations of dissimilar bodies, which set the tolerance, they
   always are: there what is left of the motion's error would be taken for a change of the shear.
 */
 #define SWEEPS 2
@@ -66,7 +66,7 @@
 #define STILL 1e-12
 /* Iterations without progress before the motion is looked for otherwise, before a gradient step, before giving up. */
 #define SHIFT 2
-/* The change of the motion, in parts of the largest residual, from which on the fit is taken to leave it open. */
+/* The change of the motion, in parts of the maximum residual, from which on the fit is taken to leave it open. */
 #define OPEN       2
 #define PATIENCE   10
 #define STAGNATION 100
@@ -229,15 +229,10 @@ static PetscBool IsRounding(const Work *w)
   return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work;
 }
 
-/* Whether the trial is the shear itself, to rounding. */
-static PetscBool IsStill(const Work *w)
-{
-  return sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale;
-}
-
 static PetscBool IsDownhill(const Work *w)
 {
-  if (IsStill(w)) return PETSC_FALSE;
+  /* the trial is the shear itself, to rounding */
+  if (sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale) return PETSC_FALSE;
   return IsRounding(w) ? w->along > 0 : w->slope < 0;
 }
 
@@ -291,7 +286,7 @@ static double Error(const Work *w)
   return w->base.error + (w->rounding > 0 ? w->rounding / w->base.scale : 0);
 }
 
-/* Computes the slip anew where its rounding matters. */
+/* Recomputes the slip where its rounding matters. */
 static PetscErrorCode Refresh(Work *w)
 {
   SamStickSlip *u = &w->base;

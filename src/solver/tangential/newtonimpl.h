@@ -42,7 +42,7 @@ PETSC_INTERN PetscErrorCode SamNewtonDestroy(SamNewton *newton);
 
 /*
   Makes the step of length t: q += t (trial - q), s += by u - the motion a. Chooses stick and slip, adds to the sums,
-  and returns the largest slip in the tangent space.
+  and returns the maximum slip in the tangent space.
 */
 PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
                                         SamNewtonSpace *space);

@@ -106,7 +106,7 @@ static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The rigid displacement that a level starts from: that of the guess or of the coarse solution, or the given part. */
+/* The rigid-body displacement at the start of a level: of the guess or of the coarse solution, or the given part. */
 static PetscErrorCode StartRigid(SamSolver s, SamLevel *level, SamStart start)
 {
   SamFrame given;
