@@ -130,8 +130,8 @@ hid_t SamFileCreateDataset(SamFile f, hid_t where, const SamLabel *label, hid_t 
     (void)SamFileNote(f, H5Pset_deflate(creation, (unsigned)compress));
   }
   dataset = SamFileNote(f, H5Dcreate2(where, label->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  SamFileWriteTextAttribute(f, dataset, "units", label->units);
-  SamFileWriteTextAttribute(f, dataset, "long_name", label->long_name);
+  if (label->units) SamFileWriteTextAttribute(f, dataset, "units", label->units);
+  if (label->long_name) SamFileWriteTextAttribute(f, dataset, "long_name", label->long_name);
   (void)SamFileNote(f, H5Pclose(creation));
   (void)SamFileNote(f, H5Sclose(space));
   return dataset;

@@ -86,7 +86,7 @@ PETSC_INTERN PetscBool SamFileHasAttribute(SamFile file, const char name[]);
 /* SamFileWriteOrigin - the attributes that say what a file is, and which program has written it. */
 PETSC_INTERN void SamFileWriteOrigin(SamFile file, const char title[], const char program[]);
 
-/* A dataset's name, and two of its attributes. */
+/* A dataset's name, and two of its attributes (NULL: without). */
 typedef struct {
   const char *name, *units, *long_name;
 } SamLabel;
