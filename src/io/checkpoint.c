@@ -323,9 +323,8 @@ static PetscErrorCode MatchFields(SamContact contact, const char list[], char me
   PetscCall(SamContactGetState(contact, &state));
   for (int k = 0; k < count; k++)
     if (SamStateFindField(state, names[k]) < 0)
-      (void)snprintf(
-        message, size,
-        "it has the field %s, which no law of this run remembers: give the options by which it was written", names[k]);
+      (void)snprintf(message, size,
+                     "it has the field %s, which no law of this run remembers: give the options of its run", names[k]);
   PetscCall(PetscStrToArrayDestroy(count, names));
   for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
     const SamStateField *field = SamStateFieldOf(state, k);

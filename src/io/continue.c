@@ -20,40 +20,29 @@ typedef struct {
 
 /* ---- examination, by one rank ---- */
 
-/* Refuses the file; the text says why. */
-static PetscErrorCode Refuse(SamFile f, PetscErrorCode code, const char text[])
-{
-  PetscFunctionBegin;
-  SETERRQ(f->comm, code, "-%s %s: cannot go on: %s", f->option, f->filename, text);
-}
+#define REFUSED "-%s %s: cannot go on: " /* option, file */
 
 /* A file must begin where the results of the checkpoint's run do. */
 static PetscErrorCode CheckBranch(SamFile f, const Wanted *wanted)
 {
   double first = 0;
-  char   text[192];
 
   PetscFunctionBegin;
   if (SamFileHasAttribute(f, SAM_OUTPUT_BRANCH))
     SamFileReadAttribute(f, f->id, SAM_OUTPUT_BRANCH, H5T_NATIVE_DOUBLE, 1, &first);
-  if (f->failed || first == (double)wanted->point.first) PetscFunctionReturn(PETSC_SUCCESS);
-  (void)snprintf(text, sizeof(text),
-                 "its first step is number %.0f, and that of the checkpoint's results is %ld: remove it, or give "
-                 "another name, to begin a file with the steps after the checkpoint",
-                 first + 1, (long)wanted->point.first + 1);
-  PetscCall(Refuse(f, SAM_ERR_USER, text));
+  PetscCheck(f->failed || first == (double)wanted->point.first, f->comm, SAM_ERR_USER,
+             REFUSED "its first step is number %.0f, and that of the checkpoint's results is %ld: remove it, or give "
+                     "another name, to begin a file with the steps after the checkpoint",
+             f->option, f->filename, first + 1, (long)wanted->point.first + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The number of steps in a dataset. */
 static hsize_t Length(SamOutput o, hid_t dataset)
 {
-  const hid_t space   = SamFileNote(o->f, H5Dget_space(dataset));
-  hsize_t     size[3] = {0, 0, 0};
+  hsize_t size[SAM_SHAPE_RANK];
 
-  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3)
-    (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
-  if (space >= 0) (void)SamFileNote(o->f, H5Sclose(space));
+  (void)SamFileGetSize(o->f, dataset, 0, size);
   return size[0];
 }
 
@@ -90,8 +79,9 @@ static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, hsize_t *k
   SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, saved, stored);
   for (*keep = 0; *keep < saved && steps && stored[*keep] <= last; (*keep)++) continue;
   PetscCall(PetscFree(stored));
-  if (times != wanted->point.times && !o->f->failed)
-    PetscCall(Refuse(o->f, SAM_ERR_USER, "its times differ from those of the load program (-history, -steps)"));
+  PetscCheck(times == wanted->point.times || o->f->failed, o->f->comm, SAM_ERR_USER,
+             REFUSED "its times differ from those of the load program (-history, -steps)", o->f->option,
+             o->f->filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,7 +92,7 @@ static void CheckFields(SamOutput o, hsize_t keep)
     hsize_t extent[3];
 
     if (o->fields[f] < 0) continue;
-    SamFileGetSize(o->f, o->fields[f], 3, extent);
+    (void)SamFileGetSize(o->f, o->fields[f], 3, extent);
     if (SamOutputResult(o, f)->kind != SAM_FIELD_POINTS &&
         (extent[1] != (hsize_t)o->grid->ny || extent[2] != (hsize_t)o->grid->nx))
       (void)SamFileNote(o->f, -1);
@@ -136,23 +126,22 @@ static void FindMissing(SamOutput o, char name[], size_t size)
 static PetscErrorCode Check(SamOutput o, const Wanted *wanted, hsize_t *keep)
 {
   const hsize_t steps = CountRows(o, SAM_SERIES_HISTORY), cycles = CountRows(o, SAM_SERIES_CYCLES);
+  const SamFile f = o->f;
   char          text[192], missing[64];
 
   PetscFunctionBegin;
-  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (SamParametersDiffer(o->f, wanted->parameters, text, sizeof(text))) PetscCall(Refuse(o->f, SAM_ERR_USER, text));
-  PetscCall(CheckBranch(o->f, wanted));
+  if (f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(!SamParametersDiffer(f, wanted->parameters, text, sizeof(text)), f->comm, SAM_ERR_USER, REFUSED "%s",
+             f->option, f->filename, text);
+  PetscCall(CheckBranch(f, wanted));
   FindMissing(o, missing, sizeof(missing));
-  if (missing[0]) {
-    (void)snprintf(text, sizeof(text), "it has the field %s, which neither the checkpoint nor this run has", missing);
-    PetscCall(Refuse(o->f, SAM_ERR_USER, text));
-  }
-  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (steps < (hsize_t)wanted->point.steps || cycles < (hsize_t)wanted->point.cycles) {
-    (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint",
-                   (long)PetscMin(steps, (hsize_t)wanted->point.steps), (long)wanted->point.steps);
-    PetscCall(Refuse(o->f, SAM_ERR_FILE, text));
-  }
+  PetscCheck(!missing[0], f->comm, SAM_ERR_USER,
+             REFUSED "it has the field %s, which neither the checkpoint nor this run has", f->option, f->filename,
+             missing);
+  if (f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(steps >= (hsize_t)wanted->point.steps && cycles >= (hsize_t)wanted->point.cycles, f->comm, SAM_ERR_FILE,
+             REFUSED "it holds %ld of the %ld steps before the checkpoint", f->option, f->filename,
+             (long)PetscMin(steps, (hsize_t)wanted->point.steps), (long)wanted->point.steps);
   PetscCall(CompareTimes(o, wanted, keep));
   CheckFields(o, *keep);
   PetscFunctionReturn(PETSC_SUCCESS);

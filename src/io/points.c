@@ -73,12 +73,12 @@ void SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t step, const SamOu
   const SamBlock block = BlockOf(o, step, points->count);
   hsize_t        size[3], scale[1];
 
-  SamFileGetSize(o->f, dataset, 3, size);
+  (void)SamFileGetSize(o->f, dataset, 3, size);
   size[0] = step + 1;
   size[1] = PetscMax(size[1], points->count);
   size[2] = 2;
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
-  SamFileGetSize(o->f, o->point, 1, scale); /* is as long as the longest edge */
+  (void)SamFileGetSize(o->f, o->point, 1, scale); /* is as long as the longest edge */
   if (scale[0] < size[1]) (void)SamFileNote(o->f, H5Dset_extent(o->point, &size[1]));
   SamFileWriteBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, points->xy);
 }
@@ -90,7 +90,7 @@ PetscErrorCode SamOutputReadPoints(SamOutput o, hid_t dataset, hsize_t step, Sam
   SamBlock           block;
 
   PetscFunctionBegin;
-  SamFileGetSize(o->f, dataset, 3, size);
+  (void)SamFileGetSize(o->f, dataset, 3, size);
   block = BlockOf(o, step, size[1]);
   PetscCall(PetscFree(points->xy));
   PetscCall(PetscMalloc1(2 * size[1], &points->xy));

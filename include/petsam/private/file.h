@@ -109,8 +109,11 @@ PETSC_INTERN hid_t SamFileCreateDataset(SamFile file, hid_t where, const SamLabe
 PETSC_INTERN hid_t SamFileCreateScale(SamFile file, hid_t where, const SamLabel *label, const char axis[],
                                       const char standard_name[], const SamShape *shape, const double values[]);
 PETSC_INTERN void  SamFileAttachScales(SamFile file, hid_t dataset, int count, const hid_t scales[]);
-/* SamFileGetSize - the size of a dataset of that rank; zeros after a failure. */
-PETSC_INTERN void SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
+/*
+  SamFileGetSize - the size of a dataset of that rank (0: any; then there is room for SAM_SHAPE_RANK); returns its rank.
+  Zeros after a failure.
+*/
+PETSC_INTERN int SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
 
 /* The part of a dataset that a rank writes or reads; none where a count is 0. */
 typedef struct {
