@@ -1,11 +1,11 @@
-/* Checkpoints: the state of a contact in a file, from which a stopped run goes on. */
+/* Checkpoints: the state of a contact in a file, from which a stopped run continues. */
 #ifndef PETSAM_CHECKPOINT_H
 #define PETSAM_CHECKPOINT_H
 
 #include <petsam/output.h>
 
 /*
-  SamNote - whole numbers that a program adds to a checkpoint under a name, such as its position in a load program. With
+  SamNote - integers that a program adds to a checkpoint under a name, such as its position in a load program. With
   a negative count the checkpoint may lack them; they are read as 0 then.
 */
 typedef struct {

@@ -379,15 +379,16 @@ static PetscBool IsLockEnding(const char text[])
   Open MPI keeps a file <name>-<job>-<process>.lock beside each file that is open through MPI-IO, for shared file
   pointers, which HDF5 does not use. It would stay after a kill. Those of runs that were killed before go, too.
 */
-static void RemoveLockFiles(const char filename[])
+void SamFileRemoveLeftOvers(SamFile f)
 {
-  const char    *slash = strrchr(filename, '/'), *name = slash ? slash + 1 : filename;
+  const char    *slash = strrchr(f->filename, '/'), *name = slash ? slash + 1 : f->filename;
   const size_t   length = strlen(name);
   char           folder[PETSC_MAX_PATH_LEN], path[2 * PETSC_MAX_PATH_LEN];
   struct dirent *entry;
   DIR           *list;
 
-  SamGetFolder(filename, folder);
+  if (f->rank) return;
+  SamGetFolder(f->filename, folder);
   list = opendir(folder);
   while (list && (entry = readdir(list))) {
     if (strncmp(entry->d_name, name, length) || !IsLockEnding(entry->d_name + length)) continue;
@@ -395,11 +396,6 @@ static void RemoveLockFiles(const char filename[])
     (void)unlink(path);
   }
   if (list) (void)closedir(list);
-}
-
-void SamFileRemoveLeftOvers(SamFile f)
-{
-  if (f->rank == 0) RemoveLockFiles(f->filename);
 }
 
 /* ---- the disk ---- */

@@ -304,7 +304,7 @@ typedef struct {
 } Content;
 
 /*
-  Lets the contact's problem accumulate what the file has accumulated. The message names a field that only one of the two
+  Lets the contact's problem accumulate what the file has accumulated. The message names a field that only one of them
   has.
 */
 static PetscErrorCode MatchFields(SamContact contact, const char list[], char message[], size_t size)
@@ -370,7 +370,8 @@ static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, C
   }
   PetscCall(PetscFree(version));
   PetscCall(SamFileEnd(f));
-  PetscCheck(!message[0], f->grid->comm, SAM_ERR_USER, "-restart %s: cannot go on from it: %s", f->filename, message);
+  PetscCheck(!message[0], f->grid->comm, SAM_ERR_USER, "-restart %s: cannot continue from it: %s", f->filename,
+             message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

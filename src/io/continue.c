@@ -1,5 +1,5 @@
 /*
-  Results that go on where a run was stopped.
+  Results that continue where a run was stopped.
 
   A run may have been killed in the middle of a step. The steps that it has reported can be read (steps.c), but HDF5's
   indices may be in an inconsistent state, and nothing should be appended to those; it may also hold more steps than
@@ -20,7 +20,7 @@ typedef struct {
 
 /* ---- examination, by one rank ---- */
 
-#define REFUSED "-%s %s: cannot go on: " /* option, file */
+#define REFUSED "-%s %s: cannot continue: " /* option, file */
 
 /* A file must begin where the results of the checkpoint's run do. */
 static PetscErrorCode CheckBranch(SamFile f, const Wanted *wanted)
@@ -188,19 +188,27 @@ static PetscErrorCode GetFileValues(SamOutput to, PetscInt f, void *context, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The times of the first steps with fields; the caller frees them. */
+static PetscErrorCode ReadTimes(SamOutput o, hsize_t count, double **times)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(count, times));
+  PetscCall(SamFileBegin(o->f));
+  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, count, *times);
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Copies the first steps with fields one by one, as a run would write them. */
 static PetscErrorCode CopyFields(SamOutput from, hsize_t keep, SamOutput to)
 {
   FileFields     fields = {.output = from};
   double        *times;
-  PetscErrorCode ierr;
+  PetscErrorCode ierr = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(keep, &times));
+  PetscCall(ReadTimes(from, keep, &times));
   PetscCall(PetscMalloc1(PetscMax(from->grid->cells, 1), &fields.cells));
-  PetscCall(SamFileBegin(from->f));
-  SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, 0, keep, times);
-  ierr = SamFileEnd(from->f);
   for (; fields.index < keep && !ierr; fields.index++)
     ierr = SamOutputAppend(to, NULL, (PetscReal)times[fields.index], GetFileValues, &fields);
   PetscCall(PetscFree(fields.cells));
@@ -240,10 +248,7 @@ static PetscErrorCode TakeName(SamOutput o, const char filename[], PetscBool xdm
   o->hold.use = SAM_FILE_RESULTS;
   o->replaced = PETSC_FALSE;
   if (!xdmf) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscCalloc1(o->saved, &times));
-  PetscCall(SamFileBegin(o->f));
-  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, o->saved, times);
-  PetscCall(SamFileEnd(o->f));
+  PetscCall(ReadTimes(o, o->saved, &times));
   o->set.xdmf = PETSC_TRUE;
   PetscCall(SamOutputCreateXdmf(o, filename));
   for (hsize_t k = 0; k < o->saved; k++) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)k, (PetscReal)times[k]));

@@ -252,7 +252,7 @@ static void OpenDataset(SamOutput o, hid_t where, const char name[], PetscBool o
   *dataset = SamFileNote(o->f, H5Dopen2(where, name, H5P_DEFAULT));
 }
 
-/* Declares a column that the file has and the state does not offer: it goes on without values. */
+/* Declares a column that the file has and the state does not offer: it continues without values. */
 static PetscErrorCode DeclareColumn(SamOutput o, SamState state, hid_t group, const char name[])
 {
   const hid_t    dataset = SamFileNote(o->f, H5Dopen2(group, name, H5P_DEFAULT));

@@ -71,7 +71,7 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("pressure_max", "Pa", "maximum pressure"),
   REAL("shear_max", "Pa", "maximum shear"),
   REAL("slip_max", "m", "maximum slip since the start of a cell in contact"),
-  REAL("edge_accepted", "1", "share of the edges of contact and stick that are reconstructed"),
+  REAL("edge_accepted", "1", "share of the contact edge and the stick-slip boundary that is reconstructed"),
   REAL("dissipated_energy", "J", "frictional work of the load step"),
   REAL("stored_energy", "J", "elastic energy of both bodies")};
 

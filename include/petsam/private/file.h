@@ -38,15 +38,13 @@ struct _n_SamFile {
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ } SamFileMode;
 /*
   SamFileOpen - opens a file to READ, or CREATEs it, replacing one of that name; CREATE_SEALED: with room for a seal.
-  `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  `option` is not copied. `grid` NULL: on this rank alone, without MPI-IO. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
-/* SamFileOpenAlone - opens a file to read it on this rank, without MPI-IO. Not collective. Errors: SAM_ERR_FILE. */
-PETSC_INTERN PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file);
 /*
   SamFileExamine - rank 0 examines an HDF5 file before all ranks open it: reports one that is not there, may not be read
-  or is not HDF5, then calls `look` with the file open on this rank alone (SamFileOpenAlone()). This happens in a child
+  or is not HDF5, then calls `look` with the file open on this rank alone. This happens in a child
   process, since HDF5 may crash, or never end, on a damaged file. The `answer` (`size` bytes without pointers) is
   returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
   SAM_ERR_FILE, and those of `look`.
