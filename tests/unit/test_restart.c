@@ -136,6 +136,7 @@ static void test_signals_ask_for_checkpoints(void **state)
   sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 3);
   if (Rank() == 0) signals[1] = 1;
   sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 4);
+  sam_assert(!signals[0] && !signals[1]); /* both have been answered */
   sam_call(SamHistoryDestroy(&point.history));
   sam_call(SamCheckpointsDestroy(&k));
   DestroyCase(&c);

@@ -36,13 +36,13 @@ struct _n_SamFile {
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ } SamFileMode;
 /*
   SamFileOpen - opens a file to READ, or CREATEs it, replacing one of that name; CREATE_SEALED: with room for a seal.
-  `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  `option` is not copied. `grid` NULL: on this rank alone, without MPI-IO. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
 /*
   SamFileExamine - rank 0 examines an HDF5 file before all ranks open it: reports one that is not there, may not be read
-  or is not HDF5, then calls `look` with the file open on this rank alone (SamFileOpenAlone()). This happens in a child
+  or is not HDF5, then calls `look` with the file open on this rank alone. This happens in a child
   process, since HDF5 may crash, or never end, on a damaged file. The `answer` (`size` bytes without pointers) is
   returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
   SAM_ERR_FILE, and those of `look`.
@@ -82,7 +82,7 @@ PETSC_INTERN PetscBool SamFileHasAttribute(SamFile file, const char name[]);
 /* SamFileWriteOrigin - the attributes that say what a file is, and which program has written it. */
 PETSC_INTERN void SamFileWriteOrigin(SamFile file, const char title[], const char program[]);
 
-/* A dataset's name, and two of its attributes. */
+/* A dataset's name, and two of its attributes (NULL: without). */
 typedef struct {
   const char *name, *units, *long_name;
 } SamLabel;
@@ -105,8 +105,11 @@ PETSC_INTERN hid_t SamFileCreateDataset(SamFile file, hid_t where, const SamLabe
 PETSC_INTERN hid_t SamFileCreateScale(SamFile file, hid_t where, const SamLabel *label, const char axis[],
                                       const char standard_name[], const SamShape *shape, const double values[]);
 PETSC_INTERN void  SamFileAttachScales(SamFile file, hid_t dataset, int count, const hid_t scales[]);
-/* SamFileGetSize - the size of a dataset of that rank; zeros after a failure. */
-PETSC_INTERN void SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
+/*
+  SamFileGetSize - the size of a dataset of that rank (0: any; then there is room for SAM_SHAPE_RANK); returns its rank.
+  Zeros after a failure.
+*/
+PETSC_INTERN int SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
 
 /* The part of a dataset that a rank writes or reads; none where a count is 0. */
 typedef struct {
