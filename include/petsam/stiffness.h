@@ -10,7 +10,7 @@
                             the tried step's loads with respect to its displacements, the step starting where it
                             did.
                             Not symmetric: where cells slip, tangential loads depend on the approach, and not the
-                            reverse. Across a step's own direction it counts that slip turns within the step: for a
+                            reverse. Friction may follow the slip of the step. Across a step's own direction it counts that slip turns within the step: for a
                             path of small steps it tends to the stiffness of stick there.
     SAM_STIFFNESS_REVERSAL  the motion reverses at the end of the step: all cells in contact stick, and none yields.
                             Symmetric; also right where only the normal force grows, without a limit of the pressure.
@@ -33,8 +33,10 @@ typedef struct {
   where stick meets slip both |q| = mu p and ds = 0 hold. So the sets of cells are frozen, and a column solves
     normal      S dp + B' dq = n on cells in contact; dp = 0 on those that yield, if the motion goes on,
     tangential  C dq + B dp - t = d(ds), which is 0 on cells that stick; on cells that slip
-                dq = mu e dp - mu p/|ds| (I - e e') d(ds),  e = q/|q|,
-  n and t being the unit motion of the column, and B the coupling of dissimilar bodies. Leaves the contact unchanged.
+                dq = e db - b/|ds| (I - e e') d(ds),  e = q/|q|,  db = b_p dp - b_s e.d(ds),
+  n and t being the unit motion of the column, B the coupling of dissimilar bodies, and b_p and b_s the derivatives of
+  the bound b of the shear by the pressure and by the length of the slip: mu and 0 of Coulomb's friction. Leaves the
+  contact unchanged.
   Collective. Errors: PETSC_ERR_ORDER without such a step.
 */
 PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction,
