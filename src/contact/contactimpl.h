@@ -15,11 +15,8 @@ enum {
 
 struct _n_SamContact {
   /* what the user set */
-  char      prefix[SAM_PREFIX];
-  PetscBool coupling, warm, allow_edge, edges, spots;
-  PetscReal coupling_rtol;
-  PetscInt  coupling_max_it;
-  PetscBool coupling_monitor, print_check;
+  char               prefix[SAM_PREFIX];
+  SamContactSettings set;
   /* its parts */
   SamProblem          problem;
   SamElasticity       elasticity; /* of the problem; borrowed */
@@ -39,7 +36,7 @@ struct _n_SamContact {
 /* Whether pressure and shear depend on each other. */
 static inline PetscBool SamContactIsCoupled(SamContact c)
 {
-  return c->traits.coupled && c->coupling;
+  return c->traits.coupled && c->set.coupling;
 }
 
 /* ---- what is remembered (memory.c) ---- */
@@ -61,8 +58,6 @@ PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);
   SamContactBefore - the committed solution, from which the tried one goes on; NULL in the first step. Not collective.
 */
 PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
-/* SamContactWindow - the part of the grid that the solvers worked on: first cells, their numbers. Not collective. */
-PETSC_INTERN double *SamContactWindow(SamContact contact, SamGeneration generation);
 
 /* ---- a step ---- */
 

@@ -238,7 +238,7 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
   PetscFunctionBegin;
   *start = (SamStepStart){.pressure = PETSC_FALSE};
   PetscCall(SamContactGetSteps(c, &steps));
-  if (steps > 1 && c->warm) alpha = Continuation(&before->control, &now->control, control);
+  if (steps > 1 && c->set.warm_start) alpha = Continuation(&before->control, &now->control, control);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
@@ -246,7 +246,8 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
   }
   if (alpha > 0) PetscCall(Extrapolate(c, alpha, control->friction_scale, &found));
   start->pressure = start->shear = found;
-  if (!found && c->warm && !SamContactIsCoupled(c) && SamControlIsSame(&now->control, control, SAM_BALANCE_NORMAL))
+  if (!found && c->set.warm_start && !SamContactIsCoupled(c) &&
+      SamControlIsSame(&now->control, control, SAM_BALANCE_NORMAL))
     PetscCall(StartFromLastPressure(c, start));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -39,9 +39,8 @@ PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
 PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
 /* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
-/* SamSolveJudge... - puts down in the step whether that failed. Collective. */
-PETSC_INTERN PetscErrorCode SamSolveJudgeNormal(SamSolve *solve);
-PETSC_INTERN PetscErrorCode SamSolveJudgeTangential(SamSolve *solve);
+/* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
 /* SamSolveSkipTangential - no shear, as the pressure is not right. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
 

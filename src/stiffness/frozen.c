@@ -236,7 +236,8 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   SamWindow           window;
   SamElasticity       part;
   PetscInt            first[2], n[2];
-  PetscBool           full, friction;
+  SamContactSettings  set;
+  PetscBool           friction;
   Vec                 fields[FIELDS] = {NULL};
 
   PetscFunctionBegin;
@@ -246,9 +247,9 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   PetscCall(SamContactGetGrid(contact, &whole));
   PetscCall(SamProblemGetElasticity(problem, &f->elasticity));
   PetscCall(SamElasticityGetTraits(f->elasticity, &traits));
-  PetscCall(SamContactGetCoupling(contact, &full));
+  PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamProblemHasFriction(problem, &friction));
-  f->coupled = traits.coupled && full && friction;
+  f->coupled = traits.coupled && set.coupling && friction;
   f->grid    = whole;
   PetscCall(SamContactGetSolution(contact, &s));
   PetscCall(SamGridGetSupport(whole, s->pressure, first, n));
