@@ -40,13 +40,12 @@ PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 */
 PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value);
 /*
-  SamGapSetFile, SamGapSetRoughness - the HDF5 file of the type `file`, and of a roughness (m) that is added to any type
-  (NULL: none), and the dataset in it (NULL: /height). Options -gap_file, -gap_dataset, and -gap_rough_file,
-  -gap_rough_dataset. Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say
-  otherwise (examples/SURFACES.md). Not collective, the same on all ranks.
+  SamGapSetFile - the HDF5 file (NULL: none) and the dataset in it (NULL: /height) of the type `file`, or of a roughness
+  (m) that is added to any type. Options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset. Datasets of
+  shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise (examples/SURFACES.md).
+  Not collective, the same on all ranks.
 */
-PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, const char file[], const char dataset[]);
-PETSC_EXTERN PetscErrorCode SamGapSetRoughness(SamGap gap, const char file[], const char dataset[]);
+PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
 /*
   SamGapGetFileGrid - the grid that the file of the gap or of the roughness is given on, from the setters or options:
   cells and full widths (m) in x and y, all 0 without a file. Does not look at files if there are -grid_n and

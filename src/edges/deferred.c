@@ -363,7 +363,6 @@ static PetscErrorCode Destroy(SamLaw law)
 {
   PetscFunctionBegin;
   PetscCall(SamProfileDestroy(&((Deferred *)law->data)->profile));
-  PetscCall(PetscFree(law->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -184,7 +184,6 @@ static PetscErrorCode Destroy(SamLaw law)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&((Coulomb *)law->data)->field));
-  PetscCall(PetscFree(law->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

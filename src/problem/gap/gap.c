@@ -113,25 +113,13 @@ PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SetSource(SamFieldFile *source, const char file[], const char dataset[])
+PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[])
 {
+  SamFieldFile *source = rough ? &gap->rough : &gap->source;
+
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(source->file, file ? file : "", sizeof(source->file)));
   PetscCall(PetscStrncpy(source->dataset, dataset ? dataset : source->default_dataset, sizeof(source->dataset)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamGapSetFile(SamGap gap, const char file[], const char dataset[])
-{
-  PetscFunctionBegin;
-  PetscCall(SetSource(&gap->source, file, dataset));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamGapSetRoughness(SamGap gap, const char file[], const char dataset[])
-{
-  PetscFunctionBegin;
-  PetscCall(SetSource(&gap->rough, file, dataset));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
