@@ -32,8 +32,8 @@ PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const
   SamContactSettings - of a contact; its defaults are those of SamContactGetSettings() on a new one.
   With coupling the normal and the tangential problem of dissimilar materials are solved in turn, a pass each, until one
   p and one q solve both, each to its own tolerance, and neither has changed by more than coupling_rtol of its norm in
-  the last pass. Spots are zones of cells in contact that are connected by their sides, not by corners alone; over the
-  edges of a grid that is one period, too.
+  the last pass. Contact spots are cells in contact connected by their sides, not by corners alone; over the edges of a
+  grid that is one period, too.
 */
 typedef struct {
   PetscBool coupling;         /* normal-tangential coupling is taken into account (true; -coupling full or none) */
@@ -42,10 +42,10 @@ typedef struct {
   PetscBool coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
   PetscBool warm_start;       /* start a step from the steps before, on the finest grid only (true; -warm_start) */
   PetscBool allow_edge;       /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
-  PetscBool edges;            /* areas, and tractions at points, by reconstructed edges of contact and stick (edges.h);
+  PetscBool edges;            /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges
                                  reconstruct or none; with deferred the law of that name corrects the pressure too) */
-  PetscBool spots;            /* count the spots of contact and compute the mean gap (false; -contact_spots) */
+  PetscBool spots;            /* count the contact spots and compute the mean gap (false; -contact_spots) */
   PetscBool print_check;      /* print the errors of each step (false; -contact_check) */
 } SamContactSettings;
 /*
@@ -116,9 +116,9 @@ PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char n
 PETSC_EXTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
 
 /*
-  SamContactViewLaws - prints what the laws say of the last step. Collective.
-  SamContactAdvise - what a user should know of the last step, by the law from number *k on (0 at first) that has to say
-  something; *k is that law then. Empty: none has. Collective.
+  SamContactViewLaws - prints the laws' reports of the last step. Collective.
+  SamContactAdvise - a warning about the last step, from the first law from number *k on (0 at first) that has one; *k
+  becomes the number of this law. Empty: no law has one. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactViewLaws(SamContact contact, PetscViewer viewer);
 PETSC_EXTERN PetscErrorCode SamContactAdvise(SamContact contact, PetscInt *k, char text[], size_t size);
@@ -132,7 +132,7 @@ PETSC_EXTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
 
 /*
   SamContactSetState - the committed state becomes that of another contact of the same problem, or one that was read
-  from a file: the contact goes on as that one would, to the last bit, on any number of ranks. `gap_is_current`: the
+  from a file: the contact continues as that one would, to the last bit, on any number of ranks. `gap_is_current`: the
   state was solved with the gap that the problem has now. Forgets a tried state. Collective. Errors: those of
   SamStateCopy().
   SamContactReset - the bodies have never touched. Collective.

@@ -42,7 +42,7 @@ PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*c
 PETSC_EXTERN PetscErrorCode SamLawGetTypes(PetscInt *count, const SamLawType **types);
 PETSC_EXTERN PetscBool      SamLawIsRegistered(const char name[]);
 /*
-  SamLawSetFromOptions - reads the law's options; `asked`: they ask for the law. Collective. Errors: SAM_ERR_USER,
+  SamLawSetFromOptions - reads the law's options; `asked`: they select the law. Collective. Errors: SAM_ERR_USER,
   SAM_ERR_FILE.
   SamLawAddParameters - appends what defines the law, by the names of its options. Collective.
 */

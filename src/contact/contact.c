@@ -1,4 +1,4 @@
-/* The class SamContact: its parts and settings, and what others ask of it. */
+/* The class SamContact: its parts, its settings, its state, and its results by name. */
 #include "contactimpl.h"
 
 /* ---- creation ---- */
@@ -60,7 +60,7 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
   PetscCheck(settings->coupling_rtol > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "coupling tolerance rtol = %g: expected a number > 0", (double)settings->coupling_rtol);
   PetscCheck(settings->coupling_max_it > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "coupling passes max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
+             "coupling iterations max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
   c->set = *settings;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -84,18 +84,21 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsHeading(&from, "Contact"));
   PetscCall(SamOptionsEnum(&from, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
                            coupling_words, &coupling, NULL));
-  PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE,
-                           &s.coupling_rtol, NULL));
-  PetscCall(SamOptionsInt(&from, "coupling_max_it", "most passes of the coupling", 1, &s.coupling_max_it, NULL));
-  PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each pass", &s.coupling_monitor, NULL));
-  PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only",
-                           &s.warm_start, NULL));
+  PetscCall(SamOptionsReal(&from, "coupling_rtol",
+                           "tolerance on the relative change of p and q between coupling iterations",
+                           SAM_RANGE_POSITIVE, &s.coupling_rtol, NULL));
   PetscCall(
-    SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &s.allow_edge, NULL));
+    SamOptionsInt(&from, "coupling_max_it", "maximum number of coupling iterations", 1, &s.coupling_max_it, NULL));
+  PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each coupling iteration",
+                           &s.coupling_monitor, NULL));
+  PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
+                           &s.warm_start, NULL));
+  PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the edge of the grid is a warning, not an error",
+                           &s.allow_edge, NULL));
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",
                            edge_words, &edges, NULL));
   PetscCall(
-    SamOptionsBool(&from, "contact_spots", "number of spots of contact and mean gap of each step", &s.spots, NULL));
+    SamOptionsBool(&from, "contact_spots", "number of contact spots and mean gap of each step", &s.spots, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &s.print_check, NULL));
   s.coupling = coupling != 0;
   s.edges    = edges > 0;
@@ -220,7 +223,7 @@ PetscErrorCode SamContactGetNumber(SamContact c, const char name[], PetscReal *v
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what laws say ---- */
+/* ---- reports of the laws ---- */
 
 PetscErrorCode SamContactViewLaws(SamContact c, PetscViewer viewer)
 {

@@ -24,7 +24,7 @@ struct _n_SamContact {
   SamElasticityTraits traits;
   SamNormal           normal;
   SamTangential       tangential;
-  /* what it remembers */
+  /* its state */
   SamState         state;
   PetscBool        has_tried;                      /* a tried solution */
   SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
@@ -55,7 +55,7 @@ PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *s
 /* SamContactView - makes the views of the committed generation, and of that one step back. Collective. */
 PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);
 /*
-  SamContactBefore - the committed solution, from which the tried one goes on; NULL in the first step. Not collective.
+  SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
 */
 PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
 
@@ -71,7 +71,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStepStart *start);
 /*
   SamFollowPressure - scales a shear by the change of the pressure from `pressure_before`, cell by cell: cells that slip
-  go on slipping.
+  continue to slip.
 */
 PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear);
 /*

@@ -12,12 +12,12 @@
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
 
-  Each pass is solved only a little better than the last error asks for. The pressure starts from that of the last pass
-  and its product; so does the shear, once it is near: before, nested grids find the slip zones of the new pressure
-  faster.
+  Each pass is solved only a little more accurately than the last error requires. The pressure starts from that of the
+  last pass and its product. So does the shear once it is near; farther away nested grids find the slip zones of the new
+  pressure faster.
 
   Gross slip is decided by the coupled problem: where the bound cannot carry the loads, the shear is that of sliding,
-  and the passes go on. If they end there, all slides, and the limit is that of the pressure then.
+  and the passes continue. If they end there, the whole contact slides, and the limit is that of the last pressure.
 */
 #include "stepimpl.h"
 #include <math.h>
@@ -164,7 +164,7 @@ static PetscErrorCode IsLast(Passes *p, PetscInt pass, PetscBool solved, PetscBo
   *last = PETSC_TRUE;
   PetscCall(PetscSNPrintf(
     message, sizeof(message),
-    "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT " passes", pass));
+    "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT " iterations", pass));
   PetscCall(SamStepFail(s->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscCall(PetscStrncpy(s->step->setting, "coupling_max_it", sizeof(s->step->setting)));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -77,7 +77,7 @@ static PetscErrorCode DeclareOutcome(SamContact c)
     {"tangential_iterations", "iterations of the tangential solver"},
     {"tangential_applies", "applications of the tangential influence operator"},
     {"tangential_preconditions", "applications of the tangential preconditioner"},
-    {"coupling_iterations", "passes of the normal-tangential coupling"}};
+    {"coupling_iterations", "iterations of the normal-tangential coupling"}};
 
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++)
@@ -153,9 +153,9 @@ static PetscErrorCode Offer(SamContact c)
      Compute, c, SHEAR_CENTER_X, -1},
     {"shear_center_y", "Pa", "shear traction along y at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
      Compute, c, SHEAR_CENTER_Y, -1},
-    {"contact_edge", "m", "points of the edge of contact, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
+    {"contact_edge", "m", "points of the contact edge, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
      SAM_EDGE_CONTACT, -1},
-    {"stick_edge", "m", "points of the edge of the stick zone, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
+    {"stick_edge", "m", "points of the stick-slip boundary, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
      SAM_EDGE_STICK, -1}};
 
   PetscFunctionBegin;
@@ -226,31 +226,24 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode View(SamContact c, SamGeneration g)
-{
-  SamSolution    *s   = &c->generation[g];
-  double         *n   = SamStateNumbers(c->state, 0, g);
-  const PetscBool all = g != SAM_BEFORE;
-
-  PetscFunctionBegin;
-  SamControlUnpack(n + c->control, &s->control);
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* before the first step there are none: nothing has moved */
-    s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
-    s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
-  }
-  PetscCall(SamStateRestoreField(c->state, c->tractions[0], g, &s->pressure));
-  PetscCall(SamStateRestoreField(c->state, c->tractions[1], g, &s->bound));
-  PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
-  s->displacement_z = all ? SamStateGetField(c->state, c->displacements[0], g) : NULL;
-  s->displacement_t = all ? SamStateGetField(c->state, c->displacements[1], g) : NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamContactView(SamContact c)
 {
   PetscFunctionBegin;
-  PetscCall(View(c, SAM_COMMITTED));
-  PetscCall(View(c, SAM_BEFORE));
+  for (SamGeneration g = SAM_COMMITTED; g <= SAM_BEFORE; g++) {
+    SamSolution *s = &c->generation[g];
+    double      *n = SamStateNumbers(c->state, 0, g);
+
+    SamControlUnpack(n + c->control, &s->control);
+    for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* before the first step there are none: nothing has moved */
+      s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
+      s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
+    }
+    PetscCall(SamStateRestoreField(c->state, c->tractions[0], g, &s->pressure));
+    PetscCall(SamStateRestoreField(c->state, c->tractions[1], g, &s->bound));
+    PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
+    s->displacement_z = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[0], g);
+    s->displacement_t = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[1], g);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -79,8 +79,8 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
   PetscCall(VecSum(h, &sum));
   PetscCall(
     PetscSNPrintf(message, size,
-                  "disp_z = %.8g m brings the mean surfaces together (limit %.8g, their mean separation): in full "
-                  "contact the approach no longer decides the pressure",
+                  "disp_z = %.8g m brings the mean planes together (limit %.8g, their mean separation): in full "
+                  "contact disp_z does not fix the pressure: give load_n",
                   (double)w->normal.rigid[0], (double)sum / ((double)grid->nx * (double)grid->ny)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

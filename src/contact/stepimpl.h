@@ -10,7 +10,7 @@
 typedef struct {
   SamContact         c;
   SamSolution       *s;      /* the tried solution */
-  const SamSolution *before; /* whose slip it goes on from; NULL in the first step */
+  const SamSolution *before; /* whose slip it continues; NULL in the first step */
   SamStep           *step;
   PetscBool          coupled, same_pressure;
   SamBalance         normal, tangential; /* as prescribed */
@@ -31,7 +31,7 @@ typedef struct {
 */
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
 /*
-  SamSolveBound - a bound of the shear, from the pressure and the slip that is known.
+  SamSolveBound - a bound of the shear, from the pressure and the last slip.
   SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
   with it; `rtol` is what both are solved to then (bound.c). Collective.
 */

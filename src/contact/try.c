@@ -3,9 +3,9 @@
 #include <math.h>
 
 /*
-  The check also sees rounding, which the solvers' recurrences do not show. So its limits are the solvers' tolerances
-  times a margin; equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows
-  the slip is known as exactly as the slip is.
+  The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a
+  margin; equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows the slip
+  is as accurate as the slip.
 */
 #define CHECK_MARGIN      1.05
 #define CHECK_EQUILIBRIUM 1e-10
@@ -249,7 +249,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution only the prescribed loads and displacements are known. */
+/* Without a solution only the prescribed loads and displacements are numbers, the others NaN. */
 static void SetUnknown(SamStep *step)
 {
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {

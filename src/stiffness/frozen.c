@@ -220,10 +220,10 @@ static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direct
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(SamContactHasStep(contact, &tried, &committed));
   PetscCheck(tried || committed, grid->comm, PETSC_ERR_ORDER,
-             "there is no tried step, and no committed one, whose stiffness could be computed");
+             "no step is tried or committed: try a step before its stiffness is computed");
   PetscCheck(tried || direction == SAM_STIFFNESS_REVERSAL, grid->comm, PETSC_ERR_ORDER,
-             "the forward stiffness needs the slip of the step, which is not kept after its commit: compute it before, "
-             "or that of the reversal");
+             "the forward stiffness needs the slip of the step, which is not kept after the commit: compute it before, "
+             "or compute the stiffness at the reversal");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -30,7 +30,7 @@ static double Share(const SamFrozen *f, PetscInt m)
   return sqrt(fabs(f->rate[m]));
 }
 
-/* Q y, or with `all` P y; takes off all of a packed shear where there is no friction. */
+/* Q y, or with `all` P y; zero where there is no friction. */
 static void Project(const SamFrozen *f, PetscBool all, double y[])
 {
   double *x = y, *z = y + f->count;
@@ -49,7 +49,7 @@ static double Along(const SamFrozen *f, const double x[], PetscInt m)
   return f->rate[m] != 0 ? x[m] * f->e[0][m] + x[m + f->count] * f->e[1][m] : 0;
 }
 
-/* Takes off a packed pressure what lies on cells that yield. */
+/* Sets a packed pressure to 0 on cells that yield. */
 static void Bear(const SamFrozen *f, double p[])
 {
   for (PetscInt m = 0; m < f->count; m++) p[m] *= f->bears[m];

@@ -89,7 +89,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   static const SamStateNumber number[] = {
     {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
     {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
-    {"wear_excess", "1", "wear of the step over its stable limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE}};
+    {"wear_excess", "1", "wear of the step relative to the stability limit", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_FALSE}};
   SamStateResult depth[2] = {
     {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
     {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};

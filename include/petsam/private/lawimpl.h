@@ -64,7 +64,7 @@ struct _n_SamLawStep {
   Vec               pressure, shear; /* Pa */
   PetscBool         same_pressure;   /* the pressure is that of the step before */
   PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
-  /* made when first asked for, by SamLawStepGetFriction(); the step's own */
+  /* made when first needed, by SamLawStepGetFriction(); the step's own */
   Vec path, pressed, work;
   /* from the contact; collective */
   PetscErrorCode (*friction)(SamLawStep *step, Vec path, Vec pressed, Vec work);
@@ -90,7 +90,7 @@ struct _n_SamLaw {
   PetscObjectState revision;       /* to be raised by setters: the pressure has to be solved again */
   PetscBool        follows_slip;   /* bound() depends on the slip of the step */
   PetscBool        accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
-  const char      *option;         /* that asks for the law, without dash; NULL: none */
+  const char      *option;         /* that selects the law, without dash; NULL: none */
   PetscInt         bytes;          /* of memory that it takes for each cell */
   PetscBool        needs_friction; /* makes no sense without friction */
   PetscBool        forbids_jumps;  /* cannot be in a life with cycle jumps */
@@ -125,7 +125,7 @@ struct _n_SamLaw {
     PetscErrorCode (*energy)(SamLaw law, SamState state, Vec pressure, Vec u_z, PetscReal *energy);
     /* prints the law's numbers of a step, on a line of its own */
     PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
-    /* what a user should know of a solved step; empty: nothing */
+    /* a warning about a solved step; empty: none */
     PetscErrorCode (*advise)(SamLaw law, SamState state, char text[], size_t size);
   } ops;
 };
