@@ -7,9 +7,9 @@
 /*
   Where a traction t vanishes at the edge of a zone like the root of the distance, w = t^2 vanishes like the distance.
   The cells next to the edge are wrong by a layer that is the same for all smooth edges; beyond it w is right, and a
-  quadratic function through it finds the edge: ten times more exact than counting cells (theory: examples/edges).
+  quadratic function through it finds the edge: ten times more accurate than counting cells (theory: examples/edges).
 
-  SamEdge - what is known of the edge of a zone.
+  SamEdge - the edge of a zone.
 */
 typedef struct _n_SamEdge {
   PetscReal area;        /* m2: by the reconstructed edge; where that is refused, cells less a part of a cell a face */

@@ -173,14 +173,14 @@ static void KeepWorst(SamReport r, const SamStep *step)
 
 static PetscErrorCode KeepEdges(SamReport r, SamContact contact, const SamStep *step)
 {
-  PetscReal area, accepted;
-  PetscBool edges;
+  PetscReal          area, accepted;
+  SamContactSettings set;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetEdges(contact, &edges));
+  PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamContactGetNumber(contact, "contact_area", &area));
   PetscCall(SamContactGetNumber(contact, "edge_accepted", &accepted));
-  if (!edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!set.edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   r->touching++;
   r->uncorrected += !strcmp(step->setting, "edges");
   if (!r->edges.step || accepted < r->edges.residual) r->edges = (SamReportWorst){accepted, r->number + 1};

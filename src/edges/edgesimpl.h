@@ -57,7 +57,7 @@ PETSC_INTERN void SamFitWindowInitialize(PetscInt half, int least, double bell, 
 #define SAM_FIT_LEAST 9 /* fewest cells of a fit */
 /*
   SamFitFactor - what the fits in the window about a cell have in common, whatever the values. False: there are too few
-  cells, or they say too little. Not collective.
+  cells, or the fit is singular. Not collective.
   SamFit - the function nearest to the values (of all cells that are seen). `bent` (NULL: not wanted): how far they are
   from it, rms. Not collective.
 */

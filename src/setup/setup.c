@@ -113,14 +113,14 @@ static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 
 PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
 {
-  PetscBool full;
+  SamContactSettings set;
 
   PetscFunctionBegin;
   PetscCall(AddGrid(p, s->grid));
   PetscCall(SamElasticityAddParameters(s->elasticity, p));
   PetscCall(AddLaws(s->problem, p));
   PetscCall(AddGap(s, p));
-  PetscCall(SamContactGetCoupling(s->contact, &full));
-  PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, full ? "full" : "none"));
+  PetscCall(SamContactGetSettings(s->contact, &set));
+  PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, set.coupling ? "full" : "none"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
