@@ -3,7 +3,7 @@
 
   Times are those of petsam's log events, each from the rank where it is largest.
 */
-#include "reportimpl.h"
+#include "report.h"
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>

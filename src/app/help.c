@@ -1,5 +1,5 @@
 /* The help: the options list themselves while the program's set-up reads them; then what was asked for is printed. */
-#include "help.h"
+#include "program.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
 #include <ctype.h>

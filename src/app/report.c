@@ -1,5 +1,5 @@
 /* The report: banner, a line for each load step, messages. */
-#include "reportimpl.h"
+#include "report.h"
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>

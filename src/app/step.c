@@ -1,5 +1,5 @@
 /* Prints a load step: in full, and as a line of a table. */
-#include "reportimpl.h"
+#include "report.h"
 
 static PetscErrorCode ViewComponent(const SamStep *s, SamComponent c, const char title[], PetscViewer viewer)
 {

@@ -221,7 +221,5 @@ PetscErrorCode SamSimulationCreateLife(SamSimulation s)
   cycle.steps = s->needs.steps - start;
   PetscCall(SamLifeCreate(s->setup.contact, &cycle, &s->plan.life, &s->life));
   PetscCall(SamLifeGetSeries(s->life, &set->cycles, &set->cycles_name));
-  s->point.life   = s->life;
-  s->point.cycles = s->plan.cycles;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -128,9 +128,7 @@ static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
 static PetscErrorCode ReadFiles(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamCheckpointsCreateFromOptions(from, &s->checkpoints));
-  PetscCall(SamCheckpointsSetSignals(s->checkpoints, s->signals));
-  s->restart_gap = SamCheckpointsChangeGap(s->checkpoints);
+  PetscCall(SamSimulationReadCheckpoints(s, from));
   PetscCall(ReadResults(s, from));
   PetscCall(SamProblemGetBytes(s->setup.problem, &s->needs.laws));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -143,9 +141,8 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
 
   PetscFunctionBegin;
   if (s->history != history) PetscCall(SamHistoryDestroy(&s->history));
-  s->history       = history;
-  s->point.history = history;
-  s->needs.life    = cycles > 0;
+  s->history    = history;
+  s->needs.life = cycles > 0;
   PetscCall(SamHistoryGetCount(history, &s->needs.steps));
   PetscCall(SamPrintHelp(&help));
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
