@@ -170,7 +170,7 @@ PetscErrorCode SamFilesCheck(SamFiles *f, MPI_Comm comm, const SamArguments *arg
   code = AddCommon(f, comm, arguments);
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0 && !code) Compare(f, message, sizeof(message));
-  while (f->count) PetscCall(PetscFree(f->list[--f->count].name));
+  for (PetscInt k = 0; k < f->count; k++) PetscCall(PetscFree(f->list[k].name));
   PetscCall(code);
   PetscCallMPI(MPI_Bcast(message, (PetscMPIInt)sizeof(message), MPI_CHAR, 0, comm));
   PetscCheck(!message[0], comm, SAM_ERR_USER, "%s", message);
