@@ -20,6 +20,7 @@ PetscErrorCode SamMemoryRefuse(MPI_Comm comm, double bytes, const char option[],
                                const SamOptions *from)
 {
   double    need = bytes, worst;
+  char      memory[32];
   MPI_Comm  node;
   PetscBool check = PETSC_TRUE;
 
@@ -31,9 +32,9 @@ PetscErrorCode SamMemoryRefuse(MPI_Comm comm, double bytes, const char option[],
   worst = AvailableMemory();
   worst = worst > 0 ? need / worst : 0;
   PetscCall(SamMax(comm, 1, &worst));
-  PetscCheck(
-    !check || worst <= 1, comm, SAM_ERR_USER,
-    "%s %s: needs about %.3g GB on a node, %.1f times what is available; use more nodes, or -memory_check false",
-    option, value, 1e-9 * need, worst);
+  SamDescribeBytes(need, memory, sizeof(memory));
+  PetscCheck(!check || worst <= 1, comm, SAM_ERR_USER,
+             "%s %s: needs about %s on a node, %.1f times the available memory: use more nodes, or -memory_check false",
+             option, value, memory, worst);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

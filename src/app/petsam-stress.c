@@ -224,7 +224,7 @@ static PetscErrorCode WriteLargest(SamStressRun *run, const char name[], const c
 /* Those at the edge of contact, where there are maps of the surface, with a warning of steps without. */
 static PetscErrorCode WriteEdge(SamStressRun *run, SamLargest *largest[2], const SamStressLayout *layout)
 {
-  const char *const where   = " at the edge of contact, on the surface";
+  const char *const where   = " at the contact edge, on the surface";
   PetscInt          missing = 0;
   PetscMPIInt       rank;
 
@@ -238,14 +238,14 @@ static PetscErrorCode WriteEdge(SamStressRun *run, SamLargest *largest[2], const
     for (int k = 0; k < 2; k++) largest[k][s] = of[k];
     missing += lost ? 1 : 0;
   }
-  PetscCall(WriteLargest(run, "edge_stress_xx", "largest stress xx", where, largest[0]));
-  PetscCall(WriteLargest(run, "edge_principal_1", "largest principal stress", where, largest[1]));
+  PetscCall(WriteLargest(run, "edge_stress_xx", "maximum stress xx", where, largest[0]));
+  PetscCall(WriteLargest(run, "edge_principal_1", "maximum principal stress", where, largest[1]));
   PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
   if (!missing || rank) PetscFunctionReturn(PETSC_SUCCESS);
   fprintf(stderr,
-          "petsam-stress: warning: the edge of contact is not found in %ld of %ld steps, and "
+          "petsam-stress: warning: the contact edge is not found in %ld of %ld steps, and "
           "/history/edge_stress_xx_max is NaN there: less than 95 %% of it is smooth and resolved, or petsam has "
-          "corrected it (-edges deferred): expected results of -edges reconstruct on a finer grid\n",
+          "corrected it (-edges deferred): use results of -edges reconstruct on a finer grid\n",
           (long)missing, (long)run->steps);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -264,8 +264,8 @@ static PetscErrorCode WriteAllLargest(SamStressRun *run)
       PetscCall(
         SamEvaluationGetLargest(run->evaluation, k ? SAM_QUANTITY_PRINCIPAL : SAM_QUANTITY_MISES, s, &largest[k][s]));
   }
-  PetscCall(WriteLargest(run, "mises", "largest von Mises stress", "", largest[0]));
-  PetscCall(WriteLargest(run, "principal_1", "largest principal stress", "", largest[1]));
+  PetscCall(WriteLargest(run, "mises", "maximum von Mises stress", "", largest[0]));
+  PetscCall(WriteLargest(run, "principal_1", "maximum principal stress", "", largest[1]));
   PetscCall(WriteEdge(run, largest, &layout));
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
     SamLargest of;
@@ -287,6 +287,7 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
   PetscMPIInt     ranks;
   PetscInt        body;
   double          bytes;
+  char            memory[32];
 
   PetscFunctionBegin;
   if (run->quiet) PetscFunctionReturn(PETSC_SUCCESS);
@@ -294,13 +295,14 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
   PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
   PetscCall(SamEvaluationGetBody(run->evaluation, &body));
   PetscCall(GetMemory(run, &bytes));
+  SamDescribeBytes(bytes, memory, sizeof(memory));
   PetscCall(PetscPrintf(g->comm,
                         "petsam-stress " PETSAM_VERSION ": stresses in body %" PetscInt_FMT "\n"
                         "  results     %s, %" PetscInt_FMT " x %" PetscInt_FMT " cells\n"
                         "  steps       %" PetscInt_FMT ", depths %" PetscInt_FMT ", %s\n"
-                        "  ranks       %d, memory about %.3g MB a rank\n\n",
+                        "  ranks       %d, memory about %s per rank\n\n",
                         body, run->request.input, g->nx, g->ny, run->steps, layout.depths,
-                        layout.section ? "on a section" : "maps", ranks, 1e-6 * bytes));
+                        layout.section ? "on a section" : "maps", ranks, memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -5,8 +5,9 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/simulation.h>
 
-#define SAM_REPORT_FILES  8
-#define SAM_REPORT_RECENT 5 /* the mean time of so many steps gives the estimate of the time left */
+#define SAM_REPORT_FILES   8
+#define SAM_REPORT_COLUMNS 18 /* of the table of steps */
+#define SAM_REPORT_RECENT  5  /* the mean time of so many steps gives the estimate of the time left */
 
 typedef enum { SAM_PROGRESS_AUTO, SAM_PROGRESS_ALWAYS, SAM_PROGRESS_NEVER } SamProgressMode;
 
@@ -40,11 +41,12 @@ struct _n_SamReport {
   double         output_before;             /* seconds spent on results and checkpoints before the first step */
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
-  PetscInt       cycles;   /* lines printed for computed cycles */
-  PetscReal      jump;     /* cycles, of the last of these */
-  PetscBool      living;   /* the run is a life */
-  SamReportWorst worst[3]; /* normal, tangential, equilibrium */
-  SamReportWorst edges;    /* the least share of the edges that is reconstructed; step 0: none is asked for */
+  PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
+  PetscInt       cycles;                    /* lines printed for computed cycles */
+  PetscReal      jump;                      /* cycles, of the last of these */
+  PetscBool      living;                    /* the run is a life */
+  SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
+  SamReportWorst edges; /* the least share of the edges that is reconstructed; step 0: none is asked for */
   PetscInt       uncorrected, touching; /* steps that could not be corrected for their edges; in contact */
   SamProgress    progress;
   SamContact     contact;          /* whose monitors are set; borrowed */
@@ -85,14 +87,11 @@ PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
   SamStepView - prints a step in a few lines: loads, displacements, areas, iterations, check. Collective on the viewer.
 */
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscViewer viewer);
-/*
-  SamStepViewHeading, SamStepViewLine - print a step as one line of a table, and the table's heading. `number` counts
-  from 1, `seconds` is the time of the step, `left` the estimated time (s) of the remaining steps. Collective on the
-  viewer.
-*/
-PETSC_INTERN PetscErrorCode SamStepViewHeading(PetscViewer viewer);
-PETSC_INTERN PetscErrorCode SamStepViewLine(const SamStep *step, SamContact contact, PetscInt number, double seconds,
-                                            double left, PetscViewer viewer);
+/* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as far as they fit. */
+PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
+/* Prints a step as a line, the first under the heading; `left`: the estimated time (s) of the other steps. Collective. */
+PETSC_INTERN PetscErrorCode SamReportStepLine(SamReport report, const SamStep *step, SamContact contact, double seconds,
+                                              double left);
 /* Reads -progress and decides whether to show the line: `auto` depends on where stdout goes. Collective. */
 PETSC_INTERN PetscErrorCode SamProgressSetFromOptions(SamReport report, const SamOptions *from);
 /* Adds monitors to a contact's solvers, once. Not collective. */

@@ -103,15 +103,6 @@ static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
   return last / s->output_every - first / s->output_every + (last > first && last % s->output_every ? 1 : 0);
 }
 
-/* A size that a person reads. */
-static void PrintBytes(double bytes, char text[], size_t size)
-{
-  const int    power   = bytes < 1e6 ? 1 : bytes < 1e9 ? 2 : bytes < 1e12 ? 3 : 4;
-  const double units[] = {1, 1e3, 1e6, 1e9, 1e12};
-
-  (void)snprintf(text, size, "%.3g %cB", bytes / units[power], " kMGT"[power]);
-}
-
 /* The size of the whole file, and what is still to come of it. In a life the cycles that will be computed count not. */
 static PetscErrorCode Estimate(SamSimulation s, double *whole, double *rest)
 {
@@ -142,9 +133,9 @@ PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
   PetscFunctionBegin;
   PetscCall(Estimate(s, &whole, &rest));
   PetscCall(SamOutputGetSpace(s->output, &space));
-  PrintBytes(whole, words[0], sizeof(words[0]));
-  PrintBytes(rest, words[1], sizeof(words[1]));
-  PrintBytes(space, words[2], sizeof(words[2]));
+  SamDescribeBytes(whole, words[0], sizeof(words[0]));
+  SamDescribeBytes(rest, words[1], sizeof(words[1]));
+  SamDescribeBytes(space, words[2], sizeof(words[2]));
   (void)snprintf(text, size, "%s %s, %s free there",
                  s->life                           ? "at least"
                  : s->output_settings.compress > 0 ? "at most"

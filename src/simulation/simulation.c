@@ -109,6 +109,13 @@ static PetscErrorCode Begin(SamSimulation s)
   PetscFunctionBegin;
   s->last_time = PETSC_NINFINITY;
   start->steps = s->needs.steps;
+  for (PetscInt k = 0; k < s->needs.steps; k++) {
+    SamControl control;
+
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+      if (!control.force[c] || control.value[c] != 0) start->loads[c] = PETSC_TRUE;
+  }
   if (s->checkpoints.restart[0]) {
     start->restart = s->checkpoints.restart;
     PetscCall(SamSimulationRestart(s));

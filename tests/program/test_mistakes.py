@@ -430,13 +430,13 @@ def test_rough_surface_is_warned_of_once(petsam, folder):
         f["height"] = 1e-6 * rng.random((64, 64))
     done = petsam(SPHERE, dict(load_n=30.0), "-gap_rough_file", "rough.h5")
     assert len(done.complaint) == 1
-    assert re.search(r"the contact is in \d+ zones, the narrow ones [\d.]+ cells across", done.complaint[0])
+    assert re.search(r"the contact is in \d+ spots, the narrow ones [\d.]+ cells across", done.complaint[0])
     assert "a file with heights at smaller distances" in done.complaint[0]
 
 
 def test_checkpoint_says_when_it_is_written(petsam, folder):
     line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5")).stdout).group(1)
-    assert "s.h5: only at the signals USR2 and USR1" in line and "-checkpoint_every k" in line
+    assert "s.h5: only on USR2, and on TERM or USR1 (to stop)" in line and "-checkpoint_every k" in line
     line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5", checkpoint_every=7)).stdout).group(1)
     assert "after every 7 steps" in line and "-checkpoint_every k" not in line
     line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5", max_walltime="1:40")).stdout).group(1)

@@ -90,6 +90,8 @@ PETSC_EXTERN void SamZero(PetscInt n, double x[]);
   again, which takes time, so call it only at the end of long stages.
 */
 PETSC_EXTERN void SamReturnMemory(void);
+/* SamDescribeBytes - a size for a person: "1.23 GB", where a GB is 1e9 bytes. Not collective. */
+PETSC_EXTERN void SamDescribeBytes(double bytes, char text[], size_t size);
 
 /* ---- options ---- */
 
