@@ -97,15 +97,13 @@ static PetscErrorCode PrintTimes(SamReport r)
 /* How well the grid resolves the contact. */
 static PetscErrorCode PrintExtent(SamReport r)
 {
+  char size[48] = "none", spots[48] = "";
+
   PetscFunctionBegin;
   if (!r->extent_step) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!r->extent.zones)
-    PetscCall(PetscPrintf(r->comm, "  %-10s  none", "contact"));
-  else if (r->extent.zones == 1)
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %.1f cells across", "contact", (double)r->extent.across));
-  else
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " spots, the narrow ones %.1f cells across", "contact",
-                          r->extent.zones, (double)r->extent.across));
+  if (r->extent.zones) (void)snprintf(size, sizeof(size), "%.1f cells across", (double)r->extent.across);
+  if (r->extent.zones > 1) (void)snprintf(spots, sizeof(spots), "%ld spots, the narrow ones ", (long)r->extent.zones);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %s%s", "contact", spots, size));
   if (r->steps > 1) PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ", at the largest load)", r->extent_step));
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -118,93 +118,86 @@ void SamReportDuration(double seconds, char text[], size_t size)
   snprintf(text, size, "%ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
 }
 
-/* A column: its heading, the number that it has, its width with a space before, and its digits. */
+/* A column: its heading, the number in it, its width with a space before, its digits, and when it is omitted. */
 typedef struct {
   const char *heading, *number;
-  int         width, digits;
+  int         width, digits, order; /* order in which columns are omitted where a line would be too long; 0: never */
 } Column;
-enum {
-  STEP,
-  TIME,
-  LOADS,
-  LOADS_END = LOADS + SAM_COMPONENTS,
-  CONTACT   = LOADS_END,
-  STICK,
-  PRESSURE,
-  SHEAR,
-  SLIP,
-  NORMAL,
-  TANGENTIAL,
-  RESIDUAL,
-  SECONDS,
-  LEFT
-};
-static const Column columns[SAM_REPORT_COLUMNS] = {
-  {"step", "", 5, 0},
-  {"time/s", "", 10, 4},
-  {"N/N", "", 11, 4},
-  {"Tx/N", "", 11, 4},
-  {"Ty/N", "", 11, 4},
-  {"Mx/Nm", "", 11, 4},
-  {"My/Nm", "", 11, 4},
-  {"Mz/Nm", "", 11, 4},
-  {"contact/m2", "contact_area", 11, 4},
-  {"stick/m2", "stick_area", 10, 3},
-  {"p max/Pa", "pressure_max", 9, 3},
-  {"q max/Pa", "shear_max", 9, 3},
-  {"slip/m", "slip_max", 9, 3},
-  {"it n", "normal_iterations", 5, 4},
-  {"it t", "tangential_iterations", 5, 4},
-  {"residual", "", 9, 2},
-  {"s", "", 7, 2},
-  {"left", "", 9, 0},
-};
+enum { STEP, TIME, LOADS, CONTACT = LOADS + SAM_COMPONENTS, SLIP = CONTACT + 4, RESIDUAL = CONTACT + 7, SECONDS, LEFT };
+static const Column columns[SAM_REPORT_COLUMNS] = {{"step", "", 5, 0, 0},
+                                                   {"time/s", "", 10, 4, 0},
+                                                   {"N/N", "", 11, 4, 0},
+                                                   {"Tx/N", "", 11, 4, 0},
+                                                   {"Ty/N", "", 11, 4, 0},
+                                                   {"Mx/Nm", "", 11, 4, 0},
+                                                   {"My/Nm", "", 11, 4, 0},
+                                                   {"Mz/Nm", "", 11, 4, 0},
+                                                   {"contact/m2", "contact_area", 11, 4, 0},
+                                                   {"stick/m2", "stick_area", 10, 3, 5},
+                                                   {"p max/Pa", "pressure_max", 9, 3, 6},
+                                                   {"q max/Pa", "shear_max", 9, 3, 3},
+                                                   {"slip/m", "slip_max", 9, 3, 4},
+                                                   {"it n", "normal_iterations", 5, 4, 2},
+                                                   {"it t", "tangential_iterations", 5, 4, 1},
+                                                   {"residual", "", 9, 2, 0},
+                                                   {"s", "", 7, 2, 0},
+                                                   {"left", "", 9, 0, 0}};
 
 void SamReportChooseColumns(SamReport r, const PetscBool loads[SAM_COMPONENTS])
 {
-  static const int least[] = {TANGENTIAL, NORMAL, SHEAR,
-                              SLIP,       STICK,  PRESSURE}; /* are left out first where a line would be too long */
-  int              width   = 0;
+  int width = 0;
 
   for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
-    r->shown[k] = k < LOADS || k >= LOADS_END || k <= LOADS + SAM_COMPONENT_TX || loads[k - LOADS];
-    if (r->shown[k]) width += columns[k].width;
+    r->shown[k] = k <= LOADS + SAM_COMPONENT_TX || k >= CONTACT || loads[k - LOADS];
+    width += r->shown[k] ? columns[k].width : 0;
   }
-  for (size_t k = 0; k < sizeof(least) / sizeof(least[0]) && width > WIDTH; k++) {
-    r->shown[least[k]] = PETSC_FALSE;
-    width -= columns[least[k]].width;
-  }
+  for (int order = 1; width > WIDTH; order++)
+    for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
+      if (columns[k].order != order) continue;
+      r->shown[k] = PETSC_FALSE;
+      width -= columns[k].width;
+    }
+}
+
+/* What stands in column k of a step's line. */
+static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k, double seconds, double left,
+                        char text[], size_t size)
+{
+  const Sizes  sizes  = GetSizes(s, contact);
+  const double number = columns[k].number[0] ? Get(contact, columns[k].number) : 0;
+
+  if (k == STEP)
+    (void)snprintf(text, size, "%ld", (long)r->number + 1);
+  else if (k == RESIDUAL)
+    (void)snprintf(text, size, "%.1e", (double)SamLarger(s->check.normal, s->check.tangential));
+  else if (k == SECONDS)
+    (void)snprintf(text, size, "%.*f", seconds < 1000 ? 2 : 0, seconds);
+  else if (k == LEFT)
+    SamReportDuration(left, text, size);
+  else
+    (void)snprintf(text, size, "%.*g", columns[k].digits,
+                   k == TIME     ? (double)s->control.time
+                   : k < CONTACT ? LoadOf(s, &sizes, k - LOADS)
+                   : k == SLIP   ? Clean(number, sizes.rigid[0])
+                                 : number);
 }
 
 PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact contact, double seconds, double left)
 {
-  const Sizes sizes = GetSizes(s, contact);
-  char        text[32];
-
   PetscFunctionBegin;
-  for (int k = 0; k < SAM_REPORT_COLUMNS && r->done == 1; k++)
-    if (r->shown[k]) PetscCall(PetscPrintf(r->comm, "%*s", columns[k].width, columns[k].heading));
-  if (r->done == 1) PetscCall(PetscPrintf(r->comm, "\n"));
-  for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
-    const Column *c = &columns[k];
+  for (PetscBool heading = r->done == 1;; heading = PETSC_FALSE) {
+    char   line[512];
+    size_t used = 0;
 
-    if (!r->shown[k]) continue;
-    if (k == STEP)
-      (void)snprintf(text, sizeof(text), "%ld", (long)r->number + 1);
-    else if (k == RESIDUAL)
-      (void)snprintf(text, sizeof(text), "%.1e", (double)SamLarger(s->check.normal, s->check.tangential));
-    else if (k == SECONDS)
-      (void)snprintf(text, sizeof(text), "%.*f", seconds < 1000 ? 2 : 0, seconds);
-    else if (k == LEFT)
-      SamReportDuration(left, text, sizeof(text));
-    else
-      (void)snprintf(text, sizeof(text), "%.*g", c->digits,
-                     k == TIME       ? (double)s->control.time
-                     : k < LOADS_END ? LoadOf(s, &sizes, k - LOADS)
-                     : k == SLIP     ? Clean(Get(contact, c->number), sizes.rigid[0])
-                                     : Get(contact, c->number));
-    PetscCall(PetscPrintf(r->comm, "%*s", c->width, text));
+    for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
+      char text[32];
+
+      if (!r->shown[k]) continue;
+      WriteColumn(r, s, contact, k, seconds, left, text, sizeof(text));
+      used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width,
+                               heading ? columns[k].heading : text);
+    }
+    PetscCall(PetscPrintf(r->comm, "%s\n", line));
+    if (!heading) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(PetscPrintf(r->comm, "\n"));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

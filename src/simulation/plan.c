@@ -25,7 +25,7 @@ static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBoo
 {
   PetscFunctionBegin;
   PetscCheck(!set || (cycles == floor(cycles) && cycles <= MOST_CYCLES), from->comm, SAM_ERR_USER,
-             "-%s %g: expected a whole number of cycles, at most %g", option, (double)cycles, MOST_CYCLES);
+             "-%s %g: expected an integer, at most %g", option, (double)cycles, MOST_CYCLES);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -41,8 +41,7 @@ static PetscErrorCode ReadOutputs(SamPlan *w, const SamOptions *from)
     const double cycle = strtod(part, &end);
 
     PetscCheck(end != part && !*end && isfinite(cycle) && cycle >= 0 && cycle == floor(cycle), from->comm, SAM_ERR_USER,
-               "-wear_output: \"%s\" is not a number of cycles: expected whole numbers >= 0, separated by commas",
-               part);
+               "-wear_output: \"%s\" is not a number of cycles: expected integers >= 0, separated by commas", part);
     PetscCheck(w->outputs < SAM_PLAN_OUTPUTS, from->comm, SAM_ERR_USER, "-wear_output: more than %d cycles",
                SAM_PLAN_OUTPUTS);
     w->output[w->outputs++] = cycle;

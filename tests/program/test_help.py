@@ -191,7 +191,7 @@ def test_exit_codes_of_the_topic_are_those_of_the_manual(petsam):
 def test_gap_types_of_the_topic_are_all_there_are(petsam):
     text = topic(petsam, "gap")
     listed = re.findall(r"^  (\w+)   +\S", text.split("\nGap\n")[0], re.M)
-    found = re.search(r"-gap_type <word> +(.*): required", text).group(1)
+    found = re.search(r"-gap_type <keyword> +(.*): required", text).group(1)
     assert sorted(listed) == re.split(r", | or ", found)
 
 
