@@ -89,7 +89,7 @@ PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscViewer viewer);
 /* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as far as they fit. */
 PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
-/* Prints a step as a line, the first under the heading; `left`: the estimated time (s) of the other steps. Collective. */
+/* Prints a step as a line, the first under the heading; `left`: estimated time (s) of the other steps. Collective. */
 PETSC_INTERN PetscErrorCode SamReportStepLine(SamReport report, const SamStep *step, SamContact contact, double seconds,
                                               double left);
 /* Reads -progress and decides whether to show the line: `auto` depends on where stdout goes. Collective. */

@@ -101,9 +101,9 @@ PETSC_INTERN PetscErrorCode SamSimulationWriteStep(SamSimulation simulation, con
                          checkpoint of an earlier run is only replaced after a restart, or with -overwrite
     Restart              gives contact, life and `point` the state in the file of -restart; up to there the load history
                          must be that of the stopped run
-    Checkpoint           after a step or jump: writes a checkpoint if one is due; stops at a signal, or when the next step,
-                         assumed to be as slow as the slowest of the last ones, and a checkpoint after it would not end
-                         in time, but not after the last step
+    Checkpoint           after a step or jump: writes a checkpoint if one is due; stops at a signal, or when the next
+                         step, assumed to be as slow as the slowest of the last ones, and a checkpoint after it would
+                         not end in time, but not after the last step
     DescribePlace        the step, or the cycles, so far, of how many if `total`
 */
 PETSC_INTERN PetscErrorCode SamSimulationReadCheckpoints(SamSimulation simulation, const SamOptions *from);
