@@ -291,8 +291,8 @@ class Trials:
         return code
 
     def trial_signal(self, chance, ranks):
-        """USR1 and TERM stop with a checkpoint, USR2 writes one; others end the run at once, in the middle of a step's results
-        too. Nothing that was told is lost."""
+        """USR1 and TERM stop with a checkpoint, USR2 writes one; others end the run at once, in the middle of a step's
+        results too. Nothing that was told is lost."""
         words = self.write_program(200)
         words[words.index("-checkpoint_every") + 1] = "1000"
         number = chance.choice((signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM))
