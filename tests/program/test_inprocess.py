@@ -163,7 +163,7 @@ with petsam.Contact(wear_coefficient1=1e-14, **case) as contact:
     refused("not a finite number", lambda: contact.run(dict(history, load_n=[1, 2, 3, np.nan])))
     refused("not a closed cycle", lambda: contact.live(10, history))
     refused("number > 0", lambda: contact.live(0, history))
-    refused("whole number", lambda: contact.live(1.5, history))
+    refused("expected an integer", lambda: contact.live(1.5, history))
     slides = dict(time=[1, 2, 3], load_n=[500] * 3, load_tx=[0, 100, 1e4])
     error = refused("gross slip", lambda: contact.run(slides), petsam.NoEquilibrium)
     assert len(error.steps) == 2 and error.step.time == 3 and abs(error.steps[1].load_tx - 100) < 1e-6
