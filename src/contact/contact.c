@@ -84,16 +84,15 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsHeading(&from, "Contact"));
   PetscCall(SamOptionsEnum(&from, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
                            coupling_words, &coupling, NULL));
-  PetscCall(SamOptionsReal(&from, "coupling_rtol",
-                           "tolerance on the relative change of p and q between coupling iterations",
-                           SAM_RANGE_POSITIVE, &s.coupling_rtol, NULL));
+  PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between iterations", SAM_RANGE_POSITIVE,
+                           &s.coupling_rtol, NULL));
   PetscCall(
     SamOptionsInt(&from, "coupling_max_it", "maximum number of coupling iterations", 1, &s.coupling_max_it, NULL));
   PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each coupling iteration",
                            &s.coupling_monitor, NULL));
   PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
                            &s.warm_start, NULL));
-  PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the edge of the grid is a warning, not an error",
+  PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
                            &s.allow_edge, NULL));
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",
                            edge_words, &edges, NULL));

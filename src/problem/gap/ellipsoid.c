@@ -7,8 +7,8 @@
 #include <math.h>
 
 static const SamGapParameter parameters[] = {
-  {"gap_radius_x", "relative radius of curvature along x (m, inf: cylindrical, axis along x)", SAM_RANGE_POSITIVE_INF},
-  {"gap_radius_y", "relative radius of curvature along y (m, inf: cylindrical, axis along y)", SAM_RANGE_POSITIVE_INF}};
+  {"gap_radius_x", "relative radius of curvature along x (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF},
+  {"gap_radius_y", "relative radius of curvature along y (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF}};
 
 static PetscReal Height_Ellipsoid(const PetscReal radius[], PetscReal x, PetscReal y)
 {
