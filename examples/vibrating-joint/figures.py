@@ -21,7 +21,7 @@ from petsam.errors import Missing
 from petsam.plot.style import frame, plt, save, tint
 
 LINEAR, POWER, SAME = 0.02, 0.02, 1e-3
-RING = (18.0, 28.0)  # y of the scar, mm
+RING = (14.0, 28.0)  # y of the scar, mm
 
 
 def read(path):
@@ -149,7 +149,7 @@ class Comparison:
         frame(left, f"amplitude, excitation {WEARING / 1e3:g} kN", "frequency, Hz", "amplitude/force, nm/N")
         left.legend()
         frame(right, "depth removed of each face, line $x = 0$", "$y$, mm", "$w$, µm", RING)
-        right.legend()
+        right.legend(loc="upper left")
         save(figure, directory, "worn.png")
 
 
