@@ -102,7 +102,7 @@ RULES = (
     (r"(?<!square )roots? of (?:the|its) (?:distance|radius|cell)", "square root of the distance"),
     (r"like (?:a|the) root", "like the square root of"),
     (r"orders? of the cell", "order in cell size"),
-    (r"<(?:whole|number|word|text)(?=>|\W)", "<integer>, <real>, <keyword>, <string>"),
+    (r"<(?:whole|word|text)(?=>|\W)", "<integer>, <keyword>, <string>"),
     (r"(?:go|goes|going|gone|went) on(?! to)", "continue, resume"),
     (r"stands? (?:in|there)", "is in, is listed in"),
     (r"load programs?", "load history"),

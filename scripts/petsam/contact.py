@@ -8,7 +8,7 @@
         print(step.load_tx, step.contact_area, step.dissipated_energy, contact.stiffness()[1, 1])
         contact.commit()
 
-The life of a contact, and what each number means: include/petsam/embed.h and examples/embed/README.md.
+The order of calls, and the meaning of each number: include/petsam/embed.h and examples/embed/README.md.
 """
 
 import ctypes

@@ -323,7 +323,7 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
     PetscCall(SamResultsGetSaved(run->results, run->saved[s], &load, NULL));
   }
   PetscCall(PetscPrintf(run->grid->comm,
-                        "  largest     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
+                        "  maximum     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
                         most.value, most.place[0], most.place[1], most.place[2], load));
   PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {

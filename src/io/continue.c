@@ -80,7 +80,7 @@ static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, hsize_t *k
   for (*keep = 0; *keep < saved && steps && stored[*keep] <= last; (*keep)++) continue;
   PetscCall(PetscFree(stored));
   PetscCheck(times == wanted->point.times || o->f->failed, o->f->comm, SAM_ERR_USER,
-             REFUSED "its times differ from those of the load program (-history, -steps)", o->f->option,
+             REFUSED "its times differ from those of the load history (-history, -steps)", o->f->option,
              o->f->filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

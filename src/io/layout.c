@@ -165,7 +165,7 @@ static PetscErrorCode CreateFields(SamOutput o)
 static hid_t CreateComponents(SamOutput o, PetscBool loads)
 {
   static const SamLabel load             = {"load_component", "1", "component of the load"},
-                        rigid            = {"rigid_component", "1", "component of the rigid displacement"};
+                        rigid            = {"rigid_component", "1", "component of the rigid-body displacement"};
   const SamShape shape                   = {1, {SAM_COMPONENTS}, {SAM_COMPONENTS}, {0}, NULL};
   const SamBlock block                   = {1, {0}, {o->f->rank ? 0 : SAM_COMPONENTS}};
   double         numbers[SAM_COMPONENTS] = {0};

@@ -301,7 +301,7 @@ PetscErrorCode SamSimulationCheckpoint(SamSimulation s)
   asked = any[0] > 0 || any[1] > 0;
   if (!cp->filename[0]) {
     if (asked)
-      PetscCall(SamSimulationWarn(s, "a signal asked for a checkpoint, but there is none: give -checkpoint", ""));
+      PetscCall(SamSimulationWarn(s, "a signal requested a checkpoint, but none is named: give -checkpoint", ""));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   stop = (s->life || steps < s->needs.steps) && (any[1] > 0 || any[2] > 0);

@@ -242,7 +242,7 @@ static PetscErrorCode SolveSteps(SamSimulation s)
 PetscErrorCode SamSimulationRun(SamSimulation s)
 {
   PetscFunctionBegin;
-  PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load program");
+  PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load history");
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
   PetscCall(Begin(s));
   if (s->life)

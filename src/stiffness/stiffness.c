@@ -183,9 +183,9 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
 /* ---- among the numbers of a step ---- */
 
 static const SamStateNumber numbers[SAM_STIFFNESS_DIRECTIONS] = {
-  {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid displacements) for continued loading", SAM_NUMBER_MATRIX,
+  {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) for continued loading", SAM_NUMBER_MATRIX,
    SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE},
-  {"stiffness_reversal", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid displacements) at a load reversal",
+  {"stiffness_reversal", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) at a load reversal",
    SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE}};
 
 PetscErrorCode SamStiffnessDeclare(SamContact contact)

@@ -1,4 +1,4 @@
-"""The cases of a study, from its table: a CSV file with a row a case, or a small YAML file of combinations.
+"""The cases of a study, from its table: a CSV file with one row per case, or a small YAML file of combinations.
 
 CSV: the first line names options of petsam (with or without their dash), each further row is a case; an empty cell
 leaves the option out, `#` starts a comment. Semicolons separate the columns if the first line has one. A column
