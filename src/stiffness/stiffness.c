@@ -183,8 +183,8 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
 /* ---- among the numbers of a step ---- */
 
 static const SamStateNumber numbers[SAM_STIFFNESS_DIRECTIONS] = {
-  {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) for continued loading", SAM_NUMBER_MATRIX,
-   SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE},
+  {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) for continued loading",
+   SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE},
   {"stiffness_reversal", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) at a load reversal",
    SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE}};
 
