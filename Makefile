@@ -26,12 +26,14 @@ PACKAGES := petsc fftw3 $(HDF5_PC)
 
 # `:=`, so that pkg-config is called once and not for every file
 PC_CFLAGS := $(shell $(PC) --cflags $(PACKAGES))
-PC_LIBS   := $(shell $(PC) --libs-only-L --libs-only-other $(PACKAGES)) $(RPATH) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PC) --libs-only-l $(PACKAGES)) -lhdf5_hl $(if $(filter Linux,$(shell uname -s)),-lrt) -lm
+PC_LIBS   := $(shell $(PC) --libs-only-L --libs-only-other $(PACKAGES)) $(RPATH) -lfftw3_mpi -lfftw3f_mpi -lfftw3f $(shell $(PC) --libs-only-l $(PACKAGES)) -lhdf5_hl $(if $(HDF5_PC),,-lhdf5) $(if $(filter Linux,$(shell uname -s)),-lrt) -lm
 ifeq ($(origin CC),default)
   CC := mpicc
 endif
 
-WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(WERROR),-Werror)
+# clang also reports which loops it does not vectorise: with reductions by maximum it cannot
+CLANG    := $(findstring clang,$(shell $(CC) --version 2>/dev/null))
+WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(CLANG),-Wno-pass-failed) $(if $(WERROR),-Werror)
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude -I$(B) $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
 LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/app/*"))
@@ -49,7 +51,7 @@ VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p'
 SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-mutants check-fuzz check-readmes format check-format lint install clean
+.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -151,6 +153,26 @@ check-fuzz: all $(B)/venv/tests-done ## an adversary for ten minutes, without an
 check-valgrind: all units ## unit tests under valgrind, one rank
 	for t in $(UNIT); do valgrind -q --error-exitcode=9 $$t > $(B)/valgrind.log 2>&1 || { cat $(B)/valgrind.log; exit 1; }; done
 
+# mpicc takes its compiler from these variables, of Open MPI and of MPICH
+check-clang: ## build with clang, warnings as errors, in build/clang; unit tests
+	OMPI_CC=clang MPICH_CC=clang $(MAKE) B=build/clang WERROR=1 all units
+	$(PYTHON) tests/run.py --build build/clang --units-only
+
+# the newest interface, 64-bit indices, PETSc's own checks; it takes ten minutes to build. PETSC_VERSION= chooses another
+NEWEST := $(CURDIR)/build/petsc
+check-petsc: $(NEWEST)/done ## build with the newest PETSc on PyPI, warnings as errors, in build/petsc/petsam; unit tests
+	$(MAKE) B=$(NEWEST)/petsam PETSC_DIR=$(NEWEST) PETSC_ARCH=newest WERROR=1 all units
+	$(PYTHON) tests/run.py --build $(NEWEST)/petsam --units-only
+
+$(NEWEST)/done:
+	rm -rf $(NEWEST) && mkdir -p $(NEWEST)
+	$(PYTHON) -m venv $(NEWEST)/venv
+	$(NEWEST)/venv/bin/python -m pip download -q --no-deps --no-binary :all: -d $(NEWEST) petsc$(PETSC_VERSION:%===%)
+	tar -xzf $(NEWEST)/petsc-*.tar.gz -C $(NEWEST) --strip-components=1
+	cd $(NEWEST) && $(PYTHON) ./configure PETSC_DIR=$(NEWEST) PETSC_ARCH=newest --with-cc=mpicc --with-cxx=0 --with-fc=0 --with-debugging=1 --with-64-bit-indices=1 --with-x=0 --with-make-np=$$(nproc)
+	$(MAKE) -C $(NEWEST) PETSC_DIR=$(NEWEST) PETSC_ARCH=newest all
+	touch $@
+
 check-mutants: $(B)/venv/tests-done ## change lines that guard correctness, one at a time; a test must fail each time: ARGS="word ..." for some
 	$(PYTHON) tests/mutants/check.py $(ARGS)
 
@@ -164,20 +186,21 @@ format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.t
 	@$(B)/venv/bin/clang-format -i $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)
 
-check-format: $(B)/venv/tests-done ## check the format of C and Python
+check-format: $(B)/venv/tests-done ## check the format of C and Python, and the words of pages, help and messages
 	@$(B)/venv/bin/clang-format --dry-run -Werror $(C_SOURCES)
 	@awk 'length > 120 {print FILENAME ":" FNR ": more than 120 columns"; n++} END {exit n > 0}' $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
 	@$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
+	@$(PYTHON) scripts/maintain/check_words.py
 
 lint: $(PROGRAMS:%=$(B)/help/%.h) ## cppcheck over the sources
 	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude -I$(B) --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) $(PROGRAMS:%=src/app/%.c)
 
 # what is installed for users; scripts that build and maintain petsam are not
-SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name install-dependencies.sh ! -name quickstart.sh)
+SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name setup.py ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
 # the manual's parts outside of scripts and examples
-MANUAL := README.md include/README.md src/README.md tests/README.md tests/bench/README.md
+MANUAL := README.md CHANGES.md include/README.md src/README.md tests/README.md tests/bench/README.md
 
 install: all pages ## install program, library, headers, petsam.pc, scripts, examples, man pages, completions: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
@@ -209,6 +232,10 @@ $(B)/share/bash-completion/completions/%: $(B)/bin/% scripts/maintain/completion
 	@mkdir -p $(@D)
 	$(say) COMPLETION $@
 	$(Q)$(PYTHON) scripts/maintain/completion.py $< > $@
+
+# the environment's Python has pip
+wheel: all pages $(B)/venv/done ## make a wheel of the Python package with the programs and the library in build/wheel
+	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(B)
 
 clean: ## remove what was built
 	rm -rf $(B)

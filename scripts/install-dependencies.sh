@@ -1,13 +1,13 @@
 #!/bin/sh
 # Installs what petsam needs on Debian 12 and distributions based on it: compiler, MPI, PETSc, FFTW, HDF5, CMocka, and
-# Python for the scripts. Asks no questions; uses sudo unless run by root.
+# Python for the scripts; packages named as arguments, too. Asks no questions; uses sudo unless run by root.
 set -eu
 
 packages="gcc gfortran make pkg-config libopenmpi-dev openmpi-bin petsc-dev libfftw3-dev libfftw3-mpi-dev \
-libhdf5-openmpi-dev libcmocka-dev python3 python3-venv"
+libhdf5-openmpi-dev libcmocka-dev python3 python3-venv $*"
 
 if ! command -v apt-get >/dev/null; then
-  echo "install-dependencies.sh: no apt-get here; needed are the equivalents of:" >&2
+  echo "install-dependencies.sh: apt-get not found; install the equivalents of these packages:" >&2
   echo "  $packages" >&2
   exit 1
 fi

@@ -2,8 +2,8 @@
 """Runs all tests and ends with a line `N passed, N failed`.
 
 Unit tests (CMocka programs in build/tests) run on 1, 2 and 3 ranks each; then pytest runs the whole-program tests in
-tests/program. A failing test's output is shown; a passing one is silent. Arguments choose tests by a part of their
-name.
+tests/program. The output of failing tests and the ten slowest of both kinds are printed. Arguments choose tests by a
+part of their name. Time limits grow with the load of the machine.
 
     python3 tests/run.py [--build build] [--ranks 1,2,3] [--units-only] [name ...]
 """
@@ -19,8 +19,14 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-TIMEOUT = 300  # seconds for one unit test program: on a busy machine more ranks than cores take long
+TIMEOUT = 300  # seconds for one unit test program on an idle machine
+SLOWEST = 10  # tests of each kind to print
 WORKERS = 4  # most files of whole-program tests at a time; runs on several ranks share the cores
+
+
+def limit(seconds):
+    """A time limit for this machine as loaded now, from that of an idle one."""
+    return seconds * min(max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1)), 20.0)
 
 
 def environment():
@@ -31,25 +37,23 @@ def environment():
     return env
 
 
-def mpirun(ranks, timeout=TIMEOUT):
-    """The launcher's words for that many ranks, on a machine with fewer cores as well."""
+def mpirun(ranks, timeout=None):
+    """The launcher's words for that many ranks, on a machine with fewer cores as well; a time limit in s."""
     words = os.environ.get("MPIRUN", "mpirun").split()
     version = subprocess.run(words + ["--version"], capture_output=True, text=True, env=environment()).stdout
     if "Open MPI" in version:
-        words += ["--oversubscribe", "--timeout", str(int(timeout))]
+        words += ["--oversubscribe"] + (["--timeout", str(int(timeout))] if timeout else [])
     return words + ["-n", str(ranks)]
 
 
 def run_unit(program, launcher, folder):
     """Passed and failed tests of one program, run in a folder; its output when something failed."""
+    seconds = limit(TIMEOUT)
+    # ranks that wait yield their core: several runs share the cores
+    env = dict(environment(), MPIEXEC_TIMEOUT=str(int(seconds)), OMPI_MCA_mpi_yield_when_idle="1")
     try:
         done = subprocess.run(
-            launcher + [str(program)],
-            capture_output=True,
-            text=True,
-            env=environment(),
-            timeout=TIMEOUT + 30,
-            cwd=folder,
+            launcher + [str(program)], capture_output=True, text=True, env=env, timeout=seconds + 30, cwd=folder
         )
         out, code = done.stdout + done.stderr, done.returncode
     except subprocess.TimeoutExpired as error:
@@ -66,6 +70,7 @@ def run_unit(program, launcher, folder):
 def run_units(programs, ranks):
     """As many programs at a time as there are cores, each in a folder of its own, on its numbers of ranks in turn."""
     launchers = {n: mpirun(n) for n in ranks}
+    times = []
 
     def run(program):
         passed = failed = 0
@@ -74,18 +79,23 @@ def run_units(programs, ranks):
             with tempfile.TemporaryDirectory(prefix=f"{program.name}-") as folder:
                 p, f, out = run_unit(program, launcher, folder)
             passed, failed = passed + p, failed + f
-            said = f"{program.name} on {n}: {p} passed, {f} failed ({time.time() - start:.1f} s)"
+            times.append((time.time() - start, f"{program.name} on {n}"))
+            said = f"{times[-1][1]}: {p} passed, {f} failed ({times[-1][0]:.1f} s)"
             print(said + ("\n" + out if out else ""), flush=True)
         return passed, failed
 
     with ThreadPoolExecutor(min(os.cpu_count() or 1, WORKERS)) as pool:
         counts = list(pool.map(run, programs))
+    print(f"slowest {SLOWEST} unit tests (ranks)")
+    for seconds, name in sorted(times, reverse=True)[:SLOWEST]:
+        print(f"{seconds:8.1f} s  {name}")
     return sum(p for p, _ in counts), sum(f for _, f in counts)
 
 
 def run_pytest(build, names):
     python = build / "venv" / "bin" / "python"
-    words = [str(python), "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", str(ROOT / "tests" / "program")]
+    words = [str(python), "-m", "pytest", "-q", "-rs", f"--durations={SLOWEST}", "-p", "no:cacheprovider"]
+    words += [str(ROOT / "tests" / "program")]
     if names:
         words += ["-k", " or ".join(names)]
     else:

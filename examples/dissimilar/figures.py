@@ -253,7 +253,7 @@ class Comparison:
             f"\nreference without any slip, beta = 0.5: central pressure {central:.4f}, "
             f"at equal radius {stick.pressure_ratio:.4f}"
         )
-        yield "without coupling: central pressure {central:.4f}, greatest shear {shear:g} Pa".format(
+        yield "without coupling: central pressure {central:.4f}, maximum shear {shear:g} Pa".format(
             **self.numbers["uncoupled"]
         )
 

@@ -24,7 +24,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 CELLS = (32, 64, 128, 256)
 PLACES = ((0.13, 0.27), (0.41, 0.07), (0.33, 0.49), (0.02, 0.31))  # of the body's centre, cells from the grid's
 WAYS = ("none", "reconstruct", "deferred")
-LABELS = {"none": "plain", "reconstruct": "reconstructed", "deferred": "deferred"}
+LABELS = {"none": "uncorrected", "reconstruct": "reconstructed", "deferred": "deferred"}
 MATERIAL = "-body1_young 2 -body1_poisson 0 -body2_young 2 -body2_poisson 0 -normal_rtol 1e-10".split()  # E* = 1
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Errors of a loop of partial slip: two spheres pressed together and pushed to and fro, beside Cattaneo, Mindlin and
+"""Errors of a loop of partial slip: two spheres under a cyclic tangential load, beside Cattaneo, Mindlin and
 Deresiewicz's solution (without Poisson's effect, for which it is exact). Used by run.sh.
 
     python3 examples/edges/slip.py PETSAM FOLDER [CELLS...]
@@ -105,7 +105,7 @@ def main():
     petsam, folder = sys.argv[1], Path(sys.argv[2])
     cells = tuple(int(word) for word in sys.argv[3:]) or (64, 128, 256)
     exact = Spheres()
-    print("partial slip, to and fro", *SCALARS, sep="  ")
+    print("cyclic partial slip", *SCALARS, sep="  ")
     for n in cells:
         for way in ("none", "reconstruct"):  # with friction there is no correction
             each = [measure(petsam, folder, exact, n, place, way) for place in PLACES[:2]]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Error of the largest tension under a sphere that slides: in the map of the surface, and at the edge of contact. Used
+"""Error of the maximum tension under a sphere that slides: in the map of the surface, and at the edge of contact. Used
 by run.sh.
 
     python3 examples/edges/tension.py PETSAM FOLDER [CELLS...]
@@ -39,7 +39,7 @@ def measure(petsam, folder, n, place):
 
 def main():
     petsam, folder = sys.argv[1], Path(sys.argv[2])
-    print("largest tension under sliding    map     edge")
+    print("maximum tension under sliding    map     edge")
     for n in tuple(int(word) for word in sys.argv[3:]) or (64, 128, 256, 512):
         errors = np.array([measure(petsam, folder, n, place) for place in PLACES])
         print(f"{n:4} cells{'':18}", *(f"{e:8.1e}" for e in np.sqrt(np.mean(errors**2, axis=0))), flush=True)

@@ -1,4 +1,4 @@
-"""Compare CalculiX and petsam with the closed solutions and with each other; draw comparison.png and half-space.png.
+"""Compare CalculiX and petsam with closed-form solutions and each other; draw comparison.png and half-space.png.
 
 Reads the HDF5 files that examples/fe-comparison/run.sh writes to a directory. All comparisons are at equal force: Hertz
 and Cattaneo-Mindlin for the force that came out of CalculiX.
@@ -7,7 +7,7 @@ and Cattaneo-Mindlin for the force that came out of CalculiX.
                 CalculiX, whose pressure is a nodal force over a node's area, the mean over that area; for petsam the
                 value at the cell's centre
   CPRESS        the same for the nodal pressure in CalculiX's own result file, which is extrapolated
-  peak          greatest pressure over Hertz's, less 1
+  peak          maximum pressure relative to Hertz's, minus 1
   radius        radius of contact less Hertz's, in elements under the contact, or in cells
 """
 

@@ -2,7 +2,7 @@
 
 Reads the HDF5 files that examples/fretting-loop/run.sh writes to a directory, draws loops.png (tangential force
 against displacement), energy.png (dissipated energy a step, and its dependence on the number of steps) and slip.png
-(slip at the end), and prints the deviations. The closed solutions get material, load and radius from the files.
+(slip at the end), and prints the deviations. The closed-form solutions get material, load and radius from the files.
 
 "Cycle" is the one from the first to the second positive peak. All numbers are relative: displacements to the loop's
 amplitude, forces to mu N, energies to the closed form or to the loop's area.
@@ -184,7 +184,7 @@ def figure_loops(directory, partial, gross):
             panel_loop(panel, case, tint, rf"{what}, $\nu = {case.poisson:g}$", limits)
     note(
         figure,
-        f"{partial[0].x.size} x {partial[0].y.size} cells, {partial[0].steps} steps a cycle;  "
+        f"{partial[0].x.size} x {partial[0].y.size} cells, {partial[0].steps} steps per cycle;  "
         "$\\delta_0$: displacement of incipient sliding",
     )
     save(figure, directory, "loops.png")
@@ -210,7 +210,7 @@ def panel_steps(axes, study):
         joined(axes, steps, [abs(row[key]) for row in study], tint, mark, label=label)
     reference = abs(study[0]["energy_trapezoid"]) * (steps[0] / steps) ** 2
     axes.plot(steps, 0.5 * reference, ":", color="0.5", linewidth=1.0, label="slope -2")
-    frame(axes, "Energy of the cycle", "steps a cycle", "abs(ratio - 1)")
+    frame(axes, "Energy of the cycle", "steps per cycle", "abs(ratio - 1)")
     log_ticks(axes, steps)
     axes.legend(loc="center left", bbox_to_anchor=(0.0, 0.24), borderpad=0.2)
 
@@ -265,7 +265,7 @@ class Comparison:
     def tables(self):
         """Deviations, energies, their dependence on the number of steps."""
         yield (
-            "Loops against Mindlin-Deresiewicz (largest deviation over the amplitude)",
+            "Loops against Mindlin-Deresiewicz (maximum deviation over the amplitude)",
             "case = case; first = first:.1e; unloading = down:.1e; reloading = up:.1e; closure = closure:.1e",
             self.numbers["loops"],
         )
@@ -279,7 +279,7 @@ class Comparison:
             "case = case; " + energies,
             self.numbers["loops"],
         )
-        yield "Number of steps a cycle, T_x between +-0.8 mu N, nu = 0", energies, self.numbers["study"]
+        yield "Number of steps per cycle, T_x between +-0.8 mu N, nu = 0", energies, self.numbers["study"]
         identity = self.numbers["identity"]
         yield (
             "\narea - dissipated = {difference:.6e} J, 1/2 sum dq.ds dA = {half_sum:.6e} J, "

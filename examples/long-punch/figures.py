@@ -8,7 +8,7 @@ Errors, all over the section:
   L2      sqrt(sum (numerical - reference)^2 / sum reference^2)
   grid    the reference is the closed plane solution at the cell centres: ends and grid
   ends    the reference is the plane problem on strips of the same width: the ends alone
-  2a, 2b  number of cells in contact (that stick), less exact width over width of a cell; contact and stick: less the
+  2a, 2b  number of cells in contact (that stick), minus exact width over width of a cell; contact and stick: minus the
           number of strips
   tilt    rot_y of the punch over the tilt of the strips, less 1
 """

@@ -2,7 +2,7 @@
 
 Reads the HDF5 files that examples/sphere/run.sh writes to a directory, takes the last saved step of each,
 draws pressure.png, cattaneo.png, slip.png, torsion.png and overview.png (the four in one), and prints the
-error norms. The closed solutions get their material, load and radius from the files and are evaluated at
+error norms. The closed-form solutions get their material, load and radius from the files and are evaluated at
 the cell centres.
 
 Error norms, all dimensionless:

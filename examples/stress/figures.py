@@ -12,7 +12,7 @@ import numpy as np
 import petsam
 from petsam import comparison
 from petsam.closed import HERTZ_MISES, HERTZ_MISES_DEPTH, Spheres, hertz_axis, hertz_surface, sliding_surface
-from petsam.plot.style import CLOSED, extent, field, frame, note, plt, points, save, thinned, tint
+from petsam.plot.style import CLOSED, bar, extent, field, frame, note, plt, points, save, thinned, tint
 
 FRICTIONS = ("0.1", "0.5")
 STATES = ("partial", "sliding")
@@ -127,25 +127,26 @@ def draw_section(axes, case, title):
     """Von Mises over a section."""
     axes.grid(False)
     mises = case.over_p0("mises")[:, 0]
-    axes.contourf(case.x, case.z, mises, levels=np.linspace(0.0, 1.0, 41), extend="max", cmap="viridis")
+    image = axes.contourf(case.x, case.z, mises, levels=np.linspace(0.0, 1.0, 41), extend="max", cmap="viridis")
+    bar(axes, image, "$\\sigma_M/p_0$", ticks=np.linspace(0.0, 1.0, 6))
     lines = axes.contour(case.x, case.z, mises, levels=LINES, colors="0.15", linewidths=0.6)
     axes.clabel(lines, fmt="%.1f", fontsize=7)
     z, x = np.unravel_index(np.argmax(mises), mises.shape)
     axes.plot(case.x[x], case.z[z], "+", color="white", markersize=10, markeredgewidth=2, clip_on=False, zorder=5)
-    frame(axes, f"{title}: largest {mises[z, x]:.3f} $p_0$", "$x/a$", "$z/a$")
+    frame(axes, f"{title}: maximum {mises[z, x]:.3f} $p_0$", "$x/a$", "$z/a$")
     axes.set_ylim(case.z[-1], case.z[0])
 
 
-def draw_fatigue(figure, axes, surface):
+def draw_fatigue(axes, surface):
     """SWT over the surface, and its largest value."""
     values = surface.file.field("swt")[0] * 1e-6
     image = field(axes, values, extent(surface.x, surface.y), color_map="inferno")
-    figure.colorbar(image, ax=axes, label="SWT, MPa")
+    bar(axes, image, "SWT, MPa")
     y, x = np.unravel_index(np.argmax(values), values.shape)
     axes.plot(surface.x[x], surface.y[y], "+", color="white", markersize=10, markeredgewidth=2)
     circle = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(np.cos(circle), np.sin(circle), ":", color="white", linewidth=0.8)
-    frame(axes, f"cycle, surface: largest {values.max():.3f} MPa", "$x/a$", "$y/a$")
+    frame(axes, f"cycle, surface: maximum {values.max():.3f} MPa", "$x/a$", "$y/a$")
 
 
 class Comparison:
@@ -171,27 +172,27 @@ class Comparison:
         """What is printed."""
         n = self.numbers
         yield (
-            "N on the axis, largest errors over p0",
+            "N on the axis, maximum errors over p0",
             "cells = cells:d; z/a = depths; s_rr = xx:.1e; s_zz = zz:.1e",
             [n["axis"]],
         )
         yield (
-            "sliding, surface inside 0.9 a, largest errors over p0 (Hamilton)",
+            "sliding, surface inside 0.9 a, maximum errors over p0 (Hamilton)",
             "mu = mu:g; s_xx = xx:.1e; s_yy = yy:.1e; s_xy = xy:.1e",
             n["sliding"],
         )
         yield (
-            "partial slip, inside 0.95 of the stick radius: what the shear adds to s_xx on y = 0, over p0",
-            "mu = mu:g; largest = added:.1e",
+            "partial slip, inside 0.95 of the stick radius: contribution of the shear to s_xx on y = 0, over p0",
+            "mu = mu:g; maximum = added:.1e",
             n["stick"],
         )
         yield (
-            f"largest von Mises stress over p0 at y = 0 (Hertz: {HERTZ_MISES:.4f} at z = {HERTZ_MISES_DEPTH:.4f} a)",
+            f"maximum von Mises stress over p0 at y = 0 (Hertz: {HERTZ_MISES:.4f} at z = {HERTZ_MISES_DEPTH:.4f} a)",
             "case = case; stress = mises:.4f; x/a = x:.3f; z/a = z:.3f",
             n["mises"],
         )
         yield (
-            "largest SWT parameter of the cycle, Pa, and its place",
+            "maximum SWT parameter of the cycle, Pa, and its place",
             "where = where; SWT = swt:.4g; x/a = x:.3f; y/a = y:.3f; z/a = z:.3f",
             n["fatigue"],
         )
@@ -214,13 +215,13 @@ class Comparison:
         note(figure, "von Mises stress over $p_0$")
         save(figure, directory, "section.png")
         figure, axes = plt.subplots(figsize=(6.4, 5.0), constrained_layout=True)
-        draw_fatigue(figure, axes, self.cycle["surface"])
+        draw_fatigue(axes, self.cycle["surface"])
         save(figure, directory, "fatigue.png")
         figure, axes = plt.subplots(2, 2, figsize=(11.0, 7.6), constrained_layout=True)
         draw_axis(axes[0, 0], self.axis)
         draw_surface(axes[0, 1], self._by_state("0.5"), 0.5)
         draw_section(axes[1, 0], self.sections["sliding", "0.5"], "von Mises, $\\mu$ = 0.5, sliding")
-        draw_fatigue(figure, axes[1, 1], self.cycle["surface"])
+        draw_fatigue(axes[1, 1], self.cycle["surface"])
         save(figure, directory, "overview.png")
 
 

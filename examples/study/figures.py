@@ -85,7 +85,7 @@ class Comparison:
     def tables(self):
         """The largest deviations."""
         yield (
-            "Against the closed solution (largest differences: c/a; W relative), and between friction coefficients",
+            "Against the closed form (maximum differences: c/a; W relative), and between friction coefficients",
             "nu = nu:g; cases = cases:d; c/a = radius:.1e; W = energy:.1e; W between mu = mu:.1e",
             self.numbers["nu"],
         )

@@ -1,9 +1,9 @@
 """Draw the response of the vibrating joint, and check it.
 
-Reads fresh.npz, worn.npz and life.h5, which examples/vibrating-joint/run.sh writes to a directory, prints tables, draws
-response.png and worn.png, and fails when a check does not hold:
-  linear   at the smallest drive the peak lies where the stuck joint has its resonance, but for what slips a little
-  power    at each peak the drive's power is what friction and the damper take
+Reads fresh.npz, worn.npz, life.h5 and scar.h5, which examples/vibrating-joint/run.sh writes to a directory, prints
+tables, draws response.png and worn.png, and fails when a check does not hold:
+  linear   at the smallest excitation the peak is at the resonance of the stuck joint, up to a little slip
+  power    at each peak the power of the excitation is that of friction and the damper
   curves   the Jacobian by differences leads to the same curve as that by the tangent stiffness
 """
 
@@ -21,6 +21,7 @@ from petsam.errors import Missing
 from petsam.plot.style import frame, plt, save, tint
 
 LINEAR, POWER, SAME = 0.02, 0.02, 1e-3
+RING = (14.0, 28.0)  # y of the scar, mm
 
 
 def read(path):
@@ -34,7 +35,7 @@ def read(path):
 
 
 def powers(one):
-    """Work of the drive in a cycle at the peak, and what friction and the damper dissipate, J."""
+    """Work of the excitation in a cycle at the peak, and what friction and the damper dissipate, J."""
     peak = int(np.argmax(one["amplitude"]))
     x, omega = one["coefficients"][peak].reshape(joint.COUNT, 2) @ joint.DRIVE, 2.0 * np.pi * one["frequency"][peak]
     damping = 2.0 * joint.DAMPING * joint.MASS * one["stuck"]
@@ -48,7 +49,7 @@ class Comparison:
     def __init__(self, directory):
         *self.fresh, self.differences, self.tangent = read(os.path.join(directory, "fresh.npz"))
         self.worn = [self.fresh[FORCES.index(WEARING)], *read(os.path.join(directory, "worn.npz"))]
-        self.life = petsam.open(os.path.join(directory, "life.h5"))
+        self.life, self.scar = (petsam.open(os.path.join(directory, name)) for name in ("life.h5", "scar.h5"))
         wear = self.life.wear
         self.numbers = {
             "drives": [self._row(one) for one in self.fresh],
@@ -85,11 +86,11 @@ class Comparison:
     def tables(self):
         """What is printed; fails when a check does not hold."""
         n = self.numbers
-        columns = "drive, N = force:.0f; peak, Hz = frequency:.1f; shift = shift:+.3f; nm/N = compliance:.2f"
+        columns = "excitation, N = force:.0f; peak, Hz = frequency:.1f; shift = shift:+.3f; nm/N = compliance:.2f"
         columns += "; T/mu N = reach:.3f; friction, J = energy:.4f"
         yield "peaks of the response curves", columns, n["drives"]
         yield (
-            f"the same drive, {WEARING:g} N, after cycles at its peak; volume and depth of each face",
+            f"the same excitation, {WEARING:g} N, after cycles at its peak; volume and depth of each face",
             "cycles = cycles; V, mm3 = volume:.4f; depth, um = depth:.3f; " + columns.partition("; ")[2],
             n["worn"],
         )
@@ -100,7 +101,7 @@ class Comparison:
             f"the tangent stiffness, {fewer:.1f} times fewer; the curves differ by {n['same']:.1e}"
         )
         first, power = n["drives"][0]["shift"], max(abs(row["power"]) for row in n["drives"] + n["worn"])
-        yield f"check: shift at the smallest drive {first:+.3f} (allowed {LINEAR:g}), power {power:.1e} ({POWER:g})"
+        yield f"check: shift at the least excitation {first:+.3f} (allowed {LINEAR:g}), power {power:.1e} ({POWER:g})"
         if not (abs(first) < LINEAR and power < POWER and n["same"] < SAME):
             raise petsam.Error("the vibration is wrong")
 
@@ -117,9 +118,9 @@ class Comparison:
             left.plot(one["frequency"], 1e9 * one["amplitude"] / one["force"], ".-", color=color, label=label)
             x, t = 1e6 * (one["motion"][:, 0] - one["loads"][:, 0] / one["stiffness"]), one["loads"][:, 0] / joint.LIMIT
             middle.plot(np.append(x, x[0]), np.append(t, t[0]), color=color)
-        frame(left, "amplitude over drive", "drive, Hz", "nm/N")
-        left.legend(title="drive")
-        frame(middle, "loops at the peaks, less the stuck joint's part", "d_x - T_x/k, um", "T_x/(mu N)")
+        frame(left, "amplitude relative to the excitation", "frequency, Hz", "amplitude/force, nm/N")
+        left.legend(title="excitation")
+        frame(middle, "loops at the peaks", "$d_x - T_x/k$, µm", "$T_x/(\\mu N)$")
         self._draw_slip(figure, right, self.fresh[-1], f"{FORCES[-1] / 1e3:g} kN")
         save(figure, directory, "response.png")
 
@@ -129,21 +130,26 @@ class Comparison:
         image = axis.pcolormesh(1e3 * r.x, 1e3 * r.y, slip, norm=colors.Normalize(0.0), rasterized=True)
         axis.contour(1e3 * r.x, 1e3 * r.y, np.nan_to_num(slip), levels=[0.1], colors="w", linewidths=0.8)
         axis.set_aspect("equal")
-        frame(axis, f"slip to and fro at the peak, {label}, um", "x, mm", "y, mm")
-        figure.colorbar(image, ax=axis)
+        frame(axis, f"range of slip in a cycle at the peak, {label}", "$x$, mm", "$y$, mm")
+        figure.colorbar(image, ax=axis, label="range of $s_x$, µm")
 
     def _draw_worn(self, directory):
         figure, (left, right) = plt.subplots(1, 2, figsize=(9.0, 4.0), constrained_layout=True)
         for k, (cycles, one) in enumerate(zip(CYCLES, self.worn)):
-            color, label = tint(k, len(CYCLES)), f"{cycles:g} cycles"
+            color, label = tint(k, len(CYCLES)), f"{cycles:,} cycles"
             left.plot(one["frequency"], 1e9 * one["amplitude"] / one["force"], ".-", color=color, label=label)
             if cycles:
-                depth = self.life.field("wear_depth1", self.life.of_cycle(cycles))
-                column = np.argmax(depth.max(axis=0))  # of the deepest cell
-                right.plot(1e3 * self.life.y, 1e6 * depth[:, column], color=color, label=label)
-        frame(left, f"amplitude over drive, {WEARING / 1e3:g} kN", "drive, Hz", "nm/N")
+                for file, look in (self.scar, {"linestyle": "-"}), (self.life, {"marker": "o", "linestyle": "none"}):
+                    depth = file.field("wear_depth1", file.of_cycle(cycles))
+                    column = np.argmax(depth.max(axis=0))  # of the deepest cell
+                    y, depth = 1e3 * file.y, 1e6 * depth[:, column]
+                    shown = (y > RING[0]) & (y < RING[1])
+                    text = f"{cycles:,} cycles, {file.y.size}² cells"
+                    right.plot(y[shown], depth[shown], color=color, markersize=4.0, label=text, **look)
+        frame(left, f"amplitude, excitation {WEARING / 1e3:g} kN", "frequency, Hz", "amplitude/force, nm/N")
         left.legend()
-        frame(right, "depth removed of each face along y", "y, mm", "um")
+        frame(right, "depth removed of each face, line $x = 0$", "$y$, mm", "$w$, µm", RING)
+        right.legend(loc="upper left")
         save(figure, directory, "worn.png")
 
 

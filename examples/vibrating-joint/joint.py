@@ -6,7 +6,7 @@ and rocks by r_y, both at the contact; N is constant, and a spring with a little
     M q'' + C q' + K q + f(q, history) = (1, h) F cos(w t),   q = (d_x, r_y),   f = (T_x, M_y) of the contact.
 
 Harmonic balance with alternating frequency and time (Cameron and Griffin 1989, J. Appl. Mech. 56, 149): q is a sum of
-odd harmonics; at `samples` instants of a cycle the contact is asked for f, and its harmonics balance the others.
+odd harmonics; the contact gives f at `samples` times of a cycle, and its harmonics balance the others.
 """
 
 import numpy as np
@@ -39,7 +39,7 @@ LITTLE = 0.7  # of the residual: a step that leaves more has brought little
 
 
 class Joint:
-    """The contact, asked for its forces over a cycle of motion; counts what it is asked for."""
+    """The contact, which gives its forces over a cycle of motion; counts its steps and stiffnesses."""
 
     def __init__(self, cells, worn=0.0):
         """worn: the depth that has been removed of both bodies, (cells, cells), m."""
@@ -193,7 +193,7 @@ class Balance:
     def solve(self, x, omega, force, rtol=1e-4, by_differences=False):
         """Newton's method from x, with shorter steps where a whole one would lead away.
 
-        Where the motion turns between two instants, the rule of derivative() does not know from which of them to count.
+        Where the motion turns between two instants, the rule of derivative() leaves open from which of them to count.
         Four steps that bring little are followed by one with a Jacobian by differences.
         """
         r, j = self.residual(x, omega, force, not by_differences)

@@ -23,5 +23,8 @@ export OMP_NUM_THREADS=1
 "$python" "$here/vibrate.py" fresh "$out" "$grid_n" "$ranks"
 solve_quietly life -options_file "$here/punch.opts" -grid_n "$grid_n" -history "$out/life.csv" \
     -wear_cycles 1000000 -wear_output 0,100000,1000000
+# the scar on cells a third as wide, for the picture
+solve_quietly scar -options_file "$here/punch.opts" -grid_n $((3 * grid_n)) -history "$out/life.csv" \
+    -wear_cycles 1000000 -wear_output 0,100000,1000000
 "$python" "$here/vibrate.py" worn "$out" "$grid_n" "$ranks"
 compare

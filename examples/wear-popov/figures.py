@@ -22,7 +22,7 @@ from petsam.plot.style import CLOSED, frame, plt, points, save, thinned, tint
 
 GAMMA = 0.5
 LIMIT_RADIUS, LIMIT_VOLUME, LIMIT_DEPTH, LIMIT_LOAD = 1.2297905755, 0.7592985781, 0.29654947, 0.6875
-# tau: volume, largest depth, load, contact radius by the method of dimensionality reduction, which is exact here
+# tau: volume, maximum depth, load, contact radius by the method of dimensionality reduction, which is exact here
 MODEL = {
     0.1: (0.01233, 0.00792, 0.99360, 1.0165), 1: (0.13092, 0.07102, 0.93843, 1.083),
     3: (0.40375, 0.18048, 0.8272, 1.157), 5: (0.6088, 0.25095, 0.7479, 1.197), 10: (0.7481, 0.29345, 0.6920, 1.226),
@@ -114,16 +114,16 @@ class Comparison:
         )
         columns += "; depth - 1 = depth_error:+.1e; N/N0 = load:.5f; N - 1 = load_error:+.1e; a/a0 = radius:.4f"
         columns += "; a - 1 = radius_error:+.1e"
-        yield "the life; its quotients by the model less 1", columns, n["life"]
+        yield "wear over the cycles; ratios to the model minus 1", columns, n["life"]
         columns = "tau = tau:.4g; cells = cells; V - 1 = volume:+.1e; depth - 1 = depth:+.1e; N - 1 = load:+.1e"
         columns += "; shape = shape:.1e; at rho = where:.3f; rho>0.55 = beyond:.1e"
-        yield "Popov's limit; shape: largest difference of the removed depth, over d", columns, [n["limit"]]
+        yield "Popov's limit; shape: maximum difference of the removed depth, over d", columns, [n["limit"]]
         yield f"\n{n['computed']} cycles were computed of {self.life.wear['cycle'][-1]:.0f}"
         errors = [abs(row[name + "_error"]) for row in n["life"] for name in NAMES]
         errors += [abs(n["limit"][name]) for name in ("volume", "depth", "load", "beyond")]
-        yield f"check: largest error {max(errors):.1e}, {TOLERANCE:g} is allowed"
+        yield f"check: maximum error {max(errors):.1e}, {TOLERANCE:g} is allowed"
         if not max(errors) < TOLERANCE:
-            raise petsam.Error(f"{self.life.results.path}: the life is wrong")
+            raise petsam.Error(f"{self.life.results.path}: the wear is wrong")
 
     def draw(self, directory):
         """Profiles of the scar, and the life."""
@@ -141,14 +141,14 @@ class Comparison:
         axes[0].plot(fine, limit_depth(fine), label="Popov", zorder=4, **CLOSED)
         axes[0].legend(title=r"$\tau$")
         frame(axes[0], "removed depth, $y = 0$", "$x/a_0$", "$w/d$", (0.3, 1.3))
-        labels = ("volume$/(a_0^2 d)$", "largest depth$/d$", "$N/N_0$", "$a/a_0$")
+        labels = ("volume$/(a_0^2 d)$", "maximum depth$/d$", "$N/N_0$", "$a/a_0$")
         for k, (name, label) in enumerate(zip(NAMES, labels)):
             color = tint(k, len(NAMES))
             axes[1].plot(life.tau[1:], life.curves[name][1:], "-", color=color, linewidth=1.0, label=label)
             points(axes[1], list(MODEL), [row[k] for row in MODEL.values()], color)
         axes[1].set_xscale("log")
         axes[1].legend(loc="center left")
-        frame(axes[1], "the life; points: model", r"$\tau$", "", (0.01, 20.0), (0.0, 1.3))
+        frame(axes[1], "over the cycles; points: model", r"$\tau$", "", (0.01, 20.0), (0.0, 1.3))
         save(figure, directory, "wear.png")
 
 

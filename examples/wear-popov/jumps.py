@@ -30,7 +30,7 @@ def compare(directory):
     rows = [numbers(results, name) for name, results in lives.items()]
     columns = "jumps = jumps; cycles = cycle:.0f; computed = computed:.0f; volume, m3 = volume1:.4e"
     columns += "; depth, m = depth_max1:.4e; N, N = load_n:.2f"
-    print_table("tau = 10, nu = 0.3, 40 steps a cycle", columns, rows)
+    print_table("tau = 10, nu = 0.3, 40 steps per cycle", columns, rows)
     depths = [results.field("wear_depth1") for results in lives.values()]
     difference = relative_l2(*depths)
     largest = float(np.max(np.abs(depths[0] - depths[1])) / np.max(depths[1]))

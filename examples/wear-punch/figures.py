@@ -1,8 +1,8 @@
-"""Follow the worn punch over its life, and draw it.
+"""Follow the worn punch over its cycles, and draw it.
 
 Reads life.h5 and stress_CYCLE.h5, which examples/wear-punch/run.sh writes to a directory, prints two tables, draws
 wear.png, and fails when a check does not hold:
-  volume   what both faces lose is k/mu times the dissipated energy: its sum over the life by the trapezoidal rule
+  volume   what both faces lose is k/mu times the dissipated energy: its sum over all cycles by the trapezoidal rule
   scar     the volume is the sum of the depths over the cells
   faces    both lose the same
 """
@@ -89,7 +89,7 @@ class Comparison:
         columns = "cycles = cycle; V, mm3 = volume:.4f; depth, um = depth:.3f; stick/pi c2 = stick:.4f"
         columns += "; area/pi c2 = contact:.4f; energy, J = energy:.4f; p, MPa = pressure:.0f; Mises, MPa = mises:.1f"
         columns += "; SWT, MPa = swt:.5f; at x/c = where:+.3f"
-        title = f"volume and depth of each face; Mises and SWT the largest at z = {1e3 * z:g} mm, y = 0"
+        title = f"volume and depth of each face; maximum Mises and SWT at z = {1e3 * z:g} mm, y = 0"
         yield title, columns, n["saved"]
         yield f"\n{n['computed']} cycles were computed of {n['saved'][-1]['cycle']}"
         yield (
@@ -106,17 +106,18 @@ class Comparison:
         million, saved = life.cycle * 1e-6, [row["cycle"] * 1e-6 for row in rows]
         figure, axes = plt.subplots(2, 2, figsize=(9.0, 5.8), constrained_layout=True)
         panels = (
-            ("areas over that of the flat base", million, {
+            ("areas", "relative to the flat base", million, {
                 "contact": life.wear["contact_area"] / life.base, "stick zone": life.stick / life.base}),
-            ("largest pressure, MPa", million, {None: life.wear["pressure_max"] * 1e-6}),
-            (f"largest von Mises stress at z = {z:g} c, MPa", saved, {None: [row["mises"] for row in rows]}),
-            (f"largest SWT parameter at z = {z:g} c, MPa", saved, {None: [row["swt"] for row in rows]}),
+            ("maximum pressure", "$p$, MPa", million, {None: life.wear["pressure_max"] * 1e-6}),
+            (f"maximum von Mises stress at $z$ = {z:g} $c$", "$\\sigma_M$, MPa", saved, {
+                None: [row["mises"] for row in rows]}),
+            (f"maximum SWT parameter at $z$ = {z:g} $c$", "SWT, MPa", saved, {None: [row["swt"] for row in rows]}),
         )  # fmt: skip
-        for panel, (title, cycles, curves) in zip(axes.flat, panels):
+        for panel, (title, unit, cycles, curves) in zip(axes.flat, panels):
             for k, (label, values) in enumerate(curves.items()):
                 joined(panel, cycles, values, tint(k, 2), "o-", label=label, markersize=3.6)
             top = 1.08 * max(np.max(values) for values in curves.values())
-            frame(panel, title, "million cycles", "", None, (0.0, top))
+            frame(panel, title, "million cycles", unit, None, (0.0, top))
         axes[0, 0].legend(loc="lower left")
         save(figure, directory, "wear.png")
 

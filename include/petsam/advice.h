@@ -7,11 +7,6 @@
 
 #include <petsam/setup.h>
 
-/* A contact of fewer cells across than these is not resolved. */
-#define SAM_FEW_CELLS 20
-/* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature. */
-#define SAM_STEEPEST 0.1
-
 /* SamExtent - the size of a contact. */
 typedef struct {
   PetscInt  zones;   /* connected by the sides of cells, as contact_spots; 0: the bodies do not touch */
@@ -42,8 +37,8 @@ typedef PetscErrorCode (*SamAdviceFunction)(void *context, const char text[], co
 /*
   None of these is collective.
   SamAdviseStep - gives a function what there is to say of a step that is solved: motions that are not small, bodies
-  that do not touch, a contact of fewer than SAM_FEW_CELLS cells across, and one that is wider than SAM_STEEPEST of a
-  radius of curvature.
+  that do not touch, a contact of fewer than 20 cells across, and one that is wider than a tenth of a radius of
+  curvature.
   SamAdviseEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not.
 */
 PETSC_EXTERN PetscErrorCode SamAdviseStep(const SamSetup *setup, const SamStep *step, const SamExtent *extent,

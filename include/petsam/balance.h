@@ -1,4 +1,4 @@
-/* The rigid-body components, their loads, and which loads can be balanced at all. */
+/* The rigid-body components, their loads, and the loads that can be balanced. */
 #ifndef PETSAM_BALANCE_H
 #define PETSAM_BALANCE_H
 
@@ -8,9 +8,9 @@
 /*
   SamBalance - three of the six components, each under force or displacement control:
     normal:     loads N (N), Mx, My (N m)   with d_z (m), r_x, r_y (rad)
-                sum p dA = N, sum y p dA = -Mx, sum x p dA = My;   rigid displacement d_z - y r_x + x r_y
+                sum p dA = N, sum y p dA = -Mx, sum x p dA = My;   rigid-body displacement d_z - y r_x + x r_y
     tangential: loads Tx, Ty (N), Mz (N m)  with d_x, d_y (m), r_z (rad)
-                sum q dA = T, sum (x q_y - y q_x) dA = Mz;   rigid displacement (d_x - y r_z, d_y + x r_z)
+                sum q dA = T, sum (x q_y - y q_x) dA = Mz;   rigid-body displacement (d_x - y r_z, d_y + x r_z)
   Moments and rotations are about x = y = 0. Where `force` is true the load is given and the displacement a result;
   otherwise the other way round.
 */
@@ -33,7 +33,7 @@ PETSC_EXTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind
 
 /*
   SamBalanceLever - whether a pressure on this grid can balance a normal load under force control: the lever arms
-  (My/N, -Mx/N) must lie among the cell centres. When not, `message` (of that size) says which and the limit. Also
+  (My/N, -Mx/N) must lie among the cell centres. Otherwise `message` (of that size) names the load and the limit. Also
   false for moments without N. True when N is displacement-controlled.
 */
 PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size,
@@ -41,7 +41,7 @@ PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *bala
 
 /*
   SamBalanceCapacity - whether pressures of at most `limit` (Pa) on this grid can carry the normal load under force
-  control, and with it each of the moments for itself. When not, `message` (of that size) says which and the limit.
+  control, and with it each of the moments for itself. Otherwise `message` (of that size) names the load and the limit.
 */
 PETSC_EXTERN PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, PetscReal limit, char message[],
                                                size_t size, PetscBool *possible);
@@ -49,7 +49,7 @@ PETSC_EXTERN PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *b
 /*
   SamBalanceSlideLimit - the factor by which the force-controlled tangential loads can be multiplied until the whole
   contact slides, given the bound mu p (Pa) of the shear: the least of sum b |v| dA over rigid velocities v of power 1
-  (the kinematic limit theorem). Infinite without a load. When not NULL, `shear` (Pa, two components) becomes that of
+  (the kinematic limit theorem). Infinite without a load. If not NULL, `shear` (Pa, two components) becomes that of
   sliding, which carries that many times the loads. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor,

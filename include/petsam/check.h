@@ -5,8 +5,8 @@
 #include <petsam/solution.h>
 
 /*
-  SamCheck - the errors that the check of a solution finds. It uses only the tractions and the rigid displacements,
-  recomputes the elastic displacements, and uses nothing else of the solvers. All errors are relative, and zero for the
+  SamCheck - the errors of a solution by an independent check, which takes from the solvers only the tractions and the
+  rigid displacements, and recomputes the elastic displacements. All errors are relative, and zero for the
   exact solution of the discrete problem.
     normal       error of p >= 0, g >= 0, p g = 0: the largest of |g| where p > 0, of -g where p = 0, and of -p u/p_max,
                  over the largest displacement u. Of cells with a least pressure (a law's, at the edge) only -g counts
@@ -44,8 +44,8 @@ typedef enum {
 } SamStatus;
 
 /*
-  SamStep - a load step. Without a solution (NO_EQUILIBRIUM), what was not given is NaN. All other numbers of a step are
-  known by their names (SamContactGetNumber()).
+  SamStep - a load step. Without a solution (NO_EQUILIBRIUM), what was not given is NaN. SamContactGetNumber()
+  returns all other numbers of a step by name.
 */
 typedef struct {
   SamControl control;               /* as given */
@@ -57,7 +57,7 @@ typedef struct {
   char       setting[32];  /* option (without dash) of the setting behind the message, grid_size ...; empty: none */
 } SamStep;
 
-/* SamStepIsSolved - whether a step has a solution to go on from. Not collective. */
+/* SamStepIsSolved - whether a step has a solution from which the next one can continue. Not collective. */
 static inline PetscBool SamStepIsSolved(const SamStep *step)
 {
   return (PetscBool)(step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM);

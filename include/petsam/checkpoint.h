@@ -1,11 +1,11 @@
-/* Checkpoints: the state of a contact in a file, from which a stopped run goes on. */
+/* Checkpoints: the state of a contact in a file, from which a stopped run continues. */
 #ifndef PETSAM_CHECKPOINT_H
 #define PETSAM_CHECKPOINT_H
 
 #include <petsam/output.h>
 
 /*
-  SamNote - whole numbers that a program adds to a checkpoint under a name, such as its position in a load program. With
+  SamNote - integers that a program adds to a checkpoint under a name, such as its position in a load program. With
   a negative count the checkpoint may lack them; they are read as 0 then.
 */
 typedef struct {
@@ -38,11 +38,11 @@ PETSC_EXTERN PetscErrorCode SamCheckpointNames(const char filename[], char **bef
 PETSC_EXTERN PetscErrorCode SamCheckpointWrite(SamCheckpoint checkpoint, SamContact contact,
                                                const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 /*
-  SamCheckpointRead - gives a contact the state in a file, to the last bit, on any number of
-  ranks, and reads the notes. When the problem's gap is not the one the checkpoint was written with, the next step
-  solves the pressure again and keeps the slip. Collective. Errors: SAM_ERR_USER for a checkpoint of another version or
-  with another value of a fixed parameter, which the message names; SAM_ERR_FILE for a file that is missing or damaged
-  (its checksum is compared). The message then names the checkpoint before it, name.1, if that can be read.
+  SamCheckpointRead - gives a contact the state in a file, to the last bit, on any number of ranks, and reads the notes.
+  When the problem's gap is not the one the checkpoint was written with, the next step solves the pressure again and
+  keeps the slip. Collective. Errors: SAM_ERR_USER for a checkpoint of another version, with another value of a fixed
+  parameter, or with a field that only one of the two has; the message names it. SAM_ERR_FILE for a file that is missing
+  or damaged (its checksum is compared). The message then names the checkpoint before it, name.1, if that can be read.
 */
 PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact,
                                               const SamParameters *parameters, PetscInt n, const SamNote notes[]);

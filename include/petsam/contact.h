@@ -29,58 +29,41 @@ PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /* SamContactSetOptionsPrefix - the prefix of its options and of its solvers'; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
 /*
-  SamContactSetFromOptions - reads -coupling (full or none), -coupling_rtol, -coupling_max_it, -warm_start,
-  -allow_edge_contact, -edges and -contact_spots, which mirror the functions below; -coupling_monitor (prints the change
-  after each pass); -contact_check (prints the errors of each step); and the options of both solvers. Collective.
-  Errors: SAM_ERR_USER.
+  SamContactSettings - of a contact; its defaults are those of SamContactGetSettings() on a new one.
+  With coupling the normal and the tangential problem of dissimilar materials are solved in turn, a pass each, until one
+  p and one q solve both, each to its own tolerance, and neither has changed by more than coupling_rtol of its norm in
+  the last pass. Contact spots are cells in contact connected by their sides, not by corners alone; over the edges of a
+  grid that is one period, too.
 */
+typedef struct {
+  PetscBool coupling;         /* normal-tangential coupling is taken into account (true; -coupling full or none) */
+  PetscReal coupling_rtol;    /* (1e-6; -coupling_rtol) */
+  PetscInt  coupling_max_it;  /* most passes (100; -coupling_max_it) */
+  PetscBool coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
+  PetscBool warm_start;       /* start a step from the steps before, on the finest grid only (true; -warm_start) */
+  PetscReal cycle_memory;     /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
+                                 starts from that, with the same solution within the tolerances; what is kept is in no
+                                 state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */
+  PetscBool allow_edge;       /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
+  PetscBool edges;            /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
+                                 else by counted cells, wrong by a part of a cell along the edge (true; -edges
+                                 reconstruct or none; with deferred the law of that name corrects the pressure too) */
+  PetscBool spots;            /* count the contact spots and compute the mean gap (false; -contact_spots) */
+  PetscBool print_check;      /* print the errors of each step (false; -contact_check) */
+} SamContactSettings;
+/*
+  SamContactSetSettings, SamContactGetSettings - not collective, the same on all ranks. Errors:
+  PETSC_ERR_ARG_OUTOFRANGE for a number that is not positive.
+  SamContactSetFromOptions - reads the options above, and those of both solvers. Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_EXTERN PetscErrorCode SamContactSetSettings(SamContact contact, const SamContactSettings *settings);
+PETSC_EXTERN PetscErrorCode SamContactGetSettings(SamContact contact, SamContactSettings *settings);
 PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 /*
   SamContactSetUp - checks that settings, laws and solvers go together; SamContactTry() calls it. Collective. Errors:
   SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
-/*
-  SamContactSetCoupling - `full`: normal-tangential coupling of dissimilar materials is taken into account (default:
-  true; option -coupling). The normal and the tangential problem are then solved in turn, a pass each, until one p and
-  one q solve both, each to its own tolerance, and neither has changed by more than `rtol` of its norm in the last pass
-  (1e-6; -coupling_rtol); in at most `max_it` passes (100; -coupling_max_it). PETSC_DEFAULT keeps a number. Not
-  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a number that is not positive.
-*/
-PETSC_EXTERN PetscErrorCode SamContactSetCoupling(SamContact contact, PetscBool full, PetscReal rtol, PetscInt max_it);
-/* SamContactGetCoupling - whether coupling is taken into account. Not collective. */
-PETSC_EXTERN PetscErrorCode SamContactGetCoupling(SamContact contact, PetscBool *full);
-/*
-  SamContactSetWarmStart - whether a step starts from a guess made of the steps before (default: true), on the finest
-  grid only. Option -warm_start. Not collective.
-*/
-PETSC_EXTERN PetscErrorCode SamContactSetWarmStart(SamContact contact, PetscBool warm);
-/*
-  SamContactSetCycleMemory - how many bytes, on all ranks, steps of a repeated load cycle may take. A step that was met
-  in the cycle before starts from that one then; the solution is the same within the tolerances (default: 5e8; 0: none;
-  option -cycle_memory). Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a negative number.
-*/
-PETSC_EXTERN PetscErrorCode SamContactSetCycleMemory(SamContact contact, PetscReal bytes);
-/*
-  SamContactAllowEdge - whether contact at the grid's edge is only a warning and not a status (default: false). Option
-  -allow_edge_contact. Not collective.
-*/
-PETSC_EXTERN PetscErrorCode SamContactAllowEdge(SamContact contact, PetscBool allow);
-/*
-  SamContactSetEdges - whether areas, and tractions at points, are those of the reconstructed edges of contact and stick
-  (edges.h; default: true), or of counted cells, wrong by a part of a cell along the edge. Option -edges: reconstruct or
-  none; with `deferred` the law of that name corrects the pressure too. Not collective.
-*/
-PETSC_EXTERN PetscErrorCode SamContactSetEdges(SamContact contact, PetscBool reconstruct);
-PETSC_EXTERN PetscErrorCode SamContactGetEdges(SamContact contact, PetscBool *reconstruct);
-/*
-  SamContactSetSpots - whether the spots of contact are counted in each step, and the mean gap is computed (default:
-  false). Spots are zones of cells in contact that are connected by their sides, not by corners alone; over the edges of
-  a grid that is one period, too. Option -contact_spots. Not collective.
-  SamContactGetSpots - whether they are. Not collective.
-*/
-PETSC_EXTERN PetscErrorCode SamContactSetSpots(SamContact contact, PetscBool count);
-PETSC_EXTERN PetscErrorCode SamContactGetSpots(SamContact contact, PetscBool *count);
 /*
   The objects of a contact, borrowed. Not collective, but for SamContactGetState(), which lets the laws declare what
   they remember. That state is for reading, and for what a program offers of its own.
@@ -136,9 +119,9 @@ PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char n
 PETSC_EXTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
 
 /*
-  SamContactViewLaws - prints what the laws say of the last step. Collective.
-  SamContactAdvise - what a user should know of the last step, by the law from number *k on (0 at first) that has to say
-  something; *k is that law then. Empty: none has. Collective.
+  SamContactViewLaws - prints the laws' reports of the last step. Collective.
+  SamContactAdvise - a warning about the last step, from the first law from number *k on (0 at first) that has one; *k
+  becomes the number of this law. Empty: no law has one. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactViewLaws(SamContact contact, PetscViewer viewer);
 PETSC_EXTERN PetscErrorCode SamContactAdvise(SamContact contact, PetscInt *k, char text[], size_t size);
@@ -152,7 +135,7 @@ PETSC_EXTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
 
 /*
   SamContactSetState - the committed state becomes that of another contact of the same problem, or one that was read
-  from a file: the contact goes on as that one would, to the last bit, on any number of ranks. `gap_is_current`: the
+  from a file: the contact continues as that one would, to the last bit, on any number of ranks. `gap_is_current`: the
   state was solved with the gap that the problem has now. Forgets a tried state. Collective. Errors: those of
   SamStateCopy().
   SamContactReset - the bodies have never touched. Collective.

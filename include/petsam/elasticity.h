@@ -5,15 +5,13 @@
 #include <petsam/fourier.h>
 #include <petsam/material.h>
 #include <petsam/parameters.h>
-#include <petscmat.h>
-#include <petscpc.h>
 
 /*
   SamElasticity - the 3 x 3 influence operator of a pair of bodies on a grid: relative elastic displacements u (m) from
   tractions given by one number a cell (Pa). Pressure p acts on both bodies, shear q on body 2 (and -q on body 1). u_z
   is the sum of both bodies' inward displacements, (u_x, u_y) = displacement of body 2 minus that of body 1, so that the
   operator is symmetric and a force on body 1 drags u along.
-  Its type says what kind of bodies they are. The object also holds the coarser operators of the nested grids, and those
+  Its type is the kind of bodies. The object also holds the coarser operators of the nested grids, and those
   on parts of the grid; they are of the same type.
 */
 typedef struct _n_SamElasticity *SamElasticity;
@@ -23,16 +21,16 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_PERIODIC \
   "periodic" /* two half-spaces, the grid being one period of everything; tractions are sums of waves */
 
-/* SamElasticityTraits - what users of the operator have to know of its kind. None follows from another. */
+/* SamElasticityTraits - properties of a type that users of the operator rely on. None follows from another. */
 typedef struct {
   PetscBool coupled;  /* pressure moves the surfaces tangentially, and shear moves them normally */
   PetscBool periodic; /* cells at opposite borders of the grid are neighbours; else contact at a border is cut off */
   PetscBool stretch;  /* the bodies may bear a uniform bulk stress */
   PetscBool rotations[3]; /* about x, y, z: a rigid rotation is possible, and a moment defined */
-  PetscBool mean;         /* a uniform traction displaces the surface; else displacements count from the mean surface */
-  PetscBool parts;        /* where only a part of the grid has traction, an operator on that part will do */
-  PetscBool within;       /* the pressure may vary within cells */
-  PetscBool stress;       /* the stresses in the bodies are known; set by the class */
+  PetscBool mean;   /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
+  PetscBool parts;  /* where only a part of the grid has traction, an operator on that part suffices */
+  PetscBool within; /* the pressure may vary within cells */
+  PetscBool stress; /* stresses in the bodies are available; set by the class */
 } SamElasticityTraits;
 
 /*
@@ -51,7 +49,7 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetType(SamElasticity elasticity, SamEl
   collective, but to be called on all ranks.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity));
-/* SamElasticityGetTypes - the registered types as a sentence has them: a, b or c. Not collective. */
+/* SamElasticityGetTypes - the registered types as a text: a, b or c. Not collective. */
 PETSC_EXTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
 /* SamElasticitySetOptionsPrefix - stands before the names of options; NULL: none. */
 PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elasticity, const char prefix[]);
@@ -71,8 +69,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, Sam
 /*
   SamElasticityAddParameters - appends what defines the bodies, by the names of its options: elastic constants, type,
   and what the type adds. Not collective.
-  SamElasticityCreateFromParameters - the same bodies on a grid, from what has been recorded so. `source` says in
-  messages where that is. Collective. Errors: SAM_ERR_FILE for a type that is not registered, and for parameters that
+  SamElasticityCreateFromParameters - the same bodies on a grid, from such a record. `source` names it in
+  messages. Collective. Errors: SAM_ERR_FILE for a type that is not registered, and for parameters that
   are missing or make no bodies.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
@@ -85,19 +83,19 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, cons
 PETSC_EXTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
                                                    SamTransfer *transfer);
 /*
-  SamElasticityTrim - gives back the transforms' memory if it is large, until the next product. Collective.
+  SamElasticityTrim - frees the transforms' memory if it is large, until the next product. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
 
 /*
   The operator on a part of the grid; all collective, the window and the operator borrowed until another part is chosen,
-  NULL when there is none. One part is in use at a time. The one in use before is kept, so that going back to it costs
+  NULL without one. One part is in use at a time. The one in use before is kept, so that reuse costs
   nothing.
   SamElasticityChoosePart - takes a part into use that holds the n[0] * n[1] cells from first[0], first[1] on and some
   more about them; none where it would be hardly smaller than the grid, or the type has no parts. `keep`: the part in
   use stays if it holds these cells and is not much too large.
-  SamElasticitySetPart - takes just those cells; n = 0: none.
-  SamElasticityGetPartPlace - tells the cells of the part in use, n = 0 for none. Not collective.
+  SamElasticitySetPart - takes exactly these cells; n = 0: none.
+  SamElasticityGetPartPlace - the cells of the part in use, n = 0 for none. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityChoosePart(SamElasticity elasticity, const PetscInt first[2],
                                                     const PetscInt n[2], PetscBool keep, SamWindow *window,
@@ -116,7 +114,7 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity e
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q,
                                                                  Vec u_z); /* u_z from q */
 /*
-  Pressure that varies within cells, where the traits know them:
+  Pressure that varies within cells, if the trait `within` is set:
   SamElasticityApplyNormalSlopes - u_z from a pressure that is linear in each cell, and zero in the mean. `slopes` (two
   components): by how much it grows from one side of the cell to the other, along x and along y (Pa).
   SamElasticityGetNear - u_z per unit of pressure (m/Pa) on the sub * sub sub-cells of a cell at the centres of the
@@ -148,8 +146,6 @@ PETSC_EXTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity 
                                                                   const float residual[], float p[]);
 PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
                                                                       const float residual[], float q[]);
-PETSC_EXTERN PetscErrorCode SamElasticityPreconditionNormal(SamElasticity elasticity, Vec residual, Vec p);
-PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangential(SamElasticity elasticity, Vec residual, Vec q);
 
 /*
   SamElasticityGetSelfInfluence - displacement of a cell's centre under unit traction on that cell alone, m/Pa: u_z from
@@ -160,15 +156,11 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elastici
 
 /*
   SamElasticityCreateStress - the stresses in body 1 or 2 under tractions on the grid (stress.h); `settings` of the
-  transforms, NULL: those of the elasticity. Collective. Errors: PETSC_ERR_SUP where the traits say that they are not
-  known; PETSC_ERR_ARG_OUTOFRANGE for another body, or a rigid one.
+  transforms, NULL: those of the elasticity. Collective. Errors: PETSC_ERR_SUP without the trait
+  `stress`; PETSC_ERR_ARG_OUTOFRANGE for another body, or a rigid one.
 */
 typedef struct _n_SamStress *SamStress;
 PETSC_EXTERN PetscErrorCode  SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
                                                        const SamFourierSettings *settings, SamStress *stress);
-
-/* The same products as PETSc objects, for use with KSP and the like. The elasticity must outlive them. Collective. */
-PETSC_EXTERN PetscErrorCode SamElasticityCreateMat(SamElasticity elasticity, PetscInt components, Mat *mat);
-PETSC_EXTERN PetscErrorCode SamElasticityCreatePC(SamElasticity elasticity, PetscInt components, PC *pc);
 
 #endif

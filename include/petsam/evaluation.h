@@ -1,4 +1,4 @@
-/* What the tractions of load steps do in a body: stresses, what is made of them, and fatigue parameters of a cycle. */
+/* Stresses in a body under the tractions of load steps, quantities of them, and fatigue parameters of a cycle. */
 #ifndef PETSAM_EVALUATION_H
 #define PETSAM_EVALUATION_H
 
@@ -11,7 +11,7 @@ typedef enum {
   SAM_QUANTITY_STRESS,    /* stress_xx ... stress_yz, Pa */
   SAM_QUANTITY_MISES,     /* mises, Pa */
   SAM_QUANTITY_PRINCIPAL, /* principal_1 >= principal_2 >= principal_3, Pa */
-  SAM_QUANTITY_SHEAR_MAX, /* shear_max, Pa: half the difference of the largest and the smallest principal stress */
+  SAM_QUANTITY_SHEAR_MAX, /* shear_max, Pa: half the difference of principal_1 and principal_3 */
   SAM_QUANTITY_STRAIN,    /* strain_xx ... strain_yz, tensor shear strains */
   /* of all steps together, in the order of SamFatigueParameter: */
   SAM_QUANTITY_CROSSLAND,    /* crossland, Pa */
@@ -25,7 +25,7 @@ typedef enum {
 /* SamQuantityComponents - number of the components of a quantity. Not collective. */
 PETSC_EXTERN PetscInt SamQuantityComponents(SamQuantity quantity);
 
-/* The fields of a step that an evaluation asks for: tractions (Pa), and the slip (m), of which only Ruiz needs some. */
+/* The fields of a step that an evaluation reads: tractions (Pa), and for Ruiz's parameters the slip (m). */
 typedef enum {
   SAM_STEP_PRESSURE,
   SAM_STEP_SHEAR_X,
@@ -38,8 +38,8 @@ typedef enum {
 /*
   SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
   a line of them (a section); the quantities that are wanted of them; and fatigue parameters over the steps, taken as
-  one closed cycle. Maps are evaluated depth by depth, and each step is asked for once a depth: the steps of a
-  SamEvaluationSource need not be in memory together, but for what a fatigue parameter keeps, 48 bytes a cell and step.
+  one closed cycle. Maps are evaluated depth by depth, and each step is read once per depth: the steps of a
+  SamEvaluationSource need not be in memory together. Fatigue parameters keep 48 bytes per cell and step.
   Results are the same to the last bit on any number of ranks.
 */
 typedef struct _n_SamEvaluation *SamEvaluation;
@@ -66,21 +66,14 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation      
 PETSC_EXTERN PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation evaluation, const SamOptions *from);
 /*
   SamEvaluationSetElasticity - the bodies, referenced; `settings` of the transforms, NULL: those of the elasticity.
-  `source` says in messages whose bodies they are. Settings and source are not copied. Collective.
+  `source` names the origin of the bodies in messages. Settings and source are not copied. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetElasticity(SamEvaluation evaluation, SamElasticity elasticity,
                                                        const SamFourierSettings *settings, const char source[]);
 
 /*
-  SamEvaluationAddStep - the next load step: pressure (one component, Pa), shear on body 2 and slip (two components; Pa,
-  m; slip may be NULL), of which `control` gives the bulk stresses. The vectors are referenced: they must stay as they
-  are until the evaluation is destroyed. Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamEvaluationAddStep(SamEvaluation evaluation, Vec pressure, Vec shear, Vec slip,
-                                                 const SamControl *control);
-/*
-  SamEvaluationSource - steps that are read when they are needed, in place of those that are added. `read`: this rank's
-  rows of a field; collective. `bulk`: the bulk stress of the body in each step (Pa). The array is the caller's.
+  SamEvaluationSource - the load steps, read when they are needed. `read`: copies this rank's rows of a field;
+  collective. `bulk`: the bulk stress of the body in each step (Pa). The array is the caller's.
 */
 typedef struct {
   PetscInt steps;
@@ -91,15 +84,15 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, const SamEvaluationSource *source);
 
 /*
-  SamEvaluationSetUp - checks that all goes together, and makes what computes the stresses. SamEvaluationCompute() calls
-  it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not known, a depth above a
-  millionth of a cell, a section outside of the grid, a cycle of one step, Ruiz's parameters away from the surface;
-  PETSC_ERR_ORDER without elasticity.
+  SamEvaluationSetUp - checks the settings together, and creates the stresses' kernels. SamEvaluationCompute() calls
+  it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth above zero
+  but below a millionth of a cell, a section outside of the grid, a cycle of one step, Ruiz's parameters away from the
+  surface; PETSC_ERR_ORDER without elasticity.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation);
 /*
-  SamEvaluationSetMonitor - is called now and then during SamEvaluationCompute(): which work is at hand, the part of it
-  that is done, and how much of all is done, 0 where that is not known. Not collective.
+  SamEvaluationSetMonitor - called now and then during SamEvaluationCompute() with the work under way, the done part of
+  it, and the done part of all work (0: unknown). Not collective.
 */
 typedef PetscErrorCode (*SamEvaluationMonitor)(void *context, const char work[], double part, double whole);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetMonitor(SamEvaluation evaluation, SamEvaluationMonitor monitor,
@@ -114,7 +107,7 @@ typedef PetscErrorCode (*SamEvaluationWrite)(void *context, SamQuantity quantity
                                              PetscInt depth, PetscInt depths, const double values[]);
 PETSC_EXTERN PetscErrorCode SamEvaluationCompute(SamEvaluation evaluation, SamEvaluationWrite write, void *context);
 
-/* What an evaluation's results are of. The arrays are not the layout's. */
+/* The shape of an evaluation's results. The arrays are borrowed. */
 typedef struct {
   PetscInt         steps, depths;
   const PetscReal *times, *depth; /* s, m */
@@ -125,7 +118,7 @@ typedef struct {
 } SamStressLayout;
 /*
   After SamEvaluationSetUp(); none is collective:
-    SamEvaluationGetLayout     but for the times, which an evaluation does not know; the depths are borrowed
+    SamEvaluationGetLayout     without the times, which an evaluation does not have; the depths are borrowed
     SamEvaluationGetMemory     bytes that SamEvaluationCompute() needs on this rank
     SamEvaluationHasCycle      whether a fatigue parameter is wanted
     SamEvaluationAddParameters appends the body, its elasticity, and the constants of the parameters that are wanted

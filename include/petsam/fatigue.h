@@ -5,10 +5,10 @@
 #include <petsam/stress.h>
 
 /*
-  SamFatigueParameter - what is computed of the states of one closed cycle, of which no order counts but for Ruiz's.
-  n is the normal of a plane, s_n the stress on it, e_n the strain along it, tau_a the radius of the smallest circle
-  about the path of the shear stress in it; S the deviator, R the radius of the smallest sphere about its path in the
-  norm sqrt(S:S), P_H the mean stress.
+  SamFatigueParameter - what is computed of the states of one closed cycle, whose order counts for Ruiz's only. n is the
+  normal of a plane, s_n the stress on it, e_n the strain along it, tau_a the radius of the minimum circumscribed circle
+  of the shear stress path in it; S the deviator, R the radius of the minimum circumscribed sphere of its path in the
+  norm sqrt(S:S), P_H the hydrostatic stress.
 */
 typedef enum {
   SAM_FATIGUE_CROSSLAND, /* R/sqrt(2) + alpha max P_H, Pa (Crossland 1956) */
@@ -38,8 +38,8 @@ PETSC_EXTERN PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, con
 
 /*
   SamFatigueRuiz - Ruiz's parameters on the surface. D1 = a quarter of the closed integral of |q . ds| (J/m2), which for
-  a cycle to and fro is the shear times the amplitude of slip; D2 (Pa J/m2) = D1 times the largest tension in the
-  direction of the largest change of slip. shear[c * states + k], slip[c * states + k]: their components along x and y
+  a reciprocating cycle is the shear times the slip amplitude; D2 (Pa J/m2) = D1 times the maximum tension in the
+  direction of the maximum change of slip. shear[c * states + k], slip[c * states + k]: their components along x and y
   (Pa, m) in state k; the last state is followed by the first. Not collective. Source: Ruiz, Boddington and Chen 1984,
   Exp. Mech. 24, 208.
 */

@@ -95,7 +95,7 @@ PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamF
 
 /*
   SamKernel - the transform of a kernel in padded mode, for convolution without wrapping round. A kernel is even or odd
-  in x and in y, so its transform is real (or imaginary) and one quadrant says everything: (hx + 1)(hy + 1) doubles over
+  in x and in y, so its transform is real (or imaginary) and one quadrant suffices: (hx + 1)(hy + 1) doubles over
   all ranks. The values contain the normalisation of the pair of transforms.
 */
 typedef struct _n_SamKernel *SamKernel;
@@ -108,7 +108,7 @@ typedef void (*SamKernelRows)(PetscInt j, PetscInt count, double *const values[]
 
 /*
   SamKernelsCreate - tabulates and transforms n kernels, at most SAM_FOURIER_FIELDS, whose values are found together;
-  odd[k] says whether the k-th one is odd in x and in y. Collective.
+  odd[k]: whether the k-th one is odd in x and in y. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamKernelsCreate(SamFourier fourier, PetscInt n, const PetscBool odd[][2],
                                              SamKernelRows rows, const void *context, SamKernel kernels[]);

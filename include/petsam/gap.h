@@ -12,7 +12,7 @@ typedef struct _n_SamGap *SamGap;
 
 typedef const char *SamGapType;
 #define SAM_GAP_SPHERE    "sphere"    /* -gap_radius1, -gap_radius2 (m, inf: flat): (x^2 + y^2)/2R, 1/R = 1/R1 + 1/R2 */
-#define SAM_GAP_ELLIPSOID "ellipsoid" /* -gap_radius_x, -gap_radius_y (m, inf: straight): x^2/2Rx + y^2/2Ry */
+#define SAM_GAP_ELLIPSOID "ellipsoid" /* -gap_radius_x, -gap_radius_y (m, inf: cylindrical): x^2/2Rx + y^2/2Ry */
 #define SAM_GAP_PUNCH     "punch" /* -gap_flat_radius c, -gap_edge_radius R (m): 0 for r <= c, (r - c)^2/2R beyond */
 #define SAM_GAP_FLAT      "flat"  /* two planes: 0 */
 #define SAM_GAP_FILE      "file"  /* -gap_file, -gap_dataset (/height): an HDF5 dataset of shape (ny, nx), m */
@@ -30,7 +30,7 @@ PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*c
 PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
 /*
   SamGapSetType - chooses the shape; its parameters are not set then. Option -gap_type. Collective.
-  Errors: SAM_ERR_USER for an unknown type, with the list of those known.
+  Errors: SAM_ERR_USER for an unknown type, with the list of registered types.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 /*
@@ -40,17 +40,16 @@ PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 */
 PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value);
 /*
-  SamGapSetFile, SamGapSetRoughness - the HDF5 file of the type `file`, and of a roughness (m) that is added to any type
-  (NULL: none), and the dataset in it (NULL: /height). Options -gap_file, -gap_dataset, and -gap_rough_file,
-  -gap_rough_dataset. Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say
-  otherwise (examples/SURFACES.md). Not collective, the same on all ranks.
+  SamGapSetFile - the HDF5 file (NULL: none) and the dataset in it (NULL: /height) of the type `file`, or of a roughness
+  (m) that is added to any type. Options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset. Datasets of
+  shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise (examples/SURFACES.md).
+  Not collective, the same on all ranks.
 */
-PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, const char file[], const char dataset[]);
-PETSC_EXTERN PetscErrorCode SamGapSetRoughness(SamGap gap, const char file[], const char dataset[]);
+PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
 /*
   SamGapGetFileGrid - the grid that the file of the gap or of the roughness is given on, from the setters or options:
   cells and full widths (m) in x and y, all 0 without a file. Does not look at files if there are -grid_n and
-  -grid_size; a width of 0, which the file does not tell, is an error unless there is -grid_size. Collective. Errors:
+  -grid_size; a width of 0, which the file does not give, is an error unless there is -grid_size. Collective. Errors:
   SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_EXTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2]);
@@ -64,7 +63,7 @@ PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
 /*
   SamGapFill - writes the separation with the roughness (m) into h (one component). Collective. Errors: PETSC_ERR_ORDER
   without a type; SAM_ERR_FILE for a file that cannot be read, is not HDF5, or lacks the dataset, and for a dataset of
-  another shape or size, with values that are not finite, or with a unit or quantity that is not known; SAM_ERR_USER
+  another shape or size, with values that are not finite, or with an unknown unit or quantity; SAM_ERR_USER
   when the shape's parameters overflow on this grid.
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
@@ -75,9 +74,9 @@ PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
 PETSC_EXTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count,
                                                 const char *const **names, const PetscReal **values);
 /*
-  SamGapEstimateContact - half widths (m) along x and y of the contact of the shape without friction, by a closed
+  SamGapEstimateContact - half widths (m) along x and y of the contact of the shape without friction, by a closed-form
   solution (Hertz, Sneddon): under a central force over the composite modulus E* (m2), or, without `force`, at an
-  approach (m). Infinite where the shape is straight; `known`: false for types without such a solution, and with a
+  approach (m). Infinite along the axis of a cylinder; `known`: false for types without such a solution, and with a
   roughness. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],

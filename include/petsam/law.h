@@ -26,12 +26,10 @@ typedef const char       *SamLawType;
   SamLawCreate - a law of that type, with the type's defaults; references the elasticity. Collective. Errors:
   PETSC_ERR_ARG_UNKNOWN_TYPE for a type that is not registered.
   SamLawReference, SamLawDestroy - add a reference, and give one back; the last one frees the law. Collective.
-  SamLawGetType - the name that the type was registered with; borrowed. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *law);
 PETSC_EXTERN PetscErrorCode SamLawReference(SamLaw law);
 PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
-PETSC_EXTERN PetscErrorCode SamLawGetType(SamLaw law, SamLawType *type);
 /*
   SamLawRegister - adds a type; `create` sets a law's methods and defaults, see private/lawimpl.h. Laws act in the order
   in which their types were registered. A type of the same name replaces an earlier one. Not collective, but to be
@@ -44,7 +42,7 @@ PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*c
 PETSC_EXTERN PetscErrorCode SamLawGetTypes(PetscInt *count, const SamLawType **types);
 PETSC_EXTERN PetscBool      SamLawIsRegistered(const char name[]);
 /*
-  SamLawSetFromOptions - reads the law's options; `asked`: they ask for the law. Collective. Errors: SAM_ERR_USER,
+  SamLawSetFromOptions - reads the law's options; `asked`: they select the law. Collective. Errors: SAM_ERR_USER,
   SAM_ERR_FILE.
   SamLawAddParameters - appends what defines the law, by the names of its options. Collective.
 */

@@ -20,7 +20,7 @@ typedef struct {
 /* How cycles are jumped over. */
 typedef enum {
   SAM_LIFE_IMPLICIT, /* by the pressure at the end of a jump: stable however long it is */
-  SAM_LIFE_EXPLICIT  /* by the wear of the computed cycle: jumps are kept below their limit of stability */
+  SAM_LIFE_EXPLICIT  /* by the wear of the computed cycle: jumps stay below the stability limit */
 } SamLifeType;
 
 /* How a life is computed. */
@@ -51,8 +51,8 @@ typedef struct {
   SamLife - carries a contact over many cycles by computing some of them. A cycle is computed on a fixed gap; then its
   wear is repeated some times over. Implicitly, the pressure that comes with the worn gap is solved for, as the normal
   problem of surfaces that yield (SamNormalSolveYielding()). A jump is made once as a whole and once in two halves, with
-  a cycle computed between them; their difference is the error, and tells the size of the next jump; what is kept is
-  their extrapolation, which is of second order. Jumps are whole numbers of cycles; one of a single cycle is taken
+  a cycle computed between them; their difference is the error, and sets the size of the next jump; their
+  extrapolation, which is of second order, is kept. Jumps are whole numbers of cycles; one of a single cycle is taken
   whatever its error: faster wear is for steps that wear one by one, without a life.
 
   SamLifeCompute() and SamLifeJump() take turns.
@@ -75,20 +75,20 @@ PETSC_EXTERN PetscErrorCode SamLifeDestroy(SamLife *life);
 PETSC_EXTERN PetscErrorCode SamLifeGetSeries(SamLife life, SamState *series, const char **name);
 PETSC_EXTERN PetscErrorCode SamLifeRecord(SamLife life, const SamLifeReport *report);
 /*
-  SamLifeCompute - a cycle on the wear so far. When a step of it has no solution or did not converge, the report says so
-  in its step. Collective.
+  SamLifeCompute - a cycle on the wear so far. When a step of it has no solution or did not converge, the report's step
+  has its status. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamLifeCompute(SamLife life, SamLifeReport *report);
 /*
   SamLifeJump - one jump, not beyond `cycles` in all. Where a cycle within it cannot be solved, it is tried again
-  shorter; a jump of one cycle that cannot be made is told in the report's step, and the wear is as it was before.
+  shorter; a jump of one cycle that cannot be made is a status of the report's step, and the wear stays.
   Collective. Errors: PETSC_ERR_ORDER without a computed cycle.
 */
 PETSC_EXTERN PetscErrorCode SamLifeJump(SamLife life, PetscReal cycles, SamLifeReport *report);
 
 /*
   SamLifeState - all that the life after a jump depends on, besides the states of the contact and of the wear. A life
-  that is given the state of another goes on as that one would.
+  that is given the state of another continues as that one would.
 */
 typedef struct {
   PetscReal cycles, next; /* so far; the next jump */

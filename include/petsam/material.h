@@ -36,7 +36,7 @@ PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], 
 PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);
 /*
   SamPairAddParameters - appends the constants by the names of these options. Not collective.
-  SamPairSetFromParameters - from what has been recorded so; `source` says in messages where that is. Collective.
+  SamPairSetFromParameters - from such a record; `source` names it in messages. Collective.
   Errors: SAM_ERR_FILE.
 */
 PETSC_EXTERN PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *parameters);

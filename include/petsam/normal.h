@@ -1,4 +1,4 @@
-/* The normal contact problem: pressure under given loads or rigid displacements. */
+/* The normal contact problem: pressure under given loads or rigid-body displacements. */
 #ifndef PETSAM_NORMAL_H
 #define PETSAM_NORMAL_H
 
@@ -8,8 +8,8 @@
   SamNormal - a solver of the normal problem: find the pressure p with, in every cell,
       p >= 0,  g >= 0,  p g = 0,      g = S p + h - (d_z - y r_x + x r_y)
   where g is the gap, S the normal influence operator and h the separation of the undeformed bodies; the balance gives
-  the loads or rigid displacements. With a pressure limit H (SamNormalSetPressureLimit()) p <= H, and where p = H the
-  bodies may overlap, g <= 0: by that much they yield.
+  the loads or rigid-body displacements. With a pressure limit H (SamNormalSetPressureLimit()) p <= H, and where p = H
+  the bodies may overlap, g <= 0: by that much they yield.
 */
 typedef struct _n_SamNormal *SamNormal;
 
@@ -41,21 +41,21 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
 */
 #define SAM_SATURATED (1 - 1e-9)
 /*
-  SamNormalSetPressureLimit - the largest admissible pressure (Pa), of the next solves; infinite (default): none. Not
-  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0. A method that has no such bound refuses to solve with
-  it, PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the present one has it.
+  SamNormalSetPressureLimit - the maximum admissible pressure (Pa), of the next solves; infinite (default): none. Not
+  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0. A method without such a bound rejects it,
+  PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the current method has it.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
 PETSC_EXTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits);
 
 /*
   SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,
-  and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and rigid
-  displacements. The relative error is the largest |g| where p > 0 and the largest -g elsewhere, over the largest |S p|;
-  where p is at the limit, only g > 0 counts. Where displacements count from the mean surface (SamElasticityTraits), a
-  given approach must lie below the mean separation unless there is a limit, else NO_EQUILIBRIUM; so is a load beyond
-  the limit on all of the grid. Collective. Not converging is a reason, not an error, unless that was asked for. Errors:
-  SAM_ERR_USER for a normal load below zero.
+  and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and rigid-body
+  displacements. The relative error is the maximum |g| where p > 0 and the maximum -g elsewhere, over the maximum |S p|;
+  where p is at the limit, only g > 0 counts. Where displacements are measured from the mean planes
+  (SamElasticityTraits), a given approach must lie below the mean separation unless there is a limit, else
+  NO_EQUILIBRIUM; so is a load beyond the limit on all of the grid. Collective. Not converging is a reason, not an
+  error, unless SamSolverSetErrorIfNotConverged() makes it one. Errors: SAM_ERR_USER for a normal load below zero.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
 /*

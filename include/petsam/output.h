@@ -67,7 +67,7 @@ typedef struct {
 /* SamOutputAddTime - the checksum of some times (0 of none) and one more (s). Not collective. */
 PETSC_EXTERN uint64_t SamOutputAddTime(uint64_t times, PetscReal time);
 /*
-  SamOutputContinue - results that go on after those of a stopped run: what these held at a point is copied to a new
+  SamOutputContinue - results that continue those of a stopped run: what these held at a point is copied to a new
   file (SamOutputNames()), which takes their name when it is complete. The XDMF file is written again. Collective.
   Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps, SAM_ERR_USER for one with
   other fixed parameters or other times; after an error the file is unchanged.
@@ -88,7 +88,7 @@ PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
   SamOutputWriteStep - appends the numbers of the contact's state (SamStateReadNumbers()) to /history and, with
   `fields`, the time and the fields. Then the file is complete up to here, whatever happens
   later; but where the settings allow it, steps without fields wait in memory, since many are written in the time of
-  one: for so long, if steps go on to be written, or until there is a chunk of them. Collective. Errors: SAM_ERR_FILE,
+  one: for so long, if more steps are written, or until there is a chunk of them. Collective. Errors: SAM_ERR_FILE,
   also when another program has replaced the file, or changed its size, since it was written last. When there is no
   space, nothing is written and the file can be closed.
   When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and the program

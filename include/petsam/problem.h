@@ -14,7 +14,7 @@ typedef struct _n_SamProblem *SamProblem;
 PETSC_EXTERN PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem);
 /* SamProblemReference - adds a reference. Not collective. */
 PETSC_EXTERN PetscErrorCode SamProblemReference(SamProblem problem);
-/* SamProblemDestroy - gives back a reference, the last one frees the problem; sets the handle to NULL. Collective. */
+/* SamProblemDestroy - drops a reference, the last one frees the problem; sets the handle to NULL. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemDestroy(SamProblem *problem);
 /* The elasticity and its grid. Not collective. */
 PETSC_EXTERN PetscErrorCode SamProblemGetElasticity(SamProblem problem, SamElasticity *elasticity); /* borrowed */
@@ -40,7 +40,7 @@ PETSC_EXTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjec
   SamProblemAddSum - the same for a type that only accumulates a field; does nothing for another type. Collective.
   SamProblemGetLaw - the law of a type, NULL if there is none; borrowed. Not collective.
   SamProblemGetLaws - all laws, in the order in which they act; borrowed. Not collective.
-  SamProblemSetLawsFromOptions - offers the options to every registered type, and adds the laws that they ask for.
+  SamProblemSetLawsFromOptions - lets every registered type read the options, and adds the laws that they select.
   Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_EXTERN PetscErrorCode SamProblemAddLaw(SamProblem problem, SamLaw law);

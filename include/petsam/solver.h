@@ -9,7 +9,7 @@
   SamSolver - a method for one of the two contact problems, with its tolerances, monitors and counts. Its kinds are
   SamNormal and SamTangential, types of their own: each has its functions to create, solve, destroy, and to register
   methods. All else is done by the functions of this file, on SamNormalAsSolver(normal) or
-  SamTangentialAsSolver(tangential). Used like a KSP: create, set or read options, solve, ask for the reason.
+  SamTangentialAsSolver(tangential). Used like a KSP: create, set or read options, solve, get the reason.
 
   The names of options carry the kind, after the user's prefix: -normal_rtol, -tangential_rtol. Below, <kind> stands for
   `normal` or `tangential`.
@@ -34,7 +34,7 @@ PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
 
 /*
   SamSolverSetType - chooses the method, one of those registered for the solver's kind. Option -<kind>_type. Collective.
-  Errors: SAM_ERR_USER for an unknown type, with the list of those known.
+  Errors: SAM_ERR_USER for an unknown type, with the list of registered types.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetType(SamSolver solver, SamSolverType type);
 PETSC_EXTERN PetscErrorCode SamSolverGetType(SamSolver solver, SamSolverType *type);
@@ -45,8 +45,8 @@ PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const ch
 /*
   SamSolverSetTolerances - `rtol`: the relative error, defined at SamNormalSolve() and SamTangentialSolve(), at which
   the solver stops (option -<kind>_rtol); `max_it`: most iterations on the finest grid, 0: the type's default (option
-  -<kind>_max_it). PETSC_DEFAULT leaves a value as it is. SamSolverGetTolerances - the values in force; NULL for one
-  that is not wanted. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or rtol 0.
+  -<kind>_max_it). PETSC_DEFAULT leaves a value as it is. SamSolverGetTolerances - the values in force; NULL for an
+  unused one. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or rtol 0.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetTolerances(SamSolver solver, PetscReal rtol, PetscInt max_it);
 PETSC_EXTERN PetscErrorCode SamSolverGetTolerances(SamSolver solver, PetscReal *rtol, PetscInt *max_it);
@@ -78,15 +78,12 @@ PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver solver, SamSolverMonit
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver solver);
 
-/* SamSolverView - prints the type and the settings. Collective. */
-PETSC_EXTERN PetscErrorCode SamSolverView(SamSolver solver, PetscViewer viewer);
-
 /* SamSolverGetReason - why the last solve stopped. Not collective. */
 PETSC_EXTERN PetscErrorCode SamSolverGetReason(SamSolver solver, SamSolverReason *reason);
 
 /*
   SamSolverGetStatistics - of the last solve: the relative error reached, iterations, products with the influence
-  operator and with the preconditioner, all on the finest grid; NULL for one that is not wanted. Not collective.
+  operator and with the preconditioner, all on the finest grid; NULL for an unused one. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamSolverGetStatistics(SamSolver solver, PetscReal *error, PetscInt *iterations,
                                                    PetscInt *applies, PetscInt *preconditions);

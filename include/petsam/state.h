@@ -16,7 +16,7 @@
 typedef struct _n_SamState *SamState;
 typedef enum { SAM_TRIED, SAM_COMMITTED, SAM_BEFORE, SAM_GENERATIONS } SamGeneration;
 
-/* Whether results offer a field, and save it unless others are asked for. */
+/* Whether results offer a field, and save it by default. */
 typedef enum { SAM_RESULT_NONE, SAM_RESULT_OFFERED, SAM_RESULT_USUAL } SamResultUse;
 
 /*

@@ -36,9 +36,10 @@ PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 
 /*
   SamStressAtEdge - the stresses xx, yy and xy (Pa, three a point) on the surface at the points of the contact's edge,
-  of a reconstruction of the pressure's square: the largest tension lies there, and the values of the map approach it
-  only like the root of the cell (src/elasticity/halfspace/stressedge.c). `field`: the map of SamStressApply() at
-  depth 0. NaN within six cells of the grid's border, and where the type of elasticity does not know them. Collective.
+  of a reconstruction of the pressure's square: the maximum tension lies there, and the values of the map approach it
+  only with the square root of the cell size (src/elasticity/halfspace/stressedge.c). `field`: the map of
+  SamStressApply() at depth 0. NaN within six cells of the grid's border, and where the type of elasticity has no such
+  method. Collective.
 */
 typedef struct _n_SamEdge   SamEdge;
 PETSC_EXTERN PetscErrorCode SamStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);

@@ -10,7 +10,8 @@
       s  = C q + w - (d_x - y r_z, d_y + x r_z),       ds = s - S,
   ds = 0 where |q| < b (stick), and ds = -lambda q with lambda >= 0 where |q| = b (slip). C is the tangential influence
   operator, w a given displacement (that of the pressure, for dissimilar materials), S the slip at the end of the step
-  before; the balance gives the loads or rigid displacements. The problem is strictly convex, so it has one solution.
+  before; the balance gives the loads or rigid-body displacements. The problem is strictly convex, so it has one
+  solution.
 */
 typedef struct _n_SamTangential *SamTangential;
 
@@ -44,13 +45,13 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
 
 /*
   SamTangentialSolve - finds q (Pa, two components) for the bound of each cell's shear (Pa, one component, >= 0) and the
-  offset w - S (m, two components; NULL: zero). With `guess` q and the rigid displacements in the balance are a start,
-  and only the finest grid is used. On return the balance holds all loads and rigid displacements; after gross slip,
-  SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM, it is as it was, unless there was no friction at all, and q is the shear of
-  sliding, which carries the loads at their limit. The relative error is the
+  offset w - S (m, two components; NULL: zero). With `guess` q and the rigid-body displacements in the balance are a
+  start, and only the finest grid is used. On return the balance holds all loads and rigid-body displacements; after
+  gross slip, SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM, it is as it was, unless there was no friction at all, and q is the
+  shear of sliding, which carries the loads at their limit. The relative error is the
   residual of the projection equation q = D(q - ds/c), D the projection onto the discs |q| <= bound and c the
   self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm. Collective. Not
-  converging is a reason, not an error, unless that was asked for.
+  converging is a reason, not an error, unless SamSolverSetErrorIfNotConverged() makes it one.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
                                                PetscBool guess, Vec q);

@@ -5,7 +5,7 @@
 
 Everything runs in a copy of the files, in /tmp, with links to what is built. In the order of a file, a block in sh runs
 in the copy's root, one in python after the earlier ones of its file; figures in the comment behind a print() are
-compared. Other blocks are text. A comment above a block or a table says more:
+compared. Other blocks are text. A comment above a block or a table adds conditions:
 
     <!-- not run: why -->         the block does not run
     <!-- slow: how long -->       it runs with --all only
@@ -16,12 +16,12 @@ compared. Other blocks are text. A comment above a block or a table says more:
                                   text, in which ... stands for anything. Figures agree when they differ by at most one
                                   in the last digit that is written; those below 1e-11 are left by rounding.
     <!-- printed but: WORD, ... --> the same without lines, rows and columns that contain one of the words
-    <!-- printed row by row -->   the figures of each row of a table stand in one printed line; also with but: WORD, ...
+    <!-- printed row by row -->   the figures of each row of a table are in one printed line; also with but: WORD, ...
     <!-- slow printed -->         the same, with --all only; also with the words above
 
 and one that stands for itself:
 
-    <!-- run: COMMAND -->         runs a command whose text stands in a paragraph; <!-- slow run: COMMAND --> with --all
+    <!-- run: COMMAND -->         runs a command whose text is in a paragraph; <!-- slow run: COMMAND --> with --all
     <!-- after: FILE, ... -->     those files are checked first; what they make and print is there
 
 Exit code 1 when a command ends otherwise, or a figure differs.

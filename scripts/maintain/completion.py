@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes bash's completion of the options of petsam or petsam-stress, from what the program says of itself.
+"""Writes bash's completion of the options of petsam or petsam-stress, from its -help.
 
     python3 scripts/maintain/completion.py build/bin/petsam > share/bash-completion/completions/petsam
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the man page of petsam or petsam-stress, from what the program says of itself.
+"""Writes the man page of petsam or petsam-stress, from its -help.
 
     python3 scripts/maintain/manpage.py build/bin/petsam > petsam.1
 

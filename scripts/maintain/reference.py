@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of options in examples/OPTIONS.md from what the programs' -help says.
+"""Writes the tables of options in examples/OPTIONS.md from the programs' -help.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -67,7 +67,7 @@ def main():
     if not arguments.check:
         REFERENCE.write_text(new)
     elif new != old:
-        sys.exit(f"{REFERENCE.relative_to(ROOT)} is not what -help says: run python3 scripts/maintain/reference.py")
+        sys.exit(f"{REFERENCE.relative_to(ROOT)} differs from -help: run python3 scripts/maintain/reference.py")
 
 
 if __name__ == "__main__":

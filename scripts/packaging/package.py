@@ -6,15 +6,15 @@
 #   spack repo add ~/petsam-repo/spack_repo/petsam_local
 #   spack dev-build petsam@main          in a clone; or set `git` below, then spack install petsam
 #
-# Never run: no Spack was at hand. It names what the Makefile asks pkg-config for, and what the scripts import.
+# Its requirements are those of the Makefile and of scripts/requirements.txt. README.md: how far it was tried.
 
 from spack.package import *
 from spack_repo.builtin.build_systems.makefile import MakefilePackage
 
 
 class Petsam(MakefilePackage):
-    """Partial-slip contact of elastic bodies by the semi-analytical method: all six loads by force or displacement,
-    Coulomb friction, load histories, any number of MPI ranks, results in HDF5."""
+    """Partial-slip contact of elastic bodies by the semi-analytical method: six loads by force or displacement,
+    Coulomb friction, load histories, wear, stresses, any number of MPI ranks, results in HDF5."""
 
     git = "file:///path/to/your/clone/of/petsam"
 
@@ -56,7 +56,7 @@ class Petsam(MakefilePackage):
         return self._words() + ["prefix=" + self.prefix, "install"]
 
     def test_version(self):
-        """The installed program says its version."""
+        """The installed program prints its version."""
         petsam = which(self.prefix.bin.petsam)
         out = petsam("--version", output=str.split, error=str.split)
         assert "petsam" in out

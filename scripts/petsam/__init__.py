@@ -8,7 +8,7 @@ Contact         a contact in this process: steps, stiffness, fields, stresses, f
 open            reading of files: Results of petsam (results.py), Stresses of petsam-stress (stresses.py), the table of
                 petsam-study (studies.py)
 cycles          cycles of a load history and their energies
-closed          closed solutions of contact mechanics
+closed          closed-form solutions of contact mechanics
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
 surface         measured surfaces into petsam's HDF5: petsam-surface

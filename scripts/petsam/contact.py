@@ -8,7 +8,7 @@
         print(step.load_tx, step.contact_area, step.dissipated_energy, contact.stiffness()[1, 1])
         contact.commit()
 
-The life of a contact, and what each number means: include/petsam/embed.h and examples/embed/README.md.
+The order of calls, and the meaning of each number: include/petsam/embed.h and examples/embed/README.md.
 """
 
 import ctypes
@@ -22,7 +22,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .environment import TREE
+from . import __version__
+from .environment import PREFIX, TREE
 from .errors import Error, Missing, short, there_are
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
@@ -37,7 +38,7 @@ _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctyp
 
 
 class ContactError(Error):
-    """What a contact refuses, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
+    """A call that was rejected, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
 
     def __init__(self, code, message):
         super().__init__(code, message)  # so that it can be pickled
@@ -113,16 +114,25 @@ def _candidates():
     """Where libpetsam may be: $PETSAM_LIBRARY, the build tree, the prefix of these scripts or of petsam on PATH."""
     if os.environ.get("PETSAM_LIBRARY"):
         return [os.environ["PETSAM_LIBRARY"]]
-    folders = [TREE / "build" / "lib", TREE.parents[1] / "lib"]
+    folders = [TREE / "build" / "lib", PREFIX / "lib"]
     program = os.environ.get("PETSAM") or shutil.which("petsam")
     if program:
         folders.append(Path(program).resolve().parents[1] / "lib")
-    found = [str(folder / "libpetsam.so") for folder in folders if (folder / "libpetsam.so").exists()]
-    return [*found, "libpetsam.so"]
+    # a wheel has the library by the version of its interface only
+    names = ("libpetsam.so", "libpetsam.so." + ".".join(__version__.split(".")[:2]))
+    return [*[str(folder / name) for folder in folders for name in names if (folder / name).exists()], "libpetsam.so"]
+
+
+def _needs(name):
+    """What a wheel says has to be installed where its library cannot be loaded."""
+    try:
+        return "; " + Path(name + ".needs").read_text(encoding="utf-8").strip()
+    except OSError:
+        return ""
 
 
 def _share_mpi():
-    """Makes the symbols of MPI known to the parts that it loads itself; those of HDF5 would disturb h5py's own."""
+    """Make MPI's symbols visible to the modules that it loads itself; HDF5's would disturb h5py's own."""
     try:
         with open("/proc/self/maps") as maps:
             names = {line.split()[-1] for line in maps if "/libmpi.so" in line}
@@ -142,7 +152,7 @@ def _find():
             found.petsam_destroy.restype = None
             return found
         except OSError as error:
-            reason = reason or str(error)
+            reason = reason or str(error) + _needs(name)
         except AttributeError:
             reason = reason or f"{name} is another library, or an older one"
     raise Missing(
@@ -209,7 +219,6 @@ class Contact:
             )
             self._check(code)
         self._read_grid()
-        self._further = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
 
     def _read_grid(self):
         n, size, center = (ctypes.c_int * 2)(), (ctypes.c_double * 2)(), (ctypes.c_double * 2)()
@@ -280,10 +289,11 @@ class Contact:
         return step
 
     def _numbers(self):
-        """{name: value} of the further numbers of the last step: a microsecond each."""
+        """{name: value} of the further numbers of the last step; a history may add some. A microsecond each."""
         found, value = {}, ctypes.c_double()
+        names = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
         with _lock:
-            for name in self._further:
+            for name in names:
                 if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
                     found[name] = value.value
         return found
@@ -357,7 +367,7 @@ class Contact:
                 None,
             )
         except (NotConverged, NoEquilibrium) as error:
-            error.steps = found[:-1] if name == "history" else found  # a step that fails is told of too
+            error.steps = found[:-1] if name == "history" else found  # the monitor is called for a failed step too
             error.step = self._last_step(error.code, str(error))
             raise
         if failed:
@@ -403,7 +413,7 @@ class Contact:
         return value.value
 
     def _ask(self, function, name, target):
-        """Call a function that is asked for something by name; an unknown name is an error with those there are."""
+        """Call a function that takes a name; an unknown name is an error that lists the known ones."""
         try:
             self._call(function, name.encode(), target)
         except ContactError as error:

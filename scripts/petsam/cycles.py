@@ -3,12 +3,12 @@
     import petsam
     from petsam import cycles
     with petsam.open("strokes.h5") as results:
-        found = cycles.find(results)                        # by turning points of the busiest displacement
+        found = cycles.find(results)                        # by reversals of the displacement that does most work
         found = cycles.find(results, turns="load_tx")       # of another scalar
         found = cycles.find(results, period=(0.02, None))   # or by time, s
-        print(found.energies)                               # J, one a cycle
+        print(found.energies)                               # J, one per cycle
 
-By turning points a cycle goes from one of them to the second next one: from a maximum back to a maximum, or from a
+By reversals a cycle goes from one of them to the next but one: from a maximum back to a maximum, or from a
 minimum to a minimum, whichever comes first in the history; the loading before it belongs to no cycle. By a period
 the cycles follow one another from a start. A cycle that the history does not finish is left out.
 """
@@ -142,10 +142,10 @@ class Cycles:
 
 
 def find(results, turns=None, period=None):
-    """The Cycles of Results: of a period (s, start or None), or by turning points.
+    """The Cycles of Results: of a period (s, start or None), or by reversals.
 
-    turns names the scalar of /history that turns; without it the displacement of the pair that works most: it goes on
-    where a load that slides does not change.
+    turns names the scalar of /history that reverses; without it the displacement of the pair that does most work, which
+    changes also in gross slip, where its load does not.
     """
     results.need_solution()
     if period is not None:
@@ -161,4 +161,4 @@ def find(results, turns=None, period=None):
     if turns not in results.history:
         there = there_are(turns, sorted(results.history), "it has")
         raise Error(f"{results.path}: --turns {short(turns)}: has no such scalar{there}")
-    return Cycles(results, by_turns(results.series(turns).astype(float)), f"turning points of {turns}")
+    return Cycles(results, by_turns(results.series(turns).astype(float)), f"reversals of {turns}")

@@ -18,7 +18,8 @@ from pathlib import Path
 from .errors import Error, Missing
 
 SCRIPTS = Path(__file__).resolve().parents[1]
-TREE = SCRIPTS.parent  # the repository, or prefix/share/petsam
+TREE = SCRIPTS.parent  # the repository, prefix/share/petsam, or prefix/lib/pythonX.Y of an installed wheel
+PREFIX = TREE.parents[1]
 ENTERED = "PETSAM_ENTERED"
 VERSION, SECONDS = 4096, 60.0  # characters of what a launcher says about itself, and how long it may take
 
@@ -82,12 +83,21 @@ def petsam():
         if not found:
             raise Missing("no program {}, which PETSAM names".format(os.environ["PETSAM"]))
         return os.path.abspath(found)
-    for folder in (TREE / "build" / "bin", TREE.parents[1] / "bin"):
+    for folder in (TREE / "build" / "bin", PREFIX / "bin"):
         if os.access(folder / "petsam", os.X_OK):
             return str(folder / "petsam")
     found = shutil.which("petsam")
     if not found:
         raise Missing("no program petsam in build/bin or on PATH: run make, or set PETSAM")
+    return found
+
+
+def script(name):
+    """Path of a script beside this package, or where a wheel puts it."""
+    folders = (SCRIPTS, PREFIX / "share" / "petsam" / "scripts", PREFIX / "bin")
+    found = next((folder / name for folder in folders if (folder / name).exists()), None)
+    if not found:
+        raise Missing(f"{name} not found in {', '.join(map(str, folders))}; install petsam again")
     return found
 
 

@@ -1,4 +1,4 @@
-"""Errors that the commands report in one line: their message says all that a user needs."""
+"""Errors that the commands report in one line: their message contains all that a user needs."""
 
 import argparse
 import difflib

@@ -3,7 +3,7 @@
 
   Times are those of petsam's log events, each from the rank where it is largest.
 */
-#include "reportimpl.h"
+#include "report.h"
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -31,7 +31,7 @@ static const Part files   = {"files", {SAM_EVENT_OUTPUT, SAM_EVENT_CHECKPOINT}, 
 /* These are contained in the parts above. */
 static const Part inner[] = {
   {"influence coefficients", {SAM_EVENT_SETUP_INFLUENCE}, 1},
-  {"products", {SAM_EVENT_APPLY_NORMAL, SAM_EVENT_APPLY_TANGENTIAL, SAM_EVENT_APPLY_COUPLING}, 3},
+  {"operator applications", {SAM_EVENT_APPLY_NORMAL, SAM_EVENT_APPLY_TANGENTIAL, SAM_EVENT_APPLY_COUPLING}, 3},
   {"preconditioner", {SAM_EVENT_PRECONDITION_NORMAL, SAM_EVENT_PRECONDITION_TANGENTIAL}, 2},
   {"Fourier transforms", {SAM_EVENT_FFT_ROWS, SAM_EVENT_FFT_COLUMNS, SAM_EVENT_FFT_TRANSPOSE}, 3}};
 
@@ -97,15 +97,13 @@ static PetscErrorCode PrintTimes(SamReport r)
 /* How well the grid resolves the contact. */
 static PetscErrorCode PrintExtent(SamReport r)
 {
+  char size[48] = "none", spots[48] = "";
+
   PetscFunctionBegin;
   if (!r->extent_step) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!r->extent.zones)
-    PetscCall(PetscPrintf(r->comm, "  %-10s  none", "contact"));
-  else if (r->extent.zones == 1)
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %.1f cells across", "contact", (double)r->extent.across));
-  else
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " zones, the narrow ones %.1f cells across", "contact",
-                          r->extent.zones, (double)r->extent.across));
+  if (r->extent.zones) (void)snprintf(size, sizeof(size), "%.1f cells across", (double)r->extent.across);
+  if (r->extent.zones > 1) (void)snprintf(spots, sizeof(spots), "%ld spots, the narrow ones ", (long)r->extent.zones);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %s%s", "contact", spots, size));
   if (r->steps > 1) PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ", at the largest load)", r->extent_step));
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -135,10 +133,11 @@ static PetscErrorCode PrintFiles(SamReport r)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < r->files; k++) {
     struct stat status = {.st_size = 0};
+    char        size[32];
 
     if (!r->rank) (void)stat(r->name[k], &status);
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %s: %s, %.3g MB\n", k ? "" : "written", r->name[k], r->content[k],
-                          1e-6 * (double)status.st_size));
+    SamDescribeBytes((double)status.st_size, size, sizeof(size));
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %s: %s, %s\n", k ? "" : "written", r->name[k], r->content[k], size));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -167,16 +166,18 @@ static PetscErrorCode PrintResources(SamReport r)
 {
   struct rusage used;
   double        numbers[3];
+  char          memory[32];
 
   PetscFunctionBegin;
   getrusage(RUSAGE_SELF, &used);
   numbers[0] = MPI_Wtime() - r->start;
   numbers[1] = (double)used.ru_utime.tv_sec + 1e-6 * (double)used.ru_utime.tv_usec + (double)used.ru_stime.tv_sec +
                1e-6 * (double)used.ru_stime.tv_usec;
-  numbers[2] = 1e-6 * LargestMemory();
+  numbers[2] = LargestMemory();
   PetscCall(SamMax(r->comm, 3, numbers));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %.3f s, CPU %.2f s and memory %.0f MB of the largest rank\n", "used",
-                        numbers[0], numbers[1], numbers[2]));
+  SamDescribeBytes(numbers[2], memory, sizeof(memory));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %.3f s, CPU %.2f s and memory %s of the largest rank\n", "used", numbers[0],
+                        numbers[1], memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,5 +1,5 @@
 /* The names of all files of a program, and of those that PETSc writes for its viewers. */
-#include "files.h"
+#include "program.h"
 #include <petsam/private/baseimpl.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -7,23 +7,27 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-PetscErrorCode SamFilesAdd(SamFiles *f, SamFileRole role, const char option[], const char name[], PetscBool derived)
+PetscErrorCode SamFilesAdd(SamFiles *f, const char option[], const char name[], PetscBool written)
 {
-  SamNamedFile *file = &f->list[f->count];
-
   PetscFunctionBegin;
   PetscCheck(f->count < SAM_FILES, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "More than %d files", SAM_FILES);
-  *file = (SamNamedFile){.role = role, .option = option, .derived = derived};
-  PetscCall(PetscStrallocpy(name, &file->name));
-  f->count++;
+  f->list[f->count] = (SamNamedFile){.option = option, .written = written};
+  PetscCall(PetscStrallocpy(name, &f->list[f->count++].name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFilesFree(SamFiles *f)
+PetscErrorCode SamFilesAddWritten(SamFiles *f, const char option[], const char name[], char *derived, char *other)
 {
+  char *names[2] = {derived, other};
+
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < f->count; k++) PetscCall(PetscFree(f->list[k].name));
-  f->count = 0;
+  PetscCall(SamFilesAdd(f, option, name, PETSC_TRUE));
+  for (int k = 0; k < 2; k++) {
+    if (!names[k]) continue;
+    PetscCall(SamFilesAdd(f, option, names[k], PETSC_TRUE));
+    f->list[f->count - 1].derived = PETSC_TRUE;
+    PetscCall(PetscFree(names[k]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -119,7 +123,7 @@ static PetscErrorCode AddViewer(MPI_Comm comm, const char option[], SamFiles *fi
   if (rank == 0) error = CheckPlace(part[1]);
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
   PetscCheck(!error, comm, SAM_ERR_FILE, "%s %s: cannot be written: %s", option, part[1], strerror(error));
-  PetscCall(SamFilesAdd(files, SAM_FILE_WRITTEN, option, part[1], PETSC_FALSE));
+  PetscCall(SamFilesAdd(files, option, part[1], PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -130,47 +134,44 @@ static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *
 {
   PetscFunctionBegin;
   for (int k = 0; k < arguments->count; k++)
-    PetscCall(SamFilesAdd(f, SAM_FILE_READ_ONLY, "-options_file", arguments->files[k], PETSC_FALSE));
+    PetscCall(SamFilesAdd(f, "-options_file", arguments->files[k], PETSC_FALSE));
   PetscCall(CheckOptionsView(comm));
   for (PetscInt k = 0; viewers[k]; k++) PetscCall(AddViewer(comm, viewers[k], f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether one of two files may replace the other: checkpoints go on where the run restarts. */
+/* Whether one of two files may replace the other: a restart continues its checkpoints. */
 static PetscBool MayMeet(const SamNamedFile *one, const SamNamedFile *other)
 {
   if (!strcmp(one->option, other->option)) return PETSC_TRUE;
   return !strcmp(one->option, "-checkpoint") && !strcmp(other->option, "-restart");
 }
 
-/* Says which written file would replace another one; empty if none does. */
+/* Describes the first written file that would replace another one; empty if none does. */
 static void Compare(const SamFiles *f, char message[], size_t size)
 {
-  message[0] = '\0';
-  for (PetscInt w = 0; w < f->count && !message[0]; w++) {
-    const SamNamedFile *one = &f->list[w];
-
-    for (PetscInt k = 0; k < f->count && !message[0] && one->role == SAM_FILE_WRITTEN; k++) {
-      const SamNamedFile *other   = &f->list[k];
-      const PetscBool     written = other->role == SAM_FILE_WRITTEN;
-
-      if (written && k >= w) continue;
-      if (!MayMeet(one, other) && IsSameFile(one->name, other->name))
-        (void)snprintf(message, size, "%s %s: %s the %sfile of %s", one->option, one->name,
-                       written ? "is also" : "would overwrite", other->derived ? "second " : "", other->option);
+  for (const SamNamedFile *one = f->list; one < f->list + f->count; one++)
+    for (const SamNamedFile *other = f->list; other < f->list + f->count && one->written; other++) {
+      if (other->written && other >= one) continue;
+      if (MayMeet(one, other) || !IsSameFile(one->name, other->name)) continue;
+      (void)snprintf(message, size, "%s %s: %s the %sfile of %s", one->option, one->name,
+                     other->written ? "is also" : "would overwrite", other->derived ? "second " : "", other->option);
+      return;
     }
-  }
 }
 
 PetscErrorCode SamFilesCheck(SamFiles *f, MPI_Comm comm, const SamArguments *arguments)
 {
-  char        message[512] = "";
-  PetscMPIInt rank;
+  char           message[512] = "";
+  PetscMPIInt    rank;
+  PetscErrorCode code;
 
   PetscFunctionBegin;
-  PetscCall(AddCommon(f, comm, arguments));
+  code = AddCommon(f, comm, arguments);
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) Compare(f, message, sizeof(message));
+  if (rank == 0 && !code) Compare(f, message, sizeof(message));
+  for (PetscInt k = 0; k < f->count; k++) PetscCall(PetscFree(f->list[k].name));
+  PetscCall(code);
   PetscCallMPI(MPI_Bcast(message, (PetscMPIInt)sizeof(message), MPI_CHAR, 0, comm));
   PetscCheck(!message[0], comm, SAM_ERR_USER, "%s", message);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,5 +1,5 @@
 /* The help: the options list themselves while the program's set-up reads them; then what was asked for is printed. */
-#include "help.h"
+#include "program.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
 #include <ctype.h>
@@ -51,12 +51,12 @@ static PetscErrorCode Free(List *list)
 /* Lists the options of a program, and those that every program has: of this frame, and the most useful of PETSc's. */
 static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arguments)
 {
-  static const SamOptionHelp all[] = {
-    {"help", "[<topic>]", "this list, or more about a topic, or an option named without its dash", "", ""},
-    {"version", "", "the version", "", ""},
-    {"options_file", "<file>", "file with an option and its value on each line; # begins a comment", "", ""},
-    {"log_view", "[<viewer>]", "PETSc's account of the time", "", ""}};
-  const SamOptions from = {PETSC_COMM_WORLD, NULL};
+  static const SamOptionHelp all[] = {{"help", "[<topic>]", "all options, or one topic or option (no dash)", "", ""},
+                                      {"version", "", "the version", "", ""},
+                                      {"options_file", "<file>",
+                                       "file with an option and its value on each line; # begins a comment", "", ""},
+                                      {"log_view", "[<viewer>]", "PETSc's log of the time by event", "", ""}};
+  const SamOptions           from  = {PETSC_COMM_WORLD, NULL};
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));

@@ -1,5 +1,5 @@
 /*
-  The program petsam-stress: a run (stress/stressrun.c) in the frame of program.c.
+  The program petsam-stress: from tractions in a results file to stresses in a file of their own.
 
   Exit codes: 0 done; 2 bad usage; 3 a file cannot be used; others are PETSc's.
 */
@@ -7,21 +7,341 @@
 #include "help/petsam-stress.h" /* from petsam-stress.help */
 #include "stress/stressrun.h"
 #include <petsam/private/baseimpl.h>
+#include <math.h>
+#include <petsctime.h>
 #include <signal.h>
 
-static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
+/* A line of progress follows the one before after so many seconds, or such a part of the time spent. */
+#define TELL_SECONDS 1.0
+#define TELL_PART    0.05
+
+/* ---- set-up ---- */
+
+/* A field of the k-th of the chosen steps. */
+static PetscErrorCode ReadField(void *context, PetscInt step, SamStepField field, double values[])
 {
+  static const SamResultsField fields[SAM_STEP_FIELDS] = {SAM_RESULTS_PRESSURE, SAM_RESULTS_SHEAR_X,
+                                                          SAM_RESULTS_SHEAR_Y, SAM_RESULTS_SLIP_X, SAM_RESULTS_SLIP_Y};
+  const SamStressRun *const    run                     = (const SamStressRun *)context;
+
   PetscFunctionBegin;
-  PetscCall(SamStressRunSetUp((SamStressRun *)context, arguments));
+  PetscCall(SamResultsRead(run->results, run->saved[step], fields[field], values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static SamStressRun run;
+/* The bodies, by the elasticity that the results have recorded. */
+static PetscErrorCode CreateBodies(SamStressRun *run)
+{
+  const SamParameters *parameters;
+
+  PetscFunctionBegin;
+  PetscCall(SamResultsGetParameters(run->results, &parameters));
+  PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
+  PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
+  PetscCall(SamEvaluationSetElasticity(run->evaluation, run->elasticity, &run->transforms, run->source));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Times and bulk stresses of the steps. */
+static PetscErrorCode ReadSteps(SamStressRun *run)
+{
+  PetscInt body;
+
+  PetscFunctionBegin;
+  PetscCall(SamStressRequestSteps(&run->request, run->results, &run->steps, &run->saved));
+  PetscCall(PetscMalloc1(run->steps, &run->times));
+  PetscCall(PetscMalloc1(run->steps, &run->bulk));
+  PetscCall(SamEvaluationGetBody(run->evaluation, &body));
+  for (PetscInt k = 0; k < run->steps; k++) {
+    PetscInt step;
+
+    PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, &run->times[k]));
+    PetscCall(SamResultsReadBulkStress(run->results, step, body - 1, run->bulk[k]));
+  }
+  PetscCall(SamEvaluationSetSource(
+    run->evaluation,
+    &(SamEvaluationSource){.steps = run->steps, .bulk = run->bulk, .read = ReadField, .context = run}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetMemory(const SamStressRun *run, double *bytes)
+{
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationGetMemory(run->evaluation, bytes));
+  *bytes += SAM_MEMORY_PROGRAM;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The output, its XDMF file and its temporary file must not replace a file that is read. */
+static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *arguments)
+{
+  SamFiles files = {.count = 0};
+  char    *xdmf, *temporary;
+
+  PetscFunctionBegin;
+  PetscCall(SamFilesAdd(&files, "-input", r->input, PETSC_FALSE));
+  PetscCall(SamOutputNames(r->output, &xdmf, &temporary));
+  PetscCall(SamFilesAddWritten(&files, "-output", r->output, xdmf, temporary));
+  PetscCall(SamFilesCheck(&files, PETSC_COMM_WORLD, arguments));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads all options and the results' parameters; writes nothing. */
+static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
+{
+  SamStressRun *const run  = (SamStressRun *)context;
+  const SamOptions    from = {PETSC_COMM_WORLD, NULL};
+  PetscBool           help;
+  double              bytes;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsPlugins(&from));
+  PetscCall(SamStressRequestRead(&from, &run->request));
+  PetscCall(SamEvaluationCreate(PETSC_COMM_WORLD, &run->evaluation));
+  PetscCall(SamEvaluationSetFromOptions(run->evaluation, &from));
+  PetscCall(SamOptionsHeading(&from, "Resources"));
+  PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
+  PetscCall(SamOptionsBool(&from, "quiet", "print warnings and errors only", &run->quiet, NULL));
+  PetscCall(SamPrintHelp(&help));
+  if (help) PetscCall(SamMemoryRefuse(PETSC_COMM_WORLD, 0, "", "", &from)); /* for its option */
+  if (help) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(CheckFiles(&run->request, arguments));
+  PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
+  PetscCall(SamResultsGetGrid(run->results, &run->grid));
+  PetscCall(CreateBodies(run));
+  PetscCall(ReadSteps(run));
+  PetscCall(SamEvaluationSetUp(run->evaluation));
+  PetscCall(GetMemory(run, &bytes));
+  PetscCall(SamMemoryRefuse(run->grid->comm, bytes, "-input", run->request.input, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TearDown(void *context)
+{
+  SamStressRun *const run = (SamStressRun *)context;
+
+  PetscFunctionBegin;
+  PetscCall(SamStressFileDestroy(&run->file));
+  PetscCall(SamEvaluationDestroy(&run->evaluation));
+  PetscCall(SamElasticityDestroy(&run->elasticity));
+  PetscCall(SamResultsDestroy(&run->results));
+  PetscCall(PetscFree(run->saved));
+  PetscCall(PetscFree(run->times));
+  PetscCall(PetscFree(run->bulk));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- progress ---- */
+
+/* A line on how far the run is, if the last one is some time ago. */
+static PetscErrorCode Tell(void *context, const char work[], double part, double whole)
+{
+  SamStressRun *const run = (SamStressRun *)context;
+  PetscLogDouble      now, spent;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&now));
+  spent = now - run->start;
+  if (run->quiet || now - run->told < PetscMax(TELL_SECONDS, TELL_PART * spent)) PetscFunctionReturn(PETSC_SUCCESS);
+  run->told = now;
+  PetscCall(PetscPrintf(run->grid->comm, "  %-24s%5.1f %%  %.1f s", work, 100 * part, spent));
+  if (whole > 0) PetscCall(PetscPrintf(run->grid->comm, ", %.1f s left", spent * (1 - whole) / whole));
+  PetscCall(PetscPrintf(run->grid->comm, "\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the file ---- */
+
+static PetscErrorCode CreateFile(SamStressRun *run)
+{
+  SamParameters   parameters = {.count = 0};
+  SamStressLayout layout;
+  const char     *of_run;
+  char           *options;
+
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
+  layout.times = run->times;
+  PetscCall(SamEvaluationAddParameters(run->evaluation, &parameters));
+  PetscCall(SamStressFileCreate(run->grid, run->request.output, &layout, &parameters, &run->file));
+  PetscCall(SamStressFileSetText(run->file, "input", run->request.input));
+  PetscCall(PetscOptionsGetAll(NULL, &options));
+  PetscCall(SamStressFileSetText(run->file, "options", options));
+  PetscCall(PetscFree(options));
+  PetscCall(SamResultsGetOptions(run->results, &of_run));
+  PetscCall(SamStressFileSetText(run->file, "input_options", of_run));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Write(void *context, SamQuantity quantity, PetscInt component, PetscInt step, PetscInt depth,
+                            PetscInt depths, const double values[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamStressFileWrite(((SamStressRun *)context)->file, quantity, component, step, depth, depths, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The numbers of the load steps, as petsam counts them. */
+static PetscErrorCode WriteStepNumbers(SamStressRun *run)
+{
+  double *numbers;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(run->steps, &numbers));
+  for (PetscInt k = 0; k < run->steps; k++) {
+    PetscInt step;
+
+    PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, NULL));
+    numbers[k] = (double)step;
+  }
+  PetscCall(SamStressFileSetHistory(run->file, "step", "1", "number of the load step, from 1", numbers));
+  PetscCall(PetscFree(numbers));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes largest values of each step and their places: name_max, name_max_x, name_max_y, and name_max_z below. */
+static PetscErrorCode WriteLargest(SamStressRun *run, const char name[], const char words[], const char where[],
+                                   const SamLargest largest[])
+{
+  static const char *const endings[] = {"max", "max_x", "max_y", "max_z"};
+  double                  *values;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(run->steps, &values));
+  for (int k = 0; k < (where[0] ? 3 : 4); k++) {
+    char dataset[64], text[128], of[16] = "";
+
+    for (PetscInt s = 0; s < run->steps; s++) values[s] = k ? largest[s].place[k - 1] : largest[s].value;
+    if (k) PetscCall(PetscSNPrintf(of, sizeof(of), "%c of the ", "xyz"[k - 1]));
+    PetscCall(PetscSNPrintf(dataset, sizeof(dataset), "%s_%s", name, endings[k]));
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s%s", of, words, where));
+    PetscCall(SamStressFileSetHistory(run->file, dataset, k ? "m" : "Pa", text, values));
+  }
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Those at the edge of contact, where there are maps of the surface, with a warning of steps without. */
+static PetscErrorCode WriteEdge(SamStressRun *run, SamLargest *largest[2], const SamStressLayout *layout)
+{
+  const char *const where   = " at the contact edge, on the surface";
+  PetscInt          missing = 0;
+  PetscMPIInt       rank;
+
+  PetscFunctionBegin;
+  if (layout->section || layout->depth[0] > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt s = 0; s < run->steps; s++) {
+    SamLargest of[2];
+    PetscBool  lost;
+
+    PetscCall(SamEvaluationGetEdgeLargest(run->evaluation, s, of, &lost));
+    for (int k = 0; k < 2; k++) largest[k][s] = of[k];
+    missing += lost ? 1 : 0;
+  }
+  PetscCall(WriteLargest(run, "edge_stress_xx", "maximum stress xx", where, largest[0]));
+  PetscCall(WriteLargest(run, "edge_principal_1", "maximum principal stress", where, largest[1]));
+  PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
+  if (!missing || rank) PetscFunctionReturn(PETSC_SUCCESS);
+  fprintf(stderr,
+          "petsam-stress: warning: the contact edge is not found in %ld of %ld steps, and "
+          "/history/edge_stress_xx_max is NaN there: less than 95 %% of it is smooth and resolved, or petsam has "
+          "corrected it (-edges deferred): use results of -edges reconstruct on a finer grid\n",
+          (long)missing, (long)run->steps);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes the largest values of all steps, and of the fatigue parameters. */
+static PetscErrorCode WriteAllLargest(SamStressRun *run)
+{
+  SamStressLayout layout;
+  SamLargest     *largest[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
+  for (int k = 0; k < 2; k++) {
+    PetscCall(PetscMalloc1(run->steps, &largest[k]));
+    for (PetscInt s = 0; s < run->steps; s++)
+      PetscCall(
+        SamEvaluationGetLargest(run->evaluation, k ? SAM_QUANTITY_PRINCIPAL : SAM_QUANTITY_MISES, s, &largest[k][s]));
+  }
+  PetscCall(WriteLargest(run, "mises", "maximum von Mises stress", "", largest[0]));
+  PetscCall(WriteLargest(run, "principal_1", "maximum principal stress", "", largest[1]));
+  PetscCall(WriteEdge(run, largest, &layout));
+  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
+    SamLargest of;
+
+    if (!layout.wants[q]) continue;
+    PetscCall(SamEvaluationGetLargest(run->evaluation, (SamQuantity)q, 0, &of));
+    PetscCall(SamStressFileSetLargest(run->file, (SamQuantity)q, of.value, of.place));
+  }
+  for (int k = 0; k < 2; k++) PetscCall(PetscFree(largest[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the run ---- */
+
+static PetscErrorCode PrintBanner(SamStressRun *run)
+{
+  const SamGrid   g = run->grid;
+  SamStressLayout layout;
+  PetscMPIInt     ranks;
+  PetscInt        body;
+  double          bytes;
+  char            memory[32];
+
+  PetscFunctionBegin;
+  if (run->quiet) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallMPI(MPI_Comm_size(g->comm, &ranks));
+  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
+  PetscCall(SamEvaluationGetBody(run->evaluation, &body));
+  PetscCall(GetMemory(run, &bytes));
+  SamDescribeBytes(bytes, memory, sizeof(memory));
+  PetscCall(PetscPrintf(g->comm,
+                        "petsam-stress " PETSAM_VERSION ": stresses in body %" PetscInt_FMT "\n"
+                        "  results     %s, %" PetscInt_FMT " x %" PetscInt_FMT " cells\n"
+                        "  steps       %" PetscInt_FMT ", depths %" PetscInt_FMT ", %s\n"
+                        "  ranks       %d, memory about %s per rank\n\n",
+                        body, run->request.input, g->nx, g->ny, run->steps, layout.depths,
+                        layout.section ? "on a section" : "maps", ranks, memory));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PrintLargest(SamStressRun *run)
+{
+  static const char *const        names[] = {"Crossland", "Dang Van", "Findley", "SWT", "Fatemi-Socie", "Ruiz 1"},
+                           *const units[] = {" Pa", " Pa", " Pa", " Pa", "", " J/m2"};
+  SamLargest                      most    = {.value = -INFINITY}, of;
+  SamStressLayout                 layout;
+  PetscInt                        load = 0;
+
+  PetscFunctionBegin;
+  if (run->quiet) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt s = 0; s < run->steps; s++) {
+    PetscCall(SamEvaluationGetLargest(run->evaluation, SAM_QUANTITY_MISES, s, &of));
+    if (s && of.value <= most.value) continue;
+    most = of;
+    PetscCall(SamResultsGetSaved(run->results, run->saved[s], &load, NULL));
+  }
+  PetscCall(PetscPrintf(run->grid->comm,
+                        "  maximum     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
+                        most.value, most.place[0], most.place[1], most.place[2], load));
+  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
+  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
+    if (!layout.wants[q]) continue;
+    PetscCall(SamEvaluationGetLargest(run->evaluation, (SamQuantity)q, 0, &of));
+    PetscCall(PetscPrintf(run->grid->comm, "              %s %.6g%s at (%.4g, %.4g, %.4g) m\n",
+                          names[q - SAM_QUANTITY_CROSSLAND], of.value, units[q - SAM_QUANTITY_CROSSLAND], of.place[0],
+                          of.place[1], of.place[2]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static SamStressRun run_of_process; /* for the handler of signals */
 
 /* A signal that ends the program leaves no temporary file: it may be large. */
 static void EndOnSignal(int number)
 {
-  SamStressFileAbandon(run.file);
+  SamStressFileAbandon(run_of_process.file);
   (void)signal(number, SIG_DFL);
   (void)raise(number);
 }
@@ -36,16 +356,30 @@ static void CatchSignals(void)
 
 static PetscErrorCode Compute(void *context)
 {
+  SamStressRun *const run = (SamStressRun *)context;
+  PetscBool           cycle;
+  PetscLogDouble      end;
+
   PetscFunctionBegin;
   CatchSignals();
-  PetscCall(SamStressRunCompute((SamStressRun *)context));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode TearDown(void *context)
-{
-  PetscFunctionBegin;
-  PetscCall(SamStressRunTearDown((SamStressRun *)context));
+  PetscCall(PrintBanner(run));
+  PetscCall(PetscTime(&run->start));
+  run->told    = run->start;
+  run->writing = PETSC_TRUE;
+  PetscCall(CreateFile(run));
+  PetscCall(SamEvaluationHasCycle(run->evaluation, &cycle));
+  if (cycle) PetscCall(SamCycleCheckClosed(run));
+  PetscCall(SamEvaluationSetMonitor(run->evaluation, Tell, run));
+  PetscCall(SamEvaluationCompute(run->evaluation, Write, run));
+  PetscCall(WriteStepNumbers(run));
+  PetscCall(WriteAllLargest(run));
+  PetscCall(SamStressFileFinish(run->file));
+  run->writing = PETSC_FALSE;
+  PetscCall(PetscTime(&end));
+  PetscCall(PrintLargest(run));
+  if (!run->quiet)
+    PetscCall(
+      PetscPrintf(run->grid->comm, "  time        %.2f s\n  written     %s\n", end - run->start, run->request.output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -76,7 +410,7 @@ int main(int argc, char **argv)
                               .status   = GetStatus,
                               .writing  = IsWriting,
                               .abandon  = Abandon,
-                              .context  = &run};
+                              .context  = &run_of_process};
 
   return SamProgramMain(&program, argc, argv);
 }

@@ -5,7 +5,6 @@
   trace.
 */
 #include "program.h"
-#include "help.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/contact.h>
 #include <hdf5.h>

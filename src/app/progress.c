@@ -5,7 +5,7 @@
   gives its processes a pseudo terminal in any case. So there the stdout of the launcher, the parent process, must be a
   terminal too; when that cannot be found out, the line is not shown.
 */
-#include "reportimpl.h"
+#include "report.h"
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

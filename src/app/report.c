@@ -1,5 +1,5 @@
 /* The report: banner, a line for each load step, messages. */
-#include "reportimpl.h"
+#include "report.h"
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>
@@ -100,7 +100,7 @@ static PetscErrorCode PrintRestart(SamReport r, const SamSimulationStart *s)
   if (!s->branch) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(r->comm, "  %-10s  the results begin after %s%s%s%s\n", "branch", s->after,
                         s->followed[0] ? ", of " : "", s->followed,
-                        s->gap ? ", with another gap and the slip so far" : ""));
+                        s->gap ? ", with another gap and the accumulated slip" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -108,10 +108,11 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
 {
   PetscMPIInt ranks;
   double      nodes;
-  char        libraries[512];
+  char        libraries[512], memory[32];
 
   PetscFunctionBegin;
   r->steps = start->steps;
+  SamReportChooseColumns(r, start->loads);
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
   PetscCall(CountNodes(r->comm, &nodes));
@@ -122,7 +123,8 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid",
                         grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  about %.3g MB a rank\n", "memory", 1e-6 * bytes));
+  SamDescribeBytes(bytes, memory, sizeof(memory));
+  PetscCall(PetscPrintf(r->comm, "  %-10s  about %s per rank\n", "memory", memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s%s\n", "steps", start->steps,
                         start->results ? "in " : "not kept (no -output)", start->results ? start->results : "",
                         start->replaced ? ", replacing those there" : ""));
@@ -173,14 +175,14 @@ static void KeepWorst(SamReport r, const SamStep *step)
 
 static PetscErrorCode KeepEdges(SamReport r, SamContact contact, const SamStep *step)
 {
-  PetscReal area, accepted;
-  PetscBool edges;
+  PetscReal          area, accepted;
+  SamContactSettings set;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetEdges(contact, &edges));
+  PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamContactGetNumber(contact, "contact_area", &area));
   PetscCall(SamContactGetNumber(contact, "edge_accepted", &accepted));
-  if (!edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!set.edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   r->touching++;
   r->uncorrected += !strcmp(step->setting, "edges");
   if (!r->edges.step || accepted < r->edges.residual) r->edges = (SamReportWorst){accepted, r->number + 1};
@@ -245,9 +247,8 @@ static PetscErrorCode EndStep(SamReport r, SamContact contact, const SamStep *st
   PetscCall(CountStep(r, contact, r->number, step));
   if (!r->quiet) {
     PetscCall(PetscViewerASCIIGetStdout(r->comm, &viewer));
-    if (r->done == 1) PetscCall(SamStepViewHeading(viewer));
-    PetscCall(SamStepViewLine(step, contact, r->number + 1, seconds,
-                              MeanTime(r, r->done, seconds) * (double)(r->steps - r->number - 1), viewer));
+    PetscCall(
+      SamReportStepLine(r, step, contact, seconds, MeanTime(r, r->done, seconds) * (double)(r->steps - r->number - 1)));
     if (r->steps == 1) PetscCall(SamStepView(step, contact, viewer));
   }
   PrintMessage(r, where, step);
@@ -291,15 +292,17 @@ static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cy
   left    = MeanTime(r, r->cycles, seconds) * JumpsLeft(c, r->jump, cycles - c->cycles);
   r->jump = c->jump;
   SamReportDuration(left, duration, sizeof(duration));
+  if (c->jump <= 0 && c->cycles < cycles) /* no estimate yet: what is left in cycles */
+    (void)snprintf(duration, sizeof(duration), "%.0e c", (double)(cycles - c->cycles));
   if (r->cycles == 1)
-    PetscCall(PetscPrintf(r->comm, "%11s %10s %8s %10s %10s %10s %10s %10s %10s %10s %9s %8s %9s\n", "cycles", "jump",
-                          "error", "volume1/m3", "volume2/m3", "depth1/m", "depth2/m", "energy/J", "contact/m2",
-                          "p max/Pa", "computed", "s", "left"));
-  PetscCall(PetscPrintf(
-    r->comm, "%11.9g %10.6g %8.1e %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9" PetscInt_FMT " %8.2f %9s\n",
-    (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0], (double)c->volume[1],
-    (double)c->depth[0], (double)c->depth[1], (double)c->dissipated_energy, (double)c->contact_area,
-    (double)c->pressure, c->computed, seconds, c->jump > 0 || c->cycles >= cycles ? duration : "?"));
+    PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %9s %8s %7s %6s %8s\n", "cycles", "jump", "error",
+                          "vol.1/m3", "vol.2/m3", "depth1/m", "depth2/m", "energy/J", "area/m2", "p max/Pa", "solved",
+                          "s", "left"));
+  PetscCall(PetscPrintf(r->comm,
+                        "%10.9g %8.6g %7.1e %9.3g %9.3g %9.3g %9.3g %9.3g %9.3g %8.3g %7" PetscInt_FMT " %6.2f %8s\n",
+                        (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0],
+                        (double)c->volume[1], (double)c->depth[0], (double)c->depth[1], (double)c->dissipated_energy,
+                        (double)c->contact_area, (double)c->pressure, c->computed, seconds, duration));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

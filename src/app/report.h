@@ -2,26 +2,62 @@
 #ifndef PETSAM_APP_REPORT_H
 #define PETSAM_APP_REPORT_H
 
+#include <petsam/private/baseimpl.h>
 #include <petsam/simulation.h>
 
-/*
-  SamStepView - prints a step in a few lines: loads, displacements, areas, iterations, check. Collective on the viewer.
-*/
-PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscViewer viewer);
-/*
-  SamStepViewHeading, SamStepViewLine - print a step as one line of a table, and the table's heading. `number` counts
-  from 1, `seconds` is the time of the step, `left` the estimated time (s) of the remaining steps. Collective on the
-  viewer.
-*/
-PETSC_INTERN PetscErrorCode SamStepViewHeading(PetscViewer viewer);
-PETSC_INTERN PetscErrorCode SamStepViewLine(const SamStep *step, SamContact contact, PetscInt number, double seconds,
-                                            double left, PetscViewer viewer);
+#define SAM_REPORT_FILES   8
+#define SAM_REPORT_COLUMNS 18 /* of the table of steps */
+#define SAM_REPORT_RECENT  5  /* the mean time of so many steps gives the estimate of the time left */
+
+typedef enum { SAM_PROGRESS_AUTO, SAM_PROGRESS_ALWAYS, SAM_PROGRESS_NEVER } SamProgressMode;
+
+/* The progress line within a step, which only rank 0 shows. */
+typedef struct {
+  PetscBool active;   /* whether this rank shows it */
+  double    after;    /* shown after so many seconds of a step */
+  double    shown_at; /* when it was updated last (MPI_Wtime) */
+  int       length;   /* characters on the terminal, to be erased */
+} SamProgress;
+
+/* A solution's largest residual so far, and its step. */
+typedef struct {
+  PetscReal residual;
+  PetscInt  step;
+} SamReportWorst;
 
 /*
   SamReport - reports a run on stdout, and warnings and failures of steps on stderr, both from rank 0. Order of calls:
   Create, Banner, News, Closing, Destroy.
 */
 typedef struct _n_SamReport *SamReport;
+struct _n_SamReport {
+  /* what the user set */
+  MPI_Comm  comm;
+  PetscBool quiet;
+  /* status */
+  PetscMPIInt    rank;
+  PetscBool      logging;                   /* whether PETSc's log has the times */
+  double         start, first, begin;       /* MPI_Wtime() at the start of the report, of the first step, of this one */
+  double         output_before;             /* seconds spent on results and checkpoints before the first step */
+  double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
+  PetscInt       steps, number, done;
+  PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
+  PetscInt       cycles;                    /* lines printed for computed cycles */
+  PetscReal      jump;                      /* cycles, of the last of these */
+  PetscBool      living;                    /* the run is a life */
+  SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
+  SamReportWorst edges; /* the least share of the edges that is reconstructed; step 0: none is asked for */
+  PetscInt       uncorrected, touching; /* steps that could not be corrected for their edges; in contact */
+  SamProgress    progress;
+  SamContact     contact;          /* whose monitors are set; borrowed */
+  SamExtent      extent;           /* of the contact in step `extent_step`, */
+  PetscInt       extent_step;      /* from 1; 0: not known */
+  PetscBool      edge_told;        /* that the contact is at the edge, which is allowed */
+  PetscBool      uncorrected_told; /* that an edge is not corrected */
+  /* files written */
+  char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
+  PetscInt files;
+};
 
 /*
   SamReportCreateFromOptions - reads -quiet (nothing on stdout; warnings and errors are still printed) and -progress
@@ -44,5 +80,27 @@ PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, doub
 PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, const SamSimulationNews *news);
 /* SamReportClosing - prints times by part, worst residuals, files written, and time and memory used. Collective. */
 PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
+
+/* ---- the parts ---- */
+
+/*
+  SamStepView - prints a step in a few lines: loads, displacements, areas, iterations, check. Collective on the viewer.
+*/
+PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscViewer viewer);
+/* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as far as they fit. */
+PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
+/* Prints a step as a line, the first under the heading; `left`: estimated time (s) of the other steps. Collective. */
+PETSC_INTERN PetscErrorCode SamReportStepLine(SamReport report, const SamStep *step, SamContact contact, double seconds,
+                                              double left);
+/* Reads -progress and decides whether to show the line: `auto` depends on where stdout goes. Collective. */
+PETSC_INTERN PetscErrorCode SamProgressSetFromOptions(SamReport report, const SamOptions *from);
+/* Adds monitors to a contact's solvers, once. Not collective. */
+PETSC_INTERN PetscErrorCode SamProgressWatch(SamReport report, SamContact contact);
+/* Erases the line on the terminal. Not collective. */
+PETSC_INTERN void SamProgressErase(SamReport report);
+/* Seconds spent on results and checkpoints so far, the largest of all ranks. Collective. */
+PETSC_INTERN PetscErrorCode SamReportGetOutputTime(SamReport report, double *seconds);
+/* Seconds as h:mm:ss. */
+PETSC_INTERN void SamReportDuration(double seconds, char text[], size_t size);
 
 #endif

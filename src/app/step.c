@@ -1,16 +1,8 @@
 /* Prints a load step: in full, and as a line of a table. */
-#include "reportimpl.h"
+#include "report.h"
 
-static PetscErrorCode ViewComponent(const SamStep *s, SamComponent c, const char title[], PetscViewer viewer)
-{
-  const SamComponentName *name = &SamComponentNames[c];
-
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given)\n", title,
-                                   name->load, (double)s->load[c], name->load_unit, name->rigid, (double)s->rigid[c],
-                                   name->rigid_unit, s->control.force[c] ? "load" : "displacement"));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+#define ROUNDING 1e-11 /* a part of the size of a number's kind that is rounding, and is printed as 0 */
+#define WIDTH    120   /* of a line of the table */
 
 /* A number of the contact's last step; NaN where there is none of that name. */
 static double Get(SamContact contact, const char name[])
@@ -23,21 +15,68 @@ static double Get(SamContact contact, const char name[])
   return id < 0 ? NAN : *SamStateReadNumbers(state, id);
 }
 
-static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, PetscViewer viewer)
+/* ---- what is zero to rounding ---- */
+
+/* Sizes of forces and moments, translations and rotations; of the latter as they act at the border of the contact. */
+typedef struct {
+  double load[2], rigid[2];
+} Sizes;
+
+static Sizes GetSizes(const SamStep *s, SamContact contact)
 {
-  const double passes = Get(c, "coupling_iterations");
+  const double area = Get(contact, "contact_area"), reach = area > 0 ? sqrt(area / PETSC_PI) : 0;
+  Sizes        sizes = {{0, 0}, {0, 0}};
+
+  for (int c = 0; c < SAM_COMPONENTS; c++) {
+    const int k = c >= SAM_COMPONENT_MX;
+
+    sizes.load[k]  = PetscMax(sizes.load[k], fabs((double)s->load[c]));
+    sizes.rigid[k] = PetscMax(sizes.rigid[k], fabs((double)s->rigid[c]));
+  }
+  sizes.load[1] = PetscMax(sizes.load[1], sizes.load[0] * reach);
+  if (reach > 0) sizes.rigid[1] = PetscMax(sizes.rigid[1], sizes.rigid[0] / reach);
+  return sizes;
+}
+
+static double Clean(double value, double size)
+{
+  return fabs(value) <= ROUNDING * size ? 0 : value;
+}
+
+/* A load and a displacement as they are printed: as they are where they are given. */
+static double LoadOf(const SamStep *s, const Sizes *sizes, PetscInt c)
+{
+  const PetscBool given = s->control.force[c] && s->control.value[c] != 0;
+
+  return given ? (double)s->load[c] : Clean((double)s->load[c], sizes->load[c >= SAM_COMPONENT_MX]);
+}
+
+static double RigidOf(const SamStep *s, const Sizes *sizes, PetscInt c)
+{
+  const PetscBool given = !s->control.force[c] && s->control.value[c] != 0;
+
+  return given ? (double)s->rigid[c] : Clean((double)s->rigid[c], sizes->rigid[c >= SAM_COMPONENT_MX]);
+}
+
+/* ---- in full ---- */
+
+static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
+{
+  const double passes = Get(c, "coupling_iterations"), move = sizes->rigid[0], work = sizes->load[0] * move;
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g J\n", "areas",
-                                   Get(c, "contact_area"), Get(c, "stick_area"), Get(c, "dissipated_energy")));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g m\n", "largest",
-                                   Get(c, "pressure_max"), Get(c, "shear_max"), Get(c, "slip_max")));
+                                   Get(c, "contact_area"), Get(c, "stick_area"),
+                                   Clean(Get(c, "dissipated_energy"), work)));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g m\n", "maximum",
+                                   Get(c, "pressure_max"), Get(c, "shear_max"), Clean(Get(c, "slip_max"), move)));
   if (!isnan(Get(c, "contact_spots")))
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n",
                                      "spots", Get(c, "contact_spots"), 100 * Get(c, "contact_fraction"),
                                      Get(c, "gap_mean")));
   PetscCall(SamContactViewLaws(c, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  normal %.0f (%.0f products), tangential %.0f (%.0f products)",
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+                                   "  %-10s  normal %.0f (%.0f applications), tangential %.0f (%.0f applications)",
                                    "iterations", Get(c, "normal_iterations"), Get(c, "normal_applies"),
                                    Get(c, "tangential_iterations"), Get(c, "tangential_applies")));
   if (passes > 1) PetscCall(PetscViewerASCIIPrintf(viewer, ", coupling %.0f", passes));
@@ -51,13 +90,26 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
 {
   static const SamComponent order[] = {SAM_COMPONENT_N,  SAM_COMPONENT_MX, SAM_COMPONENT_MY,
                                        SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
+  const Sizes               sizes   = GetSizes(s, contact);
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
-    PetscCall(ViewComponent(s, order[k], k == 0 ? "normal" : k == 3 ? "tangential" : "", viewer));
-  if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, viewer));
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    const PetscInt          c    = order[k];
+    const SamComponentName *name = &SamComponentNames[c];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given)\n",
+                                     k == 0   ? "normal"
+                                     : k == 3 ? "tangential"
+                                              : "",
+                                     name->load, LoadOf(s, &sizes, c), name->load_unit, name->rigid,
+                                     RigidOf(s, &sizes, c), name->rigid_unit,
+                                     s->control.force[c] ? "load" : "displacement"));
+  }
+  if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* ---- as a line ---- */
 
 void SamReportDuration(double seconds, char text[], size_t size)
 {
@@ -66,33 +118,86 @@ void SamReportDuration(double seconds, char text[], size_t size)
   snprintf(text, size, "%ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
 }
 
-PetscErrorCode SamStepViewHeading(PetscViewer viewer)
+/* A column: its heading, the number in it, its width with a space before, its digits, and when it is omitted. */
+typedef struct {
+  const char *heading, *number;
+  int         width, digits, order; /* order in which columns are omitted where a line would be too long; 0: never */
+} Column;
+enum { STEP, TIME, LOADS, CONTACT = LOADS + SAM_COMPONENTS, SLIP = CONTACT + 4, RESIDUAL = CONTACT + 7, SECONDS, LEFT };
+static const Column columns[SAM_REPORT_COLUMNS] = {{"step", "", 5, 0, 0},
+                                                   {"time/s", "", 10, 4, 0},
+                                                   {"N/N", "", 11, 4, 0},
+                                                   {"Tx/N", "", 11, 4, 0},
+                                                   {"Ty/N", "", 11, 4, 0},
+                                                   {"Mx/Nm", "", 11, 4, 0},
+                                                   {"My/Nm", "", 11, 4, 0},
+                                                   {"Mz/Nm", "", 11, 4, 0},
+                                                   {"contact/m2", "contact_area", 11, 4, 0},
+                                                   {"stick/m2", "stick_area", 10, 3, 5},
+                                                   {"p max/Pa", "pressure_max", 9, 3, 6},
+                                                   {"q max/Pa", "shear_max", 9, 3, 3},
+                                                   {"slip/m", "slip_max", 9, 3, 4},
+                                                   {"it n", "normal_iterations", 5, 4, 2},
+                                                   {"it t", "tangential_iterations", 5, 4, 1},
+                                                   {"residual", "", 9, 2, 0},
+                                                   {"s", "", 7, 2, 0},
+                                                   {"left", "", 9, 0, 0}};
+
+void SamReportChooseColumns(SamReport r, const PetscBool loads[SAM_COMPONENTS])
 {
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(
-    viewer, "%6s %10s %10s %10s %10s %10s %10s %10s %10s %9s %9s %9s %9s %4s %4s %7s %7s %8s %9s\n", "step", "time/s",
-    "N/N", "Tx/N", "Ty/N", "Mx/Nm", "My/Nm", "Mz/Nm", "contact/m2", "stick/m2", "p max/Pa", "q max/Pa", "slip/m",
-    "it n", "it t", "res n", "res t", "s", "left"));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  int width = 0;
+
+  for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
+    r->shown[k] = k <= LOADS + SAM_COMPONENT_TX || k >= CONTACT || loads[k - LOADS];
+    width += r->shown[k] ? columns[k].width : 0;
+  }
+  for (int order = 1; width > WIDTH; order++)
+    for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
+      if (columns[k].order != order) continue;
+      r->shown[k] = PETSC_FALSE;
+      width -= columns[k].width;
+    }
 }
 
-PetscErrorCode SamStepViewLine(const SamStep *s, SamContact c, PetscInt number, double seconds, double left,
-                               PetscViewer viewer)
+/* What stands in column k of a step's line. */
+static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k, double seconds, double left,
+                        char text[], size_t size)
 {
-  const PetscReal *l = s->load;
-  char             duration[32];
+  const Sizes  sizes  = GetSizes(s, contact);
+  const double number = columns[k].number[0] ? Get(contact, columns[k].number) : 0;
 
+  if (k == STEP)
+    (void)snprintf(text, size, "%ld", (long)r->number + 1);
+  else if (k == RESIDUAL)
+    (void)snprintf(text, size, "%.1e", (double)SamLarger(s->check.normal, s->check.tangential));
+  else if (k == SECONDS)
+    (void)snprintf(text, size, "%.*f", seconds < 1000 ? 2 : 0, seconds);
+  else if (k == LEFT)
+    SamReportDuration(left, text, size);
+  else
+    (void)snprintf(text, size, "%.*g", columns[k].digits,
+                   k == TIME     ? (double)s->control.time
+                   : k < CONTACT ? LoadOf(s, &sizes, k - LOADS)
+                   : k == SLIP   ? Clean(number, sizes.rigid[0])
+                                 : number);
+}
+
+PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact contact, double seconds, double left)
+{
   PetscFunctionBegin;
-  SamReportDuration(left, duration, sizeof(duration));
-  PetscCall(PetscViewerASCIIPrintf(
-    viewer,
-    "%6" PetscInt_FMT
-    " %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %10.4g %9.3g %9.3g %9.3g %9.3g %4.0f %4.0f %7.1e %7.1e %8.2f "
-    "%9s\n",
-    number, (double)s->control.time, (double)l[SAM_COMPONENT_N], (double)l[SAM_COMPONENT_TX],
-    (double)l[SAM_COMPONENT_TY], (double)l[SAM_COMPONENT_MX], (double)l[SAM_COMPONENT_MY], (double)l[SAM_COMPONENT_MZ],
-    Get(c, "contact_area"), Get(c, "stick_area"), Get(c, "pressure_max"), Get(c, "shear_max"), Get(c, "slip_max"),
-    Get(c, "normal_iterations"), Get(c, "tangential_iterations"), (double)s->check.normal, (double)s->check.tangential,
-    seconds, duration));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscBool heading = r->done == 1;; heading = PETSC_FALSE) {
+    char   line[512];
+    size_t used = 0;
+
+    for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
+      char text[32];
+
+      if (!r->shown[k]) continue;
+      WriteColumn(r, s, contact, k, seconds, left, text, sizeof(text));
+      used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width,
+                               heading ? columns[k].heading : text);
+    }
+    PetscCall(PetscPrintf(r->comm, "%s\n", line));
+    if (!heading) PetscFunctionReturn(PETSC_SUCCESS);
+  }
 }

@@ -139,7 +139,7 @@ static PetscBool IsTypographic(const char word[])
 /* A word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
 static void RefuseWord(SamArguments *a, const char where[], const char word[], const char before[], const char value[])
 {
-  const char *text = "expected an option, that is a word that begins with a dash";
+  const char *text = "expected an option: it begins with a dash";
   char       *end;
 
   (void)strtod(word, &end);
@@ -152,8 +152,8 @@ static void RefuseWord(SamArguments *a, const char where[], const char word[], c
     Complain(a, SAM_ERR_USER, "%s%s: %s; two values of %s are joined by a comma: %s,%s", where, word, text, before,
              value, word);
   else if (before && value)
-    Complain(a, SAM_ERR_USER, "%s%s: %s; %s %s has its value already, without a unit", where, word, text, before,
-             value);
+    Complain(a, SAM_ERR_USER, "%s%s: %s; %s %s already has its value; write it without a unit", where, word, text,
+             before, value);
   else
     Complain(a, SAM_ERR_USER, "%s%s: %s", where, word, text);
 }
@@ -200,7 +200,7 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
     if (words[k][0] == '#') count = k; /* the rest is a comment */
   if (!count || strchr("!%", words[0][0]) || !strcmp(words[0], "alias")) return;
   if (!IsOption(words[0]))
-    Complain(a, SAM_ERR_USER, "%sexpected an option, that is a word that begins with a dash, as in -%s", where,
+    Complain(a, SAM_ERR_USER, "%sexpected an option: it begins with a dash, as in -%s", where,
              words[0] + (IsTypographic(words[0]) ? 3 : 0));
   else if (count > 2 && !quoted)
     Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line: %s is too much, unless after a #", where,
@@ -242,7 +242,7 @@ static void ExamineFile(SamArguments *a, const char where[], const char name[], 
 
   if (a->code) return;
   if (depth > DEEPEST || a->count == SAM_ARGUMENTS_FILES) {
-    Complain(a, SAM_ERR_USER, "%s%s: options files name options files without end", where, name);
+    Complain(a, SAM_ERR_USER, "%s%s: options files include each other in a loop", where, name);
   } else if (stat(name, &status) || !S_ISREG(status.st_mode) || !(file = fopen(name, "r"))) {
     Complain(a, SAM_ERR_FILE, "%s%s: cannot be read: %s", where, name,
              stat(name, &status) || S_ISREG(status.st_mode) ? strerror(errno) : "it is not a file");
@@ -443,7 +443,7 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   if (!first[0]) PetscFunctionReturn(PETSC_SUCCESS);
   nearest = SamOptionsNearest(name);
-  PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s: has no effect %s%s: leave it out", first,
+  PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s: has no effect %s%s: remove it", first,
              with ? "without " : "with the other options given", with ? with : "");
   PetscCheck(!nearest, comm, SAM_ERR_USER, "%s: unknown option: is -%s meant?", first, nearest);
   SETERRQ(comm, SAM_ERR_USER, "%s: unknown option, or one that has no effect with the others given", first);

@@ -3,7 +3,6 @@
 #include <fftw3-mpi.h>
 
 PetscLogEvent SamEvents[SAM_EVENT_COUNT];
-PetscClassId  SamClassId;
 
 static PetscBool    initialized = PETSC_FALSE;
 static MPI_Datatype total_type  = MPI_DATATYPE_NULL;
@@ -28,6 +27,8 @@ PetscErrorCode SamInitialize(void)
     "SamApplyNT",   "SamPrecondN",  "SamPrecondT",   "SamNormalSolve",  "SamTangSolve", "SamCheck",
     "SamEdges",     "SamStiffness", "SamOutput",     "SamCheckpoint"};
 
+  PetscClassId id;
+
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(PETSC_SUCCESS);
   initialized = PETSC_TRUE;
@@ -36,8 +37,8 @@ PetscErrorCode SamInitialize(void)
   PetscCallMPI(MPI_Op_create(AddTotals, 1, &add_totals));
   fftw_mpi_init();
   fftwf_mpi_init();
-  PetscCall(PetscClassIdRegister("petsam", &SamClassId));
-  for (PetscInt e = 0; e < SAM_EVENT_COUNT; e++) PetscCall(PetscLogEventRegister(names[e], SamClassId, &SamEvents[e]));
+  PetscCall(PetscClassIdRegister("petsam", &id));
+  for (PetscInt e = 0; e < SAM_EVENT_COUNT; e++) PetscCall(PetscLogEventRegister(names[e], id, &SamEvents[e]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

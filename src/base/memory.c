@@ -118,3 +118,11 @@ void SamZero(PetscInt n, double x[])
     if (SumOfSizes(count, x + k) != 0) (void)memset(x + k, 0, sizeof(*x) * (size_t)count);
   }
 }
+
+void SamDescribeBytes(double bytes, char text[], size_t size)
+{
+  const int    power   = bytes < 1e6 ? 1 : bytes < 1e9 ? 2 : bytes < 1e12 ? 3 : 4;
+  const double units[] = {1, 1e3, 1e6, 1e9, 1e12};
+
+  (void)snprintf(text, size, "%.3g %cB", bytes / units[power], " kMGT"[power]);
+}

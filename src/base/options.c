@@ -129,7 +129,7 @@ static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name
 static PetscErrorCode ReadNumbers(const SamOptions *from, const char name[], const char help[], const Kind *kind,
                                   double value[], PetscBool *set)
 {
-  const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"}, {"<whole>", "<whole>[,<whole>]"}};
+  const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"}, {"<integer>", "<integer>[,<integer>]"}};
   const int         digits         = kind->whole ? 17 : 6;
   char              shown[64], expected[96], text[TEXT_SIZE];
   const char       *rest = text;
@@ -141,7 +141,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const char name[], con
   (void)snprintf(shown, sizeof(shown), kind->pair ? "%.*g,%.*g" : "%.*g", digits, value[0], digits, value[kind->pair]);
   PetscCall(Describe(from, name, help, argument[kind->whole][kind->pair], shown));
   if (kind->whole)
-    (void)snprintf(expected, sizeof(expected), "a whole number from %lld", (long long)kind->least);
+    (void)snprintf(expected, sizeof(expected), "an integer >= %lld", (long long)kind->least);
   else
     (void)snprintf(expected, sizeof(expected), "%s", SamRangeDescribe(kind->range));
   if (kind->pair) PetscCall(PetscStrlcat(expected, ", or two separated by a comma", sizeof(expected)));
@@ -160,17 +160,13 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const char name[], con
 PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                               PetscReal *value, PetscBool *set)
 {
-  PetscFunctionBegin;
-  PetscCall(ReadNumbers(from, name, help, &(Kind){.range = range}, value, set));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ReadNumbers(from, name, help, &(Kind){.range = range}, value, set);
 }
 
 PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[], SamRange range,
                                   PetscReal value[2], PetscBool *set)
 {
-  PetscFunctionBegin;
-  PetscCall(ReadNumbers(from, name, help, &(Kind){.pair = PETSC_TRUE, .range = range}, value, set));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ReadNumbers(from, name, help, &(Kind){.pair = PETSC_TRUE, .range = range}, value, set);
 }
 
 PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
@@ -226,7 +222,7 @@ static void DescribeText(const SamOptionHelp *option, char text[], size_t size)
   if (option->words[0])
     (void)snprintf(text, size, "%s of %s", strchr(option->argument, ',') ? "some" : "one", option->words);
   else
-    (void)snprintf(text, size, "%s", strstr(option->argument, "file") ? "the name of a file" : "a text");
+    (void)snprintf(text, size, "%s", strstr(option->argument, "file") ? "the name of a file" : "a string");
 }
 
 /* Reads a text of fewer than `size` characters, which is described by `option`. */
@@ -251,63 +247,44 @@ static PetscErrorCode ReadText(const SamOptions *from, const SamOptionHelp *opti
 PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
                                 PetscBool *set)
 {
-  const SamOptionHelp option = {name, "<text>", help, value, ""};
-
-  PetscFunctionBegin;
-  PetscCall(ReadText(from, &option, value, size, set));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ReadText(from, &(SamOptionHelp){name, "<string>", help, value, ""}, value, size, set);
 }
 
 PetscErrorCode SamOptionsFile(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
                               PetscBool *set)
 {
-  const SamOptionHelp option = {name, "<file>", help, value, ""};
-
-  PetscFunctionBegin;
-  PetscCall(ReadText(from, &option, value, size, set));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ReadText(from, &(SamOptionHelp){name, "<file>", help, value, ""}, value, size, set);
 }
 
 PetscErrorCode SamOptionsWord(const SamOptions *from, const char name[], const char help[], const char words[],
                               char value[], size_t size, PetscBool *set)
 {
-  const SamOptionHelp option = {name, "<word>", help, value, words};
-
-  PetscFunctionBegin;
-  PetscCall(ReadText(from, &option, value, size, set));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ReadText(from, &(SamOptionHelp){name, "<keyword>", help, value, words}, value, size, set);
 }
 
 PetscErrorCode SamOptionsWords(const SamOptions *from, const char name[], const char help[], const char words[],
                                char value[], size_t size, PetscBool *set)
 {
-  const SamOptionHelp option = {name, "<word>[,...]", help, value, words};
-
-  PetscFunctionBegin;
-  PetscCall(ReadText(from, &option, value, size, set));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ReadText(from, &(SamOptionHelp){name, "<keyword>[,...]", help, value, words}, value, size, set);
 }
 
 PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[], const char *const words[],
                               PetscInt *value, PetscBool *set)
 {
-  char                text[TEXT_SIZE], list[TEXT_SIZE] = "", commas[TEXT_SIZE] = "";
-  const SamOptionHelp option = {name, "<word>", help, words[*value], commas};
-  PetscInt            chosen = -1;
+  char                text[TEXT_SIZE], list[TEXT_SIZE], commas[TEXT_SIZE];
+  const SamOptionHelp option = {name, "<keyword>", help, words[*value], commas};
+  PetscInt            chosen = -1, count = 0;
   PetscBool           found;
 
   PetscFunctionBegin;
-  for (PetscInt w = 0; words[w]; w++) {
-    if (w) PetscCall(PetscStrlcat(list, words[w + 1] ? ", " : " or ", sizeof(list)));
-    if (w) PetscCall(PetscStrlcat(commas, ",", sizeof(commas)));
-    PetscCall(PetscStrlcat(list, words[w], sizeof(list)));
-    PetscCall(PetscStrlcat(commas, words[w], sizeof(commas)));
-  }
+  while (words[count]) count++;
+  SamJoin(count, words, ", ", " or ", list, sizeof(list));
+  SamJoin(count, words, ",", ",", commas, sizeof(commas));
   PetscCall(SamOptionsDescribe(from, &option));
   PetscCall(GetText(from, name, list, text, sizeof(text), &found));
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt w = 0; words[w]; w++)
+  for (PetscInt w = 0; w < count; w++)
     if (!strcmp(text, words[w])) chosen = w;
   PetscCheck(chosen >= 0, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name, text, list);
   *value = chosen;

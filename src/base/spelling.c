@@ -17,49 +17,26 @@ static PetscInt knowns = 0;
 /* Options that PETSc reads, whose names count as well. */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
 
-/* What users of other programs and textbooks write. */
+/* What users of other programs and textbooks write, with spaces between, for an option. */
 static const struct {
   const char *tried, *name;
-} habits[] = {{"mu", "friction"},
-              {"cof", "friction"},
-              {"friction_coefficient", "friction"},
-              {"e1", "body1_young"},
-              {"e2", "body2_young"},
-              {"young1", "body1_young"},
-              {"young2", "body2_young"},
-              {"young", "body1_young"},
-              {"e", "body1_young"},
-              {"poisson", "body1_poisson"},
-              {"nu", "body1_poisson"},
-              {"nu1", "body1_poisson"},
-              {"nu2", "body2_poisson"},
-              {"poisson1", "body1_poisson"},
-              {"poisson2", "body2_poisson"},
-              {"radius", "gap_radius1"},
-              {"r", "gap_radius1"},
-              {"radius1", "gap_radius1"},
-              {"radius2", "gap_radius2"},
-              {"r1", "gap_radius1"},
-              {"r2", "gap_radius2"},
+} habits[] = {{"mu cof friction_coefficient", "friction"},
+              {"e1 young1 young e", "body1_young"},
+              {"e2 young2", "body2_young"},
+              {"poisson nu nu1 poisson1", "body1_poisson"},
+              {"nu2 poisson2", "body2_poisson"},
+              {"radius r radius1 r1", "gap_radius1"},
+              {"radius2 r2", "gap_radius2"},
               {"shape", "gap_type"},
-              {"normal_load", "load_n"},
-              {"normal_force", "load_n"},
-              {"force", "load_n"},
-              {"load", "load_n"},
-              {"load_z", "load_n"},
+              {"normal_load normal_force force load load_z", "load_n"},
               {"load_x", "load_tx"},
               {"load_y", "load_ty"},
               {"disp_n", "disp_z"},
-              {"n", "grid_n"},
-              {"grid", "grid_n"},
-              {"cells", "grid_n"},
+              {"n grid cells", "grid_n"},
               {"size", "grid_size"},
-              {"o", "output"},
-              {"out", "output"},
-              {"output_file", "output"},
+              {"o out output_file", "output"},
               {"i", "input"},
-              {"options", "options_file"},
-              {"file", "options_file"}};
+              {"options file", "options_file"}};
 
 /* PETSc does not tell capitals from small letters in names; a dash within a name is a likely slip. */
 static char Plain(char c)
@@ -67,12 +44,19 @@ static char Plain(char c)
   return c == '-' ? '_' : (char)tolower((unsigned char)c);
 }
 
-static PetscBool IsSame(const char a[], const char b[])
+/* The option that such a name means; NULL: none. */
+static const char *FindHabit(const char name[])
 {
-  size_t k = 0;
+  for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
+    for (const char *word = habits[h].tried; *word; word += strspn(word, " ")) {
+      const size_t length = strcspn(word, " ");
+      size_t       k      = 0;
 
-  for (; a[k] && Plain(a[k]) == Plain(b[k]); k++) continue;
-  return !a[k] && !b[k];
+      while (k < length && name[k] && Plain(name[k]) == word[k]) k++;
+      if (k == length && !name[k]) return habits[h].name;
+      word += length;
+    }
+  return NULL;
 }
 
 /*
@@ -100,7 +84,8 @@ static size_t CountSlips(const char a[], const char b[])
   return slips[n][m];
 }
 
-PetscBool SamIsNear(const char tried[], const char name[])
+/* Whether one name may be another one misspelled. */
+static PetscBool IsNear(const char tried[], const char name[])
 {
   const size_t length = strlen(tried);
 
@@ -115,7 +100,7 @@ const char *SamNearestName(const char tried[], size_t count, const char *const n
   for (size_t k = 0; k < count; k++) {
     const size_t slips = CountSlips(tried, names[k]);
 
-    if (slips >= least || !SamIsNear(tried, names[k])) continue;
+    if (slips >= least || !IsNear(tried, names[k])) continue;
     least   = slips;
     nearest = names[k];
   }
@@ -155,11 +140,10 @@ PetscBool SamOptionsIsKnown(const char name[], const char **with)
 
 const char *SamOptionsNearest(const char tried[])
 {
-  const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])];
+  const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])], *habit = FindHabit(tried);
   size_t      count = 0;
 
-  for (size_t k = 0; k < sizeof(habits) / sizeof(habits[0]); k++)
-    if (IsSame(tried, habits[k].tried)) return habits[k].name;
+  if (habit) return habit;
   for (PetscInt k = 0; k < knowns; k++) names[count++] = known[k];
   for (size_t k = 0; k < sizeof(petsc) / sizeof(petsc[0]); k++) names[count++] = petsc[k];
   return SamNearestName(tried, count, names);
@@ -175,11 +159,9 @@ static PetscErrorCode FindMisspelled(const char name[], char found[], size_t siz
   found[0] = '\0';
   PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
   for (PetscInt k = 0; k < count && !found[0]; k++) {
-    PetscBool habit = PETSC_FALSE;
+    const char *habit = FindHabit(names[k]);
 
-    for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
-      if (IsSame(names[k], habits[h].tried) && !strcmp(habits[h].name, name)) habit = PETSC_TRUE;
-    if (habit || (SamIsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)))
+    if ((habit && !strcmp(habit, name)) || (IsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)))
       (void)snprintf(found, size, "%s", names[k]);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));

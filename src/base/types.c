@@ -17,36 +17,43 @@ PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *cou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size)
+void SamJoin(PetscInt count, const char *const names[], const char between[], const char last[], char text[],
+             size_t size)
+{
+  size_t used = 0;
+
+  text[0] = '\0';
+  for (PetscInt k = 0; k < count && used < size; k++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", !k ? "" : k + 1 < count ? between : last, names[k]);
+}
+
+/* The names with this between them. */
+static PetscErrorCode Join(PetscFunctionList list, const char between[], const char last[], char text[], size_t size)
 {
   const char **types;
   int          count;
 
   PetscFunctionBegin;
   PetscCall(SamTypesGet(list, &types, &count));
-  text[0] = '\0';
-  for (int t = 0; t < count; t++) {
-    if (t) PetscCall(PetscStrlcat(text, t + 1 < count ? ", " : " or ", size));
-    PetscCall(PetscStrlcat(text, types[t], size));
-  }
+  SamJoin(count, types, between, last, text, size);
   PetscCall(PetscFree(types));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size)
+{
+  PetscFunctionBegin;
+  PetscCall(Join(list, ", ", " or ", text, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[], const char help[],
                               char type[], size_t size, PetscBool *set)
 {
-  const char **types;
-  int          count;
-  char         words[512] = "";
+  char words[512];
 
   PetscFunctionBegin;
-  PetscCall(SamTypesGet(list, &types, &count));
-  for (int t = 0; t < count; t++) {
-    if (t) PetscCall(PetscStrlcat(words, ",", sizeof(words)));
-    PetscCall(PetscStrlcat(words, types[t], sizeof(words)));
-  }
-  PetscCall(PetscFree(types));
+  PetscCall(Join(list, ",", ",", words, sizeof(words)));
   PetscCall(SamOptionsWord(from, name, help, words, type, size, set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -26,7 +26,7 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u_z unless it is known, and u_t, both with the coupling. */
+/* u_z unless it is given, and u_t, both with the coupling. */
 static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s)
 {

@@ -7,10 +7,11 @@
     2. If B(p, |s|) is b, up to a part of the tolerance, the step is solved.
     3. Else Anderson's method makes the next b of this and the last passes (mixing.c). Where the loads are too much for
        that, the next b is B(p, |s|) itself.
-  Plain passes shrink the error by dB/ds times what a unit shear moves the slip zone by. Where friction falls faster
-  than the bodies unload, the motion is unstable: surfaces jump, and there need not be a solution nearby.
+  Passes without acceleration multiply the error by dB/ds times the displacement of the slip zone by a unit shear.
+  Where friction falls faster than the bodies unload, the motion is unstable: the surfaces jump, and there need not be a
+  solution nearby.
 
-  A bound that does not follow the slip is that of one pass.
+  A bound that does not follow the slip takes one pass.
 */
 #include "stepimpl.h"
 
@@ -92,8 +93,8 @@ static PetscErrorCode Fail(SamSolve *w, PetscReal change)
   PetscCall(SamProblemGetLaws(w->c->problem, &count, &laws));
   while (k < count - 1 && !laws[k]->follows_slip) k++;
   PetscCall(PetscSNPrintf(message, sizeof(message),
-                          "the friction of the law %s did not converge with the slip within %d passes, by a relative "
-                          "change of %.2g in the last: make the load step smaller",
+                          "the friction of the law %s did not converge with the slip within %d iterations, the last "
+                          "relative change is %.2g: use smaller load steps",
                           laws[k]->type, PASSES, (double)change));
   PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscFunctionReturn(PETSC_SUCCESS);

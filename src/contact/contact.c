@@ -1,7 +1,5 @@
-/* The class SamContact: its parts and settings, and what others ask of it. */
+/* The class SamContact: its parts, its settings, its state, and its results by name. */
 #include "contactimpl.h"
-
-#define CYCLE_MEMORY 5e8 /* bytes: 240 steps of 512 x 512 cells, a third of them in contact */
 
 /* ---- creation ---- */
 
@@ -12,13 +10,12 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
   PetscCall(SamProblemReference(problem));
-  c->problem         = problem;
-  c->coupling        = PETSC_TRUE;
-  c->warm            = PETSC_TRUE;
-  c->edges           = PETSC_TRUE;
-  c->coupling_rtol   = 1e-6;
-  c->coupling_max_it = 100;
-  c->cycle_memory    = CYCLE_MEMORY;
+  c->problem = problem;
+  c->set     = (SamContactSettings){.coupling        = PETSC_TRUE,
+                                    .coupling_rtol   = 1e-6,
+                                    .coupling_max_it = 100,
+                                    .warm_start      = PETSC_TRUE,
+                                    .edges           = PETSC_TRUE};
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
@@ -26,7 +23,6 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
   PetscCall(SamRecallCreate(c->grid, &c->recall));
-  SamRecallSetMemory(c->recall, c->cycle_memory);
   PetscCall(SamContactDeclare(c));
   PetscCall(SamContactView(c));
   c->revision[SAM_COMMITTED] = -1;
@@ -60,75 +56,24 @@ PetscErrorCode SamContactSetOptionsPrefix(SamContact c, const char prefix[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactSetCoupling(SamContact c, PetscBool full, PetscReal rtol, PetscInt max_it)
+PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *settings)
 {
   PetscFunctionBegin;
-  PetscCheck(rtol == PETSC_DEFAULT || rtol > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "coupling tolerance rtol = %g: expected a number > 0", (double)rtol);
-  PetscCheck(max_it == PETSC_DEFAULT || max_it > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "coupling passes max_it = %" PetscInt_FMT ": expected at least 1", max_it);
-  c->coupling = full;
-  if (rtol != PETSC_DEFAULT) c->coupling_rtol = rtol;
-  if (max_it != PETSC_DEFAULT) c->coupling_max_it = max_it;
+  PetscCheck(settings->coupling_rtol > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "coupling tolerance rtol = %g: expected a number > 0", (double)settings->coupling_rtol);
+  PetscCheck(settings->coupling_max_it > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "coupling iterations max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
+  PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "cycle memory = %g: expected a number >= 0",
+             (double)settings->cycle_memory);
+  c->set = *settings;
+  SamRecallSetMemory(c->recall, settings->cycle_memory);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactGetCoupling(SamContact c, PetscBool *full)
+PetscErrorCode SamContactGetSettings(SamContact c, SamContactSettings *settings)
 {
   PetscFunctionBegin;
-  *full = c->coupling;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactSetWarmStart(SamContact c, PetscBool warm)
-{
-  PetscFunctionBegin;
-  c->warm = warm;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactSetCycleMemory(SamContact c, PetscReal bytes)
-{
-  PetscFunctionBegin;
-  PetscCheck(bytes >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "cycle memory = %g: expected a number >= 0",
-             (double)bytes);
-  c->cycle_memory = bytes;
-  SamRecallSetMemory(c->recall, bytes);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactAllowEdge(SamContact c, PetscBool allow)
-{
-  PetscFunctionBegin;
-  c->allow_edge = allow;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactSetSpots(SamContact c, PetscBool count)
-{
-  PetscFunctionBegin;
-  c->spots = count;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactGetSpots(SamContact c, PetscBool *count)
-{
-  PetscFunctionBegin;
-  *count = c->spots;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactSetEdges(SamContact c, PetscBool reconstruct)
-{
-  PetscFunctionBegin;
-  c->edges = reconstruct;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactGetEdges(SamContact c, PetscBool *reconstruct)
-{
-  PetscFunctionBegin;
-  *reconstruct = c->edges;
+  *settings = c->set;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -136,37 +81,35 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
                                                                                              "deferred", NULL};
-  const SamOptions from     = {c->grid->comm, c->prefix};
-  PetscInt         coupling = c->coupling ? 1 : 0, max_it = c->coupling_max_it;
-  PetscReal        rtol  = c->coupling_rtol, memory = c->cycle_memory;
-  PetscInt         edges = c->edges;
-  PetscBool        warm = c->warm, edge = c->allow_edge, spots = c->spots;
+  const SamOptions   from     = {c->grid->comm, c->prefix};
+  SamContactSettings s        = c->set;
+  PetscInt           coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
   PetscCall(SamOptionsEnum(&from, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
                            coupling_words, &coupling, NULL));
-  PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between passes", SAM_RANGE_POSITIVE,
-                           &rtol, NULL));
-  PetscCall(SamOptionsInt(&from, "coupling_max_it", "most passes of the coupling", 1, &max_it, NULL));
-  PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each pass", &c->coupling_monitor, NULL));
+  PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between iterations", SAM_RANGE_POSITIVE,
+                           &s.coupling_rtol, NULL));
   PetscCall(
-    SamOptionsBool(&from, "warm_start", "start each step from the one before, on the finest grid only", &warm, NULL));
+    SamOptionsInt(&from, "coupling_max_it", "maximum number of coupling iterations", 1, &s.coupling_max_it, NULL));
+  PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each coupling iteration",
+                           &s.coupling_monitor, NULL));
+  PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
+                           &s.warm_start, NULL));
   PetscCall(SamOptionsReal(&from, "cycle_memory",
-                           "bytes for steps of a cycle, from which those of the next cycle start; 0: none",
-                           SAM_RANGE_NONNEGATIVE, &memory, NULL));
-  PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning", &edge, NULL));
+                           "bytes to keep steps of a repeated load cycle, from which the next cycle starts; 0: none",
+                           SAM_RANGE_NONNEGATIVE, &s.cycle_memory, NULL));
+  PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
+                           &s.allow_edge, NULL));
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",
                            edge_words, &edges, NULL));
   PetscCall(
-    SamOptionsBool(&from, "contact_spots", "number of spots of contact and mean gap of each step", &spots, NULL));
-  PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &c->print_check, NULL));
-  PetscCall(SamContactSetCoupling(c, coupling != 0, rtol, max_it));
-  PetscCall(SamContactSetWarmStart(c, warm));
-  PetscCall(SamContactSetCycleMemory(c, memory));
-  PetscCall(SamContactAllowEdge(c, edge));
-  PetscCall(SamContactSetSpots(c, spots));
-  PetscCall(SamContactSetEdges(c, edges > 0));
+    SamOptionsBool(&from, "contact_spots", "number of contact spots and mean gap of each step", &s.spots, NULL));
+  PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &s.print_check, NULL));
+  s.coupling = coupling != 0;
+  s.edges    = edges > 0;
+  PetscCall(SamContactSetSettings(c, &s));
   PetscCall(SamSolverSetFromOptions(SamNormalAsSolver(c->normal)));
   PetscCall(SamSolverSetFromOptions(SamTangentialAsSolver(c->tangential)));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -289,7 +232,7 @@ PetscErrorCode SamContactGetNumber(SamContact c, const char name[], PetscReal *v
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what laws say ---- */
+/* ---- reports of the laws ---- */
 
 PetscErrorCode SamContactViewLaws(SamContact c, PetscViewer viewer)
 {

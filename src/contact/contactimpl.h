@@ -15,11 +15,8 @@ enum {
 
 struct _n_SamContact {
   /* what the user set */
-  char      prefix[SAM_PREFIX];
-  PetscBool coupling, warm, allow_edge, edges, spots;
-  PetscReal coupling_rtol, cycle_memory;
-  PetscInt  coupling_max_it;
-  PetscBool coupling_monitor, print_check;
+  char               prefix[SAM_PREFIX];
+  SamContactSettings set;
   /* its parts */
   SamProblem          problem;
   SamElasticity       elasticity; /* of the problem; borrowed */
@@ -27,7 +24,7 @@ struct _n_SamContact {
   SamElasticityTraits traits;
   SamNormal           normal;
   SamTangential       tangential;
-  /* what it remembers */
+  /* its state */
   SamState         state;
   PetscBool        has_tried;                      /* a tried solution */
   SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
@@ -40,7 +37,7 @@ struct _n_SamContact {
 /* Whether pressure and shear depend on each other. */
 static inline PetscBool SamContactIsCoupled(SamContact c)
 {
-  return c->traits.coupled && c->coupling;
+  return c->traits.coupled && c->set.coupling;
 }
 
 /* ---- what is remembered (memory.c) ---- */
@@ -59,11 +56,9 @@ PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *s
 /* SamContactView - makes the views of the committed generation, and of that one step back. Collective. */
 PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);
 /*
-  SamContactBefore - the committed solution, from which the tried one goes on; NULL in the first step. Not collective.
+  SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
 */
 PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
-/* SamContactWindow - the part of the grid that the solvers worked on: first cells, their numbers. Not collective. */
-PETSC_INTERN double *SamContactWindow(SamContact contact, SamGeneration generation);
 
 /* ---- a step ---- */
 
@@ -78,7 +73,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStepStart *start);
 /*
   SamFollowPressure - scales a shear by the change of the pressure from `pressure_before`, cell by cell: cells that slip
-  go on slipping.
+  continue to slip.
 */
 PETSC_INTERN PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear);
 /*

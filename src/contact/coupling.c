@@ -12,12 +12,12 @@
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
 
-  Each pass is solved only a little better than the last error asks for. The pressure starts from that of the last pass
-  and its product; so does the shear, once it is near: before, nested grids find the slip zones of the new pressure
-  faster.
+  Each pass is solved only a little more accurately than the last error requires. The pressure starts from that of the
+  last pass and its product. So does the shear once it is near; farther away nested grids find the slip zones of the new
+  pressure faster.
 
   Gross slip is decided by the coupled problem: where the bound cannot carry the loads, the shear is that of sliding,
-  and the passes go on. If they end there, all slides, and the limit is that of the pressure then.
+  and the passes continue. If they end there, the whole contact slides, and the limit is that of the last pressure.
 */
 #include "stepimpl.h"
 #include <math.h>
@@ -92,7 +92,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   SamSolverSetEffort(SamTangentialAsSolver(s->c->tangential), rtol, effort);
   PetscCall(VecCopy(s->lift, s->h));
   PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear));
-  PetscCall(SamSolveJudgeNormal(s));
+  PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
   PetscCall(SamSolveBound(s, s->s->bound));
   p->slides = PETSC_FALSE;
   if (s->step->status != SAM_STATUS_CONVERGED) {
@@ -104,7 +104,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
   p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0;
-  if (!p->slides && !p->stuck) PetscCall(SamSolveJudgeTangential(s));
+  if (!p->slides && !p->stuck) PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -122,7 +122,7 @@ static PetscErrorCode Measure(Passes *p, PetscBool *solved)
   SamSolverSetEffort(SamNormalAsSolver(s->c->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
   PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
   PetscCall(SamSolverGetReason(SamNormalAsSolver(s->c->normal), &reason));
-  if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudgeNormal(s));
+  if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
   PetscCall(SamSolverGetStatistics(SamNormalAsSolver(s->c->normal), &p->error, NULL, NULL, NULL));
   PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->c->tangential), &error, NULL, NULL, NULL));
   p->looks = p->error > LOOK * before;
@@ -155,16 +155,16 @@ static PetscErrorCode IsLast(Passes *p, PetscInt pass, PetscBool solved, PetscBo
   PetscFunctionBegin;
   PetscCall(ComputeChange(c, s->s->pressure, s->previous_pressure, &change[0]));
   PetscCall(ComputeChange(c, s->s->shear, s->previous_shear, &change[1]));
-  if (c->coupling_monitor)
+  if (c->set.coupling_monitor)
     PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n", pass,
                           (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
-  *last = solved && (pass == 1 || PetscMax(change[0], change[1]) <= c->coupling_rtol);
-  if (*last && p->slides) PetscCall(SamSolveJudgeTangential(s));
-  if (*last || pass < c->coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
+  *last = solved && (pass == 1 || PetscMax(change[0], change[1]) <= c->set.coupling_rtol);
+  if (*last && p->slides) PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
+  if (*last || pass < c->set.coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
   *last = PETSC_TRUE;
   PetscCall(PetscSNPrintf(
     message, sizeof(message),
-    "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT " passes", pass));
+    "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT " iterations", pass));
   PetscCall(SamStepFail(s->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscCall(PetscStrncpy(s->step->setting, "coupling_max_it", sizeof(s->step->setting)));
   PetscFunctionReturn(PETSC_SUCCESS);

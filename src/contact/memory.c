@@ -77,7 +77,7 @@ static PetscErrorCode DeclareOutcome(SamContact c)
     {"tangential_iterations", "iterations of the tangential solver"},
     {"tangential_applies", "applications of the tangential influence operator"},
     {"tangential_preconditions", "applications of the tangential preconditioner"},
-    {"coupling_iterations", "passes of the normal-tangential coupling"}};
+    {"coupling_iterations", "iterations of the normal-tangential coupling"}};
 
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++)
@@ -93,68 +93,38 @@ static PetscErrorCode DeclareOutcome(SamContact c)
 
 /* ---- fields that are computed ---- */
 
-static PetscErrorCode ComputeSlip(void *owner, SamState state, PetscInt component, Vec slip)
+enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y };
+
+static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec field)
 {
   const SamContact   c = (SamContact)owner;
   const SamSolution *s;
   double            *slips;
-
-  PetscFunctionBegin;
-  (void)state;
-  PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(VecGetArrayWrite(slip, &slips));
-  PetscCall(SamSolutionComputeSlip(c->problem, s, component, slips));
-  PetscCall(VecRestoreArrayWrite(slip, &slips));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ComputeGap(void *owner, SamState state, PetscInt component, Vec gap)
-{
-  const SamContact   c = (SamContact)owner;
-  const SamSolution *s;
   Vec                h;
 
   PetscFunctionBegin;
-  (void)component;
   PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamSolutionCreateSeparation(c->problem, state, c->has_tried ? SAM_TRIED : SAM_COMMITTED, &h));
-  PetscCall(SamSolutionComputeGap(c->problem, s, h, gap));
-  PetscCall(SamSolutionDestroySeparation(c->problem, &h));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ComputeStates(void *owner, SamState state, PetscInt component, Vec states)
-{
-  const SamSolution *s;
-
-  PetscFunctionBegin;
-  (void)state;
-  (void)component;
-  PetscCall(SamContactGetSolution((SamContact)owner, &s));
-  PetscCall(SamSolutionComputeStates(s, states));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ComputePressureCenter(void *owner, SamState state, PetscInt component, Vec pressure)
-{
-  const SamContact   c = (SamContact)owner;
-  const SamSolution *s;
-
-  PetscFunctionBegin;
-  (void)component;
-  PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamSolutionComputePressureCenter(c->problem, state, s, pressure));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ComputeShearCenter(void *owner, SamState state, PetscInt component, Vec shear)
-{
-  const SamContact   c = (SamContact)owner;
-  const SamSolution *s;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamSolutionComputeShearCenter(c->problem, state, s, component, shear));
+  switch (which) {
+  case SLIP_X:
+  case SLIP_Y:
+    PetscCall(VecGetArrayWrite(field, &slips));
+    PetscCall(SamSolutionComputeSlip(c->problem, s, which - SLIP_X, slips));
+    PetscCall(VecRestoreArrayWrite(field, &slips));
+    break;
+  case GAP:
+    PetscCall(SamSolutionCreateSeparation(c->problem, state, c->has_tried ? SAM_TRIED : SAM_COMMITTED, &h));
+    PetscCall(SamSolutionComputeGap(c->problem, s, h, field));
+    PetscCall(SamSolutionDestroySeparation(c->problem, &h));
+    break;
+  case STATE:
+    PetscCall(SamSolutionComputeStates(s, field));
+    break;
+  case PRESSURE_CENTER:
+    PetscCall(SamSolutionComputePressureCenter(c->problem, state, s, field));
+    break;
+  default:
+    PetscCall(SamSolutionComputeShearCenter(c->problem, state, s, which - SHEAR_CENTER_X, field));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -170,27 +140,23 @@ PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, Vec point, SamE
 
 static PetscErrorCode Offer(SamContact c)
 {
-#define COMPUTED(name, unit, text, kind, use, function, component) \
-  { \
-    name, unit, text, kind, use, function, c, component, -1 \
-  }
   const SamStateResult results[] = {
-    COMPUTED("slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL,
-             SAM_RESULT_USUAL, ComputeSlip, 0),
-    COMPUTED("slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL,
-             SAM_RESULT_USUAL, ComputeSlip, 1),
-    COMPUTED("gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, SAM_RESULT_OFFERED, ComputeGap, 0),
-    COMPUTED("state", "1", "state of the cell", SAM_FIELD_STATE, SAM_RESULT_USUAL, ComputeStates, 0),
-    COMPUTED("pressure_center", "Pa", "contact pressure at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
-             ComputePressureCenter, 0),
-    COMPUTED("shear_center_x", "Pa", "shear traction along x at the centre of the cell", SAM_FIELD_REAL,
-             SAM_RESULT_OFFERED, ComputeShearCenter, 0),
-    COMPUTED("shear_center_y", "Pa", "shear traction along y at the centre of the cell", SAM_FIELD_REAL,
-             SAM_RESULT_OFFERED, ComputeShearCenter, 1),
-    COMPUTED("contact_edge", "m", "points of the edge of contact, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL,
-             SAM_EDGE_CONTACT),
-    COMPUTED("stick_edge", "m", "points of the edge of the stick zone, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED,
-             NULL, SAM_EDGE_STICK)};
+    {"slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL, SAM_RESULT_USUAL,
+     Compute, c, SLIP_X, -1},
+    {"slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL, SAM_RESULT_USUAL,
+     Compute, c, SLIP_Y, -1},
+    {"gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, SAM_RESULT_OFFERED, Compute, c, GAP, -1},
+    {"state", "1", "state of the cell", SAM_FIELD_STATE, SAM_RESULT_USUAL, Compute, c, STATE, -1},
+    {"pressure_center", "Pa", "contact pressure at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED, Compute,
+     c, PRESSURE_CENTER, -1},
+    {"shear_center_x", "Pa", "shear traction along x at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
+     Compute, c, SHEAR_CENTER_X, -1},
+    {"shear_center_y", "Pa", "shear traction along y at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
+     Compute, c, SHEAR_CENTER_Y, -1},
+    {"contact_edge", "m", "points of the contact edge, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
+     SAM_EDGE_CONTACT, -1},
+    {"stick_edge", "m", "points of the stick-slip boundary, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
+     SAM_EDGE_STICK, -1}};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < sizeof(results) / sizeof(results[0]); k++) PetscCall(SamStateOffer(c->state, &results[k]));
@@ -205,17 +171,12 @@ PetscErrorCode SamContactDeclare(SamContact c)
   PetscCall(DeclareControl(c));
   PetscCall(SamSolutionDeclareNumbers(c->state));
   PetscCall(DeclareOutcome(c));
-  if (c->spots) PetscCall(SamSolutionDeclareSpots(c->state));
+  if (c->set.spots) PetscCall(SamSolutionDeclareSpots(c->state));
   PetscCall(SamProblemDeclare(c->problem, c->state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- generations ---- */
-
-double *SamContactWindow(SamContact c, SamGeneration g)
-{
-  return SamStateNumbers(c->state, c->window, g);
-}
 
 const SamSolution *SamContactBefore(SamContact c)
 {
@@ -265,31 +226,24 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode View(SamContact c, SamGeneration g)
-{
-  SamSolution    *s   = &c->generation[g];
-  double         *n   = SamStateNumbers(c->state, 0, g);
-  const PetscBool all = g != SAM_BEFORE;
-
-  PetscFunctionBegin;
-  SamControlUnpack(n + c->control, &s->control);
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* before the first step there are none: nothing has moved */
-    s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
-    s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
-  }
-  PetscCall(SamStateRestoreField(c->state, c->tractions[0], g, &s->pressure));
-  PetscCall(SamStateRestoreField(c->state, c->tractions[1], g, &s->bound));
-  PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
-  s->displacement_z = all ? SamStateGetField(c->state, c->displacements[0], g) : NULL;
-  s->displacement_t = all ? SamStateGetField(c->state, c->displacements[1], g) : NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamContactView(SamContact c)
 {
   PetscFunctionBegin;
-  PetscCall(View(c, SAM_COMMITTED));
-  PetscCall(View(c, SAM_BEFORE));
+  for (SamGeneration g = SAM_COMMITTED; g <= SAM_BEFORE; g++) {
+    SamSolution *s = &c->generation[g];
+    double      *n = SamStateNumbers(c->state, 0, g);
+
+    SamControlUnpack(n + c->control, &s->control);
+    for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* before the first step there are none: nothing has moved */
+      s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
+      s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
+    }
+    PetscCall(SamStateRestoreField(c->state, c->tractions[0], g, &s->pressure));
+    PetscCall(SamStateRestoreField(c->state, c->tractions[1], g, &s->bound));
+    PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
+    s->displacement_z = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[0], g);
+    s->displacement_t = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[1], g);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

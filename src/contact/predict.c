@@ -1,15 +1,15 @@
 /*
   The guess from which a step is solved.
 
-  When the prescribed values go on as they did in the last step, the tractions are extrapolated, and a few iterations on
-  the finest grid finish the work. When they turn, nested grids find the new slip zones faster.
+  When the prescribed values continue as in the last step, the tractions are extrapolated, and a few iterations on the
+  finest grid suffice. At a load reversal nested grids find the new slip zones faster.
 
   Near the edge of the contact the pressure goes to zero like the square root of the distance from the edge; so does
   mu p - |q| near the edge of the stick zone. Edges move, and extrapolating p or q themselves would give relative errors
   of order one where an edge passes. Their squares are linear in the position of the edge, and a negative extrapolated
   square means that the edge has passed. So p^2 is extrapolated. The ratio q/(mu p) moves in the unit disc; for it, the
   square of its distance to the circle is extrapolated, measured in the direction of its last change. In cells that
-  slip, where the ratio lies on the circle, it goes on along the circle.
+  slip, where the ratio lies on the circle, it continues along the circle.
 */
 #include "contactimpl.h"
 #include <math.h>
@@ -238,7 +238,7 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
   PetscFunctionBegin;
   *start = (SamStepStart){.pressure = PETSC_FALSE};
   PetscCall(SamContactGetSteps(c, &steps));
-  if (steps > 1 && c->warm) alpha = Continuation(&before->control, &now->control, control);
+  if (steps > 1 && c->set.warm_start) alpha = Continuation(&before->control, &now->control, control);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
@@ -246,7 +246,8 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
   }
   if (alpha > 0) PetscCall(Extrapolate(c, alpha, control->friction_scale, &found));
   start->pressure = start->shear = found;
-  if (!found && c->warm && !SamContactIsCoupled(c) && SamControlIsSame(&now->control, control, SAM_BALANCE_NORMAL))
+  if (!found && c->set.warm_start && !SamContactIsCoupled(c) &&
+      SamControlIsSame(&now->control, control, SAM_BALANCE_NORMAL))
     PetscCall(StartFromLastPressure(c, start));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

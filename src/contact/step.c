@@ -83,27 +83,9 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
   PetscCall(VecSum(h, &sum));
   PetscCall(
     PetscSNPrintf(message, size,
-                  "disp_z = %.8g m brings the mean surfaces together (limit %.8g, their mean separation): in full "
-                  "contact the approach no longer decides the pressure",
+                  "disp_z = %.8g m brings the mean planes together (limit %.8g, their mean separation): in full "
+                  "contact disp_z does not fix the pressure: give load_n",
                   (double)w->normal.rigid[0], (double)sum / ((double)grid->nx * (double)grid->ny)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSolveJudgeNormal(SamSolve *w)
-{
-  SamSolverReason reason;
-  char            message[sizeof(w->step->message)];
-
-  PetscFunctionBegin;
-  PetscCall(SamSolverGetReason(SamNormalAsSolver(w->c->normal), &reason));
-  if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
-    PetscCall(DescribeImpossible(w, message, sizeof(message)));
-    PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
-  } else if (reason < 0) {
-    PetscCall(
-      PetscSNPrintf(message, sizeof(message), "the normal problem did not converge: %s", SamSolverReasonName(reason)));
-    PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -191,19 +173,21 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveJudgeTangential(SamSolve *w)
+PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
 {
+  const PetscBool normal = kind == SAM_BALANCE_NORMAL;
+  const SamSolver solver = normal ? SamNormalAsSolver(w->c->normal) : SamTangentialAsSolver(w->c->tangential);
   SamSolverReason reason;
   char            message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetReason(SamTangentialAsSolver(w->c->tangential), &reason));
+  PetscCall(SamSolverGetReason(solver, &reason));
   if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
-    PetscCall(DescribeSliding(w, message, sizeof(message)));
+    PetscCall((normal ? DescribeImpossible : DescribeSliding)(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
-    PetscCall(PetscSNPrintf(message, sizeof(message), "the tangential problem did not converge: %s",
-                            SamSolverReasonName(reason)));
+    PetscCall(PetscSNPrintf(message, sizeof(message), "the %s problem did not converge: %s",
+                            normal ? "normal" : "tangential", SamSolverReasonName(reason)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -350,7 +334,7 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
   }
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->c->tangential), &rtol, NULL));
   PetscCall(SamSolveShear(w, has_shear, rtol, SAM_EFFORT_FULL));
-  PetscCall(SamSolveJudgeTangential(w));
+  PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -384,7 +368,7 @@ static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
   PetscFunctionBegin;
   if (w->coupled) PetscCall(VecSet(w->h, 0));
   PetscCall(SamSolveNormal(w, start->pressure, start->shear));
-  if (!w->same_pressure && !w->known_pressure) PetscCall(SamSolveJudgeNormal(w));
+  if (!w->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
   if (w->step->status == SAM_STATUS_CONVERGED) PetscCall(Correct(w));
   PetscCall(SolveShear(w, start->shear));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -10,7 +10,7 @@
 typedef struct {
   SamContact         c;
   SamSolution       *s;      /* the tried solution */
-  const SamSolution *before; /* whose slip it goes on from; NULL in the first step */
+  const SamSolution *before; /* whose slip it continues; NULL in the first step */
   SamStep           *step;
   PetscBool          coupled, same_pressure;
   SamKept            kept;           /* the same step one cycle before; NULL: none */
@@ -33,7 +33,7 @@ typedef struct {
 */
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
 /*
-  SamSolveBound - a bound of the shear, from the pressure and the slip that is known.
+  SamSolveBound - a bound of the shear, from the pressure and the last slip.
   SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
   with it; `rtol` is what both are solved to then (bound.c). Collective.
 */
@@ -41,9 +41,8 @@ PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
 PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
 /* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
-/* SamSolveJudge... - puts down in the step whether that failed. Collective. */
-PETSC_INTERN PetscErrorCode SamSolveJudgeNormal(SamSolve *solve);
-PETSC_INTERN PetscErrorCode SamSolveJudgeTangential(SamSolve *solve);
+/* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
 /* SamSolveSkipTangential - no shear, as the pressure is not right. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
 

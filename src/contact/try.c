@@ -3,9 +3,9 @@
 #include <math.h>
 
 /*
-  The check also sees rounding, which the solvers' recurrences do not show. So its limits are the solvers' tolerances
-  times a margin; equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows
-  the slip is known as exactly as the slip is.
+  The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a
+  margin; equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows the slip
+  is as accurate as the slip.
 */
 #define CHECK_MARGIN      1.05
 #define CHECK_EQUILIBRIUM 1e-10
@@ -16,7 +16,7 @@
 static PetscErrorCode Judge(SamContact c, SamStep *step)
 {
   const SamCheck *check  = &step->check;
-  SamCheckLimits  limits = {.equilibrium = CHECK_EQUILIBRIUM, .cone = CHECK_CONE, .edge = c->allow_edge};
+  SamCheckLimits  limits = {.equilibrium = CHECK_EQUILIBRIUM, .cone = CHECK_CONE, .edge = c->set.allow_edge};
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
@@ -24,7 +24,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   limits.normal *= CHECK_MARGIN;
   limits.tangential *= CHECK_MARGIN;
   if (SamProblemFollowsSlip(c->problem)) limits.cone = limits.tangential;
-  if (c->print_check)
+  if (c->set.print_check)
     PetscCall(PetscPrintf(c->grid->comm,
                           "      check: normal %.3e tangential %.3e equilibrium %.3e cone %.3e edge pressure %.3e\n",
                           (double)check->normal, (double)check->tangential, (double)check->equilibrium,
@@ -108,7 +108,7 @@ PetscErrorCode SamContactSetUp(SamContact c)
 /* Makes the elasticity use the committed state's part of the grid again: a rejected try must leave no trace. */
 static PetscErrorCode RestoreWindow(SamContact c)
 {
-  const double  *window   = SamContactWindow(c, SAM_COMMITTED);
+  const double  *window   = SamStateNumbers(c->state, c->window, SAM_COMMITTED);
   const PetscInt first[2] = {(PetscInt)window[0], (PetscInt)window[1]},
                  n[2]     = {(PetscInt)window[2], (PetscInt)window[3]};
 
@@ -120,7 +120,7 @@ static PetscErrorCode RestoreWindow(SamContact c)
 /* Notes the part of the grid that the tried step was solved on. */
 static PetscErrorCode NoteWindow(SamContact c)
 {
-  double  *window = SamContactWindow(c, SAM_TRIED);
+  double  *window = SamStateNumbers(c->state, c->window, SAM_TRIED);
   PetscInt first[2], n[2];
 
   PetscFunctionBegin;
@@ -239,17 +239,17 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   if (!before) SamReturnMemory();
   PetscCall(SamContactSetDisplacements(c));
   if (same_pressure) PetscCall(SamVecCopyNonzero(before->displacement_z, s->displacement_z));
-  PetscCall(SamCheckSolution(c->problem, c->state, c->coupling, same_pressure, before, s, &step->check));
+  PetscCall(SamCheckSolution(c->problem, c->state, c->set.coupling, same_pressure, before, s, &step->check));
   PetscCall(Advance(c, same_pressure));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
-  PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, c->edges));
-  if (c->spots) PetscCall(SamSolutionComputeSpots(c->problem, c->state, s));
+  PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, c->set.edges));
+  if (c->set.spots) PetscCall(SamSolutionComputeSpots(c->problem, c->state, s));
   PetscCall(Judge(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution only the prescribed loads and displacements are known. */
+/* Without a solution only the prescribed loads and displacements are numbers, the others NaN. */
 static void SetUnknown(SamStep *step)
 {
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
@@ -274,7 +274,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
   PetscCall(SamContactPredict(c, &given, &start));
-  if (c->warm && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
+  if (c->set.warm_start && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
     SamRecallFind(c->recall, &given, &start.kept);
   PetscCall(SamContactSolveStep(c, &start, same_pressure, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */

@@ -1,21 +1,21 @@
 /*
   Deferred correction of the pressure for the edge of contact.
 
-  The solvers take the pressure as constant in each cell. Where it vanishes like the root of the distance from the edge,
-  that displaces the surfaces wrongly by the first order of the cell, in a layer of two cells. So, when the plain
-  problem S p + h = d is solved:
-    1. From p follows what the pressure does within the cells along the edge, and which cells it cuts (edges/profile.c).
-    2. The displacement c by that, beyond that of the means, is added to the gap. Cells that it cuts and whose centre
-       lies outside, the rim, bear the given means r; their gaps are open, or they bear more.
-    3. S (p + r) + h + c = d is solved again for p, from the last one, under the loads less those of r.
-  Two passes leave a twentieth to a fiftieth of the error. The rest comes from the size of the sub-cells.
+  The solvers take the pressure as constant in each cell. Where the pressure vanishes like the square root of the
+  distance from the edge, the error of the displacements is of first order in cell size, in a layer of two cells. So,
+  once the uncorrected problem S p + h = d is solved:
+    1. From p follow the pressure within the cells along the edge, and the cells that the edge cuts (edges/profile.c).
+    2. The displacement c by this pressure, minus that by the means, is added to the gap. Cut cells whose centre lies
+       outside, the rim, bear the given means r; their gaps are open, or they bear more.
+    3. S (p + r) + h + c = d is solved for p, starting from the last p, under the loads minus those of r.
+  Two correction iterations leave a twentieth to a fiftieth of the error. The rest comes from the size of the sub-cells.
 
-  It is a correction for edges that are smooth and resolved. Others are known by the layer that they lack, and the plain
-  solution stays. It is one of the pressure: a plain shear, bounded by the corrected pressure, is less exact than with
-  the plain one, as the errors of p and q of the same operator cancel. So with friction it is refused.
+  The correction supports edges that are smooth and resolved. Others lack the layer, and the uncorrected solution stays.
+  With friction the correction is rejected: an uncorrected shear, bounded by the corrected pressure, is less accurate
+  than with the uncorrected pressure, as the errors of p and q of the same operator cancel.
 */
+#include "edgesimpl.h"
 #include <petsam/private/lawimpl.h>
-#include <petsam/private/rows.h>
 
 /* The least share of an edge that must be smooth and resolved for its correction. */
 #define SMOOTH 0.95
@@ -36,7 +36,7 @@ typedef struct {
   SamProfile     profile;
   Vec            correction, rim; /* of the tried state */
   Vec            h;               /* the corrected separation */
-  Vec            plain;           /* pressure */
+  Vec            plain;           /* uncorrected pressure */
   SamBalance     balance;         /* of it */
 } Work;
 
@@ -159,7 +159,7 @@ static PetscErrorCode End(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The plain solution stays, with a message that says why. */
+/* The uncorrected solution stays, with a message that gives the reason. */
 static PetscErrorCode GiveUp(Work *w, const char why[])
 {
   PetscFunctionBegin;
@@ -250,14 +250,12 @@ static PetscErrorCode MakePasses(Work *w, PetscInt *made)
   *made = 0;
   PetscCall(SamElasticityGetTraits(w->law->elasticity, &traits));
   if (!traits.within)
-    PetscCall(PetscStrncpy(why, "that is known for -elasticity halfspace only", sizeof(why)));
+    PetscCall(PetscStrncpy(why, "it is supported for -elasticity halfspace only", sizeof(why)));
   else
     PetscCall(SamProfileStart(w->profile, w->c->pressure, &edge, &found));
   if (edge.smooth < SMOOTH * edge.faces)
-    PetscCall(PetscSNPrintf(
-      why, sizeof(why),
-      "%.3g %% of it is smooth and resolved, %.0f %% would be needed; another grid helps, best a finer one",
-      100 * (double)(edge.smooth / edge.faces), 100 * SMOOTH));
+    PetscCall(PetscSNPrintf(why, sizeof(why), "%.3g %% of it is smooth and resolved, %.0f %% needed: use a finer grid",
+                            100 * (double)(edge.smooth / edge.faces), 100 * SMOOTH));
   for (PetscInt pass = 1; pass <= d->passes && !why[0] && edge.faces > 0; pass++) {
     PetscCall(Pass(w, pass, why, sizeof(why)));
     *made = pass;
@@ -290,13 +288,13 @@ static PetscErrorCode Correct(SamLaw law, SamCorrection *c)
 /* ---- the elastic energy ---- */
 
 /*
-  What the variation of the pressure within cells adds to the elastic energy of a corrected solution.
+  The contribution of the pressure's variation within cells to the elastic energy of a corrected solution.
 
   The energy is a sum over cells of half the mean pressure times the displacement at the centre. The integral over a
   cell of p u, p having the mean p0 and the slopes m, u the gradient g and second differences d over a cell, is
     p0 u + (m_x g_x + m_y g_y)/12 + p0 (d_xx + d_yy)/24
-  but for the fourth order of the cell. In the plain solution the error of the pressure makes up for these terms, of a
-  corrected one they are what is missing.
+  to fourth order in cell size. In the uncorrected solution the error of the pressure makes up for these terms; a
+  corrected solution lacks them.
 */
 /* These terms of a cell, over its area, but for p0 u; none at the border of the grid. */
 static double TermsOf(const SamRows *rows, const double u[], PetscInt i, PetscInt j, double mean, const double slope[2])
@@ -363,7 +361,6 @@ static PetscErrorCode Destroy(SamLaw law)
 {
   PetscFunctionBegin;
   PetscCall(SamProfileDestroy(&((Deferred *)law->data)->profile));
-  PetscCall(PetscFree(law->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -169,7 +169,7 @@ static PetscErrorCode Examine(Band *band)
   const SamZone  *z     = &band->zone;
   const PetscInt  nx    = z->grid->nx;
   const ptrdiff_t cells = (ptrdiff_t)z->count * nx;
-  const PetscInt  begin = PetscMax(z->grid->row_start - 1, z->first), /* of the rows whose cells are asked for */
+  const PetscInt  begin = PetscMax(z->grid->row_start - 1, z->first), /* of the rows whose cells are needed */
     end                 = PetscMin(z->grid->row_start + z->grid->rows + 1, z->first + z->count);
   SamFitWindow core;
 

@@ -57,7 +57,7 @@ PETSC_INTERN void SamFitWindowInitialize(PetscInt half, int least, double bell, 
 #define SAM_FIT_LEAST 9 /* fewest cells of a fit */
 /*
   SamFitFactor - what the fits in the window about a cell have in common, whatever the values. False: there are too few
-  cells, or they say too little. Not collective.
+  cells, or the fit is singular. Not collective.
   SamFit - the function nearest to the values (of all cells that are seen). `bent` (NULL: not wanted): how far they are
   from it, rms. Not collective.
 */
@@ -122,5 +122,40 @@ PETSC_INTERN PetscBool SamEdgeExtrapolate(const SamZone *zone, const SamFitWindo
                                           double fit[SAM_FIT_TERMS], double *bent);
 /* SamEdgeAddPoint - adds the place on the edge nearest to the centre of a cell of this rank, if it is in the cell. */
 PETSC_INTERN void SamEdgeAddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, PetscInt j, SamEdge *edge);
+
+/*
+  SamProfile - what a traction does within the cells of its zone, when it vanishes at the zone's edge like the root of
+  the distance: in a band along the edge it is sqrt(max(w, 0)) with a quadratic function w in each cell, elsewhere it is
+  linear. A cell belongs to the zone if its centre does; cells outside that the edge cuts, the rim, bear traction too.
+*/
+typedef struct _n_SamProfile *SamProfile;
+/* SamProfileCreate - references the elasticity. SamProfileDestroy - sets the handle to NULL. Collective. */
+PETSC_INTERN PetscErrorCode SamProfileCreate(SamElasticity elasticity, SamProfile *profile);
+PETSC_INTERN PetscErrorCode SamProfileDestroy(SamProfile *profile);
+/*
+  SamProfileStart - the first guess: the zone is where `mean` (one component, Pa, >= 0) is positive, its edge is
+  reconstructed, and there is no rim. `edge` returns the areas and shares of that, without points. Collective.
+  SamProfileMatch - finds the functions whose means over the cells are those given. The zone is where they exceed `rim`,
+  the means of the rim's cells. Collective.
+  SamProfileMove - moves the zone to the edge that was found last; the rim gets its means. Collective.
+  `found`: each cell of the band has a function; without, the profile is of no use.
+*/
+PETSC_INTERN PetscErrorCode SamProfileStart(SamProfile profile, Vec mean, SamEdge *edge, PetscBool *found);
+PETSC_INTERN PetscErrorCode SamProfileMatch(SamProfile profile, Vec mean, Vec rim, PetscBool *found);
+PETSC_INTERN PetscErrorCode SamProfileMove(SamProfile profile, PetscBool *found);
+/*
+  What has been found, in fields of one component. Collective.
+  SamProfileGetZone - 1 in cells of the zone, else 0; and the means of the rim's cells (Pa), else 0. Borrowed.
+  SamProfileComputeDisplacement - the normal displacement (m) by what a pressure of this profile does within the cells:
+  what the influence of the cells' means lacks. For an elasticity whose traits say `within`.
+  SamProfileComputeSlopes - by how much the pressure grows from one side of a cell to the other, along x and along y
+  (two components, Pa).
+  SamProfileGetEdge - the edge, with its points; its share is 1. `point` (NULL: not wanted): the traction's square at
+  the cells' centres (Pa2).
+*/
+PETSC_INTERN PetscErrorCode SamProfileGetZone(SamProfile profile, Vec *zone, Vec *rim);
+PETSC_INTERN PetscErrorCode SamProfileComputeDisplacement(SamProfile profile, Vec u_z);
+PETSC_INTERN PetscErrorCode SamProfileComputeSlopes(SamProfile profile, Vec slopes);
+PETSC_INTERN PetscErrorCode SamProfileGetEdge(SamProfile profile, Vec point, SamEdge *edge);
 
 #endif

@@ -1,7 +1,7 @@
 /*
-  What a traction does within cells along an edge where it vanishes like the root of the distance.
+  A traction within the cells along an edge, where it vanishes like the square root of the distance.
 
-  The means t_i over cells are known, and in which cells the centre lies in the zone. Wanted is in each cell of a band
+  Given are the means t_i over cells, and the cells whose centre lies in the zone. Wanted is in each cell of a band
   along the edge a quadratic function w, with t = sqrt(max(w, 0)) in the cell:
     1. Its shape is that of the function nearest to the w at the centres of the zone's cells about it, weighted by
        Gauss' bell; its constant makes the mean of t that of the cell.
@@ -319,7 +319,7 @@ static PetscErrorCode MoveZone(SamProfile s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Cells outside that the edge cuts bear traction; half of it is that of the last time, so that it settles. */
+/* Cut cells outside bear traction, the mean of the new and the last value, so that it settles. */
 static PetscErrorCode FindRim(SamProfile s)
 {
   const ptrdiff_t first = SamZoneAt(&s->zone, 0, s->grid->row_start);

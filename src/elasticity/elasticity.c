@@ -1,4 +1,4 @@
-/* The class of influence operators: types, options, and the operators on coarser grids. */
+/* Influence operators: types, options, and the operators on coarser grids. */
 #include <petsam/private/elasticityimpl.h>
 #include <math.h>
 #include <string.h>
@@ -7,22 +7,10 @@
 #define COARSEST 32
 
 static PetscFunctionList SamElasticityList = NULL;
-static PetscBool         registered        = PETSC_FALSE;
-
-static PetscErrorCode RegisterAll(void);
-
-PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
-{
-  PetscFunctionBegin;
-  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces ours */
-  PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 static PetscErrorCode FreeList(void)
 {
   PetscFunctionBegin;
-  registered = PETSC_FALSE;
   PetscCall(PetscFunctionListDestroy(&SamElasticityList));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -30,11 +18,18 @@ static PetscErrorCode FreeList(void)
 static PetscErrorCode RegisterAll(void)
 {
   PetscFunctionBegin;
-  if (registered) PetscFunctionReturn(PETSC_SUCCESS);
-  registered = PETSC_TRUE;
-  PetscCall(SamElasticityRegister(SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
-  PetscCall(SamElasticityRegister(SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
+  if (SamElasticityList) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
   PetscCall(PetscRegisterFinalize(FreeList));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
+{
+  PetscFunctionBegin;
+  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces ours */
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -64,12 +59,12 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElastic
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Everything that the type and what follows from it have made. */
+/* Destroys everything of the type and derived from it. */
 static PetscErrorCode Reset(SamElasticity e)
 {
   PetscFunctionBegin;
   if (e->ops.destroy) PetscCall((*e->ops.destroy)(e));
-  e->data = NULL;
+  PetscCall(PetscFree(e->data));
   PetscCall(SamFourierDestroy(&e->fourier));
   PetscCall(SamTransferDestroy(&e->transfer));
   PetscCall(SamElasticityDestroy(&e->coarse));
@@ -88,7 +83,8 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
-  PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Type %s of elasticity: expected %s", type, types);
+  PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
+             types);
   PetscCheck(e->references == 1, e->grid->comm, PETSC_ERR_ORDER,
              "The type of an elasticity must be set before a problem or a solver refers to it");
   PetscCall(Reset(e));
@@ -106,9 +102,7 @@ PetscErrorCode SamElasticityGetType(SamElasticity e, SamElasticityType *type)
 
 PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[])
 {
-  PetscFunctionBegin;
-  PetscCall(SamSetPrefix(e->prefix, prefix));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamSetPrefix(e->prefix, prefix);
 }
 
 /* The help lists the options of the other types, too. */
@@ -240,10 +234,10 @@ PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const S
 {
   PetscFunctionBegin;
   SamElasticityWith(e, createstress);
-  PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are known of it",
+  PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are available",
              e->type);
   PetscCheck((body == 1 || body == 2) && !isinf(e->pair.young[body - 1]), e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Body %" PetscInt_FMT ": expected 1 or 2, and not a rigid one", body);
+             "Body %" PetscInt_FMT ": use 1 or 2, an elastic body", body);
   PetscCall((*e->ops.createstress)(e, body, settings ? settings : &e->fft, stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,7 +3,7 @@
 #include <petsam/material.h>
 #include <math.h>
 
-/* What no pair can be made of: a message that names the body's constant by a prefix, empty when all is well. */
+/* The fault of invalid constants: a message that names the constant with a prefix; empty without fault. */
 static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisson[2], const char prefix[],
                                 char message[], size_t size)
 {
@@ -19,7 +19,7 @@ static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisso
       PetscCall(PetscSNPrintf(message, size, "%sbody%d_poisson %g: expected a number above -1 and at most 0.5%s",
                               prefix, b + 1, (double)poisson[b], poisson[b] > 1 ? ": 0.3, not 30 percent" : ""));
     else if (!isfinite(inverse_shear) || (inverse_shear == 0 && !isinf(young[b])))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: the elasticity is not a number in double precision",
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: its compliance is out of range in double precision",
                               prefix, b + 1, (double)young[b]));
   }
   if (!message[0] && isinf(young[0]) && isinf(young[1]))
@@ -105,7 +105,7 @@ PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
     PetscCall(
       SamOptionsReal(from, name, "Poisson's ratio: required unless rigid", SAM_RANGE_ANY, &poisson[b], &has_poisson));
     PetscCall(SamOptionsRequire(from, has_poisson || isinf(young[b]) || help, name,
-                                "Poisson's ratio (0.3 for steel; not needed of a rigid body)"));
+                                "Poisson's ratio (0.3 for steel; not needed for a rigid body)"));
   }
   if (help) young[0] = young[1] = 1;
   PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "-%s", SamOptionsPrefix(from)));

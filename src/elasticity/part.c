@@ -77,7 +77,7 @@ PetscErrorCode SamElasticitySetPart(SamElasticity e, const PetscInt first[2], co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the part in use will do. */
+/* Whether the part in use is suitable. */
 static PetscBool Suits(SamElasticity e, const PetscInt first[2], const PetscInt n[2])
 {
   const SamElasticityPart *part = InUse(e);

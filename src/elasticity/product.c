@@ -1,57 +1,25 @@
 /* Products and preconditioners: fields become arrays by component for the type's methods, and are logged. */
 #include <petsam/private/elasticityimpl.h>
 
-/* Arrays of fields, by component. */
-typedef struct {
-  const double *in[2];
-  double       *out[2];
-  const double *x;
-  double       *y;
-} Arrays;
-
-static PetscErrorCode GetArrays(SamElasticity e, Vec in, Vec out, Arrays *a)
-{
-  PetscFunctionBegin;
-  if (in == out) {
-    PetscCall(VecGetArray(out, &a->y));
-    a->x = a->y;
-  } else {
-    PetscCall(VecGetArrayRead(in, &a->x));
-    PetscCall(VecGetArrayWrite(out, &a->y));
-  }
-  for (PetscInt c = 0; c < 2; c++) { /* of a field of one component only the first is used */
-    a->in[c]  = a->x + c * e->grid->cells;
-    a->out[c] = a->y + c * e->grid->cells;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode RestoreArrays(Vec in, Vec out, Arrays *a)
-{
-  PetscFunctionBegin;
-  if (in == out) {
-    PetscCall(VecRestoreArray(out, &a->y));
-  } else {
-    PetscCall(VecRestoreArrayWrite(out, &a->y));
-    PetscCall(VecRestoreArrayRead(in, &a->x));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
 typedef PetscErrorCode (*MethodSingle)(SamElasticity, double, const float *const[], float *const[]);
 
 static PetscErrorCode Apply(SamElasticity e, Method method, SamEvent event, Vec in, Vec out)
 {
-  Arrays a;
+  const double *x = NULL;
+  double       *y;
 
   PetscFunctionBegin;
   PetscCheck(method, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no such product", e->type);
   PetscCall(SamElasticitySetUp(e));
   PetscCall(PetscLogEventBegin(SamEvents[event], 0, 0, 0, 0));
-  PetscCall(GetArrays(e, in, out, &a));
-  PetscCall(method(e, a.in, a.out));
-  PetscCall(RestoreArrays(in, out, &a));
+  if (in != out) PetscCall(VecGetArrayRead(in, &x));
+  PetscCall(VecGetArray(out, &y));
+  /* of a field of one component only the first is used */
+  PetscCall(method(e, (const double *const[]){x ? x : y, (x ? x : y) + e->grid->cells},
+                   (double *const[]){y, y + e->grid->cells}));
+  PetscCall(VecRestoreArray(out, &y));
+  if (in != out) PetscCall(VecRestoreArrayRead(in, &x));
   PetscCall(PetscLogEventEnd(SamEvents[event], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -104,50 +72,5 @@ PetscErrorCode SamElasticityGetNear(SamElasticity e, PetscInt reach, PetscInt su
   SamElasticityWith(e, getnear);
   PetscCheck(e->ops.getnear, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no sub-cells", e->type);
   PetscCall(e->ops.getnear(e, reach, sub, table));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The preconditioner of a Vec: scaled to what floats hold, and back. */
-static PetscErrorCode Precondition(SamElasticity e, PetscInt components, Vec in, Vec out)
-{
-  const PetscInt n = components * e->grid->cells;
-  const double  *x;
-  double        *y, self[2];
-  PetscReal      size;
-  float         *work;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(in, NORM_INFINITY, &size));
-  if (size == 0) {
-    PetscCall(VecSet(out, 0));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamElasticityGetSelfInfluence(e, &self[0], &self[1]));
-  PetscCall(PetscMalloc1(n, &work));
-  PetscCall(VecGetArrayRead(in, &x));
-  for (PetscInt k = 0; k < n; k++) work[k] = (float)(x[k] / size);
-  PetscCall(VecRestoreArrayRead(in, &x));
-  if (components == 1)
-    PetscCall(SamElasticityPreconditionNormalSingle(e, self[0], work, work));
-  else
-    PetscCall(SamElasticityPreconditionTangentialSingle(e, self[1], work, work));
-  PetscCall(VecGetArrayWrite(out, &y));
-  for (PetscInt k = 0; k < n; k++) y[k] = size / self[components - 1] * (double)work[k];
-  PetscCall(VecRestoreArrayWrite(out, &y));
-  PetscCall(PetscFree(work));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityPreconditionNormal(SamElasticity e, Vec residual, Vec p)
-{
-  PetscFunctionBegin;
-  PetscCall(Precondition(e, 1, residual, p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityPreconditionTangential(SamElasticity e, Vec residual, Vec q)
-{
-  PetscFunctionBegin;
-  PetscCall(Precondition(e, 2, residual, q));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

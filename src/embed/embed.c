@@ -6,10 +6,9 @@
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
-#include <petsam/private/baseimpl.h>
 #include <stdarg.h>
 
-/* What petsam_create() has to say when there is no contact to say it. */
+/* The message of petsam_create(), which may have no contact to hold it. */
 static char created[SAM_MESSAGE];
 
 /* ---- entering and leaving ---- */
@@ -23,11 +22,13 @@ static PetscBool IsAlive(void)
   return !MPI_Finalized(&ended) && !ended && !PetscInitialized(&has) && has;
 }
 
-PetscBool SamEmbedEnter(petsam_contact *c)
+PetscBool SamEmbedEnter(petsam_contact *c, const char function[], PetscBool given)
 {
-  (void)snprintf(c->message, sizeof(c->message), "MPI or PETSc has been ended");
-  if (!IsAlive()) return PETSC_FALSE;
+  if (!c) return PETSC_FALSE;
   c->message[0] = '\0';
+  if (!given) (void)SamEmbedRefuse(c, "%s: a pointer is NULL", function);
+  if (given && !IsAlive()) (void)SamEmbedRefuse(c, "MPI or PETSc has been finalized");
+  if (c->message[0]) return PETSC_FALSE;
   (void)PetscPushErrorHandler(SamKeepMessage, c->message);
   if (!c->depth++) (void)PetscOptionsPush(c->options); /* a database must not be pushed twice */
   return PETSC_TRUE;
@@ -76,7 +77,7 @@ const char *petsam_message(const petsam_contact *c)
 
 /* ---- creation ---- */
 
-/* Options that only the program has; their names deserve to be told so. Loads are given to petsam_try(). */
+/* Rejects by name the options that only the program has. Loads are given to petsam_try(). */
 static PetscErrorCode RefuseOthers(const petsam_contact *c)
 {
   static const char *const others[] = {"load_history", "wear_cycles"};
@@ -91,8 +92,8 @@ static PetscErrorCode RefuseOthers(const petsam_contact *c)
 
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsHasName(NULL, NULL, option, &set));
-    PetscCheck(!set, c->comm, SAM_ERR_USER,
-               "-%s: loads, displacements and cycles are given with each call, not as options", name);
+    PetscCheck(!set, c->comm, SAM_ERR_USER, "-%s: give loads, displacements and cycles with each call, not as options",
+               name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -137,19 +138,6 @@ PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What else is given with a step may be asked for, as if it varied. */
-static PetscErrorCode OfferGiven(petsam_contact *c)
-{
-  SamState state;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetState(c->setup->contact, &state));
-  PetscCall(SamStateOfferNumber(state, "friction_scale", 1));
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
-    PetscCall(SamStateOfferNumber(state, SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name, 0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Create(petsam_contact *c, const char options[])
 {
   const SamOptions from = {c->comm, NULL};
@@ -164,7 +152,6 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscCall(SamHistoryReadIncrements(&from, &c->increments));
   PetscCall(ReadBulkStress(c, &from));
   PetscCall(SamSimulationSetUp(c->simulation, &from));
-  PetscCall(OfferGiven(c));
   PetscCall(SamArgumentsRefuseUnknown(c->comm, PETSC_FALSE));
   PetscCall(SamGridCreateVec(c->setup->grid, 1, &c->work));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -182,7 +169,7 @@ static PetscErrorCode Destroy(petsam_contact *c)
 void petsam_destroy(petsam_contact **c)
 {
   if (!c || !*c) return;
-  if (SamEmbedEnter(*c)) {
+  if (SamEmbedEnter(*c, __func__, PETSC_TRUE)) {
     (void)SamEmbedLeave(*c, Destroy(*c));
     (void)PetscOptionsDestroy(&(*c)->options);
   }
@@ -190,7 +177,7 @@ void petsam_destroy(petsam_contact **c)
   *c = NULL;
 }
 
-/* Whether a handle has led to no communicator: Open MPI returns no pointer for a number that it does not know. */
+/* Whether a handle belongs to no communicator: Open MPI returns a null pointer for an unknown number. */
 static PetscBool IsNothing(MPI_Comm comm)
 {
 #if defined(OPEN_MPI)
@@ -208,7 +195,7 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
 
   created[0] = '\0';
   if (!contact || !options) {
-    (void)snprintf(created, sizeof(created), "petsam_create: a pointer is NULL");
+    (void)snprintf(created, sizeof(created), "petsam_create: contact or options is NULL");
     return SAM_EMBED_USAGE;
   }
   *contact = NULL;
@@ -222,9 +209,9 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
   }
   c->comm = comm == -1 ? MPI_COMM_SELF : MPI_Comm_f2c((MPI_Fint)comm);
   if (c->comm == MPI_COMM_NULL || IsNothing(c->comm))
-    code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or one that this rank does not belong to");
+    code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or this rank does not belong to it");
   else
-    code = SamEmbedEnter(c) ? SamEmbedLeave(c, Create(c, options)) : SAM_EMBED_USAGE;
+    code = SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Create(c, options)) : SAM_EMBED_USAGE;
   (void)snprintf(created, sizeof(created), "%s", c->message);
   if (code)
     petsam_destroy(&c);
@@ -254,7 +241,7 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
 PetscErrorCode SamEmbedForget(petsam_contact *c)
 {
   PetscFunctionBegin;
-  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "a monitor can ask for fields and numbers only");
+  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "a monitor may query fields and numbers only");
   PetscCall(SamContactReject(c->setup->contact));
   c->last      = c->committed;
   c->has_last  = c->has_committed;
@@ -295,27 +282,33 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
 
 int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!name || (!values && c->setup->grid->cells)) return SamEmbedRefuse(c, "petsam_set_field: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, SetField(c, name, values));
+  return SamEmbedEnter(c, __func__, c && name && (values || !c->setup->grid->cells))
+           ? SamEmbedLeave(c, SetField(c, name, values))
+           : SAM_EMBED_USAGE;
 }
 
 /* ---- steps ---- */
 
-static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
+static PetscErrorCode Try(petsam_contact *c, double time, const int force[], const double value[])
 {
-  SamLoadsMost most = {.open = c->has_gap};
+  SamControl   control = c->control;
+  SamLoadsMost most    = {.open = c->has_gap};
   PetscBool    moves;
 
   PetscFunctionBegin;
+  PetscCheck(isfinite(time), c->comm, SAM_ERR_USER, "petsam_try: time is not a finite number");
+  control.time = time;
+  for (int k = 0; k < SAM_COMPONENTS; k++) {
+    control.force[k] = force[k] != 0;
+    control.value[k] = value[k];
+  }
   PetscCall(SamEmbedForget(c));
-  PetscCall(SamContactTry(c->setup->contact, control, &c->last));
+  PetscCall(SamContactTry(c->setup->contact, &control, &c->last));
   c->has_last  = PETSC_TRUE;
   c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM;
   PetscCall(SamProblemMoves(c->setup->problem, &moves));
   if (moves) most.open = PETSC_TRUE;
-  SamLoadsMostAdd(&most, control);
+  SamLoadsMostAdd(&most, &control);
   PetscCall(SamAdviseEdge(c->setup, &most, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -323,20 +316,10 @@ static PetscErrorCode Try(petsam_contact *c, const SamControl *control)
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6])
 {
-  SamControl control;
-  int        code;
+  int code;
 
-  if (!c) return SAM_EMBED_USAGE;
-  if (!force || !value) return SamEmbedRefuse(c, "petsam_try: a pointer is NULL");
-  if (!isfinite(time)) return SamEmbedRefuse(c, "petsam_try: time is not a finite number");
-  control      = c->control;
-  control.time = time;
-  for (int k = 0; k < SAM_COMPONENTS; k++) {
-    control.force[k] = force[k] != 0;
-    control.value[k] = value[k];
-  }
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  code = SamEmbedLeave(c, Try(c, &control));
+  if (!SamEmbedEnter(c, __func__, force && value)) return SAM_EMBED_USAGE;
+  code = SamEmbedLeave(c, Try(c, time, force, value));
   if (code) return code;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
     if (load) load[k] = (double)c->last.load[k];
@@ -351,7 +334,7 @@ static PetscErrorCode Commit(petsam_contact *c)
   PetscInt law = 0;
 
   PetscFunctionBegin;
-  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor");
+  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor returns");
   PetscCheck(!c->has_last || c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
              "the last try has no solution, and cannot be committed: %s", c->last.message);
   PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
@@ -368,16 +351,12 @@ static PetscErrorCode Commit(petsam_contact *c)
 
 int petsam_commit(petsam_contact *c)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, Commit(c));
+  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Commit(c)) : SAM_EMBED_USAGE;
 }
 
 int petsam_reject(petsam_contact *c)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, SamEmbedForget(c));
+  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, SamEmbedForget(c)) : SAM_EMBED_USAGE;
 }
 
 static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[])
@@ -398,23 +377,16 @@ static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[
 
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36])
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!k) return SamEmbedRefuse(c, "petsam_stiffness: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, Stiffness(c, reversal != 0, k));
+  return SamEmbedEnter(c, __func__, k != NULL) ? SamEmbedLeave(c, Stiffness(c, reversal != 0, k)) : SAM_EMBED_USAGE;
 }
 
 /* ---- what is found ---- */
 
-static PetscErrorCode GetField(petsam_contact *c, const char name[], double values[])
+PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double values[])
 {
   const double *cells;
-  PetscBool     found;
 
   PetscFunctionBegin;
-  PetscCheck(c->has_tried || c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been solved yet", name);
-  PetscCall(SamContactHasField(c->setup->contact, name, &found));
-  PetscCheck(found, c->comm, SAM_ERR_USER, "%s: there is no field of this name", name);
   PetscCall(SamContactGetField(c->setup->contact, name, c->work));
   PetscCall(VecGetArrayRead(c->work, &cells));
   PetscCall(PetscArraycpy(values, cells, c->setup->grid->cells));
@@ -422,12 +394,23 @@ static PetscErrorCode GetField(petsam_contact *c, const char name[], double valu
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode GetField(petsam_contact *c, const char name[], double values[])
+{
+  PetscBool found;
+
+  PetscFunctionBegin;
+  PetscCheck(c->has_tried || c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been solved yet", name);
+  PetscCall(SamContactHasField(c->setup->contact, name, &found));
+  PetscCheck(found, c->comm, SAM_ERR_USER, "%s: there is no field of this name", name);
+  PetscCall(SamEmbedCopyField(c, name, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 int petsam_get_field(petsam_contact *c, const char *name, double *values)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!name || (!values && c->setup->grid->cells)) return SamEmbedRefuse(c, "petsam_get_field: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, GetField(c, name, values));
+  return SamEmbedEnter(c, __func__, c && name && (values || !c->setup->grid->cells))
+           ? SamEmbedLeave(c, GetField(c, name, values))
+           : SAM_EMBED_USAGE;
 }
 
 const char *petsam_field_name(petsam_contact *c, int k)
@@ -462,26 +445,26 @@ const char *petsam_number_name(petsam_contact *c, int k)
   return FindNumber(state, k, NULL, &name) < 0 ? NULL : name;
 }
 
-int petsam_get_number(petsam_contact *c, const char *name, double *value)
+static PetscErrorCode GetNumber(petsam_contact *c, const char name[], double *value)
 {
   static const char cycle[] = "wear/";
 
-  const char *found;
-  SamState    state;
-  PetscInt    id;
+  const size_t skip = strncmp(name, cycle, strlen(cycle)) ? 0 : strlen(cycle);
+  const char  *found;
+  SamState     state;
+  PetscInt     id;
 
-  if (!c) return SAM_EMBED_USAGE;
-  if (!name || !value) return SamEmbedRefuse(c, "petsam_get_number: a pointer is NULL");
-  if (!c->has_last) return SamEmbedRefuse(c, "%s: no step has been tried yet", name);
-  if (SamContactGetState(c->setup->contact, &state)) return SamEmbedRefuse(c, "%s: no state", name);
-  if (!strncmp(name, cycle, strlen(cycle))) {
-    (void)SamSimulationGetSeries(c->simulation, &state);
-    if (!state) return SamEmbedRefuse(c, "%s: no cycles have been computed", name);
-    name += strlen(cycle);
-  }
-  id = FindNumber(state, 0, name, &found);
-  if (id < 0) return SamEmbedRefuse(c, "%s: there is no number of this name", name);
-  c->message[0] = '\0';
-  *value        = *SamStateReadNumbers(state, id);
-  return 0;
+  PetscFunctionBegin;
+  PetscCheck(c->has_last, c->comm, PETSC_ERR_ORDER, "%s: no step has been tried yet", name);
+  PetscCall(skip ? SamSimulationGetSeries(c->simulation, &state) : SamContactGetState(c->setup->contact, &state));
+  PetscCheck(state, c->comm, PETSC_ERR_ORDER, "%s: no cycles have been computed", name);
+  id = FindNumber(state, 0, name + skip, &found);
+  PetscCheck(id >= 0, c->comm, SAM_ERR_USER, "%s: there is no number of this name", name);
+  *value = *SamStateReadNumbers(state, id);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_get_number(petsam_contact *c, const char *name, double *value)
+{
+  return SamEmbedEnter(c, __func__, name && value) ? SamEmbedLeave(c, GetNumber(c, name, value)) : SAM_EMBED_USAGE;
 }

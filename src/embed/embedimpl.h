@@ -39,16 +39,17 @@ struct petsam_contact {
 PETSC_INTERN int SamEmbedStart(char message[], size_t size);
 
 /*
-  SamEmbedEnter - begins a call: options are those of the contact, errors become messages. False, with a message: MPI or
-  PETSc has been ended.
-  SamEmbedLeave - ends it; returns the code of a program for an error.
-  SamEmbedRefuse - says what is wrong, and returns 2; for mistakes that need no PETSc to be found, the same on all
-  ranks.
+  SamEmbedEnter - begins a call of a function: options are those of the contact, errors become messages. False, with a
+  message: not all pointers were `given` to the function, or MPI or PETSc has been finalized; without one: c is NULL.
+  SamEmbedLeave - ends it; returns the exit code for an error.
+  SamEmbedRefuse - sets the message, and returns 2; for mistakes that need no PETSc to be found, the same on all ranks.
   None is collective.
 */
-PETSC_INTERN PetscBool SamEmbedEnter(petsam_contact *c);
+PETSC_INTERN PetscBool SamEmbedEnter(petsam_contact *c, const char function[], PetscBool given);
 PETSC_INTERN int       SamEmbedLeave(petsam_contact *c, PetscErrorCode code);
 PETSC_INTERN int       SamEmbedRefuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+/* SamEmbedCopyField - copies this rank's rows of a field of the results. Collective. */
+PETSC_INTERN PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double values[]);
 /* SamEmbedForget - forgets the tried step. Collective. */
 PETSC_INTERN PetscErrorCode SamEmbedForget(petsam_contact *c);
 /* SamEmbedInsertOptions - puts options, rank 0's, into a database. Collective. Errors: those of the text. */
@@ -58,7 +59,7 @@ PETSC_INTERN PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOption
   those that are. SamEmbedDestroyStress - with all of stress.c. Collective.
 */
 PETSC_INTERN PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step);
-PETSC_INTERN PetscErrorCode SamEmbedForgetSteps(petsam_contact *c);
+PETSC_INTERN void           SamEmbedForgetSteps(petsam_contact *c);
 PETSC_INTERN PetscErrorCode SamEmbedDestroyStress(petsam_contact *c);
 
 #endif

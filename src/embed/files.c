@@ -1,20 +1,13 @@
-/* The state of a contact in files of the host's: petsam_save() and petsam_load(). */
+/* The state of a contact in the host's files: petsam_save() and petsam_load(). */
 #include "embedimpl.h"
-#include <petsam/private/baseimpl.h>
 
-/* Takes the program's option off a message about a file. */
+/* Removes the program's option that a message about a file begins with, -checkpoint or -restart. */
 static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 {
-  static const char *const options[] = {"-checkpoint ", "-restart "};
+  const int         code = SamEmbedLeave(c, error);
+  const char *const rest = c->message[0] == '-' ? strchr(c->message, ' ') : NULL;
 
-  const int code = SamEmbedLeave(c, error);
-
-  for (int k = 0; k < 2; k++) {
-    const size_t length = strlen(options[k]);
-
-    if (!strncmp(c->message, options[k], length))
-      memmove(c->message, c->message + length, strlen(c->message + length) + 1);
-  }
+  if (rest) memmove(c->message, rest + 1, strlen(rest));
   return code;
 }
 
@@ -52,13 +45,10 @@ static PetscErrorCode Save(petsam_contact *c, const char file[])
 
 int petsam_save(petsam_contact *c, const char *file)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!file) return SamEmbedRefuse(c, "petsam_save: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return LeaveFile(c, Save(c, file));
+  return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Save(c, file)) : SAM_EMBED_USAGE;
 }
 
-/* What the restored state says of its step. */
+/* Takes loads, displacements and time of the committed step from the restored state. */
 static PetscErrorCode KnowState(petsam_contact *c)
 {
   const SamSolution *s;
@@ -90,8 +80,5 @@ static PetscErrorCode Load(petsam_contact *c, const char file[])
 
 int petsam_load(petsam_contact *c, const char *file)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!file) return SamEmbedRefuse(c, "petsam_load: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return LeaveFile(c, Load(c, file));
+  return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Load(c, file)) : SAM_EMBED_USAGE;
 }

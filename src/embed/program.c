@@ -1,15 +1,14 @@
-/* Load programs in another program: petsam_history(), petsam_live(), and contacts from which several go on. */
+/* Load histories in another program: petsam_history(), petsam_live(); copies of contacts, and their reset. */
 #include "embedimpl.h"
-#include <petsam/private/baseimpl.h>
 
-/* A run, and whom to tell. */
+/* A run, and its monitor. */
 typedef struct {
   petsam_contact *c;
   petsam_monitor  monitor; /* NULL: none */
   void           *context;
 } Run;
 
-/* Whether the host goes on after a step or cycle, as rank 0 has it. */
+/* Calls the host's monitor after a step or cycle; the run stops if rank 0's asks for it. */
 static PetscErrorCode AskHost(const Run *run, int cycle)
 {
   int stop;
@@ -46,7 +45,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
     if (news->kind == SAM_NEWS_STEP) PetscCall(AskHost(run, 0));
     break;
   case SAM_NEWS_CYCLE_BEGINS: /* the last computed cycle is what fatigue is asked of */
-    PetscCall(SamEmbedForgetSteps(c));
+    SamEmbedForgetSteps(c);
     break;
   case SAM_NEWS_CYCLE:
     PetscCall(AskHost(run, 1));
@@ -66,7 +65,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is tried and committed after a run. */
+/* Sets what is tried and committed after a run. */
 static PetscErrorCode KnowEnd(petsam_contact *c)
 {
   PetscBool tried, committed;
@@ -101,16 +100,15 @@ static PetscErrorCode RunProgram(Run *run, double cycles, const char columns[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static int RunAll(petsam_contact *c, double cycles, const char columns[], int rows, const double values[],
-                  petsam_monitor monitor, void *context)
+static int RunAll(petsam_contact *c, const char function[], double cycles, const char columns[], int rows,
+                  const double values[], petsam_monitor monitor, void *context)
 {
   Run       run = {c, monitor, context};
   SamStatus worst;
   PetscBool stopped;
   int       code;
 
-  if (!columns || !values) return SamEmbedRefuse(c, "history: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
+  if (!SamEmbedEnter(c, function, columns && values)) return SAM_EMBED_USAGE;
   code = SamEmbedLeave(c, RunProgram(&run, cycles, columns, rows, values));
   if (code) return code;
   (void)SamSimulationGetStatus(c->simulation, &worst, &stopped);
@@ -121,16 +119,15 @@ static int RunAll(petsam_contact *c, double cycles, const char columns[], int ro
 int petsam_history(petsam_contact *c, const char *columns, int rows, const double *values, petsam_monitor monitor,
                    void *context)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  return RunAll(c, 0, columns, rows, values, monitor, context);
+  return RunAll(c, __func__, 0, columns, rows, values, monitor, context);
 }
 
 int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows, const double *values,
                 petsam_monitor monitor, void *context)
 {
   if (!c) return SAM_EMBED_USAGE;
-  if (!(cycles > 0)) return SamEmbedRefuse(c, "petsam_live: %g cycles: expected a number > 0", cycles);
-  return RunAll(c, cycles, columns, rows, values, monitor, context);
+  if (!(cycles > 0)) return SamEmbedRefuse(c, "petsam_live: cycles is %g: use a number > 0", cycles);
+  return RunAll(c, __func__, cycles, columns, rows, values, monitor, context);
 }
 
 static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
@@ -153,10 +150,7 @@ static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
 
 int petsam_copy(petsam_contact *c, petsam_contact *from)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!from) return SamEmbedRefuse(c, "petsam_copy: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, Copy(c, from));
+  return SamEmbedEnter(c, __func__, from != NULL) ? SamEmbedLeave(c, Copy(c, from)) : SAM_EMBED_USAGE;
 }
 
 static PetscErrorCode Reset(petsam_contact *c)
@@ -170,7 +164,5 @@ static PetscErrorCode Reset(petsam_contact *c)
 
 int petsam_reset(petsam_contact *c)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, Reset(c));
+  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Reset(c)) : SAM_EMBED_USAGE;
 }

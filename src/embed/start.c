@@ -1,5 +1,5 @@
 /*
-  MPI and PETSc in a process that belongs to somebody else.
+  MPI and PETSc in a process of another program.
 
   What is started here is ended when the process ends, if MPI is still there by then: a process that has ended MPI
   itself has no use for an end of PETSc. PETSc's world is each process alone, so that processes can start it one by one;
@@ -7,7 +7,6 @@
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
-#include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 
 static PetscBool began_mpi = PETSC_FALSE, began_petsc = PETSC_FALSE;
@@ -50,7 +49,7 @@ int SamEmbedStart(char message[], size_t size)
   PetscBool    has;
 
   if (StartMPI()) {
-    (void)snprintf(message, size, "MPI cannot be started: it has been ended in this process, or refuses");
+    (void)snprintf(message, size, "MPI cannot be started: it has been finalized in this process, or its start fails");
     return SAM_EMBED_USAGE;
   }
   if (!registered) (void)atexit(End);
@@ -65,7 +64,7 @@ int SamEmbedStart(char message[], size_t size)
   PETSC_COMM_WORLD = MPI_COMM_SELF;
   began_petsc      = PETSC_TRUE;
   if (PetscInitialize(&argc, &argv, NULL, NULL)) {
-    (void)snprintf(message, size, "PETSc cannot be started: are PETSC_OPTIONS right?");
+    (void)snprintf(message, size, "PETSc cannot be started: check PETSC_OPTIONS");
     return SAM_EMBED_USAGE;
   }
   return 0;

@@ -1,19 +1,20 @@
 /*
   Stresses and fatigue parameters in another program: petsam_stress(), petsam_record(), petsam_fatigue().
 
-  Steps are kept as the tractions and the slip that a results file would have of them. Of maps each rank has its rows,
+  A step is recorded as the fields that a results file would hold: tractions and slip. Of maps each rank has its rows,
   as of fields; of a section all ranks have all.
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
 #include <petsam/private/quantities.h>
 
-enum { TIME, Z, Y, X, AXES };
+/* The results: coordinates, and the datasets of an evaluation. */
+enum { TIME, Z, Y, X, AXES, RESULTS = AXES + SAM_DATASETS };
 
 /* A step whose stresses can be evaluated. */
 typedef struct {
   SamControl control;
-  Vec        pressure, shear, slip; /* of 1, 2 and 2 components */
+  double    *fields; /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
 } Step;
 
 struct _n_SamEmbedStress {
@@ -23,56 +24,31 @@ struct _n_SamEmbedStress {
   Step      before; /* the committed one when recording began, if there was one */
   /* results */
   PetscInt shape[AXES]; /* on this rank */
-  double  *axis[AXES], *values[SAM_DATASETS];
+  double  *values[RESULTS];
 };
 
-static const char *const axes[AXES] = {"time", "z", "y", "x"};
-
 /* ---- steps ---- */
-
-/* One field of the contact becomes a component of a vector. */
-static PetscErrorCode TakeField(petsam_contact *c, const char name[], PetscInt component, Vec to)
-{
-  const PetscInt n = c->setup->grid->cells;
-  const double  *from;
-  double        *cells;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetField(c->setup->contact, name, c->work));
-  PetscCall(VecGetArrayRead(c->work, &from));
-  PetscCall(VecGetArray(to, &cells));
-  PetscCall(PetscArraycpy(cells + component * (ptrdiff_t)n, from, n));
-  PetscCall(VecRestoreArray(to, &cells));
-  PetscCall(VecRestoreArrayRead(c->work, &from));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* The tried step, else the committed one. */
 static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 {
+  static const char *const names[SAM_STEP_FIELDS] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
+
+  const ptrdiff_t    n = c->setup->grid->cells;
   const SamSolution *s;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
   step->control = s->control;
-  PetscCall(SamGridCreateVec(c->setup->grid, 1, &step->pressure));
-  PetscCall(SamGridCreateVec(c->setup->grid, 2, &step->shear));
-  PetscCall(SamGridCreateVec(c->setup->grid, 2, &step->slip));
-  PetscCall(TakeField(c, "pressure", 0, step->pressure));
-  PetscCall(TakeField(c, "shear_x", 0, step->shear));
-  PetscCall(TakeField(c, "shear_y", 1, step->shear));
-  PetscCall(TakeField(c, "slip_x", 0, step->slip));
-  PetscCall(TakeField(c, "slip_y", 1, step->slip));
+  PetscCall(SamAllocate(sizeof(double) * SAM_STEP_FIELDS * (size_t)n, &step->fields));
+  for (int f = 0; f < SAM_STEP_FIELDS; f++) PetscCall(SamEmbedCopyField(c, names[f], step->fields + f * n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode DestroyStep(Step *step)
+static void DestroyStep(Step *step)
 {
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&step->pressure));
-  PetscCall(VecDestroy(&step->shear));
-  PetscCall(VecDestroy(&step->slip));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  SamFree(step->fields);
+  step->fields = NULL;
 }
 
 PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step)
@@ -85,57 +61,61 @@ PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step)
     s->room = 2 * s->room + 16;
     PetscCall(PetscRealloc(sizeof(*s->step) * (size_t)s->room, &s->step));
   }
-  PetscCall(PetscMemzero(&s->step[s->steps], sizeof(*s->step)));
   PetscCall(TakeStep(c, &s->step[s->steps]));
   s->step[s->steps++].control.time = step->control.time;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEmbedForgetSteps(petsam_contact *c)
+void SamEmbedForgetSteps(petsam_contact *c)
 {
   const SamEmbedStress s = c->stress;
 
-  PetscFunctionBegin;
-  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < s->steps; k++) PetscCall(DestroyStep(&s->step[k]));
-  PetscCall(DestroyStep(&s->before));
-  s->steps = 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s) return;
+  while (s->steps) DestroyStep(&s->step[--s->steps]);
+  DestroyStep(&s->before);
 }
 
 /* ---- results ---- */
 
-static PetscErrorCode ForgetResults(SamEmbedStress s)
+static void ForgetResults(SamEmbedStress s)
 {
-  PetscFunctionBegin;
-  for (int d = 0; d < AXES; d++) PetscCall(PetscFree(s->axis[d]));
-  for (PetscInt k = 0; k < SAM_DATASETS; k++) {
-    SamFree(s->values[k]);
-    s->values[k] = NULL;
+  for (int r = 0; r < RESULTS; r++) {
+    SamFree(s->values[r]);
+    s->values[r] = NULL;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamEmbedDestroyStress(petsam_contact *c)
 {
   PetscFunctionBegin;
   if (!c->stress) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamEmbedForgetSteps(c));
-  PetscCall(ForgetResults(c->stress));
+  SamEmbedForgetSteps(c);
+  ForgetResults(c->stress);
   PetscCall(PetscFree(c->stress->step));
   PetscCall(PetscFree(c->stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The numbers that a dataset has at a depth, and its steps. */
-static PetscInt Plane(SamEmbedStress s)
+static const char *NameOf(int result)
 {
-  return s->shape[Y] * s->shape[X];
+  static const char *const axes[AXES] = {"time", "z", "y", "x"};
+
+  return result < AXES ? axes[result] : SamDatasets[result - AXES].label.name;
 }
 
-static PetscInt StepsOf(SamEmbedStress s, PetscInt dataset)
+static int DimensionsOf(int result)
 {
-  return SamQuantityIsOfCycle(SamDatasets[dataset].quantity) ? 1 : s->shape[TIME];
+  return result < AXES ? 1 : SamQuantityIsOfCycle(SamDatasets[result - AXES].quantity) ? 3 : 4;
+}
+
+/* The numbers that a result has on this rank. */
+static ptrdiff_t SizeOf(SamEmbedStress s, int result)
+{
+  ptrdiff_t size = 1;
+
+  if (result < AXES) return s->shape[result];
+  for (int d = AXES - DimensionsOf(result); d < AXES; d++) size *= s->shape[d];
+  return size;
 }
 
 /* Shape, coordinates and room. */
@@ -146,21 +126,19 @@ static PetscErrorCode CreateResults(petsam_contact *c, const SamStressLayout *l,
   const PetscBool      row = l->section && l->axis == SAM_SECTION_X, column = l->section && l->axis == SAM_SECTION_Y;
 
   PetscFunctionBegin;
-  PetscCall(ForgetResults(s));
+  ForgetResults(s);
   s->shape[TIME] = l->steps;
   s->shape[Z]    = l->depths;
   s->shape[Y]    = row ? 1 : column ? g->ny : g->rows;
   s->shape[X]    = column ? 1 : g->nx;
-  for (int d = 0; d < AXES; d++) PetscCall(PetscMalloc1(s->shape[d], &s->axis[d]));
-  for (PetscInt k = 0; k < l->steps; k++) s->axis[TIME][k] = (double)step[k].control.time;
-  for (PetscInt k = 0; k < l->depths; k++) s->axis[Z][k] = (double)l->depth[k];
+  for (int r = 0; r < RESULTS; r++)
+    if (r < AXES || l->wants[SamDatasets[r - AXES].quantity])
+      PetscCall(SamAllocateZeros(sizeof(double) * (size_t)SizeOf(s, r), &s->values[r]));
+  for (PetscInt k = 0; k < l->steps; k++) s->values[TIME][k] = (double)step[k].control.time;
+  for (PetscInt k = 0; k < l->depths; k++) s->values[Z][k] = (double)l->depth[k];
   for (PetscInt k = 0; k < s->shape[Y]; k++)
-    s->axis[Y][k] = (double)SamGridY(g, row ? l->index : column ? k : g->row_start + k);
-  for (PetscInt k = 0; k < s->shape[X]; k++) s->axis[X][k] = (double)SamGridX(g, column ? l->index : k);
-  for (PetscInt k = 0; k < SAM_DATASETS; k++)
-    if (l->wants[SamDatasets[k].quantity])
-      PetscCall(
-        SamAllocateZeros(sizeof(double) * (size_t)(StepsOf(s, k) * s->shape[Z]) * (size_t)Plane(s), &s->values[k]));
+    s->values[Y][k] = (double)SamGridY(g, row ? l->index : column ? k : g->row_start + k);
+  for (PetscInt k = 0; k < s->shape[X]; k++) s->values[X][k] = (double)SamGridX(g, column ? l->index : k);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -168,25 +146,25 @@ static PetscErrorCode CreateResults(petsam_contact *c, const SamStressLayout *l,
 static PetscErrorCode Keep(void *context, SamQuantity quantity, PetscInt component, PetscInt step, PetscInt depth,
                            PetscInt depths, const double values[])
 {
-  const SamEmbedStress s  = (SamEmbedStress)context;
-  double *const        to = s->values[SamDatasetOf(quantity) + component];
+  const SamEmbedStress s     = (SamEmbedStress)context;
+  const ptrdiff_t      plane = (ptrdiff_t)s->shape[Y] * s->shape[X];
+  double *const        to    = s->values[AXES + SamDatasetOf(quantity) + component];
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(to + (step * s->shape[Z] + depth) * (ptrdiff_t)Plane(s), values, depths * Plane(s)));
+  PetscCall(PetscArraycpy(to + (step * s->shape[Z] + depth) * plane, values, depths * plane));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gives all ranks the depths of a section: the others have bits of zero there. */
+/* Gives all ranks the depths of a section: on each rank the depths of the others are zero bits. */
 static PetscErrorCode GatherSection(petsam_contact *c)
 {
   const SamEmbedStress s = c->stress;
-  const PetscInt       n = s->shape[Z] * Plane(s);
+  const ptrdiff_t      n = (ptrdiff_t)s->shape[Z] * s->shape[Y] * s->shape[X];
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_DATASETS; k++)
-    for (PetscInt step = 0; s->values[k] && step < StepsOf(s, k); step++)
-      PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->values[k] + step * (ptrdiff_t)n, (PetscMPIInt)n, MPI_UINT64_T,
-                                 MPI_BOR, c->comm));
+  for (int r = AXES; r < RESULTS; r++)
+    for (ptrdiff_t k = 0; s->values[r] && k < SizeOf(s, r); k += n)
+      PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->values[r] + k, (PetscMPIInt)n, MPI_UINT64_T, MPI_BOR, c->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -211,34 +189,57 @@ static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEv
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt steps, const Step step[],
-                              SamEvaluation e)
+/* The steps that are evaluated. */
+typedef struct {
+  const Step *step;
+  PetscInt    cells;
+  double (*bulk)[SAM_BULK_COMPONENTS];
+} Steps;
+
+static PetscErrorCode ReadStep(void *context, PetscInt step, SamStepField field, double values[])
+{
+  const Steps *const s = (const Steps *)context;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(values, s->step[step].fields + field * (ptrdiff_t)s->cells, s->cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation e)
 {
   SamStressLayout layout;
+  PetscInt        body;
 
   PetscFunctionBegin;
   PetscCall(ReadOptions(c, options, e));
   PetscCall(SamEvaluationSetElasticity(e, c->setup->elasticity, NULL, "-elasticity"));
-  for (PetscInt k = 0; k < steps; k++)
-    PetscCall(SamEvaluationAddStep(e, step[k].pressure, step[k].shear, step[k].slip, &step[k].control));
+  PetscCall(SamEvaluationGetBody(e, &body));
+  for (PetscInt k = 0; k < n; k++)
+    for (int b = 0; b < SAM_BULK_COMPONENTS; b++)
+      steps->bulk[k][b] = (double)steps->step[k].control.bulk_stress[body - 1][b];
+  PetscCall(SamEvaluationSetSource(
+    e, &(SamEvaluationSource){.steps = n, .bulk = steps->bulk, .read = ReadStep, .context = steps}));
   PetscCall(SamEvaluationSetUp(e));
   PetscCall(SamEvaluationGetLayout(e, &layout));
-  PetscCall(CreateResults(c, &layout, step));
+  PetscCall(CreateResults(c, &layout, steps->step));
   PetscCall(SamEvaluationCompute(e, Keep, c->stress));
   if (layout.section) PetscCall(GatherSection(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt steps, const Step step[], int shape[4])
+static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt n, const Step step[], int shape[4])
 {
+  Steps          steps = {step, c->setup->grid->cells, NULL};
   SamEvaluation  e;
   PetscErrorCode code;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &steps.bulk));
   PetscCall(SamEvaluationCreate(c->comm, &e));
-  code = Compute(c, options, steps, step, e);
+  code = Compute(c, options, n, &steps, e);
   PetscCall(SamEvaluationDestroy(&e));
-  if (code) PetscCall(ForgetResults(c->stress));
+  PetscCall(PetscFree(steps.bulk));
+  if (code) ForgetResults(c->stress);
   PetscCall(code);
   for (int d = 0; d < AXES; d++) shape[d] = (int)c->stress->shape[d];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -246,34 +247,30 @@ static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt
 
 static PetscErrorCode StressOfStep(petsam_contact *c, const char options[], int shape[4])
 {
-  Step           step = {.pressure = NULL};
-  PetscBool      tried, committed;
+  Step           step = {.fields = NULL};
   PetscErrorCode code;
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
-  PetscCheck(tried || committed, c->comm, PETSC_ERR_ORDER, "no step has been solved yet");
+  PetscCheck(c->has_tried || c->has_committed, c->comm, PETSC_ERR_ORDER, "no step has been solved yet");
   if (!c->stress) PetscCall(PetscNew(&c->stress));
   PetscCall(TakeStep(c, &step));
   code = Evaluate(c, options, 1, &step, shape);
-  PetscCall(DestroyStep(&step));
+  DestroyStep(&step);
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 int petsam_stress(petsam_contact *c, const char *options, int shape[4])
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!options || !shape) return SamEmbedRefuse(c, "petsam_stress: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, StressOfStep(c, options, shape));
+  return SamEmbedEnter(c, __func__, options && shape) ? SamEmbedLeave(c, StressOfStep(c, options, shape))
+                                                      : SAM_EMBED_USAGE;
 }
 
 static PetscErrorCode Record(petsam_contact *c, PetscBool on)
 {
   PetscFunctionBegin;
   if (!c->stress) PetscCall(PetscNew(&c->stress));
-  PetscCall(SamEmbedForgetSteps(c));
+  SamEmbedForgetSteps(c);
   c->stress->recording = on;
   if (on && c->has_committed && !c->has_tried) PetscCall(TakeStep(c, &c->stress->before));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -281,37 +278,35 @@ static PetscErrorCode Record(petsam_contact *c, PetscBool on)
 
 int petsam_record(petsam_contact *c, int on)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, Record(c, on != 0));
+  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Record(c, on != 0)) : SAM_EMBED_USAGE;
 }
 
-/* The part of the largest traction by which the ends of a cycle may differ. */
+/* The ends of a cycle may differ by this part of the maximum traction. */
 #define CLOSED 0.01
 
-/* Says in the message that the last step has not the tractions of the one before the first. */
+/* Warns, by the message, when the tractions of the last step differ from those before the first. */
 static PetscErrorCode AdviseClosed(petsam_contact *c)
 {
-  const SamEmbedStress s       = c->stress;
-  const Step *const    last    = &s->step[s->steps - 1];
-  const Vec            ends[4] = {s->before.pressure, last->pressure, s->before.shear, last->shear};
+  static const int first[] = {SAM_STEP_PRESSURE, SAM_STEP_SHEAR_X, SAM_STEP_SLIP_X};
+
+  const ptrdiff_t      n = c->setup->grid->cells;
+  const SamEmbedStress s = c->stress;
+  const double *const a = s->before.fields, *const b = s->step[s->steps - 1].fields;
 
   PetscFunctionBegin;
-  for (int f = 0; f < 2 && ends[0]; f++) {
-    PetscReal size[2], difference;
-    Vec       v;
+  for (int f = 0; f < 2 && a; f++) {
+    double most[2] = {0, 0}; /* traction, difference */
 
-    for (int k = 0; k < 2; k++) PetscCall(VecNorm(ends[2 * f + k], NORM_INFINITY, &size[k]));
-    PetscCall(VecDuplicate(ends[2 * f], &v));
-    PetscCall(VecWAXPY(v, -1, ends[2 * f], ends[2 * f + 1]));
-    PetscCall(VecNorm(v, NORM_INFINITY, &difference));
-    PetscCall(VecDestroy(&v));
-    size[0] = PetscMax(size[0], size[1]);
-    if (difference > CLOSED * size[0])
+    for (ptrdiff_t k = first[f] * n; k < first[f + 1] * n; k++) {
+      most[0] = fmax(most[0], fmax(fabs(a[k]), fabs(b[k])));
+      most[1] = fmax(most[1], fabs(b[k] - a[k]));
+    }
+    PetscCall(SamMax(c->comm, 2, most));
+    if (most[1] > CLOSED * most[0])
       (void)snprintf(c->message, sizeof(c->message),
                      "not a closed cycle, or not a steady one: the %s of the last recorded step differs from that "
-                     "before the first by up to %.0f %% of the largest",
-                     f ? "shear" : "pressure", 100 * (double)(difference / size[0]));
+                     "before the first by up to %.0f %% of the maximum",
+                     f ? "shear" : "pressure", 100 * most[1] / most[0]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -334,46 +329,35 @@ static PetscErrorCode Fatigue(petsam_contact *c, const char options[], int shape
 
 int petsam_fatigue(petsam_contact *c, const char *options, int shape[4])
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!options || !shape) return SamEmbedRefuse(c, "petsam_fatigue: a pointer is NULL");
-  if (!SamEmbedEnter(c)) return SAM_EMBED_USAGE;
-  return SamEmbedLeave(c, Fatigue(c, options, shape));
+  return SamEmbedEnter(c, __func__, options && shape) ? SamEmbedLeave(c, Fatigue(c, options, shape)) : SAM_EMBED_USAGE;
 }
 
 /* ---- asking for results ---- */
 
 const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions)
 {
-  const SamEmbedStress s = c ? c->stress : NULL;
-
-  if (!s || !s->axis[X] || k < 0) return NULL;
-  if (dimensions) *dimensions = 1;
-  if (k < AXES) return axes[k];
-  for (PetscInt d = 0, left = k - AXES; d < SAM_DATASETS; d++) {
-    if (!s->values[d] || left--) continue;
-    if (dimensions) *dimensions = SamQuantityIsOfCycle(SamDatasets[d].quantity) ? 3 : 4;
-    return SamDatasets[d].label.name;
+  for (int r = 0; r < RESULTS && c && c->stress && k >= 0; r++) {
+    if (!c->stress->values[r] || k--) continue;
+    if (dimensions) *dimensions = DimensionsOf(r);
+    return NameOf(r);
   }
   return NULL;
 }
 
+static PetscErrorCode GetStress(petsam_contact *c, const char name[], double values[])
+{
+  const SamEmbedStress s = c->stress;
+  int                  r = 0;
+
+  PetscFunctionBegin;
+  while (s && r < RESULTS && (!s->values[r] || strcmp(name, NameOf(r)))) r++;
+  PetscCheck(s && r < RESULTS, c->comm, SAM_ERR_USER,
+             "%s: the last petsam_stress() or petsam_fatigue() has no result of this name", name);
+  PetscCall(PetscArraycpy(values, s->values[r], SizeOf(s, r)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 int petsam_get_stress(petsam_contact *c, const char *name, double *values)
 {
-  SamEmbedStress s;
-
-  if (!c) return SAM_EMBED_USAGE;
-  if (!name || !values) return SamEmbedRefuse(c, "petsam_get_stress: a pointer is NULL");
-  s             = c->stress;
-  c->message[0] = '\0';
-  for (int d = 0; d < AXES && s && s->axis[d]; d++)
-    if (!strcmp(name, axes[d])) {
-      memcpy(values, s->axis[d], sizeof(double) * (size_t)s->shape[d]);
-      return 0;
-    }
-  for (PetscInt k = 0; k < SAM_DATASETS && s; k++)
-    if (s->values[k] && !strcmp(name, SamDatasets[k].label.name)) {
-      memcpy(values, s->values[k], sizeof(double) * (size_t)(StepsOf(s, k) * s->shape[Z]) * (size_t)Plane(s));
-      return 0;
-    }
-  return SamEmbedRefuse(c, "%s: the last petsam_stress() or petsam_fatigue() has no result of this name", name);
+  return SamEmbedEnter(c, __func__, name && values) ? SamEmbedLeave(c, GetStress(c, name, values)) : SAM_EMBED_USAGE;
 }

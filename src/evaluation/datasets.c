@@ -1,7 +1,7 @@
 /* The quantities of an evaluation, by the names, units and descriptions of their datasets. */
 #include <petsam/private/quantities.h>
 
-/* The normal of the plane on which a parameter is largest. */
+/* The normal of the plane where a parameter is maximum. */
 #define NORMAL(name, quantity) \
   {{name "_normal_x", "1", "normal of the critical plane, x"}, quantity}, \
     {{name "_normal_y", "1", "normal of the critical plane, y"}, quantity}, \
@@ -17,10 +17,10 @@ const SamDataset SamDatasets[SAM_DATASETS] = {
   {{"stress_xz", "Pa", "stress xz"}, SAM_QUANTITY_STRESS},
   {{"stress_yz", "Pa", "stress yz"}, SAM_QUANTITY_STRESS},
   {{"mises", "Pa", "von Mises stress"}, SAM_QUANTITY_MISES},
-  {{"principal_1", "Pa", "largest principal stress"}, SAM_QUANTITY_PRINCIPAL},
-  {{"principal_2", "Pa", "middle principal stress"}, SAM_QUANTITY_PRINCIPAL},
-  {{"principal_3", "Pa", "smallest principal stress"}, SAM_QUANTITY_PRINCIPAL},
-  {{"shear_max", "Pa", "largest shear stress"}, SAM_QUANTITY_SHEAR_MAX},
+  {{"principal_1", "Pa", "maximum principal stress"}, SAM_QUANTITY_PRINCIPAL},
+  {{"principal_2", "Pa", "intermediate principal stress"}, SAM_QUANTITY_PRINCIPAL},
+  {{"principal_3", "Pa", "minimum principal stress"}, SAM_QUANTITY_PRINCIPAL},
+  {{"shear_max", "Pa", "maximum shear stress"}, SAM_QUANTITY_SHEAR_MAX},
   {{"strain_xx", "1", "strain xx"}, SAM_QUANTITY_STRAIN},
   {{"strain_yy", "1", "strain yy"}, SAM_QUANTITY_STRAIN},
   {{"strain_zz", "1", "strain zz"}, SAM_QUANTITY_STRAIN},
@@ -35,8 +35,8 @@ const SamDataset SamDatasets[SAM_DATASETS] = {
   NORMAL("swt", SAM_QUANTITY_SWT),
   {{"fatemi_socie", "1", "parameter of Fatemi and Socie of the cycle"}, SAM_QUANTITY_FATEMI_SOCIE},
   NORMAL("fatemi_socie", SAM_QUANTITY_FATEMI_SOCIE),
-  {{"ruiz_1", "J/m2", "Ruiz's first parameter of the cycle: work of friction"}, SAM_QUANTITY_RUIZ},
-  {{"ruiz_2", "Pa J/m2", "Ruiz's second parameter of the cycle: tension times work of friction"}, SAM_QUANTITY_RUIZ},
+  {{"ruiz_1", "J/m2", "Ruiz's first parameter of the cycle: frictional work"}, SAM_QUANTITY_RUIZ},
+  {{"ruiz_2", "Pa J/m2", "Ruiz's second parameter of the cycle: tension times frictional work"}, SAM_QUANTITY_RUIZ},
 };
 
 PetscInt SamQuantityComponents(SamQuantity quantity)

@@ -1,9 +1,8 @@
 /* The largest stresses at the contact's edge, on the surface, of each step of the maps. */
 #include "evaluationimpl.h"
 #include <petsam/edges.h>
-#include <petsam/private/stressimpl.h>
 
-/* The least share of the edge that must be found: the largest value may lie where it is not. */
+/* The least share of the edge that must be reconstructed: the maximum may lie on the rest. */
 #define FOUND 0.95
 
 enum { XX, YY, XY, PLANE = 3 };
@@ -62,28 +61,5 @@ PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field)
   PetscCall(PetscFree(stress));
   PetscCall(SamEdgeDestroy(&edge));
   PetscCall(VecDestroy(&square));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The largest of all ranks; of equal ones that with the least x, then y. NaN without one. */
-static PetscErrorCode Agree(MPI_Comm comm, SamLargest *largest)
-{
-  double value = largest->value, x, y;
-
-  PetscFunctionBegin;
-  PetscCall(SamMax(comm, 1, &value));
-  x = largest->value == value ? -largest->place[0] : -INFINITY;
-  PetscCall(SamMax(comm, 1, &x));
-  y = largest->value == value && -largest->place[0] == x ? -largest->place[1] : -INFINITY;
-  PetscCall(SamMax(comm, 1, &y));
-  *largest = value > -INFINITY ? (SamLargest){value, {-x, -y, 0}} : (SamLargest){NAN, {NAN, NAN, NAN}};
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamEdgeStressAgree(SamEvaluation e)
-{
-  PetscFunctionBegin;
-  for (PetscInt s = 0; s < e->source.steps; s++)
-    for (int k = 0; k < 2; k++) PetscCall(Agree(e->comm, &e->largest[s].edge[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

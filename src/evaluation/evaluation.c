@@ -1,8 +1,7 @@
 /* The stresses under the tractions of load steps: settings, steps, and the order of the work. */
 #include "evaluationimpl.h"
-#include <petsam/private/stressimpl.h>
 
-/* The least depth, in cells: above it the kernels would be those of the surface but for rounding. */
+/* The least depth, in cells: at smaller ones the kernels equal those of the surface but for rounding. */
 #define LEAST_DEPTH 1e-6
 
 /* ---- life ---- */
@@ -31,13 +30,9 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscFunctionBegin;
   *evaluation = NULL;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < e->added; k++)
-    for (int f = 0; f < 3; f++) PetscCall(VecDestroy(&e->step[k].field[f]));
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityDestroy(&e->elasticity));
   PetscCall(PetscFree(e->depth));
-  PetscCall(PetscFree(e->step));
-  PetscCall(PetscFree(e->bulk));
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -63,7 +58,7 @@ PetscErrorCode SamEvaluationGetBody(SamEvaluation e, PetscInt *body)
 PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[])
 {
   PetscFunctionBegin;
-  PetscCheck(n > 0, e->comm, SAM_ERR_USER, "%s: expected one depth at least", said);
+  PetscCheck(n > 0, e->comm, SAM_ERR_USER, "%s: expected at least one depth", said);
   for (PetscInt k = 0; k < n; k++) {
     PetscCheck(depths[k] >= 0 && depths[k] < PETSC_INFINITY, e->comm, SAM_ERR_USER,
                "%s: %g is above the surface: expected numbers >= 0", said, (double)depths[k]);
@@ -131,61 +126,10 @@ PetscErrorCode SamEvaluationSetMonitor(SamEvaluation e, SamEvaluationMonitor mon
 
 /* ---- steps ---- */
 
-/* A field of a step that has been added: components of its vectors, one after the other. */
-static PetscErrorCode ReadAdded(void *context, PetscInt step, SamStepField field, double values[])
-{
-  static const int of[SAM_STEP_FIELDS] = {0, 1, 1, 2, 2}, component[SAM_STEP_FIELDS] = {0, 0, 1, 0, 1};
-
-  SamEvaluation  e = (SamEvaluation)context;
-  const Vec      v = e->step[step].field[of[field]];
-  const PetscInt n = e->grid->cells;
-  const double  *cells;
-
-  PetscFunctionBegin;
-  PetscCheck(v, e->comm, SAM_ERR_USER, "%sfatigue ruiz: step %" PetscInt_FMT " was added without its slip", e->dash,
-             step + 1);
-  PetscCall(SamGridCheckVec(e->grid, of[field] ? 2 : 1, v, "A field of a step"));
-  PetscCall(VecGetArrayRead(v, &cells));
-  PetscCall(PetscArraycpy(values, cells + component[field] * (ptrdiff_t)n, n));
-  PetscCall(VecRestoreArrayRead(v, &cells));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamEvaluationAddStep(SamEvaluation e, Vec pressure, Vec shear, Vec slip, const SamControl *control)
-{
-  const SamAddedStep step = {.field = {pressure, shear, slip}};
-
-  PetscFunctionBegin;
-  if (e->added == e->room) {
-    e->room = 2 * e->room + 16;
-    PetscCall(PetscRealloc(sizeof(*e->step) * (size_t)e->room, &e->step));
-  }
-  for (int f = 0; f < 3; f++)
-    if (step.field[f]) PetscCall(PetscObjectReference((PetscObject)step.field[f]));
-  e->step[e->added] = step;
-  for (int b = 0; b < 2; b++)
-    for (int k = 0; k < SAM_BULK_COMPONENTS; k++) e->step[e->added].bulk[b][k] = (double)control->bulk_stress[b][k];
-  e->source = (SamEvaluationSource){.steps = ++e->added, .read = ReadAdded, .context = e};
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamEvaluationSetSource(SamEvaluation e, const SamEvaluationSource *source)
 {
   PetscFunctionBegin;
   e->source = *source;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The bulk stresses of added steps, of the body that is wanted. */
-static PetscErrorCode CollectBulk(SamEvaluation e)
-{
-  PetscFunctionBegin;
-  if (e->source.read != ReadAdded) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFree(e->bulk));
-  PetscCall(PetscMalloc1(e->added, &e->bulk));
-  for (PetscInt k = 0; k < e->added; k++)
-    PetscCall(PetscArraycpy(e->bulk[k], e->step[k].bulk[e->body - 1], SAM_BULK_COMPONENTS));
-  e->source.bulk = e->bulk;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -203,7 +147,7 @@ static PetscErrorCode CheckDepths(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The line of cells nearest to the section. */
+/* Finds the line of cells nearest to the section. */
 static PetscErrorCode FindLine(SamEvaluation e)
 {
   const SamGrid   g     = e->grid;
@@ -231,10 +175,10 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTraits(e->elasticity, &traits));
   PetscCall(SamElasticityGetType(e->elasticity, &type));
-  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: no stresses are known of bodies of type %s", e->of, type);
+  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s", e->of, type);
   PetscCall(SamElasticityGetPair(e->elasticity, &pair));
   PetscCheck(!isinf(pair->young[e->body - 1]), e->comm, SAM_ERR_USER,
-             "%sbody %" PetscInt_FMT ": it is rigid, its stresses are not determined", e->dash, e->body);
+             "%sbody %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->dash, e->body);
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -248,10 +192,9 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
   PetscCheck(e->source.steps > 1 || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
              "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT, e->dash, e->source.steps);
   PetscCheck(!e->wants[SAM_QUANTITY_RUIZ] || e->depth[0] == 0, e->comm, SAM_ERR_USER,
-             "%sfatigue ruiz: is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
+             "%sfatigue ruiz: it is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
   PetscCall(CheckDepths(e));
   PetscCall(FindLine(e));
-  PetscCall(CollectBulk(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -264,16 +207,21 @@ PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The largest of all ranks, of equal ones that with the lowest number. */
-static PetscErrorCode Agree(MPI_Comm comm, SamLargestPoint *largest)
+PetscErrorCode SamLargestAgree(MPI_Comm comm, double *value, int n, double place[])
 {
-  PetscReal most = largest->value, place;
+  const double mine = *value;
+  PetscBool    here;
 
   PetscFunctionBegin;
-  PetscCall(SamMax(comm, 1, &most));
-  place = largest->value == most ? -largest->point : -PETSC_INFINITY;
-  PetscCall(SamMax(comm, 1, &place));
-  *largest = (SamLargestPoint){most, -place};
+  PetscCall(SamMax(comm, 1, value));
+  here = (PetscBool)(mine == *value);
+  for (int k = 0; k < n; k++) {
+    double least = here ? -place[k] : -INFINITY;
+
+    PetscCall(SamMax(comm, 1, &least));
+    here     = (PetscBool)(here && place[k] == -least);
+    place[k] = -least;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -301,16 +249,18 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
   e->write_context = context;
   PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
   for (PetscInt s = 0; s < e->source.steps; s++) {
-    PetscCall(Agree(e->comm, &e->largest[s].mises));
-    PetscCall(Agree(e->comm, &e->largest[s].principal));
+    SamStepLargest *const of = &e->largest[s];
+
+    PetscCall(SamLargestAgree(e->comm, &of->mises.value, 1, &of->mises.point));
+    PetscCall(SamLargestAgree(e->comm, &of->principal.value, 1, &of->principal.point));
+    for (int k = 0; k < 2; k++) PetscCall(SamLargestAgree(e->comm, &of->edge[k].value, 2, of->edge[k].place));
   }
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++)
-    if (e->wants[q]) PetscCall(Agree(e->comm, &e->fatigue[q]));
-  PetscCall(SamEdgeStressAgree(e));
+    if (e->wants[q]) PetscCall(SamLargestAgree(e->comm, &e->fatigue[q].value, 1, &e->fatigue[q].point));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what is known of it ---- */
+/* ---- queries ---- */
 
 PetscErrorCode SamEvaluationGetLayout(SamEvaluation e, SamStressLayout *layout)
 {
@@ -339,30 +289,6 @@ PetscErrorCode SamEvaluationHasCycle(SamEvaluation e, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
-{
-  const SamFatigueConstants *c    = &e->constants;
-  const PetscReal            body = (PetscReal)e->body;
-  PetscReal                  young, poisson;
-
-  PetscFunctionBegin;
-  PetscCall(SamParametersAddReals(p, "body", PETSC_TRUE, 1, &body));
-  SamStressGetConstants(e->stress, 0, &young, &poisson);
-  PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &young));
-  PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &poisson));
-  PetscCall(SamElasticityAddParameters(e->elasticity, p));
-  if (e->wants[SAM_QUANTITY_CROSSLAND])
-    PetscCall(SamParametersAddReals(p, "fatigue_crossland_alpha", PETSC_TRUE, 1, &c->crossland_alpha));
-  if (e->wants[SAM_QUANTITY_DANG_VAN])
-    PetscCall(SamParametersAddReals(p, "fatigue_dang_van_alpha", PETSC_TRUE, 1, &c->dang_van_alpha));
-  if (e->wants[SAM_QUANTITY_FINDLEY])
-    PetscCall(SamParametersAddReals(p, "fatigue_findley_k", PETSC_TRUE, 1, &c->findley_k));
-  if (!e->wants[SAM_QUANTITY_FATEMI_SOCIE]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamParametersAddReals(p, "fatigue_fatemi_socie_k", PETSC_TRUE, 1, &c->fatemi_socie_k));
-  PetscCall(SamParametersAddReals(p, "fatigue_yield", PETSC_TRUE, 1, &c->yield));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamEvaluationGetLargest(SamEvaluation e, SamQuantity quantity, PetscInt step, SamLargest *largest)
 {
   const SamGrid          g   = e->grid;
@@ -385,7 +311,10 @@ PetscErrorCode SamEvaluationGetLargest(SamEvaluation e, SamQuantity quantity, Pe
 PetscErrorCode SamEvaluationGetEdgeLargest(SamEvaluation e, PetscInt step, SamLargest largest[2], PetscBool *lost)
 {
   PetscFunctionBegin;
-  for (int k = 0; k < 2; k++) largest[k] = e->largest[step].edge[k];
+  for (int k = 0; k < 2; k++) {
+    largest[k] = e->largest[step].edge[k];
+    if (largest[k].value == -INFINITY) largest[k] = (SamLargest){NAN, {NAN, NAN, NAN}};
+  }
   *lost = e->largest[step].edge_lost;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,8 +3,8 @@
 #define PETSAM_EVALUATIONIMPL_H
 
 #include <petsam/evaluation.h>
-#include <petsam/private/baseimpl.h>
 #include <petsam/private/quantities.h>
+#include <petsam/private/stressimpl.h>
 
 /* A largest value so far, and the number of its point, counted along x, y and z. */
 typedef struct {
@@ -17,12 +17,6 @@ typedef struct {
   SamLargest      edge[2];   /* at the contact's edge: stress xx, principal stress */
   PetscBool       edge_lost; /* there is an edge, which is not found */
 } SamStepLargest;
-
-/* A step that has been added. */
-typedef struct {
-  Vec    field[3]; /* pressure, shear, slip */
-  double bulk[2][SAM_BULK_COMPONENTS];
-} SamAddedStep;
 
 struct _n_SamEvaluation {
   MPI_Comm comm;
@@ -41,12 +35,8 @@ struct _n_SamEvaluation {
   const char               *of; /* whose bodies they are */
   SamGrid                   grid;
   SamStress                 stress;
-  PetscInt                  index; /* of the section's line of cells */
-  /* steps */
-  SamEvaluationSource source;
-  PetscInt            added, room;
-  SamAddedStep       *step;
-  double (*bulk)[SAM_BULK_COMPONENTS]; /* of the added ones */
+  PetscInt                  index;  /* of the section's line of cells */
+  SamEvaluationSource       source; /* of the steps */
   /* results */
   SamEvaluationWrite   write;
   void                *write_context;
@@ -85,12 +75,13 @@ PETSC_INTERN PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, c
                                                const double stress[]);
 /*
   SamEdgeStressCompute - keeps the largest stresses at the contact's edge of a step, whose map at depth 0, without bulk
-  stress, is in `field`. SamEdgeStressAgree - finds the largest of all ranks (edge.c). Collective.
+  stress, is in `field` (edge.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field);
-PETSC_INTERN PetscErrorCode SamEdgeStressAgree(SamEvaluation e);
 /* SamLargestKeep - keeps a value if it is the largest so far. Not collective. */
 PETSC_INTERN void SamLargestKeep(SamLargestPoint *largest, double value, double point);
+/* SamLargestAgree - the largest value of all ranks; of equal ones the one whose n numbers come first. Collective. */
+PETSC_INTERN PetscErrorCode SamLargestAgree(MPI_Comm comm, double *value, int n, double place[]);
 
 /*
   SamCycleWanted - whether a fatigue parameter is asked for: then the stresses of all steps are needed at a time.
@@ -102,9 +93,7 @@ PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *poin
 
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
-/*
-  SamEvaluationTakeDepths - takes over depths that `said` names in messages. Not collective. Errors: SAM_ERR_USER.
-*/
+/* SamEvaluationTakeDepths - takes over depths that `said` names in messages. Not collective. Errors: SAM_ERR_USER. */
 PETSC_INTERN PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n,
                                                     const PetscReal depths[]);
 

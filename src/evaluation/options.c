@@ -1,4 +1,4 @@
-/* The options of an evaluation. */
+/* The options of an evaluation, and what a file of its results records of them. */
 #include "evaluationimpl.h"
 #include <stdlib.h>
 #include <string.h>
@@ -88,8 +88,7 @@ static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
   PetscReal *depths;
 
   PetscFunctionBegin;
-  PetscCall(
-    SamOptionsString(from, "depths", "m from the surface: 0,1e-5,2e-5 or first:last:number", text, sizeof(text), NULL));
+  PetscCall(SamOptionsString(from, "depths", "depths, m: 0,1e-5,2e-5 or first:last:number", text, sizeof(text), NULL));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %s", text));
   PetscCall((strchr(text, ':') ? ReadRange : ReadList)(from->comm, whole, text, &n, &depths));
   PetscCall(SamEvaluationTakeDepths(e, whole, n, depths));
@@ -106,8 +105,9 @@ static PetscErrorCode ReadSection(const SamOptions *from, SamEvaluation e)
   PetscBool set;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "section", "only the cells nearest to a plane, y=0 or x=1e-4 (m), not whole maps",
-                             text, sizeof(text), &set));
+  PetscCall(SamOptionsString(from, "section",
+                             "only the cells nearest to a plane, y=0 or x=1e-4 (m); default: whole maps", text,
+                             sizeof(text), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck((text[0] == 'x' || text[0] == 'y') && text[1] == '=' && ReadNumber(text + 2, &place), from->comm,
              SAM_ERR_USER, "-section %s: expected for example y=0 or x=1e-4", text);
@@ -115,10 +115,14 @@ static PetscErrorCode ReadSection(const SamOptions *from, SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads a list of names, each of which asks for a quantity: names[k] for quantity first + k. */
-static PetscErrorCode ReadNames(const SamOptions *from, const char option[], const char list[],
-                                const char *const names[], PetscInt first, int count, char text[], SamEvaluation e)
+/* Reads a list of names, each of which asks for one of `count` quantities from the first on. */
+static PetscErrorCode ReadNames(const SamOptions *from, const char option[], const char list[], PetscInt first,
+                                int count, char text[], SamEvaluation e)
 {
+  static const char *const names[SAM_QUANTITIES] = {"stress", "mises",        "principal", "shear_max",
+                                                    "strain", "crossland",    "dang_van",  "findley",
+                                                    "swt",    "fatemi_socie", "ruiz"};
+
   char whole[NAMES], *parts[SAM_QUANTITIES];
   int  given;
 
@@ -128,7 +132,7 @@ static PetscErrorCode ReadNames(const SamOptions *from, const char option[], con
   for (int k = 0; k < PetscMin(given, count); k++) {
     int q = 0;
 
-    while (q < count && strcmp(parts[k], names[q])) q++;
+    while (q < count && strcmp(parts[k], names[first + q])) q++;
     PetscCheck(q < count && given <= count, from->comm, SAM_ERR_USER, "-%s %s: expected some of %s", option, whole,
                list);
     e->wants[first + q] = PETSC_TRUE;
@@ -138,61 +142,87 @@ static PetscErrorCode ReadNames(const SamOptions *from, const char option[], con
 
 static PetscErrorCode ReadQuantities(const SamOptions *from, SamEvaluation e)
 {
-  static const char *const names[]     = {"stress", "mises", "principal", "shear_max", "strain"};
-  char                     text[NAMES] = "stress,mises";
+  char text[NAMES] = "stress,mises";
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(e->wants, SAM_QUANTITIES));
   PetscCall(SamOptionsWords(from, "quantities", "some of " QUANTITIES, NAMED ",none", text, sizeof(text), NULL));
-  if (strcmp(text, "none"))
-    PetscCall(ReadNames(from, "quantities", QUANTITIES, names, SAM_QUANTITY_STRESS, 5, text, e));
+  if (strcmp(text, "none")) PetscCall(ReadNames(from, "quantities", QUANTITIES, SAM_QUANTITY_STRESS, 5, text, e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The constants of the fatigue parameters, each required by one of them. */
+static const struct {
+  SamQuantity quantity;
+  const char *with, *name, *help;
+  SamRange    range;
+  size_t      place; /* in SamFatigueConstants */
+} constants[] = {
+  {SAM_QUANTITY_CROSSLAND, "-fatigue crossland", "fatigue_crossland_alpha",
+   "factor on the maximum hydrostatic stress, required by crossland", SAM_RANGE_NONNEGATIVE,
+   offsetof(SamFatigueConstants, crossland_alpha)},
+  {SAM_QUANTITY_DANG_VAN, "-fatigue dang_van", "fatigue_dang_van_alpha",
+   "factor on the hydrostatic stress, required by dang_van", SAM_RANGE_NONNEGATIVE,
+   offsetof(SamFatigueConstants, dang_van_alpha)},
+  {SAM_QUANTITY_FINDLEY, "-fatigue findley", "fatigue_findley_k",
+   "factor on the maximum normal stress, required by findley", SAM_RANGE_NONNEGATIVE,
+   offsetof(SamFatigueConstants, findley_k)},
+  {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_fatemi_socie_k",
+   "factor on the maximum normal stress, required by fatemi_socie", SAM_RANGE_NONNEGATIVE,
+   offsetof(SamFatigueConstants, fatemi_socie_k)},
+  {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_yield", "yield stress, Pa, required by fatemi_socie",
+   SAM_RANGE_POSITIVE, offsetof(SamFatigueConstants, yield)},
+};
+enum { CONSTANTS = sizeof(constants) / sizeof(constants[0]) };
+
+static PetscReal *ConstantOf(SamEvaluation e, int k)
+{
+  return (PetscReal *)(void *)((char *)&e->constants + constants[k].place);
+}
+
 static PetscErrorCode ReadConstants(const SamOptions *from, SamEvaluation e)
 {
-  const struct {
-    SamQuantity quantity;
-    const char *with, *name, *help;
-    SamRange    range;
-    PetscReal  *value;
-  } all[] = {
-    {SAM_QUANTITY_CROSSLAND, "-fatigue crossland", "fatigue_crossland_alpha",
-     "factor on the largest mean stress, required by crossland", SAM_RANGE_NONNEGATIVE, &e->constants.crossland_alpha},
-    {SAM_QUANTITY_DANG_VAN, "-fatigue dang_van", "fatigue_dang_van_alpha",
-     "factor on the mean stress, required by dang_van", SAM_RANGE_NONNEGATIVE, &e->constants.dang_van_alpha},
-    {SAM_QUANTITY_FINDLEY, "-fatigue findley", "fatigue_findley_k",
-     "factor on the largest normal stress, required by findley", SAM_RANGE_NONNEGATIVE, &e->constants.findley_k},
-    {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_fatemi_socie_k",
-     "factor on the largest normal stress, required by fatemi_socie", SAM_RANGE_NONNEGATIVE,
-     &e->constants.fatemi_socie_k},
-    {SAM_QUANTITY_FATEMI_SOCIE, "-fatigue fatemi_socie", "fatigue_yield", "yield stress, Pa, required by fatemi_socie",
-     SAM_RANGE_POSITIVE, &e->constants.yield},
-  };
   PetscBool set, print;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&print));
-  for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) {
-    if (!e->wants[all[k].quantity]) SamOptionsKnow(from, all[k].name, all[k].with);
-    if (!e->wants[all[k].quantity] && !print) continue;
-    PetscCall(SamOptionsReal(from, all[k].name, all[k].help, all[k].range, all[k].value, &set));
-    PetscCall(SamOptionsRequire(from, set || print, all[k].name, all[k].help));
+  for (int k = 0; k < CONSTANTS; k++) {
+    const PetscBool wanted = e->wants[constants[k].quantity];
+
+    if (!wanted) SamOptionsKnow(from, constants[k].name, constants[k].with);
+    if (!wanted && !print) continue;
+    PetscCall(SamOptionsReal(from, constants[k].name, constants[k].help, constants[k].range, ConstantOf(e, k), &set));
+    PetscCall(SamOptionsRequire(from, set || print, constants[k].name, constants[k].help));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
+{
+  const PetscReal body = (PetscReal)e->body;
+  PetscReal       young, poisson;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddReals(p, "body", PETSC_TRUE, 1, &body));
+  SamStressGetConstants(e->stress, 0, &young, &poisson);
+  PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &young));
+  PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &poisson));
+  PetscCall(SamElasticityAddParameters(e->elasticity, p));
+  for (int k = 0; k < CONSTANTS; k++)
+    if (e->wants[constants[k].quantity])
+      PetscCall(SamParametersAddReals(p, constants[k].name, PETSC_TRUE, 1, ConstantOf(e, k)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ReadFatigue(const SamOptions *from, SamEvaluation e)
 {
-  static const char *const names[]     = {"crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz"};
-  char                     text[NAMES] = "";
-  PetscBool                set;
+  char      text[NAMES] = "";
+  PetscBool set;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsWords(from, "fatigue", "over the steps as one closed cycle: some of " FATIGUE, FATIGUE, text,
-                            sizeof(text), &set));
-  if (set) PetscCall(ReadNames(from, "fatigue", FATIGUE, names, SAM_QUANTITY_CROSSLAND, 6, text, e));
+  PetscCall(SamOptionsWords(from, "fatigue", "parameters over the steps as one closed cycle: some of " FATIGUE, FATIGUE,
+                            text, sizeof(text), &set));
+  if (set) PetscCall(ReadNames(from, "fatigue", FATIGUE, SAM_QUANTITY_CROSSLAND, 6, text, e));
   PetscCall(ReadConstants(from, e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -207,7 +237,7 @@ PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation e, const SamOptions *fr
   PetscCall(SamEvaluationSetBody(e, body));
   PetscCall(ReadDepths(from, e));
   PetscCall(ReadSection(from, e));
-  PetscCall(SamOptionsHeading(from, "What"));
+  PetscCall(SamOptionsHeading(from, "Quantities"));
   PetscCall(ReadQuantities(from, e));
   PetscCall(SamOptionsHeading(from, "Fatigue"));
   PetscCall(ReadFatigue(from, e));

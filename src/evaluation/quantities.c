@@ -49,11 +49,10 @@ static double FineBound(const double *const s[SAM_STRESS_COMPONENTS], double mis
 static void KeepPrincipal(SamLargestPoint *largest, const double *const s[SAM_STRESS_COMPONENTS], PetscInt i,
                           double first)
 {
-  double  value[3];
-  double *to[3] = {&value[0], &value[1], &value[2]};
+  double principal[3];
 
-  SamStressPrincipal(1, (const double *[]){&s[0][i], &s[1][i], &s[2][i], &s[3][i], &s[4][i], &s[5][i]}, to);
-  SamLargestKeep(largest, value[0], first + (double)i);
+  SamPrincipalOf((const double[]){s[0][i], s[1][i], s[2][i], s[3][i], s[4][i], s[5][i]}, principal);
+  SamLargestKeep(largest, principal[0], first + (double)i);
 }
 
 /* Largest von Mises and principal stress. The latter is found exactly only where the bounds allow the largest. */

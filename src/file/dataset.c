@@ -130,8 +130,8 @@ hid_t SamFileCreateDataset(SamFile f, hid_t where, const SamLabel *label, hid_t 
     (void)SamFileNote(f, H5Pset_deflate(creation, (unsigned)compress));
   }
   dataset = SamFileNote(f, H5Dcreate2(where, label->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  SamFileWriteTextAttribute(f, dataset, "units", label->units);
-  SamFileWriteTextAttribute(f, dataset, "long_name", label->long_name);
+  if (label->units) SamFileWriteTextAttribute(f, dataset, "units", label->units);
+  if (label->long_name) SamFileWriteTextAttribute(f, dataset, "long_name", label->long_name);
   (void)SamFileNote(f, H5Pclose(creation));
   (void)SamFileNote(f, H5Sclose(space));
   return dataset;
@@ -155,14 +155,16 @@ void SamFileAttachScales(SamFile f, hid_t dataset, int count, const hid_t scales
   for (int d = 0; d < count; d++) (void)SamFileNote(f, H5DSattach_scale(dataset, scales[d], (unsigned)d));
 }
 
-void SamFileGetSize(SamFile f, hid_t dataset, int rank, hsize_t size[])
+int SamFileGetSize(SamFile f, hid_t dataset, int rank, hsize_t size[])
 {
   const hid_t space = SamFileNote(f, H5Dget_space(dataset));
+  const int   found = space >= 0 ? H5Sget_simple_extent_ndims(space) : -1;
+  const int   good  = rank ? found == rank : found > 0 && found <= SAM_SHAPE_RANK;
 
-  for (int d = 0; d < rank; d++) size[d] = 0;
-  if (space < 0) return;
-  (void)SamFileNote(f, H5Sget_simple_extent_ndims(space) == rank ? H5Sget_simple_extent_dims(space, size, NULL) : -1);
-  (void)SamFileNote(f, H5Sclose(space));
+  for (int d = 0; d < (rank ? rank : SAM_SHAPE_RANK); d++) size[d] = 0;
+  (void)SamFileNote(f, good ? H5Sget_simple_extent_dims(space, size, NULL) : -1);
+  if (space >= 0) (void)SamFileNote(f, H5Sclose(space));
+  return good ? found : 0;
 }
 
 /* ---- blocks ---- */

@@ -4,7 +4,7 @@
 
   Functions that return an int return 0, an errno, or one of the reasons below.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -15,28 +15,24 @@
 
 enum { IN_USE = -1, FOREIGN = -2, REPLACED = -3, RESIZED = -4, IS_LINK = -5, NOT_A_FILE = -6, NO_FOLDER = -7 };
 
+static const struct {
+  int         error;
+  const char *text;
+} reasons[] = {{IN_USE, "another run is writing it"},
+               {FOREIGN,
+                "there is a file of that name that petsam has not written for this purpose, and it is not replaced"},
+               {REPLACED, "another program has replaced it during this run"},
+               {RESIZED, "another program has changed its size during this run"},
+               {IS_LINK, "it is a symbolic link"},
+               {NOT_A_FILE, "it is not a file"},
+               {NO_FOLDER, "its folder does not exist"},
+               {EISDIR, "it is a folder, expected the name of a file"}};
+
 static const char *Reason(int error)
 {
-  switch (error) {
-  case IN_USE:
-    return "another run is writing it";
-  case FOREIGN:
-    return "there is a file of that name that petsam has not written for this purpose, and it is not replaced";
-  case REPLACED:
-    return "another program has replaced it during this run";
-  case RESIZED:
-    return "another program has changed its size during this run";
-  case IS_LINK:
-    return "it is a symbolic link";
-  case NOT_A_FILE:
-    return "it is not a file";
-  case NO_FOLDER:
-    return "its folder does not exist";
-  case EISDIR:
-    return "it is a folder, expected the name of a file";
-  default:
-    return strerror(error);
-  }
+  for (size_t k = 0; k < sizeof(reasons) / sizeof(reasons[0]); k++)
+    if (reasons[k].error == error) return reasons[k].text;
+  return strerror(error);
 }
 
 PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error)
@@ -383,15 +379,16 @@ static PetscBool IsLockEnding(const char text[])
   Open MPI keeps a file <name>-<job>-<process>.lock beside each file that is open through MPI-IO, for shared file
   pointers, which HDF5 does not use. It would stay after a kill. Those of runs that were killed before go, too.
 */
-static void RemoveLockFiles(const char filename[])
+void SamFileRemoveLeftOvers(SamFile f)
 {
-  const char    *slash = strrchr(filename, '/'), *name = slash ? slash + 1 : filename;
+  const char    *slash = strrchr(f->filename, '/'), *name = slash ? slash + 1 : f->filename;
   const size_t   length = strlen(name);
   char           folder[PETSC_MAX_PATH_LEN], path[2 * PETSC_MAX_PATH_LEN];
   struct dirent *entry;
   DIR           *list;
 
-  SamGetFolder(filename, folder);
+  if (f->rank) return;
+  SamGetFolder(f->filename, folder);
   list = opendir(folder);
   while (list && (entry = readdir(list))) {
     if (strncmp(entry->d_name, name, length) || !IsLockEnding(entry->d_name + length)) continue;
@@ -399,11 +396,6 @@ static void RemoveLockFiles(const char filename[])
     (void)unlink(path);
   }
   if (list) (void)closedir(list);
-}
-
-void SamFileRemoveLeftOvers(SamFile f)
-{
-  if (f->rank == 0) RemoveLockFiles(f->filename);
 }
 
 /* ---- the disk ---- */

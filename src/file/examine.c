@@ -2,7 +2,7 @@
   A file is examined in a child process, as HDF5 may crash, or never end, on a damaged one: it follows the addresses in
   a file without end if they lead in a circle.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -53,7 +53,7 @@ static PetscErrorCode OpenAndLook(const Case *c, void *answer)
 
   PetscFunctionBegin;
   PetscCheck(!fault, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, fault);
-  ierr = SamFileOpenAlone(c->option, c->filename, &file);
+  ierr = SamFileOpen(NULL, SAM_EVENT_OUTPUT, c->option, c->filename, SAM_FILE_READ, &file);
   PetscCheck(!ierr, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, damaged);
   PetscCall(SamFileBegin(file));
   PetscCall(c->look(file, c->question, answer));

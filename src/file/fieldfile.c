@@ -4,8 +4,8 @@
   A file may be wrong in many ways. Rank 0 examines it in a child process, so that all ranks raise the same error. Only
   then all read their rows.
 */
+#include "fileimpl.h"
 #include <petsam/private/fieldfile.h>
-#include <petsam/private/file.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -132,7 +132,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
              f->filename, name, w->source->prefix, w->source->dataset_option, names);
   kind = H5Tget_class(H5Dget_type(dataset));
   PetscCheck(kind == H5T_FLOAT || kind == H5T_INTEGER, f->comm, SAM_ERR_FILE,
-             "-%s %s: %s does not hold real or whole numbers", f->option, f->filename, name);
+             "-%s %s: %s holds neither real numbers nor integers", f->option, f->filename, name);
   PetscCall(CheckShape(f, w, H5Dget_space(dataset), found->shape));
   PetscCheck(SamFileIsWhole(f, dataset, NULL, PETSC_FALSE), f->comm, SAM_ERR_FILE,
              "-%s %s: %s cannot be read: the file is damaged", f->option, f->filename, name);

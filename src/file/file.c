@@ -5,27 +5,17 @@
   only. So rank 0 looks for the likely failures before MPI-IO meets them (disk.c). The file is then still consistent and
   can be closed.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 
 /* ---- errors ---- */
 
 /* HDF5 prints its own error stack unless that is switched off. */
-static void Silence(SamFile f)
-{
-  (void)SamFileNote(f, H5Eget_auto2(H5E_DEFAULT, &f->print, &f->print_data));
-  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, NULL, NULL));
-}
-
-static void Unsilence(SamFile f)
-{
-  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, f->print, f->print_data));
-}
-
 PetscErrorCode SamFileBegin(SamFile f)
 {
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[f->event], 0, 0, 0, 0));
-  Silence(f);
+  (void)SamFileNote(f, H5Eget_auto2(H5E_DEFAULT, &f->print, &f->print_data));
+  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -49,7 +39,7 @@ PetscErrorCode SamFileAgree(SamFile f)
 PetscErrorCode SamFileEnd(SamFile f)
 {
   PetscFunctionBegin;
-  Unsilence(f);
+  (void)SamFileNote(f, H5Eset_auto2(H5E_DEFAULT, f->print, f->print_data));
   PetscCall(PetscLogEventEnd(SamEvents[f->event], 0, 0, 0, 0));
   PetscCall(SamFileAgree(f));
   PetscCheck(!f->failed, f->comm, SAM_ERR_FILE, "-%s %s: cannot be %s: %s", f->option, f->filename,
@@ -74,34 +64,6 @@ hid_t SamFileNote(SamFile f, hid_t result)
 }
 
 /* ---- the file ---- */
-
-static PetscErrorCode Allocate(MPI_Comm comm, SamGrid grid, SamEvent event, const char option[], const char filename[],
-                               SamFile *file)
-{
-  SamFile f;
-
-  PetscFunctionBegin;
-  PetscCall(PetscNew(&f));
-  if (grid) PetscCall(SamGridReference(grid));
-  f->comm   = comm;
-  f->grid   = grid;
-  f->event  = event;
-  f->option = option;
-  f->id = f->transfer = -1;
-  PetscCallMPI(MPI_Comm_rank(comm, &f->rank));
-  PetscCall(PetscStrallocpy(filename, &f->filename));
-  *file = f;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Free(SamFile *file)
-{
-  PetscFunctionBegin;
-  PetscCall(SamGridDestroy(&(*file)->grid));
-  PetscCall(PetscFree((*file)->filename));
-  PetscCall(PetscFree(*file));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* Reading is not collective: in a damaged file it may fail on some ranks, and no other shall wait for these. */
 static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
@@ -128,39 +90,30 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Opens the allocated file, or frees it after an error. */
-static PetscErrorCode OpenOrFree(SamFile *file, SamFileMode mode)
-{
-  PetscErrorCode ierr;
-
-  PetscFunctionBegin;
-  (*file)->writing = mode != SAM_FILE_READ;
-  ierr             = OpenFile(*file, mode);
-  if (ierr) {
-    (*file)->id = -1; /* not closed: closing would wait for a rank that could not open the file */
-    Silence(*file);
-    SamFileClose(*file);
-    Unsilence(*file);
-    PetscCall(Free(file));
-  }
-  PetscCall(ierr);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFileMode mode,
                            SamFile *file)
 {
-  PetscFunctionBegin;
-  PetscCall(Allocate(grid->comm, grid, event, option, filename, file));
-  PetscCall(OpenOrFree(file, mode));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+  SamFile        f;
+  PetscErrorCode ierr;
 
-PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file)
-{
   PetscFunctionBegin;
-  PetscCall(Allocate(PETSC_COMM_SELF, NULL, SAM_EVENT_OUTPUT, option, filename, file));
-  PetscCall(OpenOrFree(file, SAM_FILE_READ));
+  PetscCall(PetscNew(&f));
+  if (grid) PetscCall(SamGridReference(grid));
+  f->comm    = grid ? grid->comm : PETSC_COMM_SELF;
+  f->grid    = grid;
+  f->event   = event;
+  f->option  = option;
+  f->writing = mode != SAM_FILE_READ;
+  f->id = f->transfer = -1;
+  PetscCallMPI(MPI_Comm_rank(f->comm, &f->rank));
+  PetscCall(PetscStrallocpy(filename, &f->filename));
+  ierr = OpenFile(f, mode);
+  if (ierr) {
+    f->id = -1; /* not closed: closing would wait for a rank that could not open the file */
+    (void)SamFileDestroy(&f, PETSC_TRUE);
+  }
+  *file = f;
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,7 +134,9 @@ PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close)
   PetscCall(SamFileBegin(*file));
   if (close) SamFileClose(*file);
   ierr = SamFileEnd(*file);
-  PetscCall(Free(file));
+  PetscCall(SamGridDestroy(&(*file)->grid));
+  PetscCall(PetscFree((*file)->filename));
+  PetscCall(PetscFree(*file));
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,5 @@
 /* What an HDF5 dataset of lengths says about itself: their unit, whether they are heights, the size of the surface. */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,7 +123,7 @@ static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsi
   if (!isnan(width)) PetscCall(ReadUnits(f, axis, name, &metres)); /* else it is something else */
   (void)H5Dclose(axis);
   PetscCheck(!(width < 0), f->comm, SAM_ERR_FILE,
-             "-%s %s: %s falls along the file, so the surface would be mirrored: turn it and the values of %s round",
+             "-%s %s: %s falls along the file, so the surface would be mirrored: reverse it and the values of %s",
              f->option, f->filename, name, dataset);
   if (!isnan(width)) *size = width * metres;
   PetscFunctionReturn(PETSC_SUCCESS);

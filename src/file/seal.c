@@ -5,7 +5,7 @@
   The seal is a text in the user block, the SAM_SEAL bytes before HDF5's data. The file is hashed by blocks, each with
   its place; the sum of the hashes does not depend on which rank took which block.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>

@@ -4,7 +4,7 @@
   Rank 0 writes it. One system call overwrites the closing tags with the next step and new closing tags, so that the
   file is complete before and after it.
 */
-#include <petsam/private/file.h>
+#include "fileimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>

@@ -25,40 +25,22 @@ static Column GetColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt
 
 /*
   to += kernel * from for n entries whose kernel values are factor * k[0], k[1], ... or, going down, k[0], k[-1], ...;
-  `turned`: multiplied by -i.
+  `Turned`: multiplied by -i.
 */
-SAM_VECTORIZED static void AddRising(ptrdiff_t n, double factor, const double *restrict k,
-                                     const double (*restrict from)[2], double (*restrict to)[2])
-{
-  for (ptrdiff_t m = 0; m < n; m++) {
-    to[m][0] += factor * k[m] * from[m][0];
-    to[m][1] += factor * k[m] * from[m][1];
+#define DEFINE_ADD(Name, STEP, re, im, ADD) \
+  SAM_VECTORIZED static void Name(ptrdiff_t n, double factor, const double *restrict k, \
+                                  const double(*restrict from)[2], double(*restrict to)[2]) \
+  { \
+    for (ptrdiff_t m = 0; m < n; m++) { \
+      to[m][0] += factor * k[STEP m] * from[m][re]; \
+      to[m][1] ADD factor *k[STEP m] * from[m][im]; \
+    } \
   }
-}
-SAM_VECTORIZED static void AddFalling(ptrdiff_t n, double factor, const double *restrict k,
-                                      const double (*restrict from)[2], double (*restrict to)[2])
-{
-  for (ptrdiff_t m = 0; m < n; m++) {
-    to[m][0] += factor * k[-m] * from[m][0];
-    to[m][1] += factor * k[-m] * from[m][1];
-  }
-}
-SAM_VECTORIZED static void AddRisingTurned(ptrdiff_t n, double factor, const double *restrict k,
-                                           const double (*restrict from)[2], double (*restrict to)[2])
-{
-  for (ptrdiff_t m = 0; m < n; m++) {
-    to[m][0] += factor * k[m] * from[m][1];
-    to[m][1] -= factor * k[m] * from[m][0];
-  }
-}
-SAM_VECTORIZED static void AddFallingTurned(ptrdiff_t n, double factor, const double *restrict k,
-                                            const double (*restrict from)[2], double (*restrict to)[2])
-{
-  for (ptrdiff_t m = 0; m < n; m++) {
-    to[m][0] += factor * k[-m] * from[m][1];
-    to[m][1] -= factor * k[-m] * from[m][0];
-  }
-}
+
+DEFINE_ADD(AddRising, , 0, 1, +=)
+DEFINE_ADD(AddFalling, -, 0, 1, +=)
+DEFINE_ADD(AddRisingTurned, , 1, 0, -=)
+DEFINE_ADD(AddFallingTurned, -, 1, 0, -=)
 
 /* to += scale * kernel * from for one column; multiplied by -i when the kernel is odd in one direction only. */
 static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double scale,
@@ -78,43 +60,28 @@ static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt 
 }
 
 /*
-  Products in place, of either precision: one field by an even kernel, and two fields by a symmetric matrix of kernels
-  whose off-diagonal one is odd in x and in y. Each column goes up the kernel's values and down again.
+  Products in place, of either precision, of n entries as above: one field by an even kernel, and two fields by a
+  symmetric matrix of kernels whose off-diagonal one, with the factor `cross`, is odd in x and in y.
 */
-#define DEFINE_PRODUCTS(Real, MultiplyColumn, MultiplyPair) \
-  SAM_VECTORIZED static void MultiplyColumn(Column c, ptrdiff_t n, double factor, Real(*restrict column)[2]) \
+#define DEFINE_PRODUCTS(Real, STEP, MultiplyColumn, MultiplyPair) \
+  SAM_VECTORIZED static void MultiplyColumn(ptrdiff_t n, double factor, const double *restrict values, \
+                                            Real(*restrict column)[2]) \
   { \
-    for (ptrdiff_t m = 0; m < c.rising; m++) { \
-      const Real k = (Real)(factor * c.values[m]); \
-\
-      column[m][0] *= k; \
-      column[m][1] *= k; \
-    } \
-    for (ptrdiff_t m = c.rising; m < n; m++) { \
-      const Real k = (Real)(factor * c.values[c.mirror - m]); \
+    for (ptrdiff_t m = 0; m < n; m++) { \
+      const Real k = (Real)(factor * values[STEP m]); \
 \
       column[m][0] *= k; \
       column[m][1] *= k; \
     } \
   } \
 \
-  SAM_VECTORIZED static void MultiplyPair(Column xx, Column xy, Column yy, ptrdiff_t n, double factor, \
-                                          Real(*restrict x)[2], Real(*restrict y)[2]) \
+  SAM_VECTORIZED static void MultiplyPair(ptrdiff_t n, double factor, double cross, const double *restrict xx, \
+                                          const double *restrict xy, const double *restrict yy, Real(*restrict x)[2], \
+                                          Real(*restrict y)[2]) \
   { \
-    for (ptrdiff_t m = 0; m < xx.rising; m++) { \
-      const Real kxx = (Real)(factor * xx.values[m]), kxy = (Real)(factor * xy.values[m]), \
-                 kyy = (Real)(factor * yy.values[m]); \
-      const Real x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
-\
-      x[m][0] = kxx * x0 + kxy * y0; \
-      x[m][1] = kxx * x1 + kxy * y1; \
-      y[m][0] = kxy * x0 + kyy * y0; \
-      y[m][1] = kxy * x1 + kyy * y1; \
-    } \
-    for (ptrdiff_t m = xx.rising; m < n; m++) { \
-      const ptrdiff_t l   = xx.mirror - m; \
-      const Real      kxx = (Real)(factor * xx.values[l]), kxy = (Real)(-factor * xy.values[l]), \
-                 kyy = (Real)(factor * yy.values[l]); \
+    for (ptrdiff_t m = 0; m < n; m++) { \
+      const Real kxx = (Real)(factor * xx[STEP m]), kxy = (Real)(cross * xy[STEP m]), \
+                 kyy = (Real)(factor * yy[STEP m]); \
       const Real x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1]; \
 \
       x[m][0] = kxx * x0 + kxy * y0; \
@@ -124,8 +91,10 @@ static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt 
     } \
   }
 
-DEFINE_PRODUCTS(double, MultiplyColumn, MultiplyPair)
-DEFINE_PRODUCTS(float, MultiplyColumnSingle, MultiplyPairSingle)
+DEFINE_PRODUCTS(double, , ColumnRising, PairRising)
+DEFINE_PRODUCTS(double, -, ColumnFalling, PairFalling)
+DEFINE_PRODUCTS(float, , ColumnRisingSingle, PairRisingSingle)
+DEFINE_PRODUCTS(float, -, ColumnFallingSingle, PairFallingSingle)
 
 /*
   Three fields to three by nine kernels, in place, when a turn by -i is due to the fields: that of field i if in[i], of
@@ -219,11 +188,12 @@ static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
   return PETSC_TRUE;
 }
 
-typedef struct {
+typedef struct Factors {
   const SamKernelMatrix *matrix;
   double                 factor;
-  PetscBool              scalar, pair, three;
-  Nine                   nine;
+  /* one column in one phase, by the kind of matrix */
+  void (*multiply)(const struct Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b);
+  Nine nine;
   double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
 } Factors;
 
@@ -267,70 +237,75 @@ static void MultiplyGeneral(const Factors *factors, const SamFourierBlock *block
       for (PetscInt r = 0; r < 2; r++) block->data[o][offset + m][r] = factors->column[o][m][r];
 }
 
+/* One field by an even kernel, up its values and down again. */
+static void MultiplyOne(const Factors *f, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const ptrdiff_t offset = (phase * block->width + b) * (ptrdiff_t)block->stride;
+  const Column    c      = GetColumn(f->matrix->kernel[0][0], block, phase, b);
+  const ptrdiff_t rising = c.rising, rest = block->hy - rising;
+  const double   *falling = c.values + c.mirror - rising;
+
+  if (block->data[0]) {
+    ColumnRising(rising, f->factor, c.values, block->data[0] + offset);
+    ColumnFalling(rest, f->factor, falling, block->data[0] + offset + rising);
+  } else {
+    ColumnRisingSingle(rising, f->factor, c.values, block->single[0] + offset);
+    ColumnFallingSingle(rest, f->factor, falling, block->single[0] + offset + rising);
+  }
+}
+
+static void MultiplyTwo(const Factors *f, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const ptrdiff_t offset = (phase * block->width + b) * (ptrdiff_t)block->stride;
+  const Column    c      = GetColumn(f->matrix->kernel[0][0], block, phase, b);
+  const double   *xx = c.values, *xy = GetColumn(f->matrix->kernel[0][1], block, phase, b).values,
+               *yy   = GetColumn(f->matrix->kernel[1][1], block, phase, b).values;
+  const ptrdiff_t up = c.rising, rest = block->hy - up, at = c.mirror - up;
+
+  if (block->data[0]) {
+    PairRising(up, f->factor, f->factor, xx, xy, yy, block->data[0] + offset, block->data[1] + offset);
+    PairFalling(rest, f->factor, -f->factor, xx + at, xy + at, yy + at, block->data[0] + offset + up,
+                block->data[1] + offset + up);
+  } else {
+    PairRisingSingle(up, f->factor, f->factor, xx, xy, yy, block->single[0] + offset, block->single[1] + offset);
+    PairFallingSingle(rest, f->factor, -f->factor, xx + at, xy + at, yy + at, block->single[0] + offset + up,
+                      block->single[1] + offset + up);
+  }
+}
+
 static void Multiply(const SamFourierBlock *block, const void *context)
 {
-  const Factors         *factors = (const Factors *)context;
-  const SamKernelMatrix *M       = factors->matrix;
+  const Factors *factors = (const Factors *)context;
 
   for (PetscInt f = 0; f < block->phases; f++)
-    for (PetscInt b = 0; b < block->columns; b++) {
-      const ptrdiff_t offset = (f * block->width + b) * (ptrdiff_t)block->stride, n = block->hy;
-
-      if (factors->scalar) {
-        const Column c = GetColumn(M->kernel[0][0], block, f, b);
-
-        if (block->data[0])
-          MultiplyColumn(c, n, factors->factor, block->data[0] + offset);
-        else
-          MultiplyColumnSingle(c, n, factors->factor, block->single[0] + offset);
-      } else if (factors->pair) {
-        const Column xx = GetColumn(M->kernel[0][0], block, f, b), xy = GetColumn(M->kernel[0][1], block, f, b),
-                     yy = GetColumn(M->kernel[1][1], block, f, b);
-
-        if (block->data[0])
-          MultiplyPair(xx, xy, yy, n, factors->factor, block->data[0] + offset, block->data[1] + offset);
-        else
-          MultiplyPairSingle(xx, xy, yy, n, factors->factor, block->single[0] + offset, block->single[1] + offset);
-      } else if (factors->three)
-        MultiplyThree(factors, block, f, b);
-      else
-        MultiplyGeneral(factors, block, f, b);
-    }
+    for (PetscInt b = 0; b < block->columns; b++) factors->multiply(factors, block, f, b);
 }
 
-static SamFourierFilter NewFilter(const Factors *factors)
+PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *M, const double *const in[], double *const out[])
 {
-  return (SamFourierFilter){.mode    = SAM_FOURIER_PADDED,
-                            .n_in    = factors->matrix->n_in,
-                            .n_out   = factors->matrix->n_out,
-                            .apply   = Multiply,
-                            .context = factors};
-}
-
-PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *matrix, const double *const in[], double *const out[])
-{
-  Factors factors = {.matrix = matrix, .factor = 1, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
-  const SamFourierFilter filter = NewFilter(&factors);
+  Factors                factors = {.matrix = M, .factor = 1, .multiply = MultiplyGeneral};
+  const SamFourierFilter filter  = {SAM_FOURIER_PADDED, M->n_in, M->n_out, Multiply, &factors};
 
   PetscFunctionBegin;
-  factors.three = FindNine(matrix, &factors.nine);
-  if (!factors.scalar && !factors.pair && !factors.three)
-    for (PetscInt o = 0; o < matrix->n_out; o++)
+  if (IsScalar(M)) factors.multiply = MultiplyOne;
+  if (IsSymmetricPair(M)) factors.multiply = MultiplyTwo;
+  if (FindNine(M, &factors.nine)) factors.multiply = MultiplyThree;
+  if (factors.multiply == MultiplyGeneral)
+    for (PetscInt o = 0; o < M->n_out; o++)
       PetscCall(SamAllocate(sizeof(*factors.column[o]) * (size_t)F->hy, &factors.column[o]));
   PetscCall(SamFourierApply(F, &filter, in, out));
-  for (PetscInt o = 0; o < matrix->n_out; o++) SamFree(factors.column[o]);
+  for (PetscInt o = 0; o < M->n_out; o++) SamFree(factors.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamConvolveSingle(SamFourier F, const SamKernelMatrix *matrix, double factor, const float *const in[],
+PetscErrorCode SamConvolveSingle(SamFourier F, const SamKernelMatrix *M, double factor, const float *const in[],
                                  float *const out[])
 {
-  const Factors factors = {
-    .matrix = matrix, .factor = factor, .scalar = IsScalar(matrix), .pair = IsSymmetricPair(matrix)};
-  const SamFourierFilter filter = NewFilter(&factors);
+  const Factors          factors = {.matrix = M, .factor = factor, .multiply = IsScalar(M) ? MultiplyOne : MultiplyTwo};
+  const SamFourierFilter filter  = {SAM_FOURIER_PADDED, M->n_in, M->n_out, Multiply, &factors};
 
   PetscFunctionBegin;
-  PetscCheck(factors.scalar || factors.pair, PETSC_COMM_SELF, PETSC_ERR_SUP,
+  PetscCheck(IsScalar(M) || IsSymmetricPair(M), PETSC_COMM_SELF, PETSC_ERR_SUP,
              "Convolution in single precision: one even kernel, or a symmetric pair");
   PetscCall(SamFourierApplySingle(F, &filter, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);

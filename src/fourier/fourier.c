@@ -80,7 +80,7 @@ void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2])
   if (acute < k) root[0] = -root[0];
 }
 
-/* Which columns are whose, and how many reals FFTW wants for a slab. */
+/* The columns of this rank, and how many reals FFTW needs for a slab. */
 static PetscErrorCode DivideColumns(SamFourier F, SamFourierMode mode, ptrdiff_t *reals)
 {
   SamColumns *c = &F->columns[mode];
@@ -174,8 +174,8 @@ PetscErrorCode SamFourierDestroy(SamFourier *fourier)
 }
 
 /*
-  At 4096 x 4096 cells this takes the peak of a partial-slip run from 155 to 149 bytes a cell; smaller slabs would be
-  asked for again sooner than they are missed.
+  At 4096 x 4096 cells this takes the peak of a partial-slip run from 155 to 149 bytes a cell; smaller slabs would soon
+  be allocated again.
 */
 #define LARGE_SLAB ((size_t)64 << 20)
 

@@ -74,9 +74,9 @@ PETSC_INTERN PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace);
 PETSC_INTERN PetscErrorCode SamWorkspaceTrim(SamWorkspace workspace);
 /* SamWorkspaceReserve - makes the slabs for so many fields, of at least so many bytes on every rank. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceReserve(SamWorkspace workspace, size_t bytes, PetscInt fields);
-/* SamWorkspaceSynchronize - what any rank has written to a shared slab before is seen by all after it. Collective. */
+/* SamWorkspaceSynchronize - makes all writes to shared slabs visible to all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceSynchronize(SamWorkspace workspace);
-/* Whether rows have to be sent to become columns. */
+/* Whether rows are sent to become columns. */
 static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
 {
   return w->ranks > 1 && !w->shared;
@@ -147,7 +147,7 @@ static inline void *SamPieceData(const SamPieces *p, PetscMPIInt r, size_t eleme
   return (char *)(p->data ? p->data[r] : p->single) + (size_t)p->first * element;
 }
 
-/* This rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns how many reals FFTW wants for them. */
+/* This rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns how many reals FFTW needs for them. */
 PETSC_INTERN ptrdiff_t      SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start,
                                                      ptrdiff_t *columns, ptrdiff_t *column_start);
 PETSC_INTERN PetscErrorCode SamFourierCheckPlan(const void *plan);

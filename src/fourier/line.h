@@ -24,7 +24,7 @@ static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
 }
 
 /*
-  For transforms forward, which keep their input, and where wanted backward, of arrays that are aligned as these are.
+  Forward transforms, which keep their input, and backward ones if required, of arrays aligned as `in` and `out` are.
 */
 static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out,
                                         LINE *l)
@@ -104,8 +104,8 @@ static inline void LineTake(const LINE *l, ptrdiff_t n, const Complex *restrict 
 }
 
 /*
-  From the transforms of the parts to that of the line. All arrays are arguments of their own, by which the compiler
-  knows that they do not overlap.
+  From the transforms of the parts to that of the line. All arrays are separate arguments, so that the compiler can
+  assume that they do not overlap.
 */
 SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
                                            const Complex *restrict w, Complex *restrict a, Complex *restrict b,
@@ -129,7 +129,7 @@ SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict 
   }
 }
 
-/* The way back: what the parts' transforms have to be for that of the line. */
+/* The inverse: from the transform of the line to those of the parts. */
 SAM_VECTORIZED static inline void LineSplit(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
                                             const Complex *restrict w, Complex *restrict a, Complex *restrict b,
                                             Complex *restrict c, Complex *restrict d)

@@ -24,19 +24,6 @@ static inline PetscBool IsOdd(SamFourier F, SamFourierMode mode)
   return mode == SAM_FOURIER_PERIODIC && F->hx % 2;
 }
 
-/* What rows of a mode need. */
-static PetscErrorCode PlanRows(SamFourier F, SamFourierMode mode)
-{
-  TRANSFORM      *t   = &F->PART;
-  const PetscBool odd = IsOdd(F, mode);
-  const ptrdiff_t n   = odd ? F->hx : HalfLength(F, mode);
-
-  PetscFunctionBegin;
-  if (!odd) PetscCall(CreateTurns(n, &t->turn[mode]));
-  PetscCall(LineCreate(n, F->effort, PETSC_TRUE, t->row, t->line, &t->rows[mode]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   Everything of one dimension but the plans of rows, which are made when a mode is first used: planning is what small
   grids take most of their time for.
@@ -125,11 +112,14 @@ static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt
 /* Makes room for that many fields, and what the mode needs. */
 static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields)
 {
-  TRANSFORM *t = &F->PART;
+  TRANSFORM      *t   = &F->PART;
+  const PetscBool odd = IsOdd(F, mode);
 
   PetscFunctionBegin;
   if (!t->row) PetscCall(PlanLines(F));
-  if (!t->rows[mode].n) PetscCall(PlanRows(F, mode));
+  if (!t->rows[mode].n && !odd) PetscCall(CreateTurns(HalfLength(F, mode), &t->turn[mode]));
+  if (!t->rows[mode].n)
+    PetscCall(LineCreate(odd ? F->hx : HalfLength(F, mode), F->effort, PETSC_TRUE, t->row, t->line, &t->rows[mode]));
   if (fields > t->fields) {
     SamFree(t->buffer);
     PetscCall(AllocateComplex((size_t)(fields * 2 * BLOCK) * (size_t)F->stride, &t->buffer));

@@ -141,7 +141,7 @@ static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 
 /*
   A slab in shared memory, or none when there is no more of it. Not by MPI_Win_allocate_shared: when memory is short,
-  Open MPI tells one rank so and lets the others wait.
+  Open MPI reports that to one rank, and the others wait for ever.
 */
 static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab, PetscBool *done)
 {
@@ -185,7 +185,7 @@ PetscErrorCode SamWorkspaceReserve(SamWorkspace w, size_t bytes, PetscInt fields
     if (slab->bytes) PetscCall(FreeSlab(w, slab));
     if (w->shared) {
       PetscCall(AllocateShared(w, bytes, slab, &done));
-      w->shared = done; /* what is shared by now stays so, and is used as if it were not */
+      w->shared = done; /* slabs shared by now stay shared, and are used as private ones */
     }
     if (!done) PetscCall(SamAllocate(bytes, &slab->own));
     slab->bytes = bytes;

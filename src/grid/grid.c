@@ -150,9 +150,17 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FreeArray(void *pointer)
+/* PETSc 3.23 passes the address of the pointer */
+#if PETSC_VERSION_LT(3, 23, 0)
+  #define PetscContainerSetCtxDestroy PetscContainerSetUserDestroy
+static PetscErrorCode FreeArray(void *array)
 {
-  SamFree(pointer);
+#else
+static PetscErrorCode FreeArray(void **address)
+{
+  void *array = *address;
+#endif
+  SamFree(array);
   return PETSC_SUCCESS;
 }
 
@@ -172,7 +180,7 @@ PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
     PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, array, field));
   PetscCall(PetscContainerCreate(PETSC_COMM_SELF, &owner));
   PetscCall(PetscContainerSetPointer(owner, array));
-  PetscCall(PetscContainerSetUserDestroy(owner, FreeArray));
+  PetscCall(PetscContainerSetCtxDestroy(owner, FreeArray));
   PetscCall(PetscObjectCompose((PetscObject)*field, "sam_array", (PetscObject)owner));
   PetscCall(PetscContainerDestroy(&owner));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -91,3 +91,47 @@ PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted)
   *wanted = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen)
+{
+  PetscFunctionBegin;
+  *seen = (SamSeen){.field = field, .components = components};
+  PetscCall(SamRowsCreateAbout(grid, halo, &seen->rows));
+  PetscCall(VecGetArrayRead(field, &seen->own));
+  for (PetscInt c = 0; c < components; c++)
+    PetscCall(SamRowsFetch(&seen->rows, grid->nx, seen->own + (ptrdiff_t)c * grid->cells, &seen->at[c]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamForget(SamSeen *seen)
+{
+  PetscFunctionBegin;
+  for (PetscInt c = seen->components; c-- > 0;) PetscCall(SamRowsRestore(&seen->rows, &seen->at[c]));
+  PetscCall(VecRestoreArrayRead(seen->field, &seen->own));
+  PetscCall(SamRowsDestroy(&seen->rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGather(MPI_Comm comm, MPI_Datatype type, PetscInt n, const void *mine, PetscInt *total, void *all)
+{
+  PetscMPIInt rank, ranks, bytes, count, sum = 0, *counts, *starts;
+  void       *array = NULL;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &ranks));
+  PetscCallMPI(MPI_Type_size(type, &bytes));
+  PetscCall(PetscMPIIntCast(n, &count));
+  PetscCall(PetscMalloc2(ranks, &counts, ranks, &starts));
+  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, comm));
+  for (PetscMPIInt r = 0; r < ranks; r++) {
+    starts[r] = sum;
+    sum += counts[r];
+  }
+  if (rank == 0) PetscCall(PetscMalloc((size_t)sum * (size_t)bytes, &array));
+  PetscCallMPI(MPI_Gatherv(mine, count, type, array, counts, starts, type, 0, comm));
+  PetscCall(PetscFree2(counts, starts));
+  *total        = sum;
+  *(void **)all = array;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

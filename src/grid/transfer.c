@@ -154,13 +154,6 @@ static void AverageRows(SamTransfer t, const double averaged[], double coarse[])
   }
 }
 
-static PetscErrorCode Match(SamTransfer t, Vec fine, Vec coarse, PetscInt *components)
-{
-  PetscFunctionBegin;
-  PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "the two grids of this transfer", components));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
 {
   PetscInt      components;
@@ -168,7 +161,7 @@ PetscErrorCode SamTransferRestrict(SamTransfer t, Vec fine, Vec coarse)
   double       *averaged, *c;
 
   PetscFunctionBegin;
-  PetscCall(Match(t, fine, coarse, &components));
+  PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "this transfer", &components));
   PetscCall(SamAllocate(sizeof(*averaged) * (size_t)t->fine->rows * (size_t)t->coarse->nx, &averaged));
   PetscCall(VecGetArrayRead(fine, &f));
   PetscCall(VecGetArrayWrite(coarse, &c));
@@ -213,7 +206,7 @@ PetscErrorCode SamTransferProlong(SamTransfer t, Vec coarse, Vec fine)
   double       *f, *row;
 
   PetscFunctionBegin;
-  PetscCall(Match(t, fine, coarse, &components));
+  PetscCall(SamGridMatch(t->fine, fine, t->coarse, coarse, "this transfer", &components));
   PetscCall(PetscMalloc1(t->coarse->nx, &row));
   PetscCall(VecGetArrayRead(coarse, &c));
   PetscCall(VecGetArrayWrite(fine, &f));

@@ -1,13 +1,13 @@
 /*
   Connected zones of cells: how many, and how many cells across.
 
-  Each rank goes through its rows once and unites runs of cells that touch a run in the row before (Hoshen and Kopelman
-  1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then. Those in its
-  first or last row may go on in the next rank: their pieces are sent to rank 0, which unites them. What is summed are
-  whole numbers, so that nothing depends on the number of ranks. Memory: a run of two rows, and a piece a zone.
+  Each rank goes through its rows once and unites runs of cells that touch a piece in the row before (Hoshen and
+  Kopelman 1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then.
+  Those in its first or last row may continue in the next rank: their pieces move to rank 0, which unites them. Only
+  integers are summed, so nothing depends on the number of ranks. Memory: labels of two rows, and a piece per zone.
 */
 #include "gridimpl.h"
-#include <petsam/private/baseimpl.h>
+#include <petsam/private/rows.h>
 #include <math.h>
 
 /* What is known of a zone, or of a piece of one. All are sums or extremes, in cells. */
@@ -16,16 +16,6 @@ typedef struct {
   int64_t cells, sum[2];     /* of columns and rows, */
   int64_t square[3];         /* and of their products xx, yy, xy */
 } Piece;
-
-/* Cells first ... last of a row, which belong to a piece. */
-typedef struct {
-  int64_t first, last, piece;
-} Run;
-
-typedef struct {
-  Run     *run;
-  PetscInt count, room;
-} Row;
 
 /* Pieces; `parent` leads to the piece that one has been united with, itself at first. */
 typedef struct {
@@ -68,13 +58,14 @@ static void Add(Piece *to, const Piece *from)
   to->cells += from->cells;
 }
 
-static void Unite(Forest *f, PetscInt a, PetscInt b)
+/* Unites two pieces; returns the one that they are now. */
+static PetscInt Unite(Forest *f, PetscInt a, PetscInt b)
 {
   a = Find(f, a);
   b = Find(f, b);
-  if (a == b) return;
+  if (a == b) return a;
   Add(&f->piece[PetscMin(a, b)], &f->piece[PetscMax(a, b)]);
-  f->parent[PetscMax(a, b)] = PetscMin(a, b);
+  return f->parent[PetscMax(a, b)] = PetscMin(a, b);
 }
 
 /* 0 + 1 + ... + n, and the sum of their squares. */
@@ -118,216 +109,147 @@ static double Across(const Piece *p)
 
 /* ---- rows ---- */
 
-static PetscErrorCode AddRun(Row *row, Run run)
+/* Row y: `label` has the pieces of the row before it, -1 for cells in none, and gets those of this row. */
+static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt y, Forest *f, PetscInt label[])
 {
   PetscFunctionBegin;
-  if (row->count == row->room) {
-    row->room = PetscMax(64, 2 * row->room);
-    PetscCall(PetscRealloc(sizeof(*row->run) * (size_t)row->room, &row->run));
-  }
-  row->run[row->count++] = run;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Unites the pieces of two rows that touch. */
-static void Join(Forest *f, const Run *one, PetscInt ones, const Run *other, PetscInt others)
-{
-  for (PetscInt i = 0, j = 0; i < ones && j < others;) {
-    if (one[i].first <= other[j].last && other[j].first <= one[i].last)
-      Unite(f, (PetscInt)one[i].piece, (PetscInt)other[j].piece);
-    if (one[i].last < other[j].last)
-      i++;
-    else
-      j++;
-  }
-}
-
-/* The runs of row j, which go on with the pieces that they touch in the row before. */
-static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, const Row *before, Forest *f, Row *row)
-{
-  PetscInt b = 0;
-
-  PetscFunctionBegin;
-  row->count = 0;
   for (PetscInt i = 0; i < grid->nx; i++) {
-    Run      run = {i, i, -1};
-    PetscInt index;
+    PetscInt first = i, k = -1;
     Piece    piece;
 
-    if (!(p[i] > 0)) continue;
-    while (i + 1 < grid->nx && p[i + 1] > 0) i++;
-    run.last = i;
-    piece    = PieceOf(run.first, run.last, grid->row_start + j);
-    while (b < before->count && before->run[b].last < run.first) b++;
-    for (PetscInt k = b; k < before->count && before->run[k].first <= run.last; k++) {
-      if (run.piece < 0) {
-        run.piece = Find(f, (PetscInt)before->run[k].piece);
-        Add(&f->piece[run.piece], &piece);
-      } else {
-        Unite(f, (PetscInt)run.piece, (PetscInt)before->run[k].piece);
-      }
-    }
-    if (run.piece < 0) {
-      PetscCall(AddPiece(f, &piece, &index));
-      run.piece = index;
-    }
-    PetscCall(AddRun(row, run));
+    for (; i < grid->nx && p[i] > 0; i++)
+      if (label[i] >= 0) k = k < 0 ? Find(f, label[i]) : Unite(f, k, label[i]);
+    if (i < grid->nx) label[i] = -1;
+    if (i == first) continue;
+    piece = PieceOf(first, i - 1, y);
+    if (k < 0)
+      PetscCall(AddPiece(f, &piece, &k));
+    else
+      Add(&f->piece[k], &piece);
+    while (first < i) label[first++] = k;
   }
-  if (f->wrap && row->count && row->run[0].first == 0 && row->run[row->count - 1].last == grid->nx - 1)
-    Unite(f, (PetscInt)row->run[0].piece, (PetscInt)row->run[row->count - 1].piece);
+  if (f->wrap && label[0] >= 0 && label[grid->nx - 1] >= 0) (void)Unite(f, label[0], label[grid->nx - 1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* This rank's pieces, and the runs of its first and last row. */
-static PetscErrorCode ReadRows(SamGrid grid, Vec field, Forest *f, Row edge[2])
+/* This rank's pieces, and those that the cells of its first and last row belong to. */
+static PetscErrorCode ReadRows(SamGrid grid, Vec field, Forest *f, PetscInt *edge[2])
 {
   const double *p;
-  Row           row = {NULL, 0, 0};
 
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < grid->nx; i++) edge[0][i] = edge[1][i] = -1;
   PetscCall(VecGetArrayRead(field, &p));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const Row swap = edge[1];
-
-    PetscCall(ReadRow(grid, p + (ptrdiff_t)j * grid->nx, j, &edge[1], f, &row));
-    edge[1] = row;
-    row     = swap;
-    for (PetscInt k = 0; j == 0 && k < edge[1].count; k++) PetscCall(AddRun(&edge[0], edge[1].run[k]));
+    PetscCall(ReadRow(grid, p + (ptrdiff_t)j * grid->nx, grid->row_start + j, f, edge[1]));
+    if (j == 0) PetscCall(PetscArraycpy(edge[0], edge[1], grid->nx));
   }
   PetscCall(VecRestoreArrayRead(field, &p));
-  PetscCall(PetscFree(row.run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- zones that several ranks share ---- */
 
-/*
-  What a rank tells of its first and last row: three numbers a run, first, last, and the place of its piece among those
-  that are told; then these pieces.
-*/
-enum { RUN = 3, PIECE = sizeof(Piece) / sizeof(int64_t), HEAD = 3 };
+#define PIECE ((PetscInt)(sizeof(Piece) / sizeof(int64_t))) /* numbers of a piece */
 
-/* Packs that into `told`: numbers of runs in both rows and of pieces, runs, pieces. The rank loses these pieces. */
-static PetscErrorCode Pack(Forest *f, const Row edge[2], int64_t **told, PetscMPIInt *count)
+/* Moves the pieces of the first and last row out of the forest; the labels become their places among all ranks'. */
+static PetscErrorCode TakeOut(SamGrid grid, Forest *f, PetscInt *edge[2], Piece pieces[], PetscInt *count)
 {
-  const PetscInt runs = edge[0].count + edge[1].count;
-  PetscInt      *place, pieces = 0;
-  int64_t       *out;
+  PetscInt *place, base = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(f->count, &place));
   for (PetscInt k = 0; k < f->count; k++) place[k] = -1;
-  PetscCall(PetscMalloc1(HEAD + runs * (RUN + PIECE), &out));
-  for (PetscInt r = 0; r < runs; r++) {
-    const Run     *run  = r < edge[0].count ? &edge[0].run[r] : &edge[1].run[r - edge[0].count];
-    const PetscInt root = Find(f, (PetscInt)run->piece);
-    int64_t       *to   = out + HEAD + RUN * r;
+  *count = 0;
+  for (PetscInt r = 0; r < 2; r++)
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscInt root = edge[r][i] < 0 ? -1 : Find(f, edge[r][i]);
 
-    if (place[root] < 0) {
-      place[root] = pieces++;
-      PetscCall(PetscMemcpy(out + HEAD + RUN * runs + PIECE * place[root], &f->piece[root], sizeof(Piece)));
-      f->piece[root].cells = 0;
+      if (root < 0) continue;
+      if (place[root] < 0) {
+        place[root]          = *count;
+        pieces[(*count)++]   = f->piece[root];
+        f->piece[root].cells = 0;
+      }
+      edge[r][i] = place[root];
     }
-    to[0] = run->first;
-    to[1] = run->last;
-    to[2] = place[root];
-  }
-  out[0] = edge[0].count;
-  out[1] = edge[1].count;
-  out[2] = pieces;
   PetscCall(PetscFree(place));
-  PetscCall(PetscMPIIntCast(HEAD + RUN * runs + PIECE * pieces, count));
-  *told = out;
+  PetscCallMPI(MPI_Exscan(count, &base, 1, MPIU_INT, MPI_SUM, grid->comm));
+  for (PetscInt r = 0; r < 2; r++)
+    for (PetscInt i = 0; i < grid->nx; i++) edge[r][i] += edge[r][i] < 0 ? 0 : base;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* On rank 0: unites what the ranks that have rows, the first ones, have told. */
-static PetscErrorCode UniteRanks(Forest *all, PetscMPIInt ranks, const int64_t told[], const PetscMPIInt start[])
+/* Pairs of pieces that touch: of the last row, and of the first row of the next rank that has rows. */
+static PetscErrorCode FindPairs(SamGrid grid, PetscBool wrap, PetscInt *edge[2], int64_t pairs[], PetscInt *count)
 {
-  Row first = {NULL, 0, 0}, last = {NULL, 0, 0};
+  PetscMPIInt rank, size, ranks, before, after, nx;
+  PetscInt   *next, begin, end;
 
   PetscFunctionBegin;
-  for (PetscMPIInt rank = 0; rank < ranks; rank++) {
-    const int64_t *in   = told + start[rank];
-    const PetscInt ones = (PetscInt)in[0], runs = ones + (PetscInt)in[1], base = all->count;
-    Row            row = {NULL, 0, 0};
-    PetscInt       index;
-
-    for (PetscInt k = 0; k < (PetscInt)in[2]; k++) {
-      Piece piece;
-
-      PetscCall(PetscMemcpy(&piece, in + HEAD + RUN * runs + PIECE * k, sizeof(piece)));
-      PetscCall(AddPiece(all, &piece, &index));
-    }
-    for (PetscInt r = 0; r < runs; r++) {
-      const int64_t *run = in + HEAD + RUN * r;
-
-      PetscCall(AddRun(&row, (Run){run[0], run[1], base + run[2]}));
-    }
-    Join(all, last.run, last.count, row.run, ones);
-    last.count = 0;
-    for (PetscInt r = 0; rank == 0 && r < ones; r++) PetscCall(AddRun(&first, row.run[r]));
-    for (PetscInt r = ones; r < runs; r++) PetscCall(AddRun(&last, row.run[r]));
-    PetscCall(PetscFree(row.run));
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(grid->comm, &size));
+  PetscCall(PetscMPIIntCast(grid->nx, &nx));
+  SamGridRowsOf(grid, size, 0, &begin, &end);
+  ranks  = (PetscMPIInt)((grid->ny + end - 1) / end); /* the first ones have rows */
+  before = rank >= ranks ? MPI_PROC_NULL : rank ? rank - 1 : wrap ? ranks - 1 : MPI_PROC_NULL;
+  after  = rank + 1 < ranks ? rank + 1 : rank < ranks && wrap ? 0 : MPI_PROC_NULL;
+  *count = 0;
+  PetscCall(PetscMalloc1(nx, &next));
+  for (PetscInt i = 0; i < nx; i++) next[i] = -1;
+  PetscCallMPI(
+    MPI_Sendrecv(edge[0], nx, MPIU_INT, before, 0, next, nx, MPIU_INT, after, 0, grid->comm, MPI_STATUS_IGNORE));
+  for (PetscInt i = 0; i < nx; i++) {
+    if (edge[1][i] < 0 || next[i] < 0 || (i && edge[1][i - 1] == edge[1][i] && next[i - 1] == next[i])) continue;
+    pairs[(*count)++] = edge[1][i];
+    pairs[(*count)++] = next[i];
   }
-  if (all->wrap) Join(all, last.run, last.count, first.run, first.count);
-  PetscCall(PetscFree(first.run));
-  PetscCall(PetscFree(last.run));
+  PetscCall(PetscFree(next));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shared zones, on rank 0; the rank's own forest loses their pieces. */
-static PetscErrorCode Share(SamGrid grid, Forest *own, const Row edge[2], Forest *shared)
+/* Moves the pieces of all ranks' first and last rows to rank 0's forest, and unites them there. */
+static PetscErrorCode Share(SamGrid grid, Forest *f, PetscInt *edge[2])
 {
-  const MPI_Comm comm = grid->comm;
-  PetscMPIInt    rank, size, ranks = 0, count, *counts = NULL, *start = NULL;
-  int64_t       *told = NULL, *all = NULL;
+  const PetscInt own = f->count;
+  Piece         *pieces, *all_pieces;
+  int64_t       *pairs, *all_pairs;
+  PetscInt       count, index;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  if (size == 1 && own->wrap) Join(own, edge[1].run, edge[1].count, edge[0].run, edge[0].count);
-  if (size == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt begin = 0, end = 1; ranks < size && end > begin; ranks += end > begin)
-    SamGridRowsOf(grid, size, ranks, &begin, &end);
-  PetscCall(Pack(own, edge, &told, &count));
-  if (rank == 0) PetscCall(PetscMalloc2(size, &counts, size + 1, &start));
-  PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
-  if (rank == 0) {
-    start[0] = 0;
-    for (PetscMPIInt k = 0; k < size; k++) start[k + 1] = start[k] + counts[k];
-    PetscCall(PetscMalloc1(start[size], &all));
-  }
-  PetscCallMPI(MPI_Gatherv(told, count, MPI_INT64_T, all, counts, start, MPI_INT64_T, 0, comm));
-  if (rank == 0) PetscCall(UniteRanks(shared, ranks, all, start));
-  if (rank == 0) PetscCall(PetscFree2(counts, start));
-  PetscCall(PetscFree(all));
-  PetscCall(PetscFree(told));
+  PetscCall(PetscMalloc2(2 * grid->nx, &pieces, 2 * grid->nx, &pairs));
+  PetscCall(TakeOut(grid, f, edge, pieces, &count));
+  PetscCall(SamGather(grid->comm, MPI_INT64_T, PIECE * count, pieces, &count, &all_pieces));
+  for (PetscInt k = 0; all_pieces && k < count / PIECE; k++) PetscCall(AddPiece(f, &all_pieces[k], &index));
+  PetscCall(FindPairs(grid, f->wrap, edge, pairs, &count));
+  PetscCall(SamGather(grid->comm, MPI_INT64_T, count, pairs, &count, &all_pairs));
+  for (PetscInt k = 0; all_pairs && k < count; k += 2)
+    (void)Unite(f, own + (PetscInt)all_pairs[k], own + (PetscInt)all_pairs[k + 1]);
+  PetscCall(PetscFree(all_pieces));
+  PetscCall(PetscFree(all_pairs));
+  PetscCall(PetscFree2(pieces, pairs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- all of it ---- */
 
-/* Counts the cells of whole zones by their width, to a tenth of a cell: cells[w] in zones of w/10 cells across. */
-static void Count(Forest *f, PetscInt widths, double cells[])
+/* This rank's zones, and on rank 0 those of several ranks; the roots that have cells count. */
+static PetscErrorCode FindZones(SamGrid grid, Vec field, PetscBool wrap, Forest *f)
 {
-  for (PetscInt k = 0; k < f->count; k++) {
-    if (f->parent[k] != k || !f->piece[k].cells) continue;
-    cells[PetscMin(widths, PetscMax(1, (PetscInt)floor(10 * Across(&f->piece[k]) + 0.5)))] += (double)f->piece[k].cells;
-  }
-}
-
-/* This rank's zones, and on rank 0 those of several ranks. */
-static PetscErrorCode FindZones(SamGrid grid, Vec field, PetscBool wrap, Forest *own, Forest *shared)
-{
-  Row edge[2] = {{NULL, 0, 0}, {NULL, 0, 0}};
+  PetscInt *edge[2];
 
   PetscFunctionBegin;
-  *own = *shared = (Forest){.wrap = wrap};
-  PetscCall(ReadRows(grid, field, own, edge));
-  PetscCall(Share(grid, own, edge, shared));
-  for (int k = 0; k < 2; k++) PetscCall(PetscFree(edge[k].run));
+  *f = (Forest){.wrap = wrap};
+  PetscCall(PetscMalloc2(grid->nx, &edge[0], grid->nx, &edge[1]));
+  PetscCall(ReadRows(grid, field, f, edge));
+  PetscCall(Share(grid, f, edge));
+  PetscCall(PetscFree2(edge[0], edge[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool IsZone(const Forest *f, PetscInt k)
+{
+  return f->parent[k] == k && f->piece[k].cells;
 }
 
 static PetscErrorCode DestroyForest(Forest *f)
@@ -340,38 +262,36 @@ static PetscErrorCode DestroyForest(Forest *f)
 
 PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones)
 {
-  Forest f[2];
+  Forest f;
   double sum = 0;
 
   PetscFunctionBegin;
-  PetscCall(FindZones(grid, field, wrap, &f[0], &f[1]));
-  for (int k = 0; k < 2; k++)
-    for (PetscInt z = 0; z < f[k].count; z++)
-      if (f[k].parent[z] == z && f[k].piece[z].cells) sum += 1;
+  PetscCall(FindZones(grid, field, wrap, &f));
+  for (PetscInt k = 0; k < f.count; k++) sum += IsZone(&f, k);
+  PetscCall(DestroyForest(&f));
   PetscCall(SamSum(grid->comm, 1, &sum));
   *zones = (PetscInt)sum;
-  for (int k = 0; k < 2; k++) PetscCall(DestroyForest(&f[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across)
 {
   const PetscInt widths = 10 * PetscMax(grid->nx, grid->ny);
-  double        *cells, sum = 0, narrow = 0;
-  Forest         own, shared;
+  double        *cells, sum = 0, narrow = 0; /* cells[w] in zones of w/10 cells across */
+  Forest         f;
   PetscInt       w = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(widths + 1, &cells));
-  PetscCall(FindZones(grid, field, PETSC_FALSE, &own, &shared));
-  Count(&own, widths, cells);
-  Count(&shared, widths, cells);
-  PetscCall(SamSum(grid->comm, widths + 1, cells)); /* of whole numbers: exact */
+  PetscCall(FindZones(grid, field, PETSC_FALSE, &f));
+  for (PetscInt k = 0; k < f.count; k++)
+    if (IsZone(&f, k))
+      cells[PetscMin(widths, PetscMax(1, (PetscInt)floor(10 * Across(&f.piece[k]) + 0.5)))] += (double)f.piece[k].cells;
+  PetscCall(DestroyForest(&f));
+  PetscCall(SamSum(grid->comm, widths + 1, cells)); /* of integers: exact */
   for (PetscInt k = 1; k <= widths; k++) sum += cells[k];
   while (w < widths && (w == 0 || narrow <= (double)part * sum)) narrow += cells[++w];
   *across = sum > 0 ? 0.1 * (PetscReal)w : 0;
-  PetscCall(DestroyForest(&own));
-  PetscCall(DestroyForest(&shared));
   PetscCall(PetscFree(cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -18,43 +18,6 @@ struct _n_SamCheckpoint {
   SamHold hold; /* of the temporary file */
 };
 
-/* ---- fields ---- */
-
-static PetscErrorCode WriteField(SamFile f, const char name[], PetscInt components, Vec field)
-{
-  const hsize_t size[3] = {(hsize_t)components, (hsize_t)f->grid->ny, (hsize_t)f->grid->nx};
-  const hid_t   space   = SamFileNote(f, H5Screate_simple(3, size, NULL)),
-              creation  = SamFileNote(f, H5Pcreate(H5P_DATASET_CREATE));
-  const PetscScalar *values;
-  hid_t              dataset;
-
-  PetscFunctionBegin;
-  (void)SamFileNote(f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
-  dataset = SamFileNote(f, H5Dcreate2(f->id, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  PetscCall(VecGetArrayRead(field, &values));
-  for (PetscInt c = 0; c < components; c++)
-    SamFileWriteLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
-  PetscCall(VecRestoreArrayRead(field, &values));
-  (void)SamFileNote(f, H5Dclose(dataset));
-  (void)SamFileNote(f, H5Pclose(creation));
-  (void)SamFileNote(f, H5Sclose(space));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ReadField(SamFile f, const char name[], PetscInt components, Vec field)
-{
-  const hid_t  dataset = SamFileNote(f, H5Dopen2(f->id, name, H5P_DEFAULT));
-  PetscScalar *values;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(field, &values));
-  for (PetscInt c = 0; c < components; c++)
-    SamFileReadLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
-  PetscCall(VecRestoreArray(field, &values));
-  if (dataset >= 0) (void)SamFileNote(f, H5Dclose(dataset));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The checksum of the gap that a contact's problem has now. */
 static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 {
@@ -70,7 +33,7 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- writing ---- */
+/* ---- what is in a file: each of these writes it to a file that is written, and else reads it ---- */
 
 /* What is stored besides the state. */
 typedef struct {
@@ -79,11 +42,110 @@ typedef struct {
   const SamNote       *notes;
 } Rest;
 
-/* A name in the file: of what is committed, or one step back. */
-static void NameOf(const char name[], SamGeneration generation, char text[96])
+/* A name in the file, of values that are committed or one step back. */
+static void NameOf(const char committed[], const char name[], PetscInt generation, char text[96])
 {
-  (void)snprintf(text, 96, "%s%s", generation == SAM_BEFORE ? "before_" : "", name);
+  (void)snprintf(text, 96, "%s%s", generation == SAM_BEFORE ? "before_" : committed, name);
 }
+
+/* A field as a dataset (components, ny, nx). */
+static PetscErrorCode MoveField(SamFile f, const char name[], PetscInt components, Vec field)
+{
+  const SamLabel label   = {.name = name};
+  const SamShape shape   = {.rank    = 3,
+                            .size    = {(hsize_t)components, (hsize_t)f->grid->ny, (hsize_t)f->grid->nx},
+                            .largest = {(hsize_t)components, (hsize_t)f->grid->ny, (hsize_t)f->grid->nx}};
+  const hid_t    dataset = f->writing ? SamFileCreateDataset(f, f->id, &label, H5T_IEEE_F64LE, &shape, 0)
+                                      : SamFileNote(f, H5Dopen2(f->id, name, H5P_DEFAULT));
+  PetscScalar   *values;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &values));
+  for (PetscInt c = 0; c < components; c++)
+    if (f->writing)
+      SamFileWriteLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+    else
+      SamFileReadLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+  PetscCall(VecRestoreArray(field, &values));
+  if (dataset >= 0) (void)SamFileNote(f, H5Dclose(dataset));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The kept fields of a state. */
+static PetscErrorCode MoveFields(SamFile f, SamState state)
+{
+  char name[96];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
+    const SamStateField *field = SamStateFieldOf(state, k);
+
+    for (PetscInt g = SAM_COMMITTED; g < field->generations && field->kept; g++) {
+      Vec values = SamStateGetField(state, k, (SamGeneration)g);
+
+      NameOf("", field->name, g, name);
+      if (f->writing ? !values : SamFileNote(f, H5Lexists(f->id, name, H5P_DEFAULT)) <= 0) continue;
+      PetscCall(SamStateRestoreField(state, k, (SamGeneration)g, &values));
+      PetscCall(MoveField(f, name, field->components, values));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the contact remembers and the file lacks cannot begin in the middle; the message names it. */
+static void NameLacking(const char name[], char message[], size_t size)
+{
+  (void)snprintf(message, size, "it lacks %s, which has not been remembered since the start: omit it, or begin anew",
+                 name);
+}
+
+/* The kept numbers of a state. */
+static void MoveNumbers(SamFile f, SamState state, char message[], size_t size)
+{
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    PetscInt              id;
+    const SamStateNumber *number = SamStateNumberOf(state, k, &id);
+    char                  name[96];
+
+    for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS && number->kept; g++) {
+      double *const values = SamStateNumbers(state, id, (SamGeneration)g);
+
+      NameOf("committed_", number->name, g, name);
+      if (f->writing)
+        SamFileWriteAttribute(f, f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, number->count, values);
+      else if (SamFileHasAttribute(f, name))
+        SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, number->count, values);
+      else
+        NameLacking(number->name, message, size);
+    }
+  }
+}
+
+static PetscErrorCode MoveNotes(SamFile f, PetscInt n, const SamNote notes[])
+{
+  PetscFunctionBegin;
+  for (const SamNote *note = notes; note < notes + n; note++) {
+    const PetscInt count = PetscAbsInt(note->count);
+
+    if (f->writing) {
+      SamFileWriteAttribute(f, f->id, note->name, H5T_STD_U64LE, H5T_NATIVE_UINT64, count, note->values);
+      continue;
+    }
+    PetscCall(PetscArrayzero(note->values, count));
+    if (note->count > 0 || SamFileHasAttribute(f, note->name))
+      SamFileReadAttribute(f, f->id, note->name, H5T_NATIVE_UINT64, count, note->values);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The gap that a state was solved with, as notes: its checksum, and whether it was still the problem's gap. */
+#define GAP(values) \
+  {"gap_checksum", 1, &(values)[0]}, \
+  { \
+    "gap_is_current", 1, &(values)[1] \
+  }
+
+/* ---- writing ---- */
 
 /* The fields that a state keeps, by their names with commas between them. */
 static void ListFields(SamState state, char list[], size_t size)
@@ -94,44 +156,6 @@ static void ListFields(SamState state, char list[], size_t size)
 
     if (SamStateFieldOf(state, k)->kept)
       (void)snprintf(list + used, size - used, "%s%s", used ? "," : "", SamStateFieldOf(state, k)->name);
-  }
-}
-
-static PetscErrorCode WriteFields(SamFile f, SamState state)
-{
-  char list[2048], name[96];
-
-  PetscFunctionBegin;
-  ListFields(state, list, sizeof(list));
-  SamFileWriteTextAttribute(f, f->id, "fields", list);
-  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
-    const SamStateField *field = SamStateFieldOf(state, k);
-
-    for (PetscInt g = SAM_COMMITTED; g < field->generations && field->kept; g++) {
-      const Vec values = SamStateGetField(state, k, (SamGeneration)g);
-
-      NameOf(field->name, (SamGeneration)g, name);
-      if (values) PetscCall(WriteField(f, name, field->components, values));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* What stands before the names of numbers, by their generation. */
-static const char *const generations[SAM_GENERATIONS] = {"tried", "committed", "before"};
-
-static void WriteNumbers(SamFile f, SamState state)
-{
-  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
-    PetscInt              id;
-    const SamStateNumber *number = SamStateNumberOf(state, k, &id);
-    char                  name[96];
-
-    for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS && number->kept; g++) {
-      (void)snprintf(name, sizeof(name), "%s_%s", generations[g], number->name);
-      SamFileWriteAttribute(f, f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, number->count,
-                            SamStateNumbers(state, id, (SamGeneration)g));
-    }
   }
 }
 
@@ -148,27 +172,27 @@ static off_t CountBytes(SamGrid grid, SamState state)
 
 static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
 {
-  SamState  state;
-  PetscBool is;
-  int8_t    current;
-  uint64_t  gap;
+  SamState      state;
+  PetscBool     is;
+  char          list[2048];
+  uint64_t      gap[2];
+  const SamNote notes[] = {GAP(gap)};
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(contact, &state));
   PetscCall(SamContactIsGapCurrent(contact, &is));
-  PetscCall(GapChecksum(contact, &gap));
-  current = is;
+  PetscCall(GapChecksum(contact, &gap[0]));
+  gap[1] = is;
+  ListFields(state, list, sizeof(list));
   PetscCall(SamFileReserve(f, CountBytes(f->grid, state)));
   PetscCall(SamFileBegin(f));
   SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
   SamParametersWrite(f, rest->parameters);
-  SamFileWriteAttribute(f, f->id, "gap_checksum", H5T_STD_U64LE, H5T_NATIVE_UINT64, 1, &gap);
-  SamFileWriteAttribute(f, f->id, "gap_is_current", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &current);
-  for (PetscInt k = 0; k < rest->n; k++)
-    SamFileWriteAttribute(f, f->id, rest->notes[k].name, H5T_STD_U64LE, H5T_NATIVE_UINT64,
-                          PetscAbsInt(rest->notes[k].count), rest->notes[k].values);
-  WriteNumbers(f, state);
-  PetscCall(WriteFields(f, state));
+  PetscCall(MoveNotes(f, 2, notes));
+  PetscCall(MoveNotes(f, rest->n, rest->notes));
+  MoveNumbers(f, state, NULL, 0);
+  SamFileWriteTextAttribute(f, f->id, "fields", list);
+  PetscCall(MoveFields(f, state));
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -273,34 +297,21 @@ PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **t
 
 /* ---- reading ---- */
 
-/* Whether the file is of this version and has the same fixed parameters; if not, the message says what differs. */
-static PetscErrorCode IsUsable(SamFile f, const SamParameters *parameters, char message[], size_t size, PetscBool *good)
-{
-  char *version = NULL;
-
-  PetscFunctionBegin;
-  *good = PETSC_FALSE;
-  SamFileReadTextAttribute(f, f->id, "petsam_version", &version);
-  if (strcmp(version, PETSAM_VERSION))
-    (void)snprintf(message, size, "it was written by petsam %s, this is %s", version, PETSAM_VERSION);
-  else
-    *good = PETSC_TRUE;
-  PetscCall(PetscFree(version));
-  if (*good) *good = SamParametersDiffer(f, parameters, message, size) ? PETSC_FALSE : PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* What is read besides the notes. The caller destroys the state. */
 typedef struct {
-  SamState  state;
-  PetscBool current; /* solved with the gap */
-  uint64_t  gap;     /* of this checksum */
+  SamState state;
+  uint64_t gap[2];
 } Content;
 
-/* Lets the contact's problem accumulate what the file has accumulated, so that it goes on. */
-static PetscErrorCode AddSums(SamContact contact, const char list[])
+/*
+  Lets the contact's problem accumulate what the file has accumulated. The message names a field that only one of them
+  has.
+*/
+static PetscErrorCode MatchFields(SamContact contact, const char list[], char message[], size_t size)
 {
   SamProblem problem;
+  SamState   state;
+  PetscBool  listed;
   char     **names;
   int        count;
 
@@ -309,114 +320,58 @@ static PetscErrorCode AddSums(SamContact contact, const char list[])
   PetscCall(PetscStrToArray(list, ',', &count, &names));
   for (int k = 0; k < count; k++)
     if (SamLawIsRegistered(names[k])) PetscCall(SamProblemAddSum(problem, names[k]));
+  PetscCall(SamContactGetState(contact, &state));
+  for (int k = 0; k < count; k++)
+    if (SamStateFindField(state, names[k]) < 0)
+      (void)snprintf(message, size,
+                     "it has the field %s, which no law of this run remembers: give the options of its run", names[k]);
   PetscCall(PetscStrToArrayDestroy(count, names));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscBool IsListed(const char list[], const char name[])
-{
-  const size_t length = strlen(name);
-
-  for (const char *at = list; (at = strstr(at, name)) != NULL; at += length)
-    if ((at == list || at[-1] == ',') && (at[length] == ',' || !at[length])) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
-/* What the contact remembers and the file lacks cannot begin in the middle; the message names it. */
-static void NameLacking(const char name[], char message[], size_t size)
-{
-  (void)snprintf(message, size, "it lacks %s, which has not been remembered since the start: omit it, or begin anew",
-                 name);
-}
-
-/* Reads the kept fields of a state. */
-static PetscErrorCode ReadFields(SamFile f, const char list[], SamState state, char message[], size_t size)
-{
-  char name[96];
-
-  PetscFunctionBegin;
   for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
     const SamStateField *field = SamStateFieldOf(state, k);
 
-    if (!field->kept) continue;
-    if (!IsListed(list, field->name) && !field->optional) NameLacking(field->name, message, size);
-    for (PetscInt g = SAM_COMMITTED; g < field->generations; g++) {
-      Vec values;
-
-      NameOf(field->name, (SamGeneration)g, name);
-      if (SamFileNote(f, H5Lexists(f->id, name, H5P_DEFAULT)) <= 0) continue;
-      PetscCall(SamStateRestoreField(state, k, (SamGeneration)g, &values));
-      PetscCall(ReadField(f, name, field->components, values));
-    }
+    PetscCall(PetscStrInList(field->name, list, ',', &listed));
+    if (field->kept && !listed && !field->optional) NameLacking(field->name, message, size);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Reads its kept numbers. */
-static void ReadNumbers(SamFile f, SamState state, char message[], size_t size)
-{
-  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
-    PetscInt              id;
-    const SamStateNumber *number = SamStateNumberOf(state, k, &id);
-    char                  name[96];
-
-    for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS && number->kept; g++) {
-      (void)snprintf(name, sizeof(name), "%s_%s", generations[g], number->name);
-      if (SamFileHasAttribute(f, name))
-        SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, number->count,
-                             SamStateNumbers(state, id, (SamGeneration)g));
-      else
-        NameLacking(number->name, message, size);
-    }
-  }
 }
 
 /* Reads the state into a new one with the declarations of the contact's. */
 static PetscErrorCode ReadState(SamFile f, SamContact contact, Content *c, char message[], size_t size)
 {
-  char    *list    = NULL;
-  int8_t   current = 0;
-  SamState state;
+  const SamNote notes[] = {GAP(c->gap)};
+  char         *list    = NULL;
+  SamState      state;
 
   PetscFunctionBegin;
+  PetscCall(MoveNotes(f, 2, notes));
   SamFileReadTextAttribute(f, f->id, "fields", &list);
-  SamFileReadAttribute(f, f->id, "gap_checksum", H5T_NATIVE_UINT64, 1, &c->gap);
-  SamFileReadAttribute(f, f->id, "gap_is_current", H5T_NATIVE_INT8, 1, &current);
-  c->current = current != 0;
-  PetscCall(AddSums(contact, list));
+  PetscCall(MatchFields(contact, list, message, size));
+  PetscCall(PetscFree(list));
   PetscCall(SamContactGetState(contact, &state));
   PetscCall(SamStateCreateLike(state, &c->state));
-  ReadNumbers(f, c->state, message, size);
-  PetscCall(ReadFields(f, list, c->state, message, size));
-  PetscCall(PetscFree(list));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ReadNote(SamFile f, const SamNote *note)
-{
-  const PetscInt count = PetscAbsInt(note->count);
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(note->values, count));
-  if (note->count > 0 || SamFileNote(f, H5Aexists(f->id, note->name)) > 0)
-    SamFileReadAttribute(f, f->id, note->name, H5T_NATIVE_UINT64, count, note->values);
+  MoveNumbers(f, c->state, message, size);
+  PetscCall(MoveFields(f, c->state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, Content *c)
 {
-  char      message[256] = "";
-  PetscBool good         = PETSC_FALSE;
+  char  message[256] = "";
+  char *version      = NULL;
 
   PetscFunctionBegin;
   PetscCall(SamFileBegin(f));
-  PetscCall(IsUsable(f, rest->parameters, message, sizeof(message), &good));
-  if (!f->failed && good) {
-    for (PetscInt k = 0; k < rest->n; k++) PetscCall(ReadNote(f, &rest->notes[k]));
+  SamFileReadTextAttribute(f, f->id, "petsam_version", &version);
+  if (strcmp(version, PETSAM_VERSION))
+    (void)snprintf(message, sizeof(message), "it was written by petsam %s, this is %s", version, PETSAM_VERSION);
+  else if (!SamParametersDiffer(f, rest->parameters, message, sizeof(message)) && !f->failed) {
+    PetscCall(MoveNotes(f, rest->n, rest->notes));
     PetscCall(ReadState(f, contact, c, message, sizeof(message)));
   }
+  PetscCall(PetscFree(version));
   PetscCall(SamFileEnd(f));
-  PetscCheck(!message[0], f->grid->comm, SAM_ERR_USER, "-restart %s: cannot go on from it: %s", f->filename, message);
+  PetscCheck(!message[0], f->grid->comm, SAM_ERR_USER, "-restart %s: cannot continue from it: %s", f->filename,
+             message);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -475,7 +430,7 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, cons
   PetscCall(PetscPopErrorHandler());
   if (!ierr) {
     PetscCall(GapChecksum(contact, &gap));
-    PetscCall(SamContactSetState(contact, c.state, c.current && gap == c.gap));
+    PetscCall(SamContactSetState(contact, c.state, c.gap[1] && gap == c.gap[0]));
   }
   PetscCall(SamStateDestroy(&c.state));
   if (ierr == SAM_ERR_FILE) PetscCall(Advise(contact, filename, &rest, advice, sizeof(advice)));

@@ -1,5 +1,5 @@
 /*
-  Results that go on where a run was stopped.
+  Results that continue where a run was stopped.
 
   A run may have been killed in the middle of a step. The steps that it has reported can be read (steps.c), but HDF5's
   indices may be in an inconsistent state, and nothing should be appended to those; it may also hold more steps than
@@ -20,40 +20,29 @@ typedef struct {
 
 /* ---- examination, by one rank ---- */
 
-/* Refuses the file; the text says why. */
-static PetscErrorCode Refuse(SamFile f, PetscErrorCode code, const char text[])
-{
-  PetscFunctionBegin;
-  SETERRQ(f->comm, code, "-%s %s: cannot go on: %s", f->option, f->filename, text);
-}
+#define REFUSED "-%s %s: cannot continue: " /* option, file */
 
 /* A file must begin where the results of the checkpoint's run do. */
 static PetscErrorCode CheckBranch(SamFile f, const Wanted *wanted)
 {
   double first = 0;
-  char   text[192];
 
   PetscFunctionBegin;
   if (SamFileHasAttribute(f, SAM_OUTPUT_BRANCH))
     SamFileReadAttribute(f, f->id, SAM_OUTPUT_BRANCH, H5T_NATIVE_DOUBLE, 1, &first);
-  if (f->failed || first == (double)wanted->point.first) PetscFunctionReturn(PETSC_SUCCESS);
-  (void)snprintf(text, sizeof(text),
-                 "its first step is number %.0f, and that of the checkpoint's results is %ld: remove it, or give "
-                 "another name, to begin a file with the steps after the checkpoint",
-                 first + 1, (long)wanted->point.first + 1);
-  PetscCall(Refuse(f, SAM_ERR_USER, text));
+  PetscCheck(f->failed || first == (double)wanted->point.first, f->comm, SAM_ERR_USER,
+             REFUSED "its first step is number %.0f, and that of the checkpoint's results is %ld: remove it, or give "
+                     "another name, to begin a file with the steps after the checkpoint",
+             f->option, f->filename, first + 1, (long)wanted->point.first + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The number of steps in a dataset. */
 static hsize_t Length(SamOutput o, hid_t dataset)
 {
-  const hid_t space   = SamFileNote(o->f, H5Dget_space(dataset));
-  hsize_t     size[3] = {0, 0, 0};
+  hsize_t size[SAM_SHAPE_RANK];
 
-  if (SamFileNote(o->f, H5Sget_simple_extent_ndims(space)) <= 3)
-    (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, size, NULL));
-  if (space >= 0) (void)SamFileNote(o->f, H5Sclose(space));
+  (void)SamFileGetSize(o->f, dataset, 0, size);
   return size[0];
 }
 
@@ -90,8 +79,9 @@ static PetscErrorCode CompareTimes(SamOutput o, const Wanted *wanted, hsize_t *k
   SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, saved, stored);
   for (*keep = 0; *keep < saved && steps && stored[*keep] <= last; (*keep)++) continue;
   PetscCall(PetscFree(stored));
-  if (times != wanted->point.times && !o->f->failed)
-    PetscCall(Refuse(o->f, SAM_ERR_USER, "its times differ from those of the load program (-history, -steps)"));
+  PetscCheck(times == wanted->point.times || o->f->failed, o->f->comm, SAM_ERR_USER,
+             REFUSED "its times differ from those of the load history (-history, -steps)", o->f->option,
+             o->f->filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,7 +92,7 @@ static void CheckFields(SamOutput o, hsize_t keep)
     hsize_t extent[3];
 
     if (o->fields[f] < 0) continue;
-    SamFileGetSize(o->f, o->fields[f], 3, extent);
+    (void)SamFileGetSize(o->f, o->fields[f], 3, extent);
     if (SamOutputResult(o, f)->kind != SAM_FIELD_POINTS &&
         (extent[1] != (hsize_t)o->grid->ny || extent[2] != (hsize_t)o->grid->nx))
       (void)SamFileNote(o->f, -1);
@@ -136,23 +126,22 @@ static void FindMissing(SamOutput o, char name[], size_t size)
 static PetscErrorCode Check(SamOutput o, const Wanted *wanted, hsize_t *keep)
 {
   const hsize_t steps = CountRows(o, SAM_SERIES_HISTORY), cycles = CountRows(o, SAM_SERIES_CYCLES);
+  const SamFile f = o->f;
   char          text[192], missing[64];
 
   PetscFunctionBegin;
-  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (SamParametersDiffer(o->f, wanted->parameters, text, sizeof(text))) PetscCall(Refuse(o->f, SAM_ERR_USER, text));
-  PetscCall(CheckBranch(o->f, wanted));
+  if (f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(!SamParametersDiffer(f, wanted->parameters, text, sizeof(text)), f->comm, SAM_ERR_USER, REFUSED "%s",
+             f->option, f->filename, text);
+  PetscCall(CheckBranch(f, wanted));
   FindMissing(o, missing, sizeof(missing));
-  if (missing[0]) {
-    (void)snprintf(text, sizeof(text), "it has the field %s, which neither the checkpoint nor this run has", missing);
-    PetscCall(Refuse(o->f, SAM_ERR_USER, text));
-  }
-  if (o->f->failed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (steps < (hsize_t)wanted->point.steps || cycles < (hsize_t)wanted->point.cycles) {
-    (void)snprintf(text, sizeof(text), "it holds %ld of the %ld steps before the checkpoint",
-                   (long)PetscMin(steps, (hsize_t)wanted->point.steps), (long)wanted->point.steps);
-    PetscCall(Refuse(o->f, SAM_ERR_FILE, text));
-  }
+  PetscCheck(!missing[0], f->comm, SAM_ERR_USER,
+             REFUSED "it has the field %s, which neither the checkpoint nor this run has", f->option, f->filename,
+             missing);
+  if (f->failed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(steps >= (hsize_t)wanted->point.steps && cycles >= (hsize_t)wanted->point.cycles, f->comm, SAM_ERR_FILE,
+             REFUSED "it holds %ld of the %ld steps before the checkpoint", f->option, f->filename,
+             (long)PetscMin(steps, (hsize_t)wanted->point.steps), (long)wanted->point.steps);
   PetscCall(CompareTimes(o, wanted, keep));
   CheckFields(o, *keep);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -199,19 +188,27 @@ static PetscErrorCode GetFileValues(SamOutput to, PetscInt f, void *context, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The times of the first steps with fields; the caller frees them. */
+static PetscErrorCode ReadTimes(SamOutput o, hsize_t count, double **times)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(count, times));
+  PetscCall(SamFileBegin(o->f));
+  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, count, *times);
+  PetscCall(SamFileEnd(o->f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Copies the first steps with fields one by one, as a run would write them. */
 static PetscErrorCode CopyFields(SamOutput from, hsize_t keep, SamOutput to)
 {
   FileFields     fields = {.output = from};
   double        *times;
-  PetscErrorCode ierr;
+  PetscErrorCode ierr = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(keep, &times));
+  PetscCall(ReadTimes(from, keep, &times));
   PetscCall(PetscMalloc1(PetscMax(from->grid->cells, 1), &fields.cells));
-  PetscCall(SamFileBegin(from->f));
-  SamOutputReadSeries(from, from->time, H5T_NATIVE_DOUBLE, 0, keep, times);
-  ierr = SamFileEnd(from->f);
   for (; fields.index < keep && !ierr; fields.index++)
     ierr = SamOutputAppend(to, NULL, (PetscReal)times[fields.index], GetFileValues, &fields);
   PetscCall(PetscFree(fields.cells));
@@ -251,10 +248,7 @@ static PetscErrorCode TakeName(SamOutput o, const char filename[], PetscBool xdm
   o->hold.use = SAM_FILE_RESULTS;
   o->replaced = PETSC_FALSE;
   if (!xdmf) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscCalloc1(o->saved, &times));
-  PetscCall(SamFileBegin(o->f));
-  SamOutputReadSeries(o, o->time, H5T_NATIVE_DOUBLE, 0, o->saved, times);
-  PetscCall(SamFileEnd(o->f));
+  PetscCall(ReadTimes(o, o->saved, &times));
   o->set.xdmf = PETSC_TRUE;
   PetscCall(SamOutputCreateXdmf(o, filename));
   for (hsize_t k = 0; k < o->saved; k++) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)k, (PetscReal)times[k]));

@@ -165,7 +165,7 @@ static PetscErrorCode CreateFields(SamOutput o)
 static hid_t CreateComponents(SamOutput o, PetscBool loads)
 {
   static const SamLabel load             = {"load_component", "1", "component of the load"},
-                        rigid            = {"rigid_component", "1", "component of the rigid displacement"};
+                        rigid            = {"rigid_component", "1", "component of the rigid-body displacement"};
   const SamShape shape                   = {1, {SAM_COMPONENTS}, {SAM_COMPONENTS}, {0}, NULL};
   const SamBlock block                   = {1, {0}, {o->f->rank ? 0 : SAM_COMPONENTS}};
   double         numbers[SAM_COMPONENTS] = {0};
@@ -252,7 +252,7 @@ static void OpenDataset(SamOutput o, hid_t where, const char name[], PetscBool o
   *dataset = SamFileNote(o->f, H5Dopen2(where, name, H5P_DEFAULT));
 }
 
-/* Declares a column that the file has and the state does not offer: it goes on without values. */
+/* Declares a column that the file has and the state does not offer: it continues without values. */
 static PetscErrorCode DeclareColumn(SamOutput o, SamState state, hid_t group, const char name[])
 {
   const hid_t    dataset = SamFileNote(o->f, H5Dopen2(group, name, H5P_DEFAULT));
@@ -324,15 +324,10 @@ PetscErrorCode SamOutputOpenLayout(SamOutput o)
 
 void SamOutputReadSeries(SamOutput o, hid_t dataset, hid_t type, hsize_t first, hsize_t count, void *values)
 {
-  const hid_t space = SamFileNote(o->f, H5Dget_space(dataset));
-  SamBlock    block = {.rank = H5Sget_simple_extent_ndims(space)};
+  SamBlock block = {.rank = 0};
 
-  if (block.rank < 1 || block.rank > SAM_SHAPE_RANK) {
-    (void)SamFileNote(o->f, -1);
-    return;
-  }
-  (void)SamFileNote(o->f, H5Sget_simple_extent_dims(space, block.count, NULL));
-  (void)SamFileNote(o->f, H5Sclose(space));
+  block.rank = SamFileGetSize(o->f, dataset, 0, block.count);
+  if (!block.rank) return;
   block.start[0] = first;
   block.count[0] = count;
   SamFileReadBlock(o->f, dataset, type, &block, values);

@@ -44,7 +44,7 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscCall(SamOptionsInt(from, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
                           &set->compress, NULL));
   PetscCheck(set->compress <= 9, from->comm, SAM_ERR_USER,
-             "-%soutput_compress %" PetscInt_FMT ": expected a whole number from 0 to 9", prefix, set->compress);
+             "-%soutput_compress %" PetscInt_FMT ": use an integer from 0 to 9", prefix, set->compress);
   PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, from->comm, SAM_ERR_USER,
              "-%soutput_compress %" PetscInt_FMT ": this HDF5 was built without zlib", prefix, set->compress);
   PetscCall(SamOptionsIntPair(from, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));

@@ -4,6 +4,7 @@
   points and coordinates have no values, as the attribute says by which netCDF knows such scales.
 */
 #include "ioimpl.h"
+#include <petsam/private/rows.h>
 #include <hdf5_hl.h>
 #include <math.h>
 
@@ -45,27 +46,19 @@ hid_t SamOutputCreatePoints(SamOutput o, const SamLabel *label)
 
 PetscErrorCode SamOutputGatherPoints(SamOutput o, const SamEdge *edge)
 {
-  const MPI_Comm comm = o->f->comm;
-  PetscMPIInt    ranks, mine = (PetscMPIInt)(2 * edge->count), *counts, *starts, total = 0;
-  double        *own;
+  double  *own;
+  PetscInt total;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(comm, &ranks));
-  PetscCall(PetscMalloc3(ranks, &counts, ranks, &starts, mine, &own));
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, counts, 1, MPI_INT, comm));
-  for (PetscMPIInt r = 0; r < ranks; r++) {
-    starts[r] = total;
-    total += counts[r];
-  }
+  PetscCall(PetscMalloc1(2 * edge->count, &own));
   for (PetscInt k = 0; k < edge->count; k++) {
     own[2 * k]     = (double)edge->x[k];
     own[2 * k + 1] = (double)edge->y[k];
   }
   PetscCall(PetscFree(o->points.xy));
-  PetscCall(PetscMalloc1(total, &o->points.xy));
+  PetscCall(SamGather(o->f->comm, MPI_DOUBLE, 2 * edge->count, own, &total, &o->points.xy));
   o->points.count = (hsize_t)total / 2;
-  PetscCallMPI(MPI_Gatherv(own, mine, MPI_DOUBLE, o->points.xy, counts, starts, MPI_DOUBLE, 0, comm));
-  PetscCall(PetscFree3(counts, starts, own));
+  PetscCall(PetscFree(own));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -80,12 +73,12 @@ void SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t step, const SamOu
   const SamBlock block = BlockOf(o, step, points->count);
   hsize_t        size[3], scale[1];
 
-  SamFileGetSize(o->f, dataset, 3, size);
+  (void)SamFileGetSize(o->f, dataset, 3, size);
   size[0] = step + 1;
   size[1] = PetscMax(size[1], points->count);
   size[2] = 2;
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
-  SamFileGetSize(o->f, o->point, 1, scale); /* is as long as the longest edge */
+  (void)SamFileGetSize(o->f, o->point, 1, scale); /* is as long as the longest edge */
   if (scale[0] < size[1]) (void)SamFileNote(o->f, H5Dset_extent(o->point, &size[1]));
   SamFileWriteBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, points->xy);
 }
@@ -97,7 +90,7 @@ PetscErrorCode SamOutputReadPoints(SamOutput o, hid_t dataset, hsize_t step, Sam
   SamBlock           block;
 
   PetscFunctionBegin;
-  SamFileGetSize(o->f, dataset, 3, size);
+  (void)SamFileGetSize(o->f, dataset, 3, size);
   block = BlockOf(o, step, size[1]);
   PetscCall(PetscFree(points->xy));
   PetscCall(PetscMalloc1(2 * size[1], &points->xy));

@@ -87,7 +87,7 @@ static PetscErrorCode Open(SamFile f, const char name[], int rank, hsize_t shape
   CHECK(f,
         H5Tget_class(H5Dget_type(*dataset)) == H5T_FLOAT && H5Sget_simple_extent_ndims(H5Dget_space(*dataset)) == rank,
         "%s is not what petsam writes", name);
-  SamFileGetSize(f, *dataset, rank, shape);
+  (void)SamFileGetSize(f, *dataset, rank, shape);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

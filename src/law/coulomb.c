@@ -78,7 +78,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   *asked = PETSC_TRUE; /* without options, of the coefficient 0 */
   PetscCall(SamOptionsHeading(from, "Friction"));
   PetscCall(SamOptionsReal(from, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &friction, &set));
-  PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient for each cell, instead"));
+  PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient of friction per cell"));
   PetscCall(SamPrintHelp(&help));
   PetscCheck(!set || !source.file[0], from->comm, SAM_ERR_USER, "-%sfriction and -%sfriction_file: give one of them",
              source.prefix, source.prefix);
@@ -184,7 +184,6 @@ static PetscErrorCode Destroy(SamLaw law)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&((Coulomb *)law->data)->field));
-  PetscCall(PetscFree(law->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

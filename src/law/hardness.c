@@ -109,7 +109,7 @@ static PetscErrorCode AddOverlap(SamLaw law, SamLawStep *step, Vec before, Vec d
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(step->grid, 1, &gap));
-  PetscCall(SamLawStepGetGap(step, gap));
+  PetscCall(step->gap(step, gap));
   if (before)
     PetscCall(VecCopy(before, depth));
   else
@@ -209,13 +209,6 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Destroy(SamLaw law)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(law->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamLawCreate_Hardness(SamLaw law)
 {
   Hardness *h;
@@ -235,6 +228,5 @@ PetscErrorCode SamLawCreate_Hardness(SamLaw law)
   law->ops.overlap        = Overlap;
   law->ops.view           = View;
   law->ops.advance        = Advance;
-  law->ops.destroy        = Destroy;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

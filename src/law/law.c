@@ -108,15 +108,9 @@ PetscErrorCode SamLawDestroy(SamLaw *law)
   *law = NULL;
   if (!l || --l->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (l->ops.destroy) PetscCall(l->ops.destroy(l));
+  PetscCall(PetscFree(l->data));
   PetscCall(SamElasticityDestroy(&l->elasticity));
   PetscCall(PetscFree(l));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamLawGetType(SamLaw law, SamLawType *type)
-{
-  PetscFunctionBegin;
-  *type = law->type;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -163,16 +157,15 @@ PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLawStepGetGap(SamLawStep *step, Vec gap)
+PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more)
 {
-  PetscFunctionBegin;
-  PetscCall(step->gap(step, gap));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+  const PetscInt id   = SamStateFindField(state, name);
+  const Vec      from = SamStateGetField(state, id, SAM_COMMITTED);
+  Vec            to;
 
-PetscErrorCode SamLawStepGetSlope(SamLawStep *step, Vec by_pressure)
-{
   PetscFunctionBegin;
-  PetscCall(step->slope(step, by_pressure));
+  PetscCall(SamStateSetField(state, id, &to));
+  PetscCall(VecCopy(more, to));
+  if (from) PetscCall(VecAXPY(to, 1, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,26 +8,15 @@ typedef struct {
   PetscBool     work; /* the frictional work; else the slip */
 } Sum;
 
-static const Sum sums[] = {{{.name        = SAM_LAW_SLIP_PATH,
-                             .unit        = "m",
-                             .text        = "accumulated slip: sum of |ds| over all steps",
-                             .components  = 1,
-                             .generations = 2,
-                             .kept        = PETSC_TRUE,
-                             .result      = SAM_RESULT_OFFERED},
-                            "sum_slip_path",
-                            "accumulate the slip over all steps (field slip_path)",
-                            PETSC_FALSE},
-                           {{.name        = SAM_LAW_FRICTION_ENERGY,
-                             .unit        = "J/m2",
-                             .text        = "frictional work: sum of -q.ds over all steps",
-                             .components  = 1,
-                             .generations = 2,
-                             .kept        = PETSC_TRUE,
-                             .result      = SAM_RESULT_OFFERED},
+#define FIELD(type, unit, text) \
+  { \
+    type, unit, text, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED \
+  }
+static const Sum sums[] = {{FIELD(SAM_LAW_SLIP_PATH, "m", "accumulated slip: sum of |ds| over all steps"),
+                            "sum_slip_path", "accumulate the slip over all steps (field slip_path)", PETSC_FALSE},
+                           {FIELD(SAM_LAW_FRICTION_ENERGY, "J/m2", "frictional work: sum of -q.ds over all steps"),
                             "sum_friction_energy",
-                            "accumulate the frictional work over all steps (field friction_energy)",
-                            PETSC_TRUE}};
+                            "accumulate the frictional work over all steps (field friction_energy)", PETSC_TRUE}};
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
@@ -50,23 +39,20 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
-  const PetscInt  id   = SamStateFindField(step->state, law->type);
   const PetscBool work = ((const Sum *)law->data)->work;
-  const Vec       from = SamStateGetField(step->state, id, SAM_COMMITTED);
-  Vec             to, more;
+  Vec             more;
 
   PetscFunctionBegin;
   PetscCall(SamLawStepGetFriction(step, work ? NULL : &more, NULL, work ? &more : NULL));
-  PetscCall(SamStateSetField(step->state, id, &to));
-  PetscCall(VecCopy(more, to));
-  if (from) PetscCall(VecAXPY(to, 1, from));
+  PetscCall(SamLawAddToSum(step->state, law->type, more));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Create(SamLaw law, const Sum *sum)
 {
   PetscFunctionBegin;
-  law->data               = (void *)(uintptr_t)sum;
+  PetscCall(PetscNew((Sum **)&law->data));
+  *(Sum *)law->data       = *sum;
   law->accumulates        = PETSC_TRUE;
   law->bytes              = 16;
   law->ops.setfromoptions = SetFromOptions;

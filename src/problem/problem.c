@@ -109,13 +109,11 @@ PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
 
 PetscErrorCode SamProblemAddLawOfType(SamProblem p, SamLawType type, SamLaw *law)
 {
-  SamLaw found;
+  SamLaw found, made;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetLaw(p, type, &found));
   if (!found) {
-    SamLaw made;
-
     PetscCall(SamLawCreate(p->elasticity, type, &made));
     PetscCall(SamProblemAddLaw(p, made));
     found = made;
@@ -127,14 +125,14 @@ PetscErrorCode SamProblemAddLawOfType(SamProblem p, SamLawType type, SamLaw *law
 
 PetscErrorCode SamProblemAddSum(SamProblem p, SamLawType type)
 {
-  SamLaw known, law;
+  SamLaw    law;
+  PetscBool accumulates;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetLaw(p, type, &known));
-  if (known) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLawCreate(p->elasticity, type, &law));
-  if (law->accumulates) PetscCall(SamProblemAddLaw(p, law));
+  accumulates = law->accumulates;
   PetscCall(SamLawDestroy(&law));
+  if (accumulates) PetscCall(SamProblemAddLawOfType(p, type, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,13 +1,18 @@
 /*
   What a user should know of a solution that may not be what was meant.
 
-  Sizes of grids follow from closed solutions where there are any, which hold even where the grid resolves nothing or
-  ends within the contact; else from the contact that was found.
+  Sizes of grids follow from closed-form solutions where there are any, which hold even where the grid resolves nothing
+  or ends within the contact; else from the contact that was found.
 */
 #include <petsam/advice.h>
 #include <petsam/private/baseimpl.h>
 #include <math.h>
 #include <stdarg.h>
+
+/* A contact of fewer cells across than these is not resolved. */
+#define FEW_CELLS 20
+/* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature. */
+#define STEEPEST 0.1
 
 #define NARROW    0.1   /* part of the contact's cells whose zones, the narrowest, do not count */
 #define ROOM      1.5   /* width of a good grid over that of the contact */
@@ -147,12 +152,12 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   PetscFunctionBegin;
   text[0] = '\0';
   PetscCall(SamGapGetSteepness(s->gap, half, &ratio, &option));
-  if (!(ratio > SAM_STEEPEST)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!(ratio > STEEPEST)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
   for (PetscInt k = 0; k < count; k++)
     if (!strcmp(names[k], option)) radius = values[k];
-  (void)snprintf(text, size, "is %.2g of -%s %g, and half-space theory ends at about %g: check the units, N, m, Pa",
-                 (double)ratio, option, (double)radius, SAM_STEEPEST);
+  (void)snprintf(text, size, "is %.2g of -%s %g, the limit is about %g: check the units, N, m, Pa", (double)ratio,
+                 option, (double)radius, STEEPEST);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,14 +186,14 @@ static void AdviseMotion(Receiver *to, const SamExtent *extent, const SamLoadsMo
 {
   const double width = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
 
-  if (most->rotation > SAM_STEEPEST)
-    Advise(to, "", "a rotation of %g is prescribed: they are in rad, and small, up to about %g (a degree is 0.0175)",
-           (double)most->rotation, SAM_STEEPEST);
+  if (most->rotation > STEEPEST)
+    Advise(to, "", "a rotation of %g is prescribed: rotations must be small, up to about %g rad (a degree is 0.0175)",
+           (double)most->rotation, STEEPEST);
   else if (extent->zones && (double)most->slide > width)
     Advise(
       to, "",
-      "a displacement of %g m along the surfaces is prescribed, more than the width of the contact, %.3g m: bodies "
-      "keep their places, so they must be small; check the unit, m",
+      "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: surfaces are not moved "
+      "past each other, so it must be small: check the unit, m",
       (double)most->slide, width);
 }
 
@@ -197,7 +202,7 @@ static void AdviseTouch(Receiver *to, const SamControl *control)
   const PetscBool force = control->force[SAM_COMPONENT_N];
 
   Advise(to, force ? "load_n" : "disp_z",
-         "the bodies do not touch in any step: the %s is %g %s at most, and has to be larger than %s",
+         "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
          force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N], force ? "N" : "m",
          force ? "0" : "0, or than the smallest separation");
 }
@@ -208,22 +213,21 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
 {
   char cells[AT_A_TIME], width[AT_A_TIME], zones[AT_A_TIME] = "", better[3 * AT_A_TIME];
 
-  if (extent->across >= SAM_FEW_CELLS) return;
+  if (extent->across >= FEW_CELLS) return;
   /* of periodic bodies all cells may be in contact, and have no width */
   if (extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) return;
-  AdviseGrids(s, half, (SAM_FEW_CELLS + SAME) / (double)across, cells, width);
+  AdviseGrids(s, half, (FEW_CELLS + SAME) / (double)across, cells, width);
   if (extent->zones > 1)
-    (void)snprintf(zones, sizeof(zones), "in %lld zones, the narrow ones ", (long long)extent->zones);
+    (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   if (s->from_file[0] || s->from_file[1])
     (void)snprintf(better, sizeof(better), ": a file with heights at smaller distances%s%s", cells[0] ? ", and " : "",
                    cells);
   else
     (void)snprintf(better, sizeof(better), "%s%s%s%s%s", cells[0] || width[0] ? ": " : "", width,
                    width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
-  Advise(to, "",
-         "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m): expected %d or more%s",
+  Advise(to, "", "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m), fewer than %d%s",
          zones, (double)extent->across, 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0],
-         (double)s->grid->width[1], SAM_FEW_CELLS, better);
+         (double)s->grid->width[1], FEW_CELLS, better);
 }
 
 PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,
@@ -241,7 +245,7 @@ PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamEx
     PetscCall(GetWidths(s, step, extent, half, &across));
     AdviseCells(&to, s, extent, half, across);
     PetscCall(Compare(s, half, ratio, sizeof(ratio)));
-    if (ratio[0]) Advise(&to, "", "the contact is large for its radius: its half width %s", ratio);
+    if (ratio[0]) Advise(&to, "", "contact too large for half-space theory: its half width %s", ratio);
   }
   PetscCall(to.error);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -299,16 +303,16 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamSte
   step->setting[0] = '\0'; /* the text names the options */
   PetscCall(Estimate(s, most->force, most->normal, half, &known));
   if (isinf(half[0]) || isinf(half[1])) {
-    (void)snprintf(text, size,
-                   "; the bodies are straight along %s, and touch up to the edge of any grid: periodic bodies "
-                   "(-elasticity periodic) have none, or -allow_edge_contact",
-                   isinf(half[0]) && isinf(half[1]) ? "x and y"
-                   : isinf(half[0])                 ? "x"
-                                                    : "y");
-  } else if (s->from_file[0] || s->from_file[1]) {
     (void)snprintf(
       text, size,
-      "; a surface from a file cannot be made larger by it: expected a file of a larger area, or less load");
+      "; the bodies are cylindrical, axis along %s, and touch up to the edge of any grid: use periodic bodies "
+      "(-elasticity periodic), which have no edge, or -allow_edge_contact",
+      isinf(half[0]) && isinf(half[1]) ? "x and y"
+      : isinf(half[0])                 ? "x"
+                                       : "y");
+  } else if (s->from_file[0] || s->from_file[1]) {
+    (void)snprintf(text, size,
+                   "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
   } else {
     known = known && !most->open;
     if (!known) Extrapolate(s, step, most, half);

@@ -57,17 +57,6 @@ PetscErrorCode SamSetupDestroy(SamSetup *s)
 
 /* ---- parameters ---- */
 
-/* What comes from a file is identified by its checksum, since a file may change and keep its name. */
-static PetscErrorCode AddField(const SamSetup *s, SamParameters *p, const char name[], Vec field)
-{
-  uint64_t checksum;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridChecksum(s->grid, field, &checksum));
-  PetscCall(SamParametersAddChecksum(p, name, checksum));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode AddGrid(SamParameters *p, SamGrid grid)
 {
   const PetscReal n[2] = {(PetscReal)grid->nx, (PetscReal)grid->ny};
@@ -79,17 +68,7 @@ static PetscErrorCode AddGrid(SamParameters *p, SamGrid grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddLaws(SamProblem problem, SamParameters *p)
-{
-  const SamLaw *laws;
-  PetscInt      count;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemGetLaws(problem, &count, &laws));
-  for (PetscInt k = 0; k < count; k++) PetscCall(SamLawAddParameters(laws[k], p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
+/* What comes from a file is identified by its checksum, since a file may change and keep its name. */
 static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 {
   SamGapType         type;
@@ -97,30 +76,37 @@ static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
   const char *const *names;
   const PetscReal   *values;
   Vec                separation;
+  uint64_t           checksum;
 
   PetscFunctionBegin;
   PetscCall(SamGapGetParameters(s->gap, &type, &count, &names, &values));
   PetscCall(SamParametersAddText(p, "gap_type", PETSC_TRUE, type));
   for (PetscInt k = 0; k < count; k++) PetscCall(SamParametersAddReals(p, names[k], PETSC_TRUE, 1, &values[k]));
   PetscCall(SamProblemGetGap(s->problem, &separation));
-  for (PetscInt k = 0; k < 2; k++)
-    if (s->from_file[k])
-      PetscCall(AddField(s, p, files[k] + 1, separation));
-    else
+  for (PetscInt k = 0; k < 2; k++) {
+    if (s->from_file[k]) {
+      PetscCall(SamGridChecksum(s->grid, separation, &checksum));
+      PetscCall(SamParametersAddChecksum(p, files[k] + 1, checksum));
+    } else {
       PetscCall(SamParametersAddText(p, files[k] + 1, PETSC_TRUE, "none"));
+    }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
 {
-  PetscBool full;
+  SamContactSettings set;
+  const SamLaw      *laws;
+  PetscInt           count;
 
   PetscFunctionBegin;
   PetscCall(AddGrid(p, s->grid));
   PetscCall(SamElasticityAddParameters(s->elasticity, p));
-  PetscCall(AddLaws(s->problem, p));
+  PetscCall(SamProblemGetLaws(s->problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++) PetscCall(SamLawAddParameters(laws[k], p));
   PetscCall(AddGap(s, p));
-  PetscCall(SamContactGetCoupling(s->contact, &full));
-  PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, full ? "full" : "none"));
+  PetscCall(SamContactGetSettings(s->contact, &set));
+  PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, set.coupling ? "full" : "none"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

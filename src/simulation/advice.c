@@ -39,7 +39,7 @@ PetscErrorCode SamSimulationAdviseEdge(SamSimulation s, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SamAdviseEdge(&s->setup, &s->most, step));
   if (step->message[used] && step->status)
-    (void)strncat(step->message, "; -allow_edge_contact goes on all the same",
+    (void)strncat(step->message, "; to continue anyway: -allow_edge_contact",
                   sizeof(step->message) - strlen(step->message) - 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,28 +1,8 @@
-/* When a simulation writes checkpoints, when it stops before its end, and how it goes on from a checkpoint. */
-#include "checkpoints.h"
-#include <petsam/private/baseimpl.h>
+/* When a simulation writes checkpoints, when it stops before its end, and how it continues from a checkpoint. */
+#include "simulationimpl.h"
 #include <stdlib.h>
-#include <string.h>
 
-#define RECENT 5   /* the next step is taken to last as long as the slowest of so many, */
-#define MARGIN 1.1 /* times this */
-
-struct _n_SamCheckpoints {
-  /* what the user set */
-  MPI_Comm               comm;
-  char                   filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
-  PetscBool              other_gap; /* than in the checkpoint of -restart */
-  PetscInt               every;     /* load steps, 0: never */
-  double                 limit;     /* seconds, 0: none */
-  SamCheckpoint          files;     /* NULL: none */
-  volatile sig_atomic_t *signaled;  /* to write; to write and stop; NULL: none */
-  /* status */
-  double   start, step_start; /* MPI_Wtime() at the start of the run, and of this step */
-  double   recent[RECENT];    /* seconds of the last steps */
-  double   writing;           /* seconds that the slowest checkpoint took */
-  PetscInt done, last;        /* number of steps in this run; step of the last checkpoint */
-  PetscInt seen;              /* steps when a checkpoint was last considered */
-};
+#define MARGIN 1.1 /* the next step is assumed to take this times the slowest of the last steps */
 
 /* ---- options ---- */
 
@@ -45,29 +25,26 @@ static double ReadDuration(const char text[])
   return -1;
 }
 
-static PetscErrorCode ReadLimit(SamCheckpoints cp, const SamOptions *from, PetscBool *set)
+static PetscErrorCode ReadLimit(SamCheckpoints *cp, const SamOptions *from, PetscBool *set)
 {
   char text[64] = "";
 
   PetscFunctionBegin;
-  PetscCall(
-    SamOptionsString(from, "max_walltime", "stop before: s, m:s or h:m:s from the start", text, sizeof(text), set));
+  PetscCall(SamOptionsString(from, "max_walltime", "stop in time, with a checkpoint: s, m:s or h:m:s from the start",
+                             text, sizeof(text), set));
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   cp->limit = ReadDuration(text);
-  PetscCheck(cp->limit > 0, cp->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s",
+  PetscCheck(cp->limit > 0, from->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s",
              text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckpoints *checkpoints)
+PetscErrorCode SamSimulationReadCheckpoints(SamSimulation s, const SamOptions *from)
 {
-  SamCheckpoints cp;
-  PetscBool      has_file, has_every, has_limit, has_gap, help;
+  SamCheckpoints *const cp = &s->checkpoints;
+  PetscBool             has_file, has_every, has_limit, has_gap, help;
 
   PetscFunctionBegin;
-  PetscCall(PetscNew(&cp));
-  *checkpoints = cp;
-  cp->comm     = from->comm;
   cp->start = cp->step_start = MPI_Wtime();
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(from, "Checkpoints"));
@@ -76,51 +53,25 @@ PetscErrorCode SamCheckpointsCreateFromOptions(const SamOptions *from, SamCheckp
   PetscCall(SamOptionsInt(from, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
                           0, &cp->every, &has_every));
   PetscCall(ReadLimit(cp, from, &has_limit));
-  PetscCall(SamOptionsFile(from, "restart", "go on from this checkpoint; with a new -output, in a file of its own",
-                           cp->restart, sizeof(cp->restart), NULL));
-  PetscCall(SamOptionsBool(from, "restart_gap", "with another gap than that of the checkpoint; the slip is kept",
-                           &cp->other_gap, &has_gap));
+  PetscCall(SamOptionsFile(from, "restart", "continue from this checkpoint; a new -output begins a branch", cp->restart,
+                           sizeof(cp->restart), NULL));
+  PetscCall(
+    SamOptionsBool(from, "restart_gap", "restart on a different gap, keeping the slip", &cp->other_gap, &has_gap));
+  PetscCall(SamOptionsBool(from, "overwrite", "start anew, replacing a checkpoint of this name", &cp->overwrite, NULL));
   PetscCheck(cp->restart[0] || !has_gap || help, from->comm, SAM_ERR_USER, "-restart_gap is given without -restart");
   PetscCheck(has_file || !has_every || help, from->comm, SAM_ERR_USER,
              "-checkpoint_every is given without -checkpoint");
   PetscCheck(has_file || !has_limit || help, from->comm, SAM_ERR_USER,
-             "-max_walltime is given without -checkpoint: the run could not go on from where it stops");
+             "-max_walltime is given without -checkpoint: the run could not continue from where it stops");
   PetscCheck(strlen(cp->filename) + 8 < sizeof(cp->filename), from->comm, SAM_ERR_USER,
              "-checkpoint: expected at most %d characters", (int)sizeof(cp->filename) - 9);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointsDestroy(SamCheckpoints *checkpoints)
+void SamSimulationDescribeCheckpoints(SamSimulation s, char text[], size_t size)
 {
-  PetscFunctionBegin;
-  if (*checkpoints) PetscCall(SamCheckpointDestroy(&(*checkpoints)->files));
-  PetscCall(PetscFree(*checkpoints));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamCheckpointsSetSignals(SamCheckpoints cp, volatile sig_atomic_t signals[2])
-{
-  PetscFunctionBegin;
-  cp->signaled = signals;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamCheckpointsGetNames(SamCheckpoints cp, const char **checkpoint, const char **restart)
-{
-  PetscFunctionBegin;
-  if (checkpoint) *checkpoint = cp->filename[0] ? cp->filename : NULL;
-  if (restart) *restart = cp->restart[0] ? cp->restart : NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscBool SamCheckpointsChangeGap(SamCheckpoints cp)
-{
-  return cp->other_gap;
-}
-
-void SamCheckpointsDescribe(SamCheckpoints cp, char text[], size_t size)
-{
-  char every[96] = "", limit[96] = "";
+  const SamCheckpoints *cp        = &s->checkpoints;
+  char                  every[96] = "", limit[96] = "";
 
   text[0] = '\0';
   if (!cp->filename[0]) return;
@@ -129,48 +80,73 @@ void SamCheckpointsDescribe(SamCheckpoints cp, char text[], size_t size)
   else if (cp->every)
     (void)snprintf(every, sizeof(every), "after every %lld steps, ", (long long)cp->every);
   if (cp->limit > 0) (void)snprintf(limit, sizeof(limit), ", before %g s have passed", cp->limit);
-  (void)snprintf(text, size, "%s: %s%sat the signals USR2 and USR1 (to stop)%s%s", cp->filename, every,
+  (void)snprintf(text, size, "%s: %s%son USR2, and on TERM or USR1 (to stop)%s%s", cp->filename, every,
                  every[0] || limit[0] ? "" : "only ", limit,
                  every[0] ? "" : "; with -checkpoint_every k after every k steps too");
 }
 
-PetscErrorCode SamCheckpointsGetLast(SamCheckpoints cp, PetscInt *step)
-{
-  PetscFunctionBegin;
-  *step = cp->last;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- in the run ---- */
 
-PetscErrorCode SamCheckpointsBegin(SamCheckpoints cp, SamGrid grid, PetscInt steps)
+PetscErrorCode SamSimulationBeginCheckpoints(SamSimulation s)
 {
+  SamCheckpoints *const cp = &s->checkpoints;
+  PetscBool             exists;
+
   PetscFunctionBegin;
   cp->step_start = MPI_Wtime();
-  cp->seen       = steps;
+  cp->seen       = s->point.steps;
   cp->last       = 0;
-  if (cp->filename[0] && !cp->files) PetscCall(SamCheckpointCreate(grid, cp->filename, &cp->files));
+  if (!cp->filename[0] || cp->files) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSimulationFileExists(s, cp->filename, &exists));
+  PetscCall(SamCheckpointCreate(s->setup.grid, cp->filename, &cp->files));
+  PetscCheck(!exists || cp->restart[0] || cp->overwrite, s->comm, SAM_ERR_USER,
+             "-checkpoint %s: is the checkpoint of an earlier run: continue that with -restart %s, or start anew with "
+             "-overwrite",
+             cp->filename, cp->filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Whether the next step and a checkpoint after it would not end in time. */
-static PetscBool TimeIsUp(const SamCheckpoints cp, double now)
+static PetscBool TimeIsUp(const SamCheckpoints *cp, double now)
 {
-  const PetscInt known   = PetscMin(cp->done, RECENT);
-  double         slowest = 0, writing;
+  double slowest = 0;
 
-  if (cp->limit == 0) return PETSC_FALSE;
-  for (PetscInt s = 0; s < known; s++) slowest = PetscMax(slowest, cp->recent[s]);
-  writing = cp->writing > 0 ? cp->writing : slowest; /* before the first checkpoint: a safe estimate */
-  return now - cp->start + MARGIN * slowest + writing > cp->limit;
+  for (PetscInt s = 0; s < SAM_RECENT; s++) slowest = PetscMax(slowest, cp->recent[s]);
+  return cp->limit > 0 && /* before the first checkpoint, a step's time is a safe estimate of its own */
+         now - cp->start + MARGIN * slowest + (cp->writing > 0 ? cp->writing : slowest) > cp->limit;
 }
 
-/* ---- the position in the load program, and the program up to there ---- */
+/* ---- the position in the load history, and the history up to there ---- */
 
-#define BULK    (2 + SAM_COMPONENTS)    /* first column of the bulk stresses */
-#define COLUMNS (2 + SAM_CONTROL_PARTS) /* of the load program: time, friction, components, bulk stresses */
+#define COLUMNS (2 + SAM_CONTROL_PARTS) /* of the load history: time, friction, components, bulk stresses */
+#define RESULTS (sizeof(((SamSimulationPoint *)NULL)->results) / sizeof(uint64_t)) /* a file's name, as its bytes */
+#define NOTES   4
 
-/* Checksums of each column of the load program over the first steps; for a component, with its kind of control. */
+/* What a checkpoint notes besides the state of the contact. */
+typedef union {
+  struct {
+    uint64_t steps, worst, rows, times;
+    double   cycles, next, jump, error; /* of a life */
+    uint64_t computed, by_turns;
+  } at;
+  uint64_t word[10];
+} Progress;
+
+typedef struct {
+  Progress progress;
+  uint64_t loads[COLUMNS], results[RESULTS], begin[2];
+  SamNote  note[NOTES];
+} Notes;
+
+static void ListNotes(Notes *n)
+{
+  n->note[0] = (SamNote){"progress", 10, n->progress.word};
+  n->note[1] = (SamNote){"load_program", COLUMNS, n->loads};
+  n->note[2] = (SamNote){"results", -(PetscInt)RESULTS, n->results};
+  n->note[3] = (SamNote){"results_begin", -2, n->begin};
+}
+
+/* Checksums of each column of the load history over the first steps; for a component, with its kind of control. */
 static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64_t columns[COLUMNS])
 {
   PetscFunctionBegin;
@@ -181,205 +157,167 @@ static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64
     PetscCall(SamHistoryGetStep(history, s, &control));
     columns[0] = SamHashMix(columns[0] + SamHashBits(control.time));
     columns[1] = SamHashMix(columns[1] + SamHashBits(control.friction_scale));
-    for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-      columns[2 + c] = SamHashMix(columns[2 + c] + SamHashBits(control.value[c]));
-      columns[2 + c] = SamHashMix(columns[2 + c] + (control.force[c] ? 1 : 2));
+    for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) {
+      columns[2 + k] = SamHashMix(columns[2 + k] + SamHashBits(SamControlPart(&control, k) + 0.0));
+      if (k < SAM_COMPONENTS) columns[2 + k] = SamHashMix(columns[2 + k] + (control.force[k] ? 1 : 2));
     }
-    for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
-      columns[BULK + n] = SamHashMix(
-        columns[BULK + n] + SamHashBits(control.bulk_stress[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS] + 0.0));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The number whose bits (SamHashBits()) a note has. */
-static PetscReal ValueOf(uint64_t bits)
+static PetscErrorCode Write(SamSimulation s)
 {
-  double number;
-
-  memcpy(&number, &bits, sizeof(number));
-  return (PetscReal)number;
-}
-
-/* Where the run is, as whole numbers. */
-#define AT 10
-static PetscErrorCode Pack(const SamSimulationPoint *p, uint64_t at[AT])
-{
-  SamLifeState life = {0};
+  SamCheckpoints *const     cp    = &s->checkpoints;
+  const SamSimulationPoint *p     = &s->point;
+  const double              begin = MPI_Wtime();
+  SamLifeState              life  = {0};
+  Notes                     n;
 
   PetscFunctionBegin;
-  if (p->life) PetscCall(SamLifeGetState(p->life, &life));
-  at[0] = (uint64_t)p->steps;
-  at[1] = (uint64_t)p->worst;
-  at[2] = (uint64_t)p->rows;
-  at[3] = p->times;
-  at[4] = SamHashBits((double)life.cycles);
-  at[5] = SamHashBits((double)life.next);
-  at[6] = SamHashBits((double)life.jump);
-  at[7] = SamHashBits((double)life.error);
-  at[8] = (uint64_t)life.computed;
-  at[9] = life.by_turns ? 1 : 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Unpack(const uint64_t at[AT], SamSimulationPoint *p)
-{
-  const SamLifeState life = {.cycles   = ValueOf(at[4]),
-                             .next     = ValueOf(at[5]),
-                             .jump     = ValueOf(at[6]),
-                             .error    = ValueOf(at[7]),
-                             .computed = (PetscInt)at[8],
-                             .by_turns = at[9] != 0};
-
-  PetscFunctionBegin;
-  p->steps     = (PetscInt)at[0];
-  p->worst     = (SamStatus)at[1];
-  p->rows      = (PetscInt)at[2];
-  p->times     = at[3];
-  p->restarted = PETSC_TRUE;
-  if (p->life) PetscCall(SamLifeSetState(p->life, &life));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The name of the results file is noted as its bytes. */
-#define NAME ((PetscInt)(sizeof(((SamSimulationPoint *)NULL)->results) / sizeof(uint64_t)))
-
-/* The part of the load program that has been solved: all of it in a life. */
-static PetscErrorCode CountSolved(const SamSimulationPoint *p, PetscInt *steps)
-{
-  PetscFunctionBegin;
-  *steps = p->steps;
-  if (p->life) PetscCall(SamHistoryGetCount(p->history, steps));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Write(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
-                            const SamSimulationPoint *progress)
-{
-  const double  begin = MPI_Wtime();
-  uint64_t      at[AT], columns[COLUMNS], name[NAME], first[2];
-  const SamNote note[] = {
-    {"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", -NAME, name}, {"results_begin", -2, first}};
-  PetscInt solved;
-
-  PetscFunctionBegin;
-  if (progress->output) PetscCall(SamOutputFlush(progress->output));
-  PetscCall(Pack(progress, at));
-  PetscCall(CountSolved(progress, &solved));
-  PetscCall(ChecksumColumns(progress->history, solved, columns));
-  memcpy(name, progress->results, sizeof(name));
-  first[0] = (uint64_t)progress->first;
-  first[1] = (uint64_t)progress->first_row;
-  PetscCall(SamCheckpointWrite(cp->files, contact, parameters, 4, note));
+  if (s->output) PetscCall(SamOutputFlush(s->output));
+  if (s->life) PetscCall(SamLifeGetState(s->life, &life));
+  n.progress.at.steps    = (uint64_t)p->steps;
+  n.progress.at.worst    = (uint64_t)p->worst;
+  n.progress.at.rows     = (uint64_t)p->rows;
+  n.progress.at.times    = p->times;
+  n.progress.at.cycles   = life.cycles;
+  n.progress.at.next     = life.next;
+  n.progress.at.jump     = life.jump;
+  n.progress.at.error    = life.error;
+  n.progress.at.computed = (uint64_t)life.computed;
+  n.progress.at.by_turns = life.by_turns;
+  memcpy(n.results, p->results, sizeof(n.results));
+  n.begin[0] = (uint64_t)p->first;
+  n.begin[1] = (uint64_t)p->first_row;
+  PetscCall(ChecksumColumns(s->history, s->life ? s->needs.steps : p->steps, n.loads));
+  ListNotes(&n);
+  PetscCall(SamCheckpointWrite(cp->files, s->setup.contact, &s->parameters, NOTES, n.note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
-  cp->last    = progress->steps;
+  cp->last    = p->steps;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Up to the checkpoint the load program must be that of the run that wrote it, whose checksums are `there`. */
-static PetscErrorCode CompareLoads(SamCheckpoints cp, const SamSimulationPoint *progress, const uint64_t there[COLUMNS])
+/* Up to the checkpoint the load history must be that of the run that wrote it, whose checksums are `there`. */
+static PetscErrorCode CompareLoads(SamSimulation s, const uint64_t there[COLUMNS])
 {
-  uint64_t   here[COLUMNS];
-  SamControl first;
-  PetscInt   count, solved;
+  const char *const file   = s->checkpoints.restart;
+  const PetscInt    solved = s->life ? s->needs.steps : s->point.steps;
+  uint64_t          here[COLUMNS];
+  SamControl        first;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetCount(progress->history, &count));
-  PetscCall(CountSolved(progress, &solved));
-  PetscCheck(
-    solved <= count, cp->comm, SAM_ERR_USER,
-    "-restart %s: cannot go on from it: -history or -steps: there are %ld load steps, and %ld were solved there",
-    cp->restart, (long)count, (long)solved);
-  PetscCall(ChecksumColumns(progress->history, solved, here));
-  PetscCall(SamHistoryGetStep(progress->history, 0, &first));
-  PetscCheck(here[0] == there[0], cp->comm, SAM_ERR_USER,
-             "-restart %s: cannot go on from it: -history: the times up to step %ld differ", cp->restart, (long)solved);
-  PetscCheck(here[1] == there[1], cp->comm, SAM_ERR_USER,
-             "-restart %s: cannot go on from it: friction_scale in -history: the values up to step %ld differ",
-             cp->restart, (long)solved);
-  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++)
-    PetscCheck(here[2 + k] == there[2 + k], cp->comm, SAM_ERR_USER,
-               "-restart %s: cannot go on from it: -%s, or its column in -history: the values up to step %ld differ",
-               cp->restart, SamControlPartName(&first, k), (long)solved);
+  PetscCheck(solved <= s->needs.steps, s->comm, SAM_ERR_USER,
+             "-restart %s: does not fit: -history or -steps: there are %ld load steps, and %ld were solved there", file,
+             (long)s->needs.steps, (long)solved);
+  PetscCall(ChecksumColumns(s->history, solved, here));
+  PetscCall(SamHistoryGetStep(s->history, 0, &first));
+  for (PetscInt k = 0; k < COLUMNS; k++) {
+    char        option[48];
+    const char *name = k == 0 ? "history: the times" : "history: the values of friction_scale";
+
+    if (k >= 2) {
+      (void)snprintf(option, sizeof(option), "%s, or its column in -history: the values",
+                     SamControlPartName(&first, k - 2));
+      name = option;
+    }
+    PetscCheck(here[k] == there[k], s->comm, SAM_ERR_USER, "-restart %s: does not fit: -%s up to step %ld differ", file,
+               name, (long)solved);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointsRestart(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
-                                     SamSimulationPoint *progress)
+PetscErrorCode SamSimulationRestart(SamSimulation s)
 {
-  uint64_t      at[AT], columns[COLUMNS], name[NAME], first[2];
-  const SamNote note[] = {
-    {"progress", AT, at}, {"load_program", COLUMNS, columns}, {"results", -NAME, name}, {"results_begin", -2, first}};
+  SamSimulationPoint *const p = &s->point;
+  Notes                     n;
+  SamLifeState              life;
 
   PetscFunctionBegin;
-  PetscCall(SamCheckpointRead(cp->restart, contact, parameters, 4, note));
-  PetscCall(Unpack(at, progress));
-  memcpy(progress->results, name, sizeof(progress->results));
-  progress->first     = (PetscInt)first[0];
-  progress->first_row = (PetscInt)first[1];
-  PetscCall(CompareLoads(cp, progress, columns));
+  ListNotes(&n);
+  PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, &s->parameters, NOTES, n.note));
+  p->steps     = (PetscInt)n.progress.at.steps;
+  p->worst     = (SamStatus)n.progress.at.worst;
+  p->rows      = (PetscInt)n.progress.at.rows;
+  p->times     = n.progress.at.times;
+  p->first     = (PetscInt)n.begin[0];
+  p->first_row = (PetscInt)n.begin[1];
+  p->restarted = PETSC_TRUE;
+  life         = (SamLifeState){.cycles   = n.progress.at.cycles,
+                                .next     = n.progress.at.next,
+                                .jump     = n.progress.at.jump,
+                                .error    = n.progress.at.error,
+                                .computed = (PetscInt)n.progress.at.computed,
+                                .by_turns = n.progress.at.by_turns != 0};
+  memcpy(p->results, n.results, sizeof(p->results));
+  if (s->life) PetscCall(SamLifeSetState(s->life, &life));
+  PetscCall(CompareLoads(s, n.loads));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- after a step ---- */
 
-/* Says after which step, or cycle, it has stopped. */
-static PetscErrorCode DescribeStop(SamCheckpoints cp, const SamSimulationPoint *p, const char reason[], char text[],
-                                   size_t size)
+PetscErrorCode SamSimulationDescribePlace(SamSimulation s, PetscBool total, char text[], size_t size)
 {
-  PetscInt     count;
   SamLifeState life;
-  char         where[96];
+  char         of[32] = "";
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetCount(p->history, &count));
-  if (p->life) {
-    PetscCall(SamLifeGetState(p->life, &life));
-    (void)snprintf(where, sizeof(where), "%.10g of %.10g cycles", (double)life.cycles, (double)p->cycles);
+  if (s->life) {
+    PetscCall(SamLifeGetState(s->life, &life));
+    if (total) (void)snprintf(of, sizeof(of), " of %.10g", (double)s->plan.cycles);
+    (void)snprintf(text, size, "%.10g%s cycles", (double)life.cycles, of);
   } else {
-    PetscCall(PetscSNPrintf(where, sizeof(where), "step %" PetscInt_FMT " of %" PetscInt_FMT, p->steps, count));
+    if (total) (void)snprintf(of, sizeof(of), " of %ld", (long)s->needs.steps);
+    (void)snprintf(text, size, "step %ld%s", (long)s->point.steps, of);
   }
-  (void)snprintf(text, size, "stopped after %s %s: go on with -restart %s", where, reason, cp->filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What any rank asks for: a checkpoint, a checkpoint and the end; and whether no time is left. */
-static PetscErrorCode Ask(SamCheckpoints cp, double now, double any[3])
+static PetscErrorCode Ask(SamSimulation s, double now, double any[3])
 {
   PetscFunctionBegin;
-  for (int k = 0; k < 2; k++) any[k] = cp->signaled ? cp->signaled[k] : 0;
-  any[2] = TimeIsUp(cp, now);
-  PetscCall(SamMax(cp->comm, 3, any));
+  for (int k = 0; k < 2; k++) any[k] = s->signals ? s->signals[k] : 0;
+  any[2] = TimeIsUp(&s->checkpoints, now);
+  PetscCall(SamMax(s->comm, 3, any));
   /* a signal that arrives on a rank only now is answered after the next step */
   for (int k = 0; k < 2; k++)
-    if (any[k] > 0) cp->signaled[k] = 0;
+    if (any[k] > 0) s->signals[k] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointsAfterStep(SamCheckpoints cp, SamContact contact, const SamParameters *parameters,
-                                       const SamSimulationPoint *progress, PetscBool *stop, char said[], size_t size)
+PetscErrorCode SamSimulationCheckpoint(SamSimulation s)
 {
-  const double now = MPI_Wtime();
-  PetscInt     count;
-  PetscBool    more, due, asked;
-  double       any[3];
+  SamCheckpoints *const cp    = &s->checkpoints;
+  const double          now   = MPI_Wtime();
+  const PetscInt        steps = s->point.steps;
+  char                  said[PETSC_MAX_PATH_LEN + 256], place[96];
+  PetscBool             asked, stop;
+  double                any[3];
 
   PetscFunctionBegin;
-  said[0] = '\0';
-  PetscCall(SamHistoryGetCount(progress->history, &count));
-  cp->recent[cp->done++ % RECENT] = now - cp->step_start;
-  PetscCall(Ask(cp, now, any));
+  cp->recent[cp->done++ % SAM_RECENT] = now - cp->step_start;
+  PetscCall(Ask(s, now, any));
   asked = any[0] > 0 || any[1] > 0;
-  more  = progress->life || progress->steps < count;
-  due   = cp->every && progress->steps / cp->every > cp->seen / cp->every;
-  *stop = cp->filename[0] && more && (any[1] > 0 || any[2] > 0);
   if (!cp->filename[0]) {
-    if (asked) (void)snprintf(said, size, "a signal asked for a checkpoint, but -checkpoint is not given");
-  } else if (*stop || asked || due) {
-    PetscCall(Write(cp, contact, parameters, progress));
+    if (asked)
+      PetscCall(SamSimulationWarn(s, "a signal requested a checkpoint, but none is named: give -checkpoint", ""));
+    PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (*stop) PetscCall(DescribeStop(cp, progress, any[1] > 0 ? "on a signal" : "before -max_walltime", said, size));
-  cp->seen       = progress->steps;
+  stop = (s->life || steps < s->needs.steps) && (any[1] > 0 || any[2] > 0);
+  if (stop || asked || (cp->every && steps / cp->every > cp->seen / cp->every)) {
+    s->writing = PETSC_TRUE;
+    PetscCall(Write(s));
+    s->writing = PETSC_FALSE;
+  }
+  if (stop) {
+    s->stopped = PETSC_TRUE;
+    PetscCall(SamSimulationDescribePlace(s, PETSC_TRUE, place, sizeof(place)));
+    (void)snprintf(said, sizeof(said), "stopped after %s %s: continue with -restart %s", place,
+                   any[1] > 0 ? "on a signal" : "before -max_walltime", cp->filename);
+    PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STOPPED, .text = said, .setting = ""}));
+  }
+  cp->seen       = steps;
   cp->step_start = MPI_Wtime();
   PetscFunctionReturn(PETSC_SUCCESS);
 }

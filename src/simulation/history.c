@@ -14,12 +14,24 @@ struct _n_SamHistory {
   SamControl constant; /* the kind of control of each component, and the values of those without a column */
   SamControl before;   /* what the first row's change begins from */
   PetscInt   rows, increments;
-  PetscInt   start;                        /* steps up to the first row */
-  SamTable   table;                        /* empty without a file */
-  PetscInt   time, friction;               /* columns; -1: none */
-  PetscInt   column[SAM_COMPONENTS];       /* column of each component, -1: constant */
-  PetscInt   bulk[2][SAM_BULK_COMPONENTS]; /* the same of each bulk stress */
+  PetscInt   start;                     /* steps up to the first row */
+  SamTable   table;                     /* empty without a file */
+  PetscInt   time, friction;            /* columns; -1: none */
+  PetscInt   column[SAM_CONTROL_PARTS]; /* of each component and bulk stress, -1: constant */
 };
+
+static const SamBulkName *BulkName(PetscInt part)
+{
+  const PetscInt k = part - SAM_COMPONENTS;
+
+  return &SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS];
+}
+
+/* Where a control has its k-th part, a component or a bulk stress. */
+static PetscReal *PartOf(SamControl *control, PetscInt k)
+{
+  return k < SAM_COMPONENTS ? &control->value[k] : &control->bulk_stress[0][0] + (k - SAM_COMPONENTS);
+}
 
 PetscErrorCode SamHistoryClaimOption(void)
 {
@@ -109,18 +121,18 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
 }
 
 /* Reads one bulk stress, from an option or a column. */
-static PetscErrorCode ReadBulkStress(SamHistory h, const Reader *r, PetscInt body, PetscInt k)
+static PetscErrorCode ReadBulkStress(SamHistory h, const Reader *r, PetscInt k)
 {
-  const SamBulkName *name     = &SamBulkNames[body][k];
-  PetscReal *const   constant = &h->constant.bulk_stress[body][k];
+  const SamBulkName *name     = BulkName(k);
+  PetscReal *const   constant = PartOf(&h->constant, k);
   char               text[96];
   PetscBool          set;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (Pa), parallel to the surface", name->text));
   PetscCall(SamOptionsReal(r->from, name->name, text, SAM_RANGE_ANY, constant, &set));
-  h->bulk[body][k] = SamTableFind(&h->table, name->name);
-  if (h->bulk[body][k] < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  h->column[k] = SamTableFind(&h->table, name->name);
+  if (h->column[k] < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Override(r, name->name, name->name, &set));
   *constant = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -150,7 +162,7 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
 /* The options database has the name -load_history (SamHistoryClaimOption()); the help and messages say -history. */
 static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t size, PetscBool *set)
 {
-  const SamOptionHelp option = {"history", "<file>", "text file with one row for each load step: see -help history", "",
+  const SamOptionHelp option = {"history", "<file>", "text file of load states, one per row: see -help history", "",
                                 ""};
 
   PetscFunctionBegin;
@@ -165,7 +177,7 @@ PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, PetscInt *increm
 {
   PetscFunctionBegin;
   *increments = 1;
-  PetscCall(SamOptionsInt(from, "steps", "increments into which each step's change is divided", 1, increments, NULL));
+  PetscCall(SamOptionsInt(from, "steps", "load steps per row of the history", 1, increments, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -204,9 +216,8 @@ PetscErrorCode SamHistoryHas(SamHistory h, PetscBool *friction_scale, PetscBool 
   PetscFunctionBegin;
   *friction_scale = h->friction >= 0;
   *bulk_stress    = PETSC_FALSE;
-  for (PetscInt body = 0; body < 2; body++)
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
-      if (h->bulk[body][k] >= 0 || h->constant.bulk_stress[body][k] != 0) *bulk_stress = PETSC_TRUE;
+  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++)
+    if (h->column[k] >= 0 || SamControlPart(&h->constant, k) != 0) *bulk_stress = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -253,11 +264,8 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
 /* Part k of the control (SamControlPart()), which has a column, or is constant. */
 static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
 {
-  const PetscInt bulk   = k - SAM_COMPONENTS;
-  const PetscInt column = bulk < 0 ? h->column[k] : h->bulk[bulk / SAM_BULK_COMPONENTS][bulk % SAM_BULK_COMPONENTS];
-
   if (r < 0) return (double)SamControlPart(&h->before, k);
-  return column >= 0 ? Entry(h, column, r) : (double)SamControlPart(&h->constant, k);
+  return h->column[k] >= 0 ? Entry(h, h->column[k], r) : (double)SamControlPart(&h->constant, k);
 }
 
 /* Whether nothing is prescribed in the first row that differs from the start. */
@@ -278,8 +286,7 @@ static void ListNames(const char *names[NAMES])
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].load;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].rigid;
   names[n++] = FRICTION;
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
-    names[n++] = SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name;
+  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) names[n++] = BulkName(k)->name;
   names[n] = NULL;
 }
 
@@ -305,15 +312,12 @@ static PetscErrorCode Create(SamHistory *history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void SetIncrements(SamHistory h, PetscInt increments)
-{
-  h->increments = increments;
-  h->start      = h->table.rows && IsAtRest(h) ? 1 : increments;
-}
-
-static PetscErrorCode CheckTable(SamHistory h, MPI_Comm comm, const char file[])
+/* Divides the change of each row, and checks the table. */
+static PetscErrorCode SetIncrements(SamHistory h, PetscInt increments, MPI_Comm comm, const char file[])
 {
   PetscFunctionBegin;
+  h->increments = increments;
+  h->start      = h->table.rows && IsAtRest(h) ? 1 : increments;
   PetscCall(CheckRows(h, comm, file));
   PetscCall(CheckChanges(h, comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -340,16 +344,12 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
              "%s: %" PetscInt_FMT " increments of %" PetscInt_FMT " rows: expected a number > 0 that can be counted",
              what, increments, rows);
   PetscCheck(h->column[SAM_COMPONENT_N] >= 0, comm, SAM_ERR_USER, "%s: expected the column load_n or disp_z", what);
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++) {
-    const PetscInt body = k / SAM_BULK_COMPONENTS, b = k % SAM_BULK_COMPONENTS;
-
-    h->bulk[body][b] = SamTableFind(&h->table, SamBulkNames[body][b].name);
-  }
+  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++)
+    h->column[k] = SamTableFind(&h->table, BulkName(k)->name);
   if (before) h->before = *before;
   for (PetscInt c = 0; c < SAM_COMPONENTS && before; c++) /* a load and a displacement have nothing between them */
     if (before->force[c] != h->constant.force[c]) h->before.value[c] = ValueOfRow(h, c, 0);
-  SetIncrements(h, increments);
-  PetscCall(CheckTable(h, comm, what));
+  PetscCall(SetIncrements(h, increments, comm, what));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -378,10 +378,8 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) /* so that none is taken for another one misspelled */
     SamOptionsKnow(from, k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load, NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
-  for (PetscInt body = 0; body < 2; body++)
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) PetscCall(ReadBulkStress(h, &reader, body, k));
-  SetIncrements(h, increments);
-  if (has_file) PetscCall(CheckTable(h, from->comm, file));
+  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) PetscCall(ReadBulkStress(h, &reader, k));
+  PetscCall(SetIncrements(h, increments, from->comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -402,11 +400,8 @@ PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
 #define BETWEEN(before, after) (i == steps ? (after) : (before) + part * ((after) - (before)))
   control->time           = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   control->friction_scale = BETWEEN(FrictionOfRow(h, r - 1), FrictionOfRow(h, r));
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    control->value[c] = BETWEEN(ValueOfRow(h, c, r - 1), ValueOfRow(h, c, r));
-  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
-    control->bulk_stress[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS] =
-      BETWEEN(ValueOfRow(h, SAM_COMPONENTS + n, r - 1), ValueOfRow(h, SAM_COMPONENTS + n, r));
+  for (PetscInt p = 0; p < SAM_CONTROL_PARTS; p++)
+    *PartOf(control, p) = BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r));
 #undef BETWEEN
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -147,10 +147,11 @@ static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
   PetscFunctionBegin;
   if (!set->fixed || s->warned) PetscFunctionReturn(PETSC_SUCCESS);
   if (set->type == SAM_LIFE_EXPLICIT && r->jump > r->limit)
-    (void)snprintf(said.message, sizeof(said.message),
-                   "after %.10g cycles: explicit jumps over more than %.4g cycles are not stable: pressure and depth "
-                   "are wrong",
-                   (double)r->cycles, (double)r->limit);
+    (void)snprintf(
+      said.message, sizeof(said.message),
+      "after %.10g cycles: explicit cycle jumps of more than %.4g cycles are unstable: pressure and depth are "
+      "wrong",
+      (double)r->cycles, (double)r->limit);
   else if (r->error > LARGE)
     (void)snprintf(said.message, sizeof(said.message), "after %.10g cycles: the error of the last jump is %.2g",
                    (double)r->cycles, (double)r->error);
@@ -221,7 +222,5 @@ PetscErrorCode SamSimulationCreateLife(SamSimulation s)
   cycle.steps = s->needs.steps - start;
   PetscCall(SamLifeCreate(s->setup.contact, &cycle, &s->plan.life, &s->life));
   PetscCall(SamLifeGetSeries(s->life, &set->cycles, &set->cycles_name));
-  s->point.life   = s->life;
-  s->point.cycles = s->plan.cycles;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -19,7 +19,7 @@ static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control
       const double stress = (double)control->bulk_stress[body][k], young = (double)s->setup.pair.young[body];
 
       PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
-                 "-%s%s, or its column in -history: %g is more than Young's modulus, %g", prefix,
+                 "-%s%s, or its column in -history: %g exceeds Young's modulus, %g: check the unit, Pa", prefix,
                  SamBulkNames[body][k].name, stress, young);
 
       PetscCheck(stress == 0 || !isinf(s->setup.pair.young[body]), from->comm, SAM_ERR_USER,
@@ -68,7 +68,7 @@ static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
   PetscCall(SamProblemGetLaws(s->setup.problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++) {
     PetscCheck(!laws[k]->needs_friction || s->needs.friction, from->comm, SAM_ERR_USER,
-               "-%s is given without -friction: it acts where the surfaces slip under friction", laws[k]->option);
+               "-%s is given without -friction, on which it acts: give -friction, or remove it", laws[k]->option);
     PetscCheck(!laws[k]->forbids_jumps || !s->needs.life, from->comm, SAM_ERR_USER,
                "-%s with -wear_cycles: cycle jumps ignore what it changes in skipped cycles: repeat the rows in "
                "-history, or omit one option",
@@ -100,11 +100,11 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
   s->output_every = 1;
   PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &s->output_every, NULL));
-  PetscCall(SamOptionsBool(from, "stiffness", "tangent stiffness of every step, for steps that go on and reverse",
+  PetscCall(SamOptionsBool(from, "stiffness", "tangent stiffness of every step, for continued loading and reversal",
                            &s->needs.stiffness, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&s->output_settings, from));
   s->output_settings.flush = FLUSH;
-  PetscCall(SamOptionsReal(from, "output_flush", "s that steps without fields may wait to be written, 0: none",
+  PetscCall(SamOptionsReal(from, "output_flush", "longest write delay (s) of steps without fields, 0: none",
                            SAM_RANGE_NONNEGATIVE, &s->output_settings.flush, NULL));
   PetscCall(SamOutputSettingsAddLaws(&s->output_settings, s->setup.problem));
   PetscCall(SamPrintHelp(&help));
@@ -128,9 +128,7 @@ static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
 static PetscErrorCode ReadFiles(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamCheckpointsCreateFromOptions(from, &s->checkpoints));
-  PetscCall(SamCheckpointsSetSignals(s->checkpoints, s->signals));
-  s->restart_gap = SamCheckpointsChangeGap(s->checkpoints);
+  PetscCall(SamSimulationReadCheckpoints(s, from));
   PetscCall(ReadResults(s, from));
   PetscCall(SamProblemGetBytes(s->setup.problem, &s->needs.laws));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -143,9 +141,8 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
 
   PetscFunctionBegin;
   if (s->history != history) PetscCall(SamHistoryDestroy(&s->history));
-  s->history       = history;
-  s->point.history = history;
-  s->needs.life    = cycles > 0;
+  s->history    = history;
+  s->needs.life = cycles > 0;
   PetscCall(SamHistoryGetCount(history, &s->needs.steps));
   PetscCall(SamPrintHelp(&help));
   if (help) PetscFunctionReturn(PETSC_SUCCESS);

@@ -57,6 +57,6 @@ PetscErrorCode SamSimulationCollectParameters(SamSimulation s)
   PetscCall(SamSetupAddParameters(&s->setup, &s->parameters));
   PetscCall(AddLoads(&s->parameters, s->history));
   PetscCall(AddLife(&s->parameters, &s->plan));
-  s->parameters.free = s->restart_gap ? "gap_" : NULL;
+  s->parameters.free = s->checkpoints.other_gap ? "gap_" : NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

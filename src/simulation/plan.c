@@ -25,7 +25,7 @@ static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBoo
 {
   PetscFunctionBegin;
   PetscCheck(!set || (cycles == floor(cycles) && cycles <= MOST_CYCLES), from->comm, SAM_ERR_USER,
-             "-%s %g: expected a whole number of cycles, at most %g", option, (double)cycles, MOST_CYCLES);
+             "-%s %g: expected an integer, at most %g", option, (double)cycles, MOST_CYCLES);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -41,8 +41,7 @@ static PetscErrorCode ReadOutputs(SamPlan *w, const SamOptions *from)
     const double cycle = strtod(part, &end);
 
     PetscCheck(end != part && !*end && isfinite(cycle) && cycle >= 0 && cycle == floor(cycle), from->comm, SAM_ERR_USER,
-               "-wear_output: \"%s\" is not a number of cycles: expected whole numbers >= 0, separated by commas",
-               part);
+               "-wear_output: \"%s\" is not a number of cycles: expected integers >= 0, separated by commas", part);
     PetscCheck(w->outputs < SAM_PLAN_OUTPUTS, from->comm, SAM_ERR_USER, "-wear_output: more than %d cycles",
                SAM_PLAN_OUTPUTS);
     w->output[w->outputs++] = cycle;
@@ -58,12 +57,12 @@ static PetscErrorCode ReadLife(SamPlan *w, const SamOptions *from)
   PetscInt type = SAM_LIFE_IMPLICIT;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(from, "wear_type", "how cycles are jumped over: implicit, or explicit", types, &type, NULL));
+  PetscCall(SamOptionsEnum(from, "wear_type", "how cycles are jumped: implicit, or explicit", types, &type, NULL));
   w->life = (SamLifeSettings){.type = (SamLifeType)type, .rtol = 1e-2};
-  PetscCall(SamOptionsReal(from, "wear_rtol", "error of a jump over cycles: of depth and pressure, relative",
+  PetscCall(SamOptionsReal(from, "wear_rtol", "relative error per cycle jump, of depth and pressure",
                            SAM_RANGE_POSITIVE, &w->life.rtol, NULL));
-  PetscCall(SamOptionsReal(from, "wear_jump", "instead: all jumps are over so many cycles", SAM_RANGE_POSITIVE,
-                           &w->life.jump, &w->life.fixed));
+  PetscCall(SamOptionsReal(from, "wear_jump", "fixed jump length in cycles", SAM_RANGE_POSITIVE, &w->life.jump,
+                           &w->life.fixed));
   PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
   PetscCall(ReadOutputs(w, from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -118,7 +117,7 @@ static PetscErrorCode ReadFriction(SamPlan *w, const SamOptions *from)
   PetscInt  cycle, friction;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsFile(from, "wear_friction", "text file, columns cycle,friction: friction over the life", file,
+  PetscCall(SamOptionsFile(from, "wear_friction", "text file, columns cycle,friction: friction over the cycles", file,
                            sizeof(file), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   for (int k = 0; k < 2; k++) {
@@ -203,10 +202,8 @@ PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, const Sam
   PetscCall(SamHistoryGetCount(history, &count));
   PetscCall(SamHistoryGetIncrements(history, &increments));
   PetscCall(SamHistoryGetStart(history, &start));
-  PetscCheck(
-    count > start + increments, from->comm, SAM_ERR_USER,
-    "-wear_cycles: a cycle needs a -history of three rows or more: where it starts, and how it goes on back to "
-    "there");
+  PetscCheck(count > start + increments, from->comm, SAM_ERR_USER,
+             "-wear_cycles: a cycle needs a -history of three rows or more: the start and the path back to it");
   PetscCall(SamHistoryGetStep(history, start - 1, &first));
   for (PetscInt k = start; k < count; k++) {
     PetscCall(SamHistoryGetStep(history, k, &last));

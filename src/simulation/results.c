@@ -36,7 +36,7 @@ static PetscErrorCode Continue(SamSimulation s)
 }
 
 /* A file of the steps after the checkpoint. It says what they follow. */
-static PetscErrorCode Branch(SamSimulation s, const char checkpoint[])
+static PetscErrorCode Branch(SamSimulation s)
 {
   SamSimulationPoint *p    = &s->point;
   const PetscReal     step = (PetscReal)p->steps;
@@ -48,11 +48,11 @@ static PetscErrorCode Branch(SamSimulation s, const char checkpoint[])
   p->times     = 0;
   PetscCall(Create(s));
   PetscCall(SamOutputSetReals(s->output, SAM_OUTPUT_BRANCH, 1, &step));
-  PetscCall(SamOutputSetText(s->output, "branch_checkpoint", checkpoint));
+  PetscCall(SamOutputSetText(s->output, "branch_checkpoint", s->checkpoints.restart));
   PetscCall(SamOutputSetText(s->output, "branch_results", p->results[0] ? p->results : "none"));
-  PetscCall(SamOutputSetText(s->output, "branch_gap", s->restart_gap ? "of this run" : "as before"));
+  PetscCall(SamOutputSetText(s->output, "branch_gap", s->checkpoints.other_gap ? "of this run" : "as before"));
   s->start.branch = PETSC_TRUE;
-  s->start.gap    = s->restart_gap;
+  s->start.gap    = s->checkpoints.other_gap;
   PetscCall(PetscStrncpy(s->start.followed, p->results, sizeof(s->start.followed)));
   if (!s->life) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLifeGetState(s->life, &life));
@@ -60,33 +60,32 @@ static PetscErrorCode Branch(SamSimulation s, const char checkpoint[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is a file of that name, by rank 0. */
-static PetscErrorCode Exists(SamGrid grid, const char filename[], PetscBool *exists)
+PetscErrorCode SamSimulationFileExists(SamSimulation s, const char filename[], PetscBool *exists)
 {
   PetscMPIInt rank, there = 0;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(s->comm, &rank));
   if (!rank) there = access(filename, F_OK) == 0;
-  PetscCallMPI(MPI_Bcast(&there, 1, MPI_INT, 0, grid->comm));
+  PetscCallMPI(MPI_Bcast(&there, 1, MPI_INT, 0, s->comm));
   *exists = there != 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationOpenResults(SamSimulation s, const char checkpoint[])
+PetscErrorCode SamSimulationOpenResults(SamSimulation s)
 {
   PetscBool exists;
 
   PetscFunctionBegin;
-  if (checkpoint) {
-    PetscCall(Exists(s->setup.grid, s->filename, &exists));
+  if (s->checkpoints.restart[0]) {
+    PetscCall(SamSimulationFileExists(s, s->filename, &exists));
     PetscCheck(
-      !exists || !s->restart_gap, s->comm, SAM_ERR_USER,
+      !exists || !s->checkpoints.other_gap, s->comm, SAM_ERR_USER,
       "-output %s: is there, and results with another gap (-restart_gap) need a file of their own: give another "
       "name",
       s->filename);
     if (!exists && strcmp(s->filename, s->point.results))
-      PetscCall(Branch(s, checkpoint));
+      PetscCall(Branch(s));
     else /* where the stopped run's own file is missing, that is an error */
       PetscCall(Continue(s));
   } else {
@@ -102,15 +101,6 @@ PetscErrorCode SamSimulationOpenResults(SamSimulation s, const char checkpoint[]
 static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
 {
   return last / s->output_every - first / s->output_every + (last > first && last % s->output_every ? 1 : 0);
-}
-
-/* A size that a person reads. */
-static void PrintBytes(double bytes, char text[], size_t size)
-{
-  const int    power   = bytes < 1e6 ? 1 : bytes < 1e9 ? 2 : bytes < 1e12 ? 3 : 4;
-  const double units[] = {1, 1e3, 1e6, 1e9, 1e12};
-
-  (void)snprintf(text, size, "%.3g %cB", bytes / units[power], " kMGT"[power]);
 }
 
 /* The size of the whole file, and what is still to come of it. In a life the cycles that will be computed count not. */
@@ -143,9 +133,9 @@ PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
   PetscFunctionBegin;
   PetscCall(Estimate(s, &whole, &rest));
   PetscCall(SamOutputGetSpace(s->output, &space));
-  PrintBytes(whole, words[0], sizeof(words[0]));
-  PrintBytes(rest, words[1], sizeof(words[1]));
-  PrintBytes(space, words[2], sizeof(words[2]));
+  SamDescribeBytes(whole, words[0], sizeof(words[0]));
+  SamDescribeBytes(rest, words[1], sizeof(words[1]));
+  SamDescribeBytes(space, words[2], sizeof(words[2]));
   (void)snprintf(text, size, "%s %s, %s free there",
                  s->life                           ? "at least"
                  : s->output_settings.compress > 0 ? "at most"

@@ -19,7 +19,7 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputDestroy(&s->output));
-  PetscCall(SamCheckpointsDestroy(&s->checkpoints));
+  PetscCall(SamCheckpointDestroy(&s->checkpoints.files));
   PetscCall(SamLifeDestroy(&s->life));
   PetscCall(SamPlanDestroy(&s->plan));
   PetscCall(SamHistoryDestroy(&s->history));
@@ -40,7 +40,6 @@ PetscErrorCode SamSimulationSetSignals(SamSimulation s, volatile sig_atomic_t si
 {
   PetscFunctionBegin;
   s->signals = signals;
-  if (s->checkpoints) PetscCall(SamCheckpointsSetSignals(s->checkpoints, signals));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,21 +101,6 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 
 /* ---- results ---- */
 
-/* Restores the state of a stopped simulation, and says where that was. */
-static PetscErrorCode Restart(SamSimulation s)
-{
-  SamSimulationStart *const start = &s->start;
-  SamLifeState              life;
-
-  PetscFunctionBegin;
-  PetscCall(SamCheckpointsRestart(s->checkpoints, s->setup.contact, &s->parameters, &s->point));
-  PetscCall(PetscSNPrintf(start->after, sizeof(start->after), "step %" PetscInt_FMT, s->point.steps));
-  if (!s->life) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamLifeGetState(s->life, &life));
-  (void)snprintf(start->after, sizeof(start->after), "%.10g cycles", (double)life.cycles);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Restores, opens the results, and tells of the beginning. */
 static PetscErrorCode Begin(SamSimulation s)
 {
@@ -125,17 +109,26 @@ static PetscErrorCode Begin(SamSimulation s)
   PetscFunctionBegin;
   s->last_time = PETSC_NINFINITY;
   start->steps = s->needs.steps;
-  PetscCall(SamCheckpointsGetNames(s->checkpoints, NULL, &start->restart));
-  if (start->restart) PetscCall(Restart(s));
-  PetscCall(SamCheckpointsBegin(s->checkpoints, s->setup.grid, s->point.steps));
-  if (s->has_output) PetscCall(SamSimulationOpenResults(s, start->restart));
-  s->point.output = s->output;
+  for (PetscInt k = 0; k < s->needs.steps; k++) {
+    SamControl control;
+
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+      if (!control.force[c] || control.value[c] != 0) start->loads[c] = PETSC_TRUE;
+  }
+  if (s->checkpoints.restart[0]) {
+    start->restart = s->checkpoints.restart;
+    PetscCall(SamSimulationRestart(s));
+    PetscCall(SamSimulationDescribePlace(s, PETSC_FALSE, start->after, sizeof(start->after)));
+  }
+  PetscCall(SamSimulationBeginCheckpoints(s));
+  if (s->has_output) PetscCall(SamSimulationOpenResults(s));
   if (s->output) {
     start->results = s->filename;
     PetscCall(SamOutputHasReplaced(s->output, &start->replaced));
     PetscCall(SamSimulationForecast(s, start->size, sizeof(start->size)));
   }
-  SamCheckpointsDescribe(s->checkpoints, start->when, sizeof(start->when));
+  SamSimulationDescribeCheckpoints(s, start->when, sizeof(start->when));
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_BEGIN, .start = start}));
   PetscCall(SamSimulationPrepareAdvice(s, s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1)));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -180,8 +173,8 @@ static PetscErrorCode TellFile(SamSimulation s, const char name[], const char co
 static PetscErrorCode Finish(SamSimulation s)
 {
   char        content[96];
-  const char *xdmf, *checkpoint;
-  PetscInt    steps, saved, last;
+  const char *xdmf;
+  PetscInt    steps, saved;
 
   PetscFunctionBegin;
   if (s->output) {
@@ -195,10 +188,8 @@ static PetscErrorCode Finish(SamSimulation s)
   s->writing = PETSC_TRUE;
   PetscCall(SamOutputDestroy(&s->output));
   s->writing = PETSC_FALSE;
-  PetscCall(SamCheckpointsGetNames(s->checkpoints, &checkpoint, NULL));
-  PetscCall(SamCheckpointsGetLast(s->checkpoints, &last));
-  PetscCall(PetscSNPrintf(content, sizeof(content), "checkpoint after step %" PetscInt_FMT, last));
-  if (last) PetscCall(TellFile(s, checkpoint, content));
+  PetscCall(PetscSNPrintf(content, sizeof(content), "checkpoint after step %" PetscInt_FMT, s->checkpoints.last));
+  if (s->checkpoints.last) PetscCall(TellFile(s, s->checkpoints.filename, content));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -235,23 +226,6 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationCheckpoint(SamSimulation s)
-{
-  char      said[PETSC_MAX_PATH_LEN + 128];
-  PetscBool stop;
-
-  PetscFunctionBegin;
-  s->writing = PETSC_TRUE;
-  PetscCall(
-    SamCheckpointsAfterStep(s->checkpoints, s->setup.contact, &s->parameters, &s->point, &stop, said, sizeof(said)));
-  s->writing = PETSC_FALSE;
-  if (stop) s->stopped = PETSC_TRUE;
-  if (said[0])
-    PetscCall(SamSimulationTell(
-      s, &(SamSimulationNews){.kind = stop ? SAM_NEWS_STOPPED : SAM_NEWS_ADVICE, .text = said, .setting = ""}));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Solves the remaining steps; ends early when a step fails, or with a checkpoint. */
 static PetscErrorCode SolveSteps(SamSimulation s)
 {
@@ -268,7 +242,7 @@ static PetscErrorCode SolveSteps(SamSimulation s)
 PetscErrorCode SamSimulationRun(SamSimulation s)
 {
   PetscFunctionBegin;
-  PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load program");
+  PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load history");
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
   PetscCall(Begin(s));
   if (s->life)
@@ -298,9 +272,10 @@ PetscErrorCode SamSimulationGetNeeds(SamSimulation s, SamSimulationNeeds *needs)
 PetscErrorCode SamSimulationGetFiles(SamSimulation s, SamSimulationFiles *files)
 {
   PetscFunctionBegin;
-  files->output = s->has_output ? s->filename : NULL;
-  files->xdmf   = s->output_settings.xdmf;
-  PetscCall(SamCheckpointsGetNames(s->checkpoints, &files->checkpoint, &files->restart));
+  files->output     = s->has_output ? s->filename : NULL;
+  files->checkpoint = s->checkpoints.filename[0] ? s->checkpoints.filename : NULL;
+  files->restart    = s->checkpoints.restart[0] ? s->checkpoints.restart : NULL;
+  files->xdmf       = s->output_settings.xdmf;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -336,5 +311,5 @@ PetscBool SamSimulationIsWriting(SamSimulation s)
 
 void SamSimulationAbandon(SamSimulation s)
 {
-  (void)SamCheckpointsDestroy(&s->checkpoints);
+  (void)SamCheckpointDestroy(&s->checkpoints.files);
 }

@@ -4,8 +4,36 @@
 
 #include <petsam.h>
 #include <petsam/private/baseimpl.h>
-#include "checkpoints.h"
 #include "plan.h"
+
+/* The position of a simulation in its load history. */
+typedef struct {
+  PetscInt  steps;                       /* number of steps solved so far, of computed cycles in a life */
+  PetscInt  rows;                        /* number of computed cycles that were written */
+  PetscInt  first, first_row;            /* steps, computed cycles, before those of the results file */
+  uint64_t  times;                       /* checksum of the times of the steps of the results file */
+  SamStatus worst;                       /* worst status of the steps */
+  char      results[PETSC_MAX_PATH_LEN]; /* the file, as it was named; empty: none */
+  PetscBool restarted;                   /* continues from a checkpoint */
+} SamSimulationPoint;
+
+/* When checkpoints are written: every so many steps, when a signal asks for one, and before a time limit. */
+#define SAM_RECENT 5
+typedef struct {
+  /* what the user set */
+  char      filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
+  PetscBool other_gap;                                                 /* than in the checkpoint of -restart */
+  PetscBool overwrite; /* a new run may replace the checkpoint of an earlier one */
+  PetscInt  every;     /* load steps, 0: never */
+  double    limit;     /* seconds, 0: none */
+  /* status */
+  SamCheckpoint files;              /* NULL: none */
+  double        start, step_start;  /* MPI_Wtime() at the start of the run, and of this step */
+  double        recent[SAM_RECENT]; /* seconds of the last steps */
+  double        writing;            /* seconds that the slowest checkpoint took */
+  PetscInt      done, last;         /* number of steps in this run; step of the last checkpoint */
+  PetscInt      seen;               /* steps when a checkpoint was last considered */
+} SamCheckpoints;
 
 struct _n_SamSimulation {
   MPI_Comm               comm;
@@ -27,11 +55,10 @@ struct _n_SamSimulation {
   PetscBool              stopped; /* before its end, with a checkpoint */
   PetscInt               output_every;
   PetscBool              has_output;
-  PetscBool              restart_gap; /* goes on with another gap than the stopped simulation's */
-  PetscBool              told;        /* in a life: the step that failed is in the file */
-  PetscBool              warned;      /* a warning has been printed in this life */
-  PetscReal              last_time;   /* of the last step that was written, s; -infinity: none */
-  PetscBool              writing;     /* a collective write is under way */
+  PetscBool              told;      /* in a life: the step that failed is in the file */
+  PetscBool              warned;    /* a warning has been printed in this life */
+  PetscReal              last_time; /* of the last step that was written, s; -infinity: none */
+  PetscBool              writing;   /* a collective write is under way */
   char                   filename[PETSC_MAX_PATH_LEN];
   SamLoadsMost           most;              /* the largest loads of the steps from here on */
   PetscInt               largest;           /* step of the largest normal load or approach among them, from 0 */
@@ -46,12 +73,14 @@ struct _n_SamSimulation {
 PETSC_INTERN PetscErrorCode SamSimulationTell(SamSimulation simulation, const SamSimulationNews *news);
 PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[]);
 /*
-  SamSimulationOpenResults - opens the results. After a restart (`checkpoint` NULL: none) it goes on with a file that is
-  there; a new name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
+  SamSimulationFileExists - whether there is a file of that name, by rank 0. Collective.
+  SamSimulationOpenResults - opens the results. After a restart it extends a file that is there; a new name begins a
+  file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
   SamSimulationForecast - how large the results will be, in words; warns where the disk has not that much space.
   Collective.
 */
-PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation, const char checkpoint[]);
+PETSC_INTERN PetscErrorCode SamSimulationFileExists(SamSimulation simulation, const char filename[], PetscBool *exists);
+PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);
 /* SamSimulationCreateLife - makes the life, if cycles are asked for, once there is a contact. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCreateLife(SamSimulation simulation);
@@ -64,8 +93,26 @@ PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationWriteLastFields(SamSimulation simulation);
 /* SamSimulationWriteStep - writes a step's numbers and, when they are due, its fields. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationWriteStep(SamSimulation simulation, const SamStep *step, PetscBool due);
-/* SamSimulationCheckpoint - after a step or jump: writes a checkpoint if one is due; may stop. Collective. */
+/*
+  Checkpoints (checkpoints.c). Collective, but for DescribeCheckpoints. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+    ReadCheckpoints      reads the options; -max_walltime counts from here
+    DescribeCheckpoints  says when they are written; empty without -checkpoint
+    BeginCheckpoints     before the first step, whose time starts here. Fails early if the file cannot be written; a
+                         checkpoint of an earlier run is only replaced after a restart, or with -overwrite
+    Restart              gives contact, life and `point` the state in the file of -restart; up to there the load history
+                         must be that of the stopped run
+    Checkpoint           after a step or jump: writes a checkpoint if one is due; stops at a signal, or when the next
+                         step, assumed to be as slow as the slowest of the last ones, and a checkpoint after it would
+                         not end in time, but not after the last step
+    DescribePlace        the step, or the cycles, so far, of how many if `total`
+*/
+PETSC_INTERN PetscErrorCode SamSimulationReadCheckpoints(SamSimulation simulation, const SamOptions *from);
+PETSC_INTERN void           SamSimulationDescribeCheckpoints(SamSimulation simulation, char text[], size_t size);
+PETSC_INTERN PetscErrorCode SamSimulationBeginCheckpoints(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationRestart(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationCheckpoint(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationDescribePlace(SamSimulation simulation, PetscBool total, char text[],
+                                                       size_t size);
 /*
   What a user should know besides (advice.c). PrepareAdvice - before the first step: finds the largest loads of the
   steps from `first` on, and warns of options that are unlikely to be meant. AdviseEdge - appends to the message of a

@@ -3,37 +3,18 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
-/* The error that rank 0 found, which all ranks raise; code 0: none. */
+/* A file that is being read; errors are raised on `comm`. */
 typedef struct {
-  PetscErrorCode code;
-  char           message[1024];
-} Verdict;
-
-static PetscErrorCode Judge(Verdict *verdict, PetscErrorCode code, const char format[], ...)
-{
-  va_list arguments;
-
-  PetscFunctionBegin;
-  verdict->code = code;
-  va_start(arguments, format);
-  vsnprintf(verdict->message, sizeof(verdict->message), format, arguments);
-  va_end(arguments);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A file that is being read. */
-typedef struct {
+  MPI_Comm           comm;
   const char        *option, *file;
   const char *const *names; /* of the columns that there may be */
   SamTable          *t;
   char               separator; /* comma, semicolon, or a space for any white space */
   PetscInt           line, room;
-  Verdict            verdict;
 } Reader;
 
 /* Removes a comment, and white space at both ends. */
@@ -107,23 +88,18 @@ static void ListNames(const Reader *r, char list[], size_t size)
 /* Refuses a name that is none of a column's. A unit is a likely reason. */
 static PetscErrorCode RefuseName(Reader *r, const char field[])
 {
-  const char *meant = FindMeant(r, field), *why        = "";
+  const char *meant = FindMeant(r, field);
   char        list[400], suggested[2 * SAM_TABLE_NAME] = "", *end;
 
   PetscFunctionBegin;
   (void)strtod(field, &end);
-  if (end != field && !*end) {
-    PetscCall(Judge(&r->verdict, SAM_ERR_USER,
-                    "%s, line %d: %s is no name of a column: the first line must name the columns, for example %s,%s",
-                    r->file, (int)r->line, field, r->names[0], r->names[1]));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
+  PetscCheck(end == field || *end, r->comm, SAM_ERR_USER,
+             "%s, line %d: %s is no name of a column: the first line must name the columns, for example %s,%s", r->file,
+             (int)r->line, field, r->names[0], r->names[1]);
   ListNames(r, list, sizeof(list));
-  if (strpbrk(field, "[(/")) why = " names have no unit, as all values are in SI units:";
   if (meant) (void)snprintf(suggested, sizeof(suggested), " is %s meant?", meant);
-  PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: unknown column %.64s;%s%s expected %s", r->file,
-                  (int)r->line, field, why, suggested, list));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  SETERRQ(r->comm, SAM_ERR_USER, "%s, line %d: unknown column %.64s;%s%s expected %s", r->file, (int)r->line, field,
+          strpbrk(field, "[(/") ? " names have no unit, as all values are in SI units:" : "", suggested, list);
 }
 
 static PetscBool IsName(const Reader *r, const char field[])
@@ -143,60 +119,48 @@ static PetscErrorCode ReadHeader(Reader *r, char *text)
   PetscFunctionBegin;
   t->header_line = r->line;
   r->separator   = strchr(text, ';') ? ';' : strchr(text, ',') ? ',' : ' ';
-  while (!r->verdict.code && (field = NextField(&rest, r->separator))) {
-    if (!*field)
-      PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: a column has no name: is there a separator too many?",
-                      r->file, line));
-    else if (SamTableFind(t, field) >= 0)
-      PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: two columns are named %s: leave one of them out",
-                      r->file, line, field));
-    else if (!IsName(r, field))
-      PetscCall(RefuseName(r, field));
-    else
-      PetscCall(PetscStrncpy(t->name[t->columns++], field, SAM_TABLE_NAME));
+  while ((field = NextField(&rest, r->separator))) {
+    PetscCheck(*field, r->comm, SAM_ERR_USER, "%s, line %d: a column has no name: is there a separator too many?",
+               r->file, line);
+    PetscCheck(SamTableFind(t, field) < 0, r->comm, SAM_ERR_USER,
+               "%s, line %d: two columns are named %s: remove one of them", r->file, line, field);
+    if (!IsName(r, field)) PetscCall(RefuseName(r, field));
+    PetscCall(PetscStrncpy(t->name[t->columns++], field, SAM_TABLE_NAME));
   }
-  if (!r->verdict.code && SamTableFind(t, r->names[0]) < 0)
-    PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: no column named %s: each row needs one", r->file, line,
-                    r->names[0]));
+  PetscCheck(SamTableFind(t, r->names[0]) >= 0, r->comm, SAM_ERR_USER,
+             "%s, line %d: no column named %s: each row needs one", r->file, line, r->names[0]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- rows ---- */
 
-/* Makes room for one more row. */
-static PetscErrorCode Grow(SamTable *t, PetscInt *room)
-{
-  PetscFunctionBegin;
-  if (t->rows < *room) PetscFunctionReturn(PETSC_SUCCESS);
-  *room = PetscMax(64, 2 * *room);
-  PetscCall(PetscRealloc(sizeof(double) * (size_t)(*room * t->columns), &t->value));
-  PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)*room, &t->line));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode ReadRow(Reader *r, char *text)
 {
-  const SamTable *t      = r->t;
-  double *const   row    = t->value + t->rows * t->columns;
+  SamTable *const t      = r->t;
   PetscInt        fields = 0;
   char           *rest   = text, *field;
 
   PetscFunctionBegin;
-  while (!r->verdict.code && (field = NextField(&rest, r->separator))) {
+  if (t->rows == r->room) {
+    r->room = PetscMax(64, 2 * r->room);
+    PetscCall(PetscRealloc(sizeof(double) * (size_t)(r->room * t->columns), &t->value));
+    PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)r->room, &t->line));
+  }
+  for (; (field = NextField(&rest, r->separator)); fields++) {
     char  *end;
     double value = strtod(field, &end);
 
-    if (fields < t->columns && (end == field || *end || !isfinite(value)))
-      PetscCall(Judge(&r->verdict, SAM_ERR_USER, "%s, line %d: column %s: \"%s\" is not a finite number%s", r->file,
-                      (int)r->line, t->name[fields], field, SamExplainNumber(field)));
-    if (fields < t->columns) row[fields] = value;
-    fields++;
+    if (fields >= t->columns) continue;
+    PetscCheck(end != field && !*end && isfinite(value), r->comm, SAM_ERR_USER,
+               "%s, line %d: column %s: \"%s\" is not a finite number%s", r->file, (int)r->line, t->name[fields], field,
+               SamExplainNumber(field));
+    t->value[t->rows * t->columns + fields] = value;
   }
-  if (!r->verdict.code && fields != t->columns)
-    PetscCall(Judge(
-      &r->verdict, SAM_ERR_USER, "%s, line %d: %d fields, expected %d as in line %d%s", r->file, (int)r->line,
-      (int)fields, (int)t->columns, (int)t->header_line,
-      fields > t->columns && r->separator == ',' ? "; a comma separates columns, numbers have a decimal point" : ""));
+  PetscCheck(fields == t->columns, r->comm, SAM_ERR_USER, "%s, line %d: %d fields, expected %d as in line %d%s",
+             r->file, (int)r->line, (int)fields, (int)t->columns, (int)t->header_line,
+             fields > t->columns && r->separator == ',' ? "; a comma separates columns, numbers have a decimal point"
+                                                        : "");
+  t->line[t->rows++] = r->line;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -207,92 +171,87 @@ static PetscErrorCode ReadLine(Reader *r, char *line)
 {
   static const char mark[] = "\xef\xbb\xbf";
 
-  SamTable *const t = r->t;
-  char           *text;
+  char *text;
 
   PetscFunctionBegin;
   r->line++;
   if (r->line == 1 && !strncmp(line, mark, strlen(mark))) line += strlen(mark);
   text = Trim(line);
-  if (!*text || r->verdict.code) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!t->columns) {
+  if (*text && r->t->columns)
+    PetscCall(ReadRow(r, text));
+  else if (*text)
     PetscCall(ReadHeader(r, text));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(Grow(t, &r->room));
-  PetscCall(ReadRow(r, text));
-  t->line[t->rows++] = r->line;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lines end with LF, CR LF or, from old Macintosh programs, CR. */
-static PetscErrorCode ReadLines(Reader *r, FILE *stream)
+/* Lines end with LF, CR LF or, from old Macintosh programs, CR. `buffer` is for getline(). */
+static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
 {
-  char   *buffer = NULL;
-  size_t  size   = 0;
+  size_t  size = 0;
   ssize_t length;
 
   PetscFunctionBegin;
   errno = 0;
-  while (!r->verdict.code && (length = getline(&buffer, &size, stream)) >= 0) {
-    if (strlen(buffer) != (size_t)length) {
-      PetscCall(Judge(&r->verdict, SAM_ERR_USER,
-                      "%s, line %d: contains a zero byte: expected text in UTF-8, as spreadsheets export it as CSV",
-                      r->file, (int)r->line + 1));
-      break;
-    }
-    if (length && buffer[length - 1] == '\n') buffer[--length] = '\0';
-    if (length && buffer[length - 1] == '\r') buffer[--length] = '\0';
-    for (char *text = buffer, *end; text && !r->verdict.code; text = end) {
+  while ((length = getline(buffer, &size, stream)) >= 0) {
+    PetscCheck(strlen(*buffer) == (size_t)length, r->comm, SAM_ERR_USER,
+               "%s, line %d: contains a zero byte: expected text in UTF-8, as spreadsheets export it as CSV", r->file,
+               (int)r->line + 1);
+    if (length && (*buffer)[length - 1] == '\n') (*buffer)[--length] = '\0';
+    if (length && (*buffer)[length - 1] == '\r') (*buffer)[--length] = '\0';
+    for (char *text = *buffer, *end; text; text = end) {
       end = strchr(text, '\r');
       if (end) *end++ = '\0';
       PetscCall(ReadLine(r, text));
     }
   }
-  if (!r->verdict.code && ferror(stream))
-    PetscCall(Judge(&r->verdict, SAM_ERR_FILE, SAM_CANNOT_READ, r->option, r->file, strerror(errno)));
-  if (!r->verdict.code && !r->t->rows)
-    PetscCall(Judge(&r->verdict, SAM_ERR_USER,
-                    "-%s %s: has no row: expected a line with the names of the columns, for example %s,%s, and below "
-                    "it a line of numbers for each step",
-                    r->option, r->file, r->names[0], r->names[1]));
-  free(buffer);
+  PetscCheck(!ferror(stream), r->comm, SAM_ERR_FILE, SAM_CANNOT_READ, r->option, r->file, strerror(errno));
+  PetscCheck(
+    r->t->rows, r->comm, SAM_ERR_USER,
+    "-%s %s: has no row: expected a line with the names of the columns, for example %s,%s, and below it a line "
+    "of numbers for each step",
+    r->option, r->file, r->names[0], r->names[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ReadFile(Reader *r)
 {
-  struct stat status;
-  FILE       *stream;
+  char          *buffer = NULL;
+  struct stat    status;
+  FILE          *stream;
+  PetscErrorCode code;
 
   PetscFunctionBegin;
   errno  = 0; /* a pipe, or a device, could keep the run waiting */
   stream = stat(r->file, &status) || !S_ISREG(status.st_mode) ? NULL : fopen(r->file, "r");
-  if (!stream) {
-    PetscCall(Judge(&r->verdict, SAM_ERR_FILE, SAM_CANNOT_READ, r->option, r->file,
-                    errno ? strerror(errno) : "it is not a file"));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(ReadLines(r, stream));
+  PetscCheck(stream, r->comm, SAM_ERR_FILE, SAM_CANNOT_READ, r->option, r->file,
+             errno ? strerror(errno) : "it is not a file");
+  code = ReadLines(r, stream, &buffer);
+  free(buffer);
   (void)fclose(stream);
+  PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[], const char *const names[],
                             SamTable *t)
 {
-  PetscMPIInt rank;
-  Reader      r = {.option = option, .file = file, .names = names, .t = t};
+  PetscMPIInt    rank;
+  PetscErrorCode code                 = 0;
+  char           message[SAM_MESSAGE] = "";
+  Reader         r = {.comm = PETSC_COMM_SELF, .option = option, .file = file, .names = names, .t = t};
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(t, sizeof(*t)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) PetscCall(ReadFile(&r));
-  PetscCallMPI(MPI_Bcast(&r.verdict, sizeof(r.verdict), MPI_BYTE, 0, comm));
-  if (r.verdict.code) {
-    PetscCall(SamTableDestroy(t));
-    SETERRQ(comm, r.verdict.code, "%s", r.verdict.message);
+  if (rank == 0) { /* the error that it finds is raised on all ranks */
+    PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
+    code = ReadFile(&r);
+    PetscCall(PetscPopErrorHandler());
   }
+  PetscCallMPI(MPI_Bcast(&code, sizeof(code), MPI_BYTE, 0, comm));
+  PetscCallMPI(MPI_Bcast(message, sizeof(message), MPI_BYTE, 0, comm));
+  if (code) PetscCall(SamTableDestroy(t));
+  PetscCheck(!code, comm, code, "%s", message);
   PetscCallMPI(MPI_Bcast(&t->columns, 1, MPIU_INT, 0, comm));
   PetscCallMPI(MPI_Bcast(&t->rows, 1, MPIU_INT, 0, comm));
   PetscCallMPI(MPI_Bcast(&t->header_line, 1, MPIU_INT, 0, comm));
@@ -309,20 +268,19 @@ PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[
 PetscErrorCode SamTableCreate(MPI_Comm comm, const char what[], const char header[], PetscInt rows,
                               const double values[], const char *const names[], SamTable *t)
 {
-  Reader r = {.option = what, .file = what, .names = names, .t = t};
-  char  *text;
+  Reader r = {.comm = comm, .option = what, .file = what, .names = names, .t = t};
+  char   text[1024];
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(t, sizeof(*t)));
-  PetscCall(PetscStrallocpy(header, &text));
+  PetscCheck(strlen(header) < sizeof(text), comm, SAM_ERR_USER, "%s: expected at most %d characters of names", what,
+             (int)sizeof(text) - 1);
+  PetscCall(PetscStrncpy(text, header, sizeof(text)));
   PetscCall(ReadHeader(&r, Trim(text)));
-  PetscCall(PetscFree(text));
-  for (PetscInt k = 0; k < rows * t->columns && !r.verdict.code; k++)
-    if (!isfinite(values[k]))
-      PetscCall(Judge(&r.verdict, SAM_ERR_USER, "%s, line %d: column %s: %g is not a finite number", what,
-                      (int)(k / t->columns) + 1, t->name[k % t->columns], values[k]));
-  PetscCheck(!r.verdict.code, comm, r.verdict.code, "%s", r.verdict.message);
   PetscCheck(rows > 0, comm, SAM_ERR_USER, "%s: has no row: expected one for each step", what);
+  for (PetscInt k = 0; k < rows * t->columns; k++)
+    PetscCheck(isfinite(values[k]), comm, SAM_ERR_USER, "%s, line %d: column %s: %g is not a finite number", what,
+               (int)(k / t->columns) + 1, t->name[k % t->columns], values[k]);
   t->rows = rows;
   PetscCall(PetscMalloc(sizeof(double) * (size_t)(rows * t->columns), &t->value));
   PetscCall(PetscMalloc(sizeof(PetscInt) * (size_t)rows, &t->line));

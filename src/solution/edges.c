@@ -8,27 +8,20 @@
 static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
 {
   const PetscBool stick = which == SAM_EDGE_STICK;
-  const double   *p, *b, *q;
+  SamValues       v;
   double         *square;
-  PetscInt        cells;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(w, &cells));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->bound, &b));
-  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(SamValuesGet(s, &v));
   PetscCall(VecGetArrayWrite(w, &square));
-  for (PetscInt k = 0; k < cells; k++) {
-    const double slack = stick && b[k] > 0 ? p[k] * (1 - hypot(q[k], q[k + cells]) / b[k]) : p[k];
+  for (PetscInt k = 0; k < v.cells; k++) {
+    const double p = v.p[k], b = v.b[k], qx = v.q[k], qy = v.q[k + v.cells];
+    const double slack = stick && b > 0 ? p * (1 - hypot(qx, qy) / b) : p;
 
-    square[k] = 0;
-    if (p[k] > 0 && (!stick || SamCellStateOf(p[k], q[k], q[k + cells], b[k]) == SAM_CELL_STICK))
-      square[k] = slack * slack;
+    square[k] = p > 0 && (!stick || SamCellStateOf(p, qx, qy, b) == SAM_CELL_STICK) ? slack * slack : 0;
   }
   PetscCall(VecRestoreArrayWrite(w, &square));
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamValuesRestore(s, &v));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -88,31 +81,26 @@ PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, SamState sta
 PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, SamState state, const SamSolution *s,
                                              PetscInt component, Vec shear)
 {
-  const double *p, *b, *q, *at;
+  const double *at;
   double       *value;
-  PetscInt      cells;
+  SamValues     v;
   Vec           pressure;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(shear, &pressure));
   PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_CONTACT, pressure));
   PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_STICK, shear));
-  PetscCall(VecGetLocalSize(shear, &cells));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->bound, &b));
-  PetscCall(VecGetArrayRead(s->shear, &q));
+  PetscCall(SamValuesGet(s, &v));
   PetscCall(VecGetArrayRead(pressure, &at));
   PetscCall(VecGetArray(shear, &value));
-  for (PetscInt k = 0; k < cells; k++) {
-    const double size = hypot(q[k], q[k + cells]);
+  for (PetscInt k = 0; k < v.cells; k++) {
+    const double size = hypot(v.q[k], v.q[k + v.cells]);
 
-    value[k] = size > 0 ? PetscMax(at[k] - value[k], 0) * b[k] / p[k] * q[k + component * cells] / size : 0;
+    value[k] = size > 0 ? PetscMax(at[k] - value[k], 0) * v.b[k] / v.p[k] * v.q[k + component * v.cells] / size : 0;
   }
   PetscCall(VecRestoreArray(shear, &value));
   PetscCall(VecRestoreArrayRead(pressure, &at));
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamValuesRestore(s, &v));
   PetscCall(VecDestroy(&pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

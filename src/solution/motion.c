@@ -6,6 +6,30 @@
 */
 #include <petsam/private/solutionimpl.h>
 
+PetscErrorCode SamValuesGet(const SamSolution *s, SamValues *v)
+{
+  const Vec      fields[] = {s->pressure, s->bound, s->shear, s->displacement_z, s->displacement_t};
+  const double **arrays[] = {&v->p, &v->b, &v->q, &v->u_z, &v->u_t};
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(v, sizeof(*v)));
+  PetscCall(VecGetLocalSize(s->pressure, &v->cells));
+  for (int k = 0; k < 5; k++)
+    if (fields[k]) PetscCall(VecGetArrayRead(fields[k], arrays[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamValuesRestore(const SamSolution *s, SamValues *v)
+{
+  const Vec      fields[] = {s->pressure, s->bound, s->shear, s->displacement_z, s->displacement_t};
+  const double **arrays[] = {&v->p, &v->b, &v->q, &v->u_z, &v->u_t};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 5; k++)
+    if (fields[k]) PetscCall(VecRestoreArrayRead(fields[k], arrays[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 SamStretch SamStretchOf(const SamPair *pair, const SamControl *control)
 {
   SamStretch e = {0, 0, 0};
@@ -47,7 +71,7 @@ SamMotionRow SamMotionOfGap(const SamMotion *m, PetscInt j)
 }
 
 /* The rigid displacement minus the stretch. */
-SamMotionRow SamMotionOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
+static SamMotionRow RowOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
 {
   const SamGrid    grid = m->tangential.grid;
   const double    *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
@@ -79,9 +103,10 @@ SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const do
   for (PetscInt i = 0; i < n; i++) value[i] = u[i] + h[i] - (a + b * (xi0 + (double)i * dxi));
 }
 
-void SamMotionSubtract(const SamMotion *m, SamMotionRow row, const double u[], double value[])
+/* A component of the slip along row j. */
+static void SlipRow(const SamMotion *m, PetscInt component, PetscInt j, const double u[], double slip[])
 {
-  SubtractRow(m->normal.grid->nx, u, row, m->normal.xi0, m->normal.dxi, value);
+  SubtractRow(m->normal.grid->nx, u, RowOfSlip(m, component, j), m->normal.xi0, m->normal.dxi, slip);
 }
 
 void SamMotionGap(const SamMotion *m, SamMotionRow row, const double u[], const double h[], double value[])
@@ -102,7 +127,7 @@ PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *s, 
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    SamMotionSubtract(&motion, SamMotionOfSlip(&motion, component, j), u + component * grid->cells + k, slip + k);
+    SlipRow(&motion, component, j, u + component * grid->cells + k, slip + k);
   }
   PetscCall(VecRestoreArrayRead(s->displacement_t, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -144,9 +169,9 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
   for (PetscInt c = 0; c < 2; c++) {
     const ptrdiff_t k = (ptrdiff_t)c * s->grid->cells + (ptrdiff_t)j * s->grid->nx;
 
-    SamMotionSubtract(&s->now, SamMotionOfSlip(&s->now, c, j), s->u_now + k, s->slip[c]);
+    SlipRow(&s->now, c, j, s->u_now + k, s->slip[c]);
     if (s->u_before)
-      SamMotionSubtract(&s->before, SamMotionOfSlip(&s->before, c, j), s->u_before + k, s->scratch);
+      SlipRow(&s->before, c, j, s->u_before + k, s->scratch);
     else
       SamZero(s->grid->nx, s->scratch);
     for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] = s->slip[c][i] - s->scratch[i];
@@ -208,21 +233,15 @@ PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *s, V
 
 PetscErrorCode SamSolutionComputeStates(const SamSolution *s, Vec state)
 {
-  const double *p, *q, *b;
-  double       *states;
-  PetscInt      cells;
+  SamValues v;
+  double   *states;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(state, &cells));
-  PetscCall(VecGetArrayRead(s->pressure, &p));
-  PetscCall(VecGetArrayRead(s->shear, &q));
-  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(SamValuesGet(s, &v));
   PetscCall(VecGetArrayWrite(state, &states));
-  for (PetscInt k = 0; k < cells; k++) states[k] = SamCellStateOf(p[k], q[k], q[k + cells], b[k]);
+  for (PetscInt k = 0; k < v.cells; k++) states[k] = SamCellStateOf(v.p[k], v.q[k], v.q[k + v.cells], v.b[k]);
   PetscCall(VecRestoreArrayWrite(state, &states));
-  PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(VecRestoreArrayRead(s->shear, &q));
-  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(SamValuesRestore(s, &v));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -13,14 +13,15 @@ enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
 
 /* The fields of the step's solution, and the bound before it; `rim`, NULL: none, of cells whose centres are outside. */
 typedef struct {
-  const double *p, *b, *b_before, *q, *u_z, *u_t, *rim;
+  SamValues     v;
+  const double *b_before, *rim;
 } Fields;
 
 static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first, double sums[SUMS],
                    double most[MOSTS])
 {
   const PetscInt nx = increment->grid->nx, cells = increment->grid->cells;
-  const double  *p = f->p, *b = f->b, *q = f->q, *sx = increment->slip[0], *sy = increment->slip[1];
+  const double  *p = f->v.p, *b = f->v.b, *q = f->v.q, *sx = increment->slip[0], *sy = increment->slip[1];
 
   for (PetscInt i = 0; i < nx; i++) {
     const ptrdiff_t    k = first + i, l = k + cells;
@@ -32,7 +33,7 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
     if (!f->rim || p[k] > f->rim[k]) most[SLIP] = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
-    sums[STORED] += 0.5 * (p[k] * f->u_z[k] + q[k] * f->u_t[k] + q[l] * f->u_t[l]);
+    sums[STORED] += 0.5 * (p[k] * f->v.u_z[k] + q[k] * f->v.u_t[k] + q[l] * f->v.u_t[l]);
     sums[DISSIPATED] -= (q[k] * increment->row[0][i] + q[l] * increment->row[1][i]) *
                         (state == SAM_CELL_SLIP && b[k] > 0 ? 0.5 * (f->b_before[k] + b[k]) / b[k] : 1);
   }
@@ -70,7 +71,7 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("pressure_max", "Pa", "maximum pressure"),
   REAL("shear_max", "Pa", "maximum shear"),
   REAL("slip_max", "m", "maximum slip since the start of a cell in contact"),
-  REAL("edge_accepted", "1", "share of the edges of contact and stick that are reconstructed"),
+  REAL("edge_accepted", "1", "share of the contact edge and the stick-slip boundary that is reconstructed"),
   REAL("dissipated_energy", "J", "frictional work of the load step"),
   REAL("stored_energy", "J", "elastic energy of both bodies")};
 
@@ -98,12 +99,8 @@ static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolu
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamProblemGetLeast(problem, state, &rim));
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
-  PetscCall(VecGetArrayRead(s->pressure, &f.p));
-  PetscCall(VecGetArrayRead(s->bound, &f.b));
+  PetscCall(SamValuesGet(s, &f.v));
   PetscCall(VecGetArrayRead(before, &f.b_before));
-  PetscCall(VecGetArrayRead(s->shear, &f.q));
-  PetscCall(VecGetArrayRead(s->displacement_z, &f.u_z));
-  PetscCall(VecGetArrayRead(s->displacement_t, &f.u_t));
   if (rim) PetscCall(VecGetArrayRead(rim, &f.rim));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row[SUMS] = {0};
@@ -113,12 +110,8 @@ static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolu
     SamAddAll(SUMS, totals, row);
   }
   if (rim) PetscCall(VecRestoreArrayRead(rim, &f.rim));
-  PetscCall(VecRestoreArrayRead(s->displacement_t, &f.u_t));
-  PetscCall(VecRestoreArrayRead(s->displacement_z, &f.u_z));
-  PetscCall(VecRestoreArrayRead(s->shear, &f.q));
   PetscCall(VecRestoreArrayRead(before, &f.b_before));
-  PetscCall(VecRestoreArrayRead(s->bound, &f.b));
-  PetscCall(VecRestoreArrayRead(s->pressure, &f.p));
+  PetscCall(SamValuesRestore(s, &f.v));
   PetscCall(SamIncrementDestroy(&increment));
   PetscCall(SamSumTotals(grid->comm, SUMS, totals, sums));
   PetscCall(SamMax(grid->comm, MOSTS, most));

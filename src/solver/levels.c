@@ -1,4 +1,4 @@
-/* Nested grids and windows, the same for all kinds of solvers, and the counted work of a method on a level. */
+/* Nested grids and windows of all solvers, and the counted work of a method on a level. */
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 
@@ -78,7 +78,7 @@ static PetscErrorCode CountNonzeros(SamGrid grid, PetscInt components, Vec field
 }
 
 /*
-  The product of a level in a window of it; known there if it is on all of the window, and none of its traction is cut
+  The product of a level in a window of it; valid there if it is on all of the window, and none of its traction is cut
   off.
 */
 static PetscErrorCode TakeProduct(SamWindow window, const SamLevel *from, SamLevel *level, PetscInt components,
@@ -147,7 +147,7 @@ void SamLevelGetRigid(const SamLevel *level, SamBalance *balance)
   SamFrameGetRigid(&level->frame, a, balance);
 }
 
-/* What is added to the operator's diagonal; NULL: nothing. */
+/* The field added to the operator's diagonal; NULL: none. */
 static Vec DiagonalOf(SamSolver s, const SamLevel *level)
 {
   return s->kind->diagonal >= 0 ? level->given[s->kind->diagonal] : NULL;
@@ -196,8 +196,8 @@ PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, 
 
 /*
   The approximate inverse M of the operator without a diagonal d becomes W M W with W = 1/sqrt(1 + d/self), self being a
-  cell's influence on itself: right for short waves, whose displacement is that of single cells. It takes 54 instead of
-  185 products where d is up to 130 times self, 27 instead of 45 up to 11 times.
+  cell's influence on itself: accurate for short waves, whose displacement is that of single cells. It takes 54 instead
+  of 185 products where d is up to 130 times self, 27 instead of 45 up to 11 times.
 */
 static PetscErrorCode PreconditionYielding(SamSolver s, SamLevel *level, Vec diagonal, double factor, const float r[],
                                            float z[])

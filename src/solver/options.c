@@ -1,15 +1,6 @@
-/* What a solver reads from the options database, and what it prints. */
+/* Options and printout of a solver. */
 #include <petsam/private/solverimpl.h>
-
-#define PREFIX 128
-
-/* The user's prefix and `<kind>_`. */
-static PetscErrorCode GetPrefix(SamSolver s, char prefix[PREFIX])
-{
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(prefix, PREFIX, "%s%s_", s->prefix, s->kind->name));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+#include <string.h>
 
 static PetscErrorCode SetTypeFromOptions(SamSolver s, const SamOptions *from)
 {
@@ -34,36 +25,58 @@ static PetscErrorCode MonitorError(SamSolver s, PetscInt it, PetscReal error, vo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolverSetFromOptions(SamSolver s)
+/* The help lists the options of all types. */
+static PetscErrorCode DescribeOthers(SamSolver s, const SamOptions *from)
 {
-  PetscReal        rtol   = s->rtol;
-  PetscInt         max_it = s->max_it, levels = s->levels;
-  PetscBool        monitor = s->monitor_error, error = s->error_if_not_converged, ignored;
-  char             prefix[PREFIX], title[64];
-  const SamOptions from = {s->comm, prefix};
+  char         type[sizeof(s->type)];
+  const char **types;
+  int          count;
 
   PetscFunctionBegin;
-  PetscCall(GetPrefix(s, prefix));
+  PetscCall(PetscStrncpy(type, s->type, sizeof(type)));
+  PetscCall(SamTypesGet(s->kind->types, &types, &count));
+  for (int k = 0; k < count; k++) {
+    if (!strcmp(types[k], type)) continue;
+    PetscCall(SamSolverSetType(s, types[k]));
+    if (s->ops.setfromoptions) PetscCall(s->ops.setfromoptions(s, from));
+  }
+  PetscCall(SamSolverSetType(s, type));
+  PetscCall(PetscFree(types));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolverSetFromOptions(SamSolver s)
+{
+  const SamOptions from   = {s->comm, s->prefix};
+  PetscReal        rtol   = s->rtol;
+  PetscInt         max_it = s->max_it, levels = s->levels;
+  PetscBool        monitor = s->monitor_error, error = s->error_if_not_converged, ignored, help;
+  char             title[64];
+
+  PetscFunctionBegin;
   PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind->name));
   PetscCall(SamOptionsHeading(&from, title));
   PetscCall(SetTypeFromOptions(s, &from));
   PetscCall(SamOptionsReal(&from, "rtol", s->kind->error_help, SAM_RANGE_PART, &rtol, NULL));
-  PetscCall(SamOptionsInt(&from, "max_it", "iterations on the finest grid, 0: the type's default", 0, &max_it, NULL));
-  PetscCall(SamOptionsInt(&from, "levels", "nested grids, 0: the type's default", 0, &levels, NULL));
+  PetscCall(
+    SamOptionsInt(&from, "max_it", "maximum iterations on the finest grid; 0: default of the type", 0, &max_it, NULL));
+  PetscCall(SamOptionsInt(&from, "levels", "number of nested grids; 0: default of the type", 0, &levels, NULL));
   PetscCall(SamOptionsBool(&from, "monitor", "print the error after each iteration", &monitor, NULL));
-  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "stop with an error", &error, NULL));
-  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print why the solver stopped", &ignored));
+  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "raise an error without convergence", &error, NULL));
+  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print the reason for stopping", &ignored));
   PetscCall(SamOptionsHasViewer(&from, "view", "print the solver's settings", &ignored));
   PetscCall(SamSolverSetTolerances(s, rtol, max_it));
   PetscCall(SamSolverSetLevels(s, levels));
   PetscCall(SamSolverSetErrorIfNotConverged(s, error));
   if (monitor && !s->monitor_error) PetscCall(SamSolverMonitorSet(s, MonitorError, NULL));
   s->monitor_error = monitor;
+  PetscCall(SamPrintHelp(&help));
+  if (help) PetscCall(DescribeOthers(s, &from));
   if (s->ops.setfromoptions) PetscCall(s->ops.setfromoptions(s, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolverView(SamSolver s, PetscViewer viewer)
+static PetscErrorCode View(SamSolver s, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Solver of the %s problem: type %s\n", s->kind->name, s->type));
@@ -82,21 +95,16 @@ PetscErrorCode SamSolverViewFromOptions(SamSolver s)
   PetscViewer       viewer;
   PetscViewerFormat format;
   PetscBool         set;
-  char              prefix[PREFIX];
 
   PetscFunctionBegin;
-  PetscCall(GetPrefix(s, prefix));
-  PetscCall(SamGetViewer(s->comm, prefix, "-view", &viewer, &format, &set));
-  if (set) {
-    PetscCall(SamSolverView(s, viewer));
-    PetscCall(PetscViewerDestroy(&viewer));
-  }
-  PetscCall(SamGetViewer(s->comm, prefix, "-converged_reason", &viewer, &format, &set));
-  if (set) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "The %s solve %s due to %s iterations %" PetscInt_FMT "\n", s->kind->name,
-                                     s->reason > 0 ? "converged" : "did not converge", SamSolverReasonName(s->reason),
-                                     s->iterations));
-    PetscCall(PetscViewerDestroy(&viewer));
-  }
+  PetscCall(SamGetViewer(s->comm, s->prefix, "-view", &viewer, &format, &set));
+  if (set) PetscCall(View(s, viewer));
+  if (set) PetscCall(PetscViewerDestroy(&viewer));
+  PetscCall(SamGetViewer(s->comm, s->prefix, "-converged_reason", &viewer, &format, &set));
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "The %s solve %s due to %s iterations %" PetscInt_FMT "\n", s->kind->name,
+                                   s->reason > 0 ? "converged" : "did not converge", SamSolverReasonName(s->reason),
+                                   s->iterations));
+  PetscCall(PetscViewerDestroy(&viewer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,9 +2,9 @@
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 
-#define BRIEF 10 /* iterations of a solve that is to be brief */
+#define BRIEF 10 /* iterations of a brief solve */
 
-static SamSolverKind *kinds = NULL; /* those whose registries are in use */
+static SamSolverKind *kinds = NULL; /* the kinds with registries in use */
 
 const char *SamSolverReasonName(SamSolverReason reason)
 {
@@ -20,30 +20,25 @@ const char *SamSolverReasonName(SamSolverReason reason)
 static PetscErrorCode FreeRegistries(void)
 {
   PetscFunctionBegin;
-  for (; kinds; kinds = kinds->next) {
-    kinds->registered = PETSC_FALSE;
-    PetscCall(PetscFunctionListDestroy(&kinds->types));
-  }
+  for (; kinds; kinds = kinds->next) PetscCall(PetscFunctionListDestroy(&kinds->types));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode RegisterAll(SamSolverKind *kind)
 {
   PetscFunctionBegin;
-  if (kind->registered) PetscFunctionReturn(PETSC_SUCCESS);
-  kind->registered = PETSC_TRUE;
+  if (kind->types) PetscFunctionReturn(PETSC_SUCCESS);
   if (!kinds) PetscCall(PetscRegisterFinalize(FreeRegistries));
   kind->next = kinds;
   kinds      = kind;
-  for (PetscInt t = 0; kind->own[t].name; t++)
-    PetscCall(PetscFunctionListAdd(&kind->types, kind->own[t].name, kind->own[t].create));
+  PetscCall(PetscFunctionListAdd(&kind->types, kind->type, kind->create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[], PetscErrorCode (*create)(SamSolver))
 {
   PetscFunctionBegin;
-  PetscCall(RegisterAll(kind)); /* first, so that a type from outside replaces one of the same name */
+  PetscCall(RegisterAll(kind)); /* first, so that a type from outside replaces a type of the same name */
   PetscCall(PetscFunctionListAdd(&kind->types, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -79,7 +74,8 @@ PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, Sa
   s->rtol       = kind->rtol;
 
   s->pressure_limit = INFINITY;
-  PetscCall(SamSolverSetType(s, kind->own[0].name));
+  PetscCall(SamSolverSetOptionsPrefix(s, NULL));
+  PetscCall(SamSolverSetType(s, kind->type));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -106,7 +102,7 @@ PetscErrorCode SamSolverSetType(SamSolver s, SamSolverType type)
     char types[256];
 
     PetscCall(SamTypesList(s->kind->types, types, sizeof(types)));
-    SETERRQ(s->comm, SAM_ERR_USER, "%s is no type of %s solver: expected %s", type, s->kind->name, types);
+    SETERRQ(s->comm, SAM_ERR_USER, "%s is not a type of %s solver: use %s", type, s->kind->name, types);
   }
   PetscCall(DestroyType(s));
   if (type != s->type) PetscCall(PetscStrncpy(s->type, type, sizeof(s->type)));
@@ -125,6 +121,8 @@ PetscErrorCode SamSolverSetOptionsPrefix(SamSolver s, const char prefix[])
 {
   PetscFunctionBegin;
   PetscCall(SamSetPrefix(s->prefix, prefix));
+  PetscCall(PetscStrlcat(s->prefix, s->kind->name, sizeof(s->prefix)));
+  PetscCall(PetscStrlcat(s->prefix, "_", sizeof(s->prefix)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -195,35 +193,28 @@ PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *
 
 /* ---- the solve and its results ---- */
 
-/* Whether all given fields hold finite numbers. Methods search and compare, and might take a NaN for something else. */
-static PetscErrorCode IsGivenFinite(const SamLevel *level, PetscBool *is)
+/* Checks the fields' sizes, and whether the given ones are finite: methods search and compare, and might miss a NaN. */
+static PetscErrorCode CheckFields(const SamLevel *level, const SamSolverKind *kind, PetscBool *finite)
 {
   PetscFunctionBegin;
-  *is = PETSC_TRUE;
-  for (PetscInt g = 0; g < SAM_GIVEN && *is; g++)
-    if (level->given[g]) PetscCall(SamGridIsFinite(level->grid, level->given[g], is));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CheckFields(const SamLevel *level, const SamSolverKind *kind)
-{
-  PetscFunctionBegin;
-  for (PetscInt g = 0; g < SAM_GIVEN; g++)
-    if (level->given[g])
-      PetscCall(
-        SamGridCheckVec(level->grid, kind->given_components[g], level->given[g], "What is given to the solver"));
   PetscCall(SamGridCheckVec(level->grid, kind->components, level->traction, "The traction"));
+  *finite = PETSC_TRUE;
+  for (PetscInt g = 0; g < SAM_GIVEN; g++) {
+    if (!level->given[g]) continue;
+    PetscCall(SamGridCheckVec(level->grid, kind->given_components[g], level->given[g], "The given field"));
+    if (*finite) PetscCall(SamGridIsFinite(level->grid, level->given[g], finite));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool guess)
 {
-  const SamSolverKind *kind   = s->kind;
-  SamLevel             level  = *problem;
-  PetscBool            finite = PETSC_FALSE;
+  const SamSolverKind *kind  = s->kind;
+  SamLevel             level = *problem;
+  PetscBool            finite;
 
   PetscFunctionBegin;
-  PetscCheck(level.balance->kind == kind->balance, s->comm, PETSC_ERR_ARG_WRONG, "The %s solver wants a %s balance",
+  PetscCheck(level.balance->kind == kind->balance, s->comm, PETSC_ERR_ARG_WRONG, "The %s solver requires a %s balance",
              kind->name, kind->name);
   PetscCall(PetscLogEventBegin(SamEvents[kind->event], 0, 0, 0, 0));
   s->iterations = s->applies = s->preconditions = 0;
@@ -238,8 +229,7 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
     SamLevelForgetProduct(&level);
     level.product = NULL;
   }
-  PetscCall(CheckFields(&level, kind));
-  PetscCall(IsGivenFinite(&level, &finite));
+  PetscCall(CheckFields(&level, kind, &finite));
   if (finite) {
     PetscCall(kind->solve(s, &level, guess));
   } else {

@@ -4,9 +4,9 @@
 #include <string.h>
 
 const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
-  {"load_n", "N", "normal force", "disp_z", "m", "rigid displacement along z (approach)"},
-  {"load_tx", "N", "tangential force along x", "disp_x", "m", "rigid displacement along x"},
-  {"load_ty", "N", "tangential force along y", "disp_y", "m", "rigid displacement along y"},
+  {"load_n", "N", "normal force", "disp_z", "m", "rigid-body displacement along z (approach)"},
+  {"load_tx", "N", "tangential force along x", "disp_x", "m", "rigid-body displacement along x"},
+  {"load_ty", "N", "tangential force along y", "disp_y", "m", "rigid-body displacement along y"},
   {"load_mx", "N m", "moment about x", "rot_x", "rad", "rotation about x"},
   {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y"},
   {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z"}};

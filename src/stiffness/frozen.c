@@ -1,14 +1,20 @@
 /*
   A contact whose sets of cells are frozen: its linear response to tractions, and an approximate inverse of that.
 
-  Unknown are the change of the pressure p on all cells in contact, and that of the shear along y: both components where
-  a cell sticks, the one along its circle where it slips. There the shear also follows the pressure, by mu e p. With P,
-  which takes off what lies along e, and L = |ds|/(mu p),
-      S p + B'(y + mu e p) = n,      P(C (y + mu e p) + B p) + L y = P t.
-  The pressure of cells that yield stays, p = 0, so the first holds on the others only. Without coupling, B = 0, the
-  first is a system of its own. Approximate inverses are the spectral ones of S and C; that of C with the weights of the
-  tangential solver's Newton step (newton.c), in which a cell that slips counts with h = c/(c + L), c being its
-  influence on itself.
+  Unknown are the change of the pressure p on all cells in contact, and a shear x: the change of the shear itself where
+  a cell sticks. Where it slips, by r, with the bound b(p, r) and e = q/|q|, the slip ds changes by d(ds) = C dq + B dp
+  - t, its length by dr = -e.d(ds), and dq = db e + b de has the parts
+      across e   y = -(b/r) P d(ds), P taking off what lies along e,
+      along e    db = b_p dp + b_s dr.
+  x is y + w e, and g w = b_s dr with g^2 = c |b_s|, c being the influence of a cell on itself, so that with s, the sign
+  of b_s (1 for 0), Q = P + g e e' and L = r/b
+      dq = Q x + b_p e dp,     S dp + B' dq = n,     Q (C dq + B dp) + L P x + s c e e' x = Q t.
+  So the matrix of a tangential problem without coupling, B = 0, is symmetric; it is definite unless friction falls with
+  the slip, b_s < 0. Where the bound does not follow the slip of the step, g = 0 and x has no part along e.
+  The pressure of cells that yield stays, dp = 0, so the normal equation holds on the others only. Without coupling it
+  is a system of its own. Approximate inverses are the spectral ones of S and C; that of C with the weights of the
+  tangential solver's Newton step (newton.c), in which a cell that slips counts with h = c/(c + L) across e, and the
+  inverse of s c along e.
 */
 #include "stiffnessimpl.h"
 #include <math.h>
@@ -21,10 +27,8 @@
 
 /* ---- creation ---- */
 
-/* A contact's fields, or the part of them in a window; the last three only for continued motion, else NULL. */
-typedef struct {
-  Vec pressure, bound, shear, slope, path, overlap;
-} Fields;
+/* A contact's fields, or the part of them in a window; those from SLOPE on for continued motion only, else NULL. */
+enum { PRESSURE, BOUND, SHEAR, SLOPE, RATE, PATH, OVERLAP, FIELDS };
 
 static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec whole, Vec *field)
 {
@@ -56,10 +60,11 @@ static PetscErrorCode LeaveLeast(SamWindow window, SamGrid grid, Vec whole, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the law of friction and yielding say of a motion that continues that of the tried step. */
-static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Fields *f)
+/* The derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
+static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
-  SamBoundAt at = {NULL, s->control.friction_scale, s->pressure, NULL};
+  SamBoundAt at    = {NULL, s->control.friction_scale, s->pressure, NULL};
+  SamBound   bound = {NULL, NULL, NULL};
   SamProblem problem;
   SamGrid    whole;
   Vec        field;
@@ -71,19 +76,27 @@ static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, Sam
   PetscCall(SamGridCreateVec(whole, 1, &at.slip));
   PetscCall(SamGridCreateVec(whole, 1, &field));
   PetscCall(SamContactComputeFriction(contact, at.slip, NULL, NULL));
-  PetscCall(TakeField(window, grid, 1, at.slip, &f->path));
-  PetscCall(SamProblemComputeBound(problem, &at, &(SamBound){.by_pressure = field}));
-  PetscCall(TakeField(window, grid, 1, field, &f->slope));
+  PetscCall(TakeField(window, grid, 1, at.slip, &f[PATH]));
+  bound.by_pressure = field;
+  if (SamProblemFollowsSlip(problem)) {
+    PetscCall(SamGridCreateVec(whole, 1, &bound.value));
+    PetscCall(SamGridCreateVec(whole, 1, &bound.by_slip));
+  }
+  PetscCall(SamProblemComputeBound(problem, &at, &bound));
+  PetscCall(TakeField(window, grid, 1, field, &f[SLOPE]));
+  if (bound.by_slip) PetscCall(TakeField(window, grid, 1, bound.by_slip, &f[RATE]));
+  PetscCall(VecDestroy(&bound.value));
+  PetscCall(VecDestroy(&bound.by_slip));
   PetscCall(VecSet(field, 0));
   PetscCall(SamProblemAddOverlap(problem, at.state, field));
-  PetscCall(TakeField(window, grid, 1, field, &f->overlap));
+  PetscCall(TakeField(window, grid, 1, field, &f[OVERLAP]));
   PetscCall(VecDestroy(&field));
   PetscCall(VecDestroy(&at.slip));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode CreateFields(SamContact contact, SamStiffnessDirection direction, SamWindow window, SamGrid grid,
-                                   Fields *f)
+                                   Vec f[])
 {
   const SamSolution *s;
   SamProblem         problem;
@@ -91,28 +104,15 @@ static PetscErrorCode CreateFields(SamContact contact, SamStiffnessDirection dir
   Vec                least;
 
   PetscFunctionBegin;
-  *f = (Fields){.path = NULL};
   PetscCall(SamContactGetSolution(contact, &s));
-  PetscCall(TakeField(window, grid, 1, s->pressure, &f->pressure));
-  PetscCall(TakeField(window, grid, 1, s->bound, &f->bound));
-  PetscCall(TakeField(window, grid, 2, s->shear, &f->shear));
+  PetscCall(TakeField(window, grid, 1, s->pressure, &f[PRESSURE]));
+  PetscCall(TakeField(window, grid, 1, s->bound, &f[BOUND]));
+  PetscCall(TakeField(window, grid, 2, s->shear, &f[SHEAR]));
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamContactGetState(contact, &state));
   PetscCall(SamProblemGetLeast(problem, state, &least));
-  if (least) PetscCall(LeaveLeast(window, grid, least, f->pressure));
+  if (least) PetscCall(LeaveLeast(window, grid, least, f[PRESSURE]));
   if (direction == SAM_STIFFNESS_FORWARD) PetscCall(CreateMotion(contact, s, window, grid, f));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode DestroyFields(Fields *f)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&f->pressure));
-  PetscCall(VecDestroy(&f->bound));
-  PetscCall(VecDestroy(&f->shear));
-  PetscCall(VecDestroy(&f->slope));
-  PetscCall(VecDestroy(&f->path));
-  PetscCall(VecDestroy(&f->overlap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -141,27 +141,27 @@ static void SetReversal(SamFrozen *f, const double bound[])
 {
   for (PetscInt m = 0; m < f->count; m++) {
     f->free[m] = bound[f->cell[m]] > 0 ? 1 : 0;
-    f->e[0][m] = f->e[1][m] = f->follow[m] = f->stiff[m] = 0;
-    f->bears[m]                                          = 1;
+    f->e[0][m] = f->e[1][m] = f->follow[m] = f->rate[m] = f->stiff[m] = 0;
+    f->bears[m]                                                       = 1;
   }
 }
 
 /* Which cells slip, and how stiff they are then; a slip is more than `still` (m). */
-static void SetSlip(SamFrozen *f, double still, const double p[], const double bound[], const double slope[],
-                    const double q[], const double path[])
+static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
 {
-  const ptrdiff_t cells = f->grid->cells;
+  const double *const q = v[SHEAR], *const r = v[SHEAR] + f->grid->cells;
 
   for (PetscInt m = 0; m < f->count; m++) {
     const PetscInt k = f->cell[m];
-    const double   b = bound[k], size = hypot(q[k], q[k + cells]);
+    const double   b = v[BOUND][k], size = hypot(q[k], r[k]), path = v[PATH][k];
 
-    if (!(path[k] > still && size > 0 && b > 0) || SamCellStateOf(p[k], q[k], q[k + cells], b) != SAM_CELL_SLIP)
+    if (!(path > still && size > 0 && b > 0) || SamCellStateOf(v[PRESSURE][k], q[k], r[k], b) != SAM_CELL_SLIP)
       continue;
     f->e[0][m]   = q[k] / size;
-    f->e[1][m]   = q[k + cells] / size;
-    f->follow[m] = slope[k];
-    f->stiff[m]  = path[k] / b;
+    f->e[1][m]   = r[k] / size;
+    f->follow[m] = v[SLOPE][k];
+    f->stiff[m]  = path / b;
+    if (v[RATE]) f->rate[m] = f->self[1] * v[RATE][k];
   }
 }
 
@@ -172,34 +172,26 @@ static void SetYielding(SamFrozen *f, double still, const double overlap[])
     if (overlap[f->cell[m]] > still) f->bears[m] = 0;
 }
 
-static PetscErrorCode PackCells(SamFrozen *f, const Fields *from)
+static PetscErrorCode PackCells(SamFrozen *f, const Vec from[FIELDS])
 {
-  const double *p, *b, *mu, *q, *path, *overlap;
+  const double *v[FIELDS] = {NULL};
   PetscReal     most[2];
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(from->pressure, &p));
-  PetscCall(VecGetArrayRead(from->bound, &b));
-  PetscCall(FindCells(f, p));
-  PetscCall(PetscMalloc6(f->count, &f->e[0], f->count, &f->e[1], f->count, &f->follow, f->count, &f->stiff, f->count,
-                         &f->free, f->count, &f->bears));
-  SetReversal(f, b);
-  if (from->path) {
-    PetscCall(VecMax(from->pressure, NULL, &most[0]));
-    PetscCall(VecMax(from->bound, NULL, &most[1]));
-    PetscCall(VecGetArrayRead(from->shear, &q));
-    PetscCall(VecGetArrayRead(from->slope, &mu));
-    PetscCall(VecGetArrayRead(from->path, &path));
-    PetscCall(VecGetArrayRead(from->overlap, &overlap));
-    SetSlip(f, STILL * f->self[1] * (double)most[1], p, b, mu, q, path);
-    SetYielding(f, STILL * f->self[0] * (double)most[0], overlap);
-    PetscCall(VecRestoreArrayRead(from->overlap, &overlap));
-    PetscCall(VecRestoreArrayRead(from->path, &path));
-    PetscCall(VecRestoreArrayRead(from->slope, &mu));
-    PetscCall(VecRestoreArrayRead(from->shear, &q));
+  for (PetscInt k = 0; k < FIELDS; k++)
+    if (from[k]) PetscCall(VecGetArrayRead(from[k], &v[k]));
+  PetscCall(FindCells(f, v[PRESSURE]));
+  PetscCall(PetscMalloc7(f->count, &f->e[0], f->count, &f->e[1], f->count, &f->follow, f->count, &f->rate, f->count,
+                         &f->stiff, f->count, &f->free, f->count, &f->bears));
+  SetReversal(f, v[BOUND]);
+  if (from[PATH]) {
+    PetscCall(VecMax(from[PRESSURE], NULL, &most[0]));
+    PetscCall(VecMax(from[BOUND], NULL, &most[1]));
+    SetSlip(f, STILL * f->self[1] * (double)most[1], v);
+    SetYielding(f, STILL * f->self[0] * (double)most[0], v[OVERLAP]);
   }
-  PetscCall(VecRestoreArrayRead(from->bound, &b));
-  PetscCall(VecRestoreArrayRead(from->pressure, &p));
+  for (PetscInt k = 0; k < FIELDS; k++)
+    if (from[k]) PetscCall(VecRestoreArrayRead(from[k], &v[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -228,10 +220,10 @@ static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direct
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(SamContactHasStep(contact, &tried, &committed));
   PetscCheck(tried || committed, grid->comm, PETSC_ERR_ORDER,
-             "there is no tried step, and no committed one, whose stiffness could be computed");
+             "no step is tried or committed: try a step before its stiffness is computed");
   PetscCheck(tried || direction == SAM_STIFFNESS_REVERSAL, grid->comm, PETSC_ERR_ORDER,
-             "the forward stiffness needs the slip of the step, which is not kept after its commit: compute it before, "
-             "or that of the reversal");
+             "the forward stiffness needs the slip of the step, which is not kept after the commit: compute it before, "
+             "or compute the stiffness at the reversal");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -244,8 +236,9 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   SamWindow           window;
   SamElasticity       part;
   PetscInt            first[2], n[2];
-  PetscBool           full, friction;
-  Fields              fields;
+  SamContactSettings  set;
+  PetscBool           friction;
+  Vec                 fields[FIELDS] = {NULL};
 
   PetscFunctionBegin;
   PetscCall(CheckStep(contact, direction));
@@ -254,9 +247,9 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   PetscCall(SamContactGetGrid(contact, &whole));
   PetscCall(SamProblemGetElasticity(problem, &f->elasticity));
   PetscCall(SamElasticityGetTraits(f->elasticity, &traits));
-  PetscCall(SamContactGetCoupling(contact, &full));
+  PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamProblemHasFriction(problem, &friction));
-  f->coupled = traits.coupled && full && friction;
+  f->coupled = traits.coupled && set.coupling && friction;
   f->grid    = whole;
   PetscCall(SamContactGetSolution(contact, &s));
   PetscCall(SamGridGetSupport(whole, s->pressure, first, n));
@@ -268,9 +261,9 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   PetscCall(SamElasticityGetSelfInfluence(f->elasticity, &f->self[0], &f->self[1]));
   PetscCall(SamFrameSet(&f->normal, f->grid, &(SamBalance){.kind = SAM_BALANCE_NORMAL}));
   PetscCall(SamFrameSet(&f->tangential, f->grid, &(SamBalance){.kind = SAM_BALANCE_TANGENTIAL}));
-  PetscCall(CreateFields(contact, direction, window, f->grid, &fields));
-  PetscCall(PackCells(f, &fields));
-  PetscCall(DestroyFields(&fields));
+  PetscCall(CreateFields(contact, direction, window, f->grid, fields));
+  PetscCall(PackCells(f, fields));
+  for (PetscInt k = 0; k < FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
   PetscCall(CreateWork(f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -280,7 +273,7 @@ PetscErrorCode SamFrozenDestroy(SamFrozen *f)
   PetscFunctionBegin;
   PetscCall(PetscFree(f->start));
   PetscCall(PetscFree(f->cell));
-  PetscCall(PetscFree6(f->e[0], f->e[1], f->follow, f->stiff, f->free, f->bears));
+  PetscCall(PetscFree7(f->e[0], f->e[1], f->follow, f->rate, f->stiff, f->free, f->bears));
   PetscCall(VecDestroy(&f->p));
   PetscCall(VecDestroy(&f->q));
   PetscCall(VecDestroy(&f->u_z));

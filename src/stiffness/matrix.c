@@ -24,20 +24,32 @@ static PetscInt ShearAt(const SamFrozen *f)
   return f->part == SAM_FROZEN_NORMAL ? -1 : f->part == SAM_FROZEN_BOTH ? f->count : 0;
 }
 
-/* Takes off the parts of a packed shear along e, and all of it where there is no friction. */
-static void Project(const SamFrozen *f, double y[])
+/* How much of the unknown along e is shear: g. */
+static double Share(const SamFrozen *f, PetscInt m)
+{
+  return sqrt(fabs(f->rate[m]));
+}
+
+/* Q y, or with `all` P y; zero where there is no friction. */
+static void Project(const SamFrozen *f, PetscBool all, double y[])
 {
   double *x = y, *z = y + f->count;
 
   for (PetscInt m = 0; m < f->count; m++) {
-    const double part = x[m] * f->e[0][m] + z[m] * f->e[1][m];
+    const double part = (x[m] * f->e[0][m] + z[m] * f->e[1][m]) * (all ? 1 : 1 - Share(f, m));
 
     x[m] = f->free[m] * (x[m] - part * f->e[0][m]);
     z[m] = f->free[m] * (z[m] - part * f->e[1][m]);
   }
 }
 
-/* Takes off a packed pressure what lies on cells that yield. */
+/* The part along e of a packed shear where the bound follows the slip, else 0. */
+static double Along(const SamFrozen *f, const double x[], PetscInt m)
+{
+  return f->rate[m] != 0 ? x[m] * f->e[0][m] + x[m + f->count] * f->e[1][m] : 0;
+}
+
+/* Sets a packed pressure to 0 on cells that yield. */
 static void Bear(const SamFrozen *f, double p[])
 {
   for (PetscInt m = 0; m < f->count; m++) p[m] *= f->bears[m];
@@ -74,15 +86,20 @@ void SamFrozenColumn(const SamFrozen *f, PetscInt k, double column[])
   if (at < 0) return;
   SamFrozenMotion(f, k, column + at);
   if (k >= 3)
-    Project(f, column + at);
+    Project(f, PETSC_FALSE, column + at);
   else
     Bear(f, column + at);
 }
 
-void SamFrozenFollow(const SamFrozen *f, const double p[], double q[])
+void SamFrozenShear(const SamFrozen *f, const double p[], const double x[], double q[])
 {
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++) q[m + c * f->count] += f->follow[m] * f->e[c][m] * p[m];
+  for (PetscInt m = 0; m < f->count; m++) {
+    const double along = x ? (Share(f, m) - 1) * Along(f, x, m) : 0;
+
+    for (PetscInt c = 0; c < 2; c++)
+      q[m + c * f->count] =
+        (x ? x[m + c * f->count] : 0) + along * f->e[c][m] + (p ? f->follow[m] * f->e[c][m] * p[m] : 0);
+  }
 }
 
 PetscErrorCode SamFrozenTakeSlip(const SamFrozen *f, PetscInt k, double slip[])
@@ -169,21 +186,22 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
 
   PetscFunctionBegin;
   if (p >= 0) PetscCall(Unpack(f, 1, x + p, f->p));
-  if (p >= 0 && y >= 0) { /* Ax is room for the whole shear */
-    PetscCall(PetscArraycpy(Ax, x + y, 2 * f->count));
-    SamFrozenFollow(f, x + p, Ax);
+  if (y >= 0) { /* Ax is room for the shear */
+    SamFrozenShear(f, p >= 0 ? x + p : NULL, x + y, Ax);
     PetscCall(Unpack(f, 2, Ax, f->q));
-  } else if (y >= 0) {
-    PetscCall(Unpack(f, 2, x + y, f->q));
   }
   PetscCall(ComputeDisplacements(f));
   if (p >= 0) PetscCall(Pack(f, 1, f->u_z, Ax + p));
   if (p >= 0) Bear(f, Ax + p);
   if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Pack(f, 2, f->u_t, Ax + y));
-  Project(f, Ax + y);
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++) Ax[y + m + c * f->count] += f->stiff[m] * x[y + m + c * f->count];
+  Project(f, PETSC_FALSE, Ax + y);
+  for (PetscInt m = 0; m < f->count; m++) {
+    const double own = (copysign(f->self[1], f->rate[m]) - f->stiff[m]) * Along(f, x + y, m);
+
+    for (PetscInt c = 0; c < 2; c++)
+      Ax[y + m + c * f->count] += f->stiff[m] * x[y + m + c * f->count] + own * f->e[c][m];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -205,18 +223,26 @@ static PetscErrorCode PreconditionTangential(SamFrozen *f, const double r[], dou
   const ptrdiff_t cells = f->grid->cells;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt m = 0; m < f->count; m++)
-      f->r[f->cell[m] + c * cells] = (float)(sqrt(self / (self + f->stiff[m])) * r[m + c * f->count]);
+  for (PetscInt m = 0; m < f->count; m++) {
+    const double along = Along(f, r, m);
+
+    for (PetscInt c = 0; c < 2; c++) {
+      z[m + c * f->count]          = r[m + c * f->count] - along * f->e[c][m];
+      f->r[f->cell[m] + c * cells] = (float)(sqrt(self / (self + f->stiff[m])) * z[m + c * f->count]);
+    }
+  }
   PetscCall(SamElasticityPreconditionTangentialSingle(f->elasticity, self, f->r, f->z));
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt m = 0; m < f->count; m++) {
       const double h = self / (self + f->stiff[m]);
 
       z[m + c * f->count] =
-        (sqrt(h) * (double)f->z[f->cell[m] + c * cells] + 0.5 * (1 - h) * h * r[m + c * f->count]) / self;
+        (sqrt(h) * (double)f->z[f->cell[m] + c * cells] + 0.5 * (1 - h) * h * z[m + c * f->count]) / self;
     }
-  Project(f, z);
+  Project(f, PETSC_TRUE, z);
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++)
+      z[m + c * f->count] += Along(f, r, m) / copysign(self, f->rate[m]) * f->e[c][m];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

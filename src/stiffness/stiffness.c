@@ -4,7 +4,8 @@
   A system with a symmetric matrix A gives its part of the stiffness as b_i.x_j + x_i.r_j, b being the columns, x the
   solutions and r their residuals: symmetric, and wrong only by the square of the error of x. Without coupling the
   matrices of pressure and shear are symmetric, and how slipping cells follow the pressure, the part that is not, comes
-  from the solutions for the shear, with no system of its own: it is the work of mu e dp on the slip of the motion.
+  from the solutions for the shear, with no system of its own: it is the work of the shear b_p e dp on the slip of the
+  motion.
 */
 #include "stiffnessimpl.h"
 #include <math.h>
@@ -41,8 +42,8 @@ static PetscErrorCode AddLoads(Systems *s, PetscInt j)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(3 * m, &traction));
-  PetscCall(PetscArraycpy(traction, s->x[j], 3 * m));
-  SamFrozenFollow(&s->f, s->x[j], traction + m);
+  PetscCall(PetscArraycpy(traction, s->x[j], m));
+  SamFrozenShear(&s->f, s->x[j], s->x[j] + m, traction + m);
   for (PetscInt i = 0; i < SAM_COMPONENTS; i++) {
     PetscCall(PetscCalloc1(3 * m, &motion[i]));
     SamFrozenMotion(&s->f, i, motion[i] + (i < HALF ? 0 : m));
@@ -102,8 +103,8 @@ static PetscErrorCode ComputeUncoupled(Systems *s)
   PetscFunctionBegin;
   PetscCall(Solve(s, SAM_FROZEN_NORMAL, 0, HALF, PETSC_TRUE));
   for (PetscInt j = 0; j < HALF; j++) {
-    PetscCall(PetscCalloc1(2 * s->f.count, &follow[j]));
-    SamFrozenFollow(&s->f, s->x[j], follow[j]);
+    PetscCall(PetscMalloc1(2 * s->f.count, &follow[j]));
+    SamFrozenShear(&s->f, s->x[j], NULL, follow[j]);
   }
   PetscCall(Free(s));
   PetscCall(Solve(s, SAM_FROZEN_TANGENTIAL, HALF, HALF, PETSC_TRUE));
@@ -149,29 +150,6 @@ static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffne
     }
 }
 
-/*
-  Refuses the forward stiffness with friction that follows the slip of the step: there the shear along the slip changes
-  with the slip, and is no unknown of the frozen contact.
-*/
-static PetscErrorCode CheckLaws(SamContact contact)
-{
-  SamProblem    problem;
-  SamGrid       grid;
-  const SamLaw *laws;
-  PetscInt      count;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetGrid(contact, &grid));
-  PetscCall(SamContactGetProblem(contact, &problem));
-  PetscCall(SamProblemGetLaws(problem, &count, &laws));
-  for (PetscInt k = 0; k < count; k++)
-    PetscCheck(!laws[k]->follows_slip, grid->comm, SAM_ERR_USER,
-               "the stiffness for a step that goes on is not known with the law %s, whose friction changes with the "
-               "slip of the step: compute that of the reversal only",
-               laws[k]->type);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
 {
@@ -182,7 +160,6 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
-  if (direction == SAM_STIFFNESS_FORWARD) PetscCall(CheckLaws(contact));
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
@@ -206,9 +183,9 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
 /* ---- among the numbers of a step ---- */
 
 static const SamStateNumber numbers[SAM_STIFFNESS_DIRECTIONS] = {
-  {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid displacements) for continued motion", SAM_NUMBER_MATRIX,
-   SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE},
-  {"stiffness_reversal", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid displacements) at the reversal of the motion",
+  {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) for continued loading",
+   SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE},
+  {"stiffness_reversal", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) at a load reversal",
    SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE}};
 
 PetscErrorCode SamStiffnessDeclare(SamContact contact)
@@ -217,7 +194,6 @@ PetscErrorCode SamStiffnessDeclare(SamContact contact)
   PetscInt id;
 
   PetscFunctionBegin;
-  PetscCall(CheckLaws(contact));
   PetscCall(SamContactGetState(contact, &state));
   for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);

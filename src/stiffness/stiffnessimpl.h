@@ -12,8 +12,7 @@ typedef enum { SAM_FROZEN_NORMAL, SAM_FROZEN_TANGENTIAL, SAM_FROZEN_BOTH } SamFr
 
 /*
   SamFrozen - the cells in contact, packed row after row, and how they respond. Fields are packed arrays of up to three
-  components, each of `count` values: dp, dq_x, dq_y. In cells that slip dq is what lies along the circle; mu e dp, what
-  follows the pressure, is added to it (SamFrozenFollow()).
+  components, each of `count` values: dp and the unknown of the shear, of which SamFrozenShear() makes dq.
 */
 typedef struct {
   SamElasticity elasticity; /* of a part of the grid that holds the contact, or of all of it */
@@ -24,7 +23,8 @@ typedef struct {
   PetscInt     *start;              /* rows + 1: where the cells of each row begin among them */
   PetscInt     *cell;               /* index of each in this rank's part of the grid */
   double       *e[2];               /* e where a cell slips, 0 where it sticks */
-  double       *follow;             /* mu where a cell slips, 0 where it sticks */
+  double       *follow;             /* derivative of the bound by the pressure where a cell slips, 0 where it sticks */
+  double       *rate;               /* the same by the length of the slip, times the influence self[1]; 0: none */
   double       *stiff;              /* |ds|/(mu p), m/Pa: what resists a turn of the slip; 0 where a cell sticks */
   double       *free;               /* 1; 0 where there is no friction and thus no shear */
   double       *bears;              /* 1; 0 where the surfaces yield, so that the pressure stays */
@@ -49,8 +49,8 @@ PETSC_INTERN void SamFrozenColumn(const SamFrozen *frozen, PetscInt k, double co
 PETSC_INTERN PetscErrorCode SamFrozenApply(SamFrozen *frozen, const double x[], double Ax[]);
 /* SamFrozenPrecondition - z = approximate inverse of the matrix times r. Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenPrecondition(SamFrozen *frozen, const double r[], double z[]);
-/* SamFrozenFollow - what the shear of slipping cells follows the pressure by: q += mu e p; packed. Not collective. */
-PETSC_INTERN void SamFrozenFollow(const SamFrozen *frozen, const double p[], double q[]);
+/* SamFrozenShear - the change q of the shear by those of the pressure and of x, NULL: 0; packed. Not collective. */
+PETSC_INTERN void SamFrozenShear(const SamFrozen *frozen, const double p[], const double x[], double q[]);
 /* SamFrozenTakeSlip - d(ds) = C dq - t after a product with dq, t being the motion along phi k; packed. Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt k, double slip[]);
 /* SamFrozenDots - the products of n fields with one more, the same on any number of ranks. Collective. */

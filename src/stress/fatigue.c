@@ -1,9 +1,9 @@
 /*
   Fatigue parameters of a cycle of stresses at one point.
 
-  Planes: a parameter that is the largest over planes is looked for on a hemisphere of normals by 10 degrees, and from
-  there, from other normals that are nearly as good and point elsewhere, and from the plane of the largest tension, by
-  steps in angle that are halved down to a sixth of a degree. Near its maximum a parameter is at most quadratic in the
+  Planes: the maximum over planes is searched on a hemisphere of normals, 10 degrees apart; then from the best of them,
+  from other normals that are nearly as good and point elsewhere, and from the plane of maximum tension, by steps in
+  angle that are halved down to a sixth of a degree. Near its maximum a parameter is at most quadratic in the
   angle but for kinks.
 
   The circle about the path of the shear stress in a plane is looked for only where a larger one, about the path's

@@ -1,4 +1,4 @@
-/* What a stress is judged by: von Mises stress, principal stresses, strains. */
+/* Von Mises stress, principal stresses and strains of a stress. */
 #include <petsam/private/stressimpl.h>
 
 enum { XX = SAM_STRESS_XX, YY = SAM_STRESS_YY, ZZ = SAM_STRESS_ZZ };

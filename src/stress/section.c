@@ -261,8 +261,9 @@ static const SamStressKernel shared[][2] = {
 };
 enum { SHARED = sizeof(shared) / sizeof(shared[0]) };
 
-/* Scratch of a computation. */
+/* Scratch of a computation: the parts of one array. */
 typedef struct {
+  double  *all;
   double  *lags[SAM_STRESS_GROUPS][SAM_STRESS_GROUP];    /* values, `length` of each */
   double  *kernels[SAM_STRESS_GROUPS][SAM_STRESS_GROUP]; /* transforms, n of each */
   Complex *pair[SAM_STRESS_TRACTIONS][HALVES][TURNS];    /* two lines of a step */
@@ -271,30 +272,23 @@ typedef struct {
 
 static PetscErrorCode CreateWork(SamSection s, Work *w)
 {
-  PetscFunctionBegin;
-  for (PetscInt g = 0; g < SAM_STRESS_GROUPS; g++)
-    for (PetscInt k = 0; k < SAM_STRESS_GROUP; k++) {
-      PetscCall(SamAllocate(sizeof(double) * (size_t)s->length, &w->lags[g][k]));
-      PetscCall(SamAllocate(sizeof(double) * (size_t)s->n, &w->kernels[g][k]));
-    }
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
-    for (PetscInt h = 0; h < HALVES; h++)
-      for (PetscInt k = 0; k < TURNS; k++) PetscCall(SamAllocate(sizeof(Complex) * (size_t)s->n, &w->pair[t][h][k]));
-  PetscCall(SamAllocate(sizeof(Complex) * (size_t)(s->steps * SAM_STRESS_COMPONENTS) * (size_t)s->n, &w->sum));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+  enum { KERNELS = SAM_STRESS_GROUPS * SAM_STRESS_GROUP, PAIRS = SAM_STRESS_TRACTIONS * HALVES * TURNS, ALIGN = 8 };
 
-static void DestroyWork(Work *w)
-{
-  for (PetscInt g = 0; g < SAM_STRESS_GROUPS; g++)
-    for (PetscInt k = 0; k < SAM_STRESS_GROUP; k++) {
-      SamFree(w->lags[g][k]);
-      SamFree(w->kernels[g][k]);
-    }
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
-    for (PetscInt h = 0; h < HALVES; h++)
-      for (PetscInt k = 0; k < TURNS; k++) SamFree(w->pair[t][h][k]);
-  SamFree(w->sum);
+  const size_t n = (size_t)(s->n + ALIGN - 1) / ALIGN * ALIGN, length = (size_t)(s->length + ALIGN - 1) / ALIGN * ALIGN;
+  double      *next;
+
+  PetscFunctionBegin;
+  PetscCall(SamAllocate(
+    sizeof(double) * (KERNELS * (length + n) + 2 * n * (PAIRS + (size_t)(s->steps * SAM_STRESS_COMPONENTS))), &w->all));
+  next = w->all;
+  for (int k = 0; k < KERNELS; k++, next += length + n) {
+    w->lags[k / SAM_STRESS_GROUP][k % SAM_STRESS_GROUP]    = next;
+    w->kernels[k / SAM_STRESS_GROUP][k % SAM_STRESS_GROUP] = next + length;
+  }
+  for (int k = 0; k < PAIRS; k++, next += 2 * n)
+    w->pair[k / TURNS / HALVES][k / TURNS % HALVES][k % TURNS] = (Complex *)next;
+  w->sum = (Complex *)next;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The transforms of all kernels at the distance of d lines: real ones, and imaginary parts of those that are odd. */
@@ -443,7 +437,7 @@ PetscErrorCode SamSectionCompute(SamSection s, double stress[])
     Finish(s, &w, k, stress);
     for (PetscInt step = 0; s->stress->sums && step < s->steps; step++) AddSmooth(s, step, k, stress);
   }
-  DestroyWork(&w);
+  SamFree(w.all);
   PetscCall(ForgetSteps(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -151,7 +151,7 @@ static PetscErrorCode Pass(SamStress s, PetscInt pass, const double *const in[],
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses of the surface that are the tractions. */
+/* The stresses on the surface that equal the tractions. */
 static void TakeTractions(SamStress s, double *const tractions[])
 {
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)

@@ -1,5 +1,5 @@
 /*
-  A computed cycle, and what it says of the next ones.
+  A computed cycle, and the wear of the next cycles that follows from it.
 
   In a cycle a cell wears by r, wear load a cycle, under the mean pressure P of the cycle's steps: r = e P. Where the
   surfaces never touch, e is what the slip there would wear if they did: contact that grows wears at once.
@@ -15,7 +15,7 @@
 #define CLOSED      0.1  /* change of the shear over mu p, and of the energy, over the tolerance of the jumps */
 #define TURN        1e-9 /* changes that count, over the range of a component */
 
-/* ---- turning points ---- */
+/* ---- load reversals ---- */
 
 /* Notes the steps at which a part of the control turns, from its values at all steps. */
 static void NoteTurns(const SamControl controls[], PetscInt n, PetscInt c, PetscBool turns[])
@@ -65,7 +65,7 @@ PetscErrorCode SamLifeGetSum(SamLife l, PetscInt k, Vec *sum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sums over the steps go on from those before the cycle; in the middle of a jump from 0. */
+/* Sums over the steps continue from those before the cycle; in the middle of a jump they start from 0. */
 static PetscErrorCode BeginSums(SamLife l, PetscBool middle)
 {
   PetscFunctionBegin;
@@ -214,7 +214,7 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
 
 /* ---- closing the loop ---- */
 
-/* Goes through the cycle, by its turning points or all steps; what it wears is not counted, but `energy` is. */
+/* Solves the cycle by its load reversals or all steps; its wear does not count, but `energy` does. */
 static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, PetscBool *solved)
 {
   SamStep   step;
@@ -259,10 +259,10 @@ static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscReal *energy, 
 }
 
 /*
-  Finds the steps that bring a closed loop back to itself: the turning points, where loads go to and fro; all of them
-  where the contact rolls. What the cycle dissipates after them decides. By these steps a loop is closed again whenever
-  the gap has changed a little: what a cycle wears would else depend on the jump before it, and jumps would be of first
-  order.
+  Finds the steps that bring a closed loop back to itself: the load reversals of reciprocating loads; all steps where
+  the contact rolls. The energy that the cycle dissipates after them decides. By these steps a loop is closed again
+  whenever the gap has changed a little: otherwise the wear of a cycle would depend on the jump before it, and jumps
+  would be of first order.
 */
 static PetscErrorCode FindWay(SamLife l, PetscReal cycles, PetscBool *solved)
 {

@@ -23,7 +23,7 @@
 #define COUNTS 1e-6
 /* An explicit jump over the longest stable one: the rate changes within it. */
 #define STABLE 0.8
-/* The first jump over the same, where nothing else is known. */
+/* The first jump relative to the longest stable one, where no other limit is given. */
 #define FIRST 0.2
 
 /* The fields, to be created and destroyed. */
@@ -65,9 +65,9 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   PetscFunctionBegin;
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "tolerance %g of the jumps: expected a finite number > 0", (double)settings->rtol);
+             "tolerance %g of cycle jumps: expected a finite number > 0", (double)settings->rtol);
   PetscCheck(settings->jump >= 0 && isfinite(settings->jump), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "first jump over %g cycles: expected a finite number >= 0", (double)settings->jump);
+             "first cycle jump of %g cycles: expected a finite number >= 0", (double)settings->jump);
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(FindLaw(problem, grid, &law));
   PetscCall(PetscNew(&l));
@@ -136,7 +136,7 @@ static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reas
   l->at          = l->cycle.steps - 1;
   l->step.status = SAM_STATUS_NOT_CONVERGED;
   (void)snprintf(l->step.message, sizeof(l->step.message),
-                 "the normal problem of a jump over %.10g cycles did not converge: %s", (double)cycles,
+                 "the normal problem of a cycle jump of %.10g cycles did not converge: %s", (double)cycles,
                  SamSolverReasonName(reason));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -235,7 +235,7 @@ static PetscErrorCode LeastLoad(SamLife l, PetscReal *least)
   A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. The
   error is that of the depth and of the pressure at the end, in the mean over the scar (2-norm, 1-norm): the stick
   zone's edge, with the pressure's peak, moves by whole cells, and no jump is so short that the cells there would not
-  jump, too. Explicit jumps do not know the pressure at their end.
+  jump, too. Explicit jumps do not compute the pressure at their end.
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {

@@ -7,7 +7,7 @@
 #include "wearimpl.h"
 
 /*
-  What a computed cycle says of the next ones. `pressure` is the mean over the cycle's steps, and solves the normal
+  The rate of wear by a computed cycle. `pressure` is the mean over the cycle's steps, and solves the normal
   problem of the mean loads on the gap h + shift.
 */
 typedef struct {
@@ -49,7 +49,7 @@ struct _n_SamLife {
   loop or are tried do not count.
 
   SamLifeComputeRate - solves the cycle on the problem's gap; `cycles`: so far; `solved`: all of its steps have a
-  solution; `tell`: the steps are told to the caller. Collective.
+  solution; `tell`: the steps are reported to the caller. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, PetscReal cycles, PetscBool tell,
                                                PetscBool *solved);

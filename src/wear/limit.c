@@ -53,7 +53,7 @@ PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess)
   PetscCall(SamLawStepGetFriction(step, &path, by_energy ? NULL : &worn, by_energy ? &worn : NULL));
   PetscCall(SamGridCreateVec(law->grid, 1, &unit));
   PetscCall(VecSet(unit, 1));
-  if (by_energy) PetscCall(SamLawStepGetSlope(step, unit));
+  if (by_energy) PetscCall(step->slope(step, unit));
   PetscCall(VecGetArrayRead(step->pressure, &p));
   PetscCall(VecGetArrayRead(path, &slip));
   PetscCall(VecGetArrayRead(worn, &wears));

@@ -8,8 +8,8 @@ enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA,
   }
 static const SamStateNumber declared[NUMBERS] = {
   NUMBER("cycle", "1", "cycles before this one", SAM_NUMBER_REAL),
-  NUMBER("jump", "1", "cycles jumped over before this one", SAM_NUMBER_REAL),
-  NUMBER("error", "1", "estimated relative error of the jump", SAM_NUMBER_REAL),
+  NUMBER("jump", "1", "cycles skipped before this one", SAM_NUMBER_REAL),
+  NUMBER("error", "1", "estimated relative error of the cycle jump", SAM_NUMBER_REAL),
   NUMBER("volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL),
   NUMBER("volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL),
   NUMBER("depth_max1", "m", "maximum depth removed of body 1", SAM_NUMBER_REAL),

@@ -89,7 +89,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   static const SamStateNumber number[] = {
     {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
     {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
-    {"wear_excess", "1", "wear of the step over its stable limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE}};
+    {"wear_excess", "1", "wear of the step relative to the stability limit", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_FALSE}};
   SamStateResult depth[2] = {
     {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
     {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};
@@ -144,20 +145,6 @@ PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], Pets
 
 /* ---- a step ---- */
 
-/* A field grows by what the step adds to it. */
-static PetscErrorCode Grow(SamState state, const char name[], Vec more)
-{
-  const PetscInt id   = SamStateFindField(state, name);
-  const Vec      from = SamStateGetField(state, id, SAM_COMMITTED);
-  Vec            to;
-
-  PetscFunctionBegin;
-  PetscCall(SamStateSetField(state, id, &to));
-  PetscCall(VecCopy(more, to));
-  if (from) PetscCall(VecAXPY(to, 1, from));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const SamWear *w = (const SamWear *)law->data;
@@ -170,8 +157,8 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(SamGridCreateVec(step->grid, 1, &load));
   PetscCall(VecCopy(worn, load));
   PetscCall(VecAbs(load));
-  PetscCall(Grow(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
-  if (w->jumps) PetscCall(Grow(step->state, SAM_WEAR_PATH, path));
+  PetscCall(SamLawAddToSum(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
+  if (w->jumps) PetscCall(SamLawAddToSum(step->state, SAM_WEAR_PATH, path));
   PetscCall(VecDestroy(&load));
   load    = SamStateReadField(step->state, SamStateFindField(step->state, SAM_WEAR_LOAD));
   numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "wear_volume1"), SAM_TRIED);
@@ -198,13 +185,6 @@ static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t siz
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Destroy(SamLaw law)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(law->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
 {
   SamWear *w;
@@ -222,7 +202,6 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   law->ops.separation     = Separation;
   law->ops.advance        = Advance;
   law->ops.advise         = Advise;
-  law->ops.destroy        = Destroy;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -13,7 +13,7 @@
 /* The data of a law of wear. */
 typedef struct {
   PetscReal coefficient[2]; /* of the bodies: 1/Pa, or m3/J */
-  PetscReal least;          /* smallest eigenvalue of the normal influence, m/Pa; 0: not known yet */
+  PetscReal least;          /* smallest eigenvalue of the normal influence, m/Pa; 0: not computed yet */
   PetscBool by_energy;      /* wear load |q . ds|; else p |ds| */
   PetscBool jumps;          /* steps add to the wear load of the cycle; it is removed by cycle jumps */
 } SamWear;

@@ -291,8 +291,8 @@ class Trials:
         return code
 
     def trial_signal(self, chance, ranks):
-        """USR1 stops with a checkpoint, USR2 writes one; others end the run at once, in the middle of a step's results
-        too. Nothing that was told is lost."""
+        """USR1 and TERM stop with a checkpoint, USR2 writes one; others end the run at once, in the middle of a step's
+        results too. Nothing that was told is lost."""
         words = self.write_program(200)
         words[words.index("-checkpoint_every") + 1] = "1000"
         number = chance.choice((signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM))
@@ -307,7 +307,7 @@ class Trials:
             except ProcessLookupError:
                 continue
         code, out, err = self.end(run)
-        if number == signal.SIGUSR1:
+        if number in (signal.SIGUSR1, signal.SIGTERM):
             demand(code in (0, 75), "exit code", code, err[-500:])
         elif number == signal.SIGUSR2:
             demand(code == 0 and (self.folder / "state.h5").exists(), "exit code", code, err[-500:])

@@ -33,7 +33,18 @@ from run import environment, mpirun  # noqa: E402
 
 LISTS = Path(__file__).resolve().parent
 TIMEOUT = 300  # seconds for one test; a mutant that hangs is caught
-COPIED = ("Makefile", "README.md", "LICENSE", "CITATION.cff", "src", "include", "tests", "scripts", "examples")
+COPIED = (
+    "Makefile",
+    "README.md",
+    "LICENSE",
+    "CITATION.cff",
+    "CHANGES.md",
+    "src",
+    "include",
+    "tests",
+    "scripts",
+    "examples",
+)
 OPT = "-O1"  # builds are most of the time
 
 

@@ -1,5 +1,6 @@
 """What the whole-program tests share: options from dicts, results from HDF5, and mechanics written anew in numpy."""
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -26,6 +27,11 @@ FIELDS = (
     "displacement_z",
     "state",
 )
+
+
+def limit(seconds):
+    """A time limit for this machine as loaded now, from that of an idle one; None stays None."""
+    return seconds and seconds * min(max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1)), 20.0)
 
 
 # ---------------------------------------------------------------- options

@@ -266,7 +266,7 @@ CASES = [
     case("options file without a name", {}, "-options_file"),
     case("options file with two options a line", {}, "-options_file", "crowded.opts", says="crowded.opts, line 2"),
     case("options file is a pipe", {}, "-options_file", "pipe", says="-options_file pipe", code=3),
-    case("options file names itself", {}, "-options_file", "self.opts", says=["self.opts", "without end"]),
+    case("options file names itself", {}, "-options_file", "self.opts", says=["self.opts", "in a loop"]),
     case("options file names a missing one", {}, "-options_file", "lost.opts", says="nowhere.opts", code=3),
     case("options file starts a program", {}, "-options_file", "python.opts", says=["python.opts, line 1", "-python"]),
     case("options file is wrong YAML", {}, "-options_file", "wrong.yaml", says="YAML"),

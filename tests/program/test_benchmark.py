@@ -84,7 +84,7 @@ def killed(tmp_path):
     """The folder of a run that was killed after its first rows."""
     words = (*TINY, "--cases", "hertz,slip_tx", "--out", tmp_path)
     with subprocess.Popen(command(*words), stdout=subprocess.DEVNULL) as started:
-        end = time.monotonic() + 120
+        end = time.monotonic() + support.limit(120)
         while not rows(tmp_path) and started.poll() is None and time.monotonic() < end:
             time.sleep(0.02)
         started.kill()

@@ -139,7 +139,7 @@ def test_steps_of_a_branch_have_the_numbers_of_the_run(stopped, petsam):
 def test_another_gap_keeps_the_slip(stopped, petsam, ranks):
     """The next step is solved on the new gap, from the slip of the checkpoint: its work says so."""
     done = petsam(CASE, FROM, dict(restart_gap=True, gap_radius1=0.25), ranks=ranks)
-    assert "the results begin after step 14, of out.h5, with another gap and the slip so far" in done.stdout
+    assert "the results begin after step 14, of out.h5, with another gap and the accumulated slip" in done.stdout
     values, attributes = read(stopped / "branch.h5")
     before = read(stopped / "out.h5")[0]
     assert attributes["gap_radius1"] == 0.25 and attributes["branch_gap"] == "of this run"

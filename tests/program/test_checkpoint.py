@@ -256,6 +256,38 @@ def test_USR1_writes_a_checkpoint_and_stops(launcher, folder, petsam, ranks):
     assert not differences(folder / "out.h5", folder / "whole.h5")
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_TERM_stops_like_USR1(launcher, folder, petsam, ranks):
+    """On any rank. Sent to mpirun, it ends that as well."""
+    run = start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
+    wait_for(run, 2)
+    send(run, ranks, signal.SIGTERM)
+    _, err = run.communicate(timeout=60)
+    last = progress(folder / "state.h5")
+    assert run.returncode == 75 and f"stopped after step {last} of {STEPS}" in err, err
+    petsam(CASE, ON, ranks=ranks)
+    assert steps(folder / "out.h5") == STEPS
+
+
+def test_TERM_ends_a_run_without_checkpoints(launcher, folder):
+    run = start(launcher, folder, [CASE], 1)
+    wait_for(run, 2)
+    send(run, 1, signal.SIGTERM)
+    run.communicate(timeout=60)
+    assert run.returncode == -signal.SIGTERM
+
+
+def test_forgotten_restart_does_not_replace_the_checkpoint(stopped, petsam):
+    """By the command of the stopped run; neither its checkpoint nor its results change."""
+    before = [(stopped / name).read_bytes() for name in ("state.h5", "out.h5")]
+    done = petsam(CASE, dict(checkpoint="state.h5"), check=2)
+    assert "-checkpoint state.h5" in done.complaint[0] and "-restart state.h5" in done.complaint[0]
+    assert "-overwrite" in done.complaint[0]
+    assert before == [(stopped / name).read_bytes() for name in ("state.h5", "out.h5")]
+    petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=20, overwrite=True))
+    assert progress(stopped / "state.h5") == STEPS // 20 * 20
+
+
 def test_signal_without_a_checkpoint_is_a_warning(launcher, folder):
     run = start(launcher, folder, [CASE], 1)
     wait_for(run, 2)

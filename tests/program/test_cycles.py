@@ -1,4 +1,4 @@
-"""Cycles of a history: turning points, periods, their energies and loops, in petsam-plot and in petsam-study."""
+"""Cycles of a history: reversals, periods, their energies and loops, in petsam-plot and in petsam-study."""
 
 import csv
 
@@ -116,7 +116,7 @@ def test_cycles_without_the_name_or_the_period_are_refused(results):
     with pytest.raises(petsam.Error, match="--period: a period of 0.0001 s is shorter than the steps, 0.2 s"):
         cycles.find(results, period=(1e-4, None))
     for number in (0, 4, -4, 1.5):
-        with pytest.raises(petsam.Error, match=f"cycle {number:g}: there are cycles 1 to 3, by turning"):
+        with pytest.raises(petsam.Error, match=f"cycle {number:g}: there are cycles 1 to 3, by reversals"):
             cycles.find(results).numbered(number)
     assert cycles.find(results).numbered(-1).number == 3
 
@@ -127,7 +127,7 @@ def test_energy_is_drawn_over_the_number_of_the_cycle(results):
     x, y = axes.lines[0].get_data()
     factor = {"nJ": 1e9, "µJ": 1e6}[axes.get_ylabel().split()[-1]]
     assert x.tolist() == [1, 2, 3] and np.allclose(y, factor * found.energies, rtol=1e-14)
-    assert axes.get_ylim()[0] == 0.0 and axes.get_title().endswith("turning points of disp_x")
+    assert axes.get_ylim()[0] == 0.0 and axes.get_title().endswith("reversals of disp_x")
 
 
 def test_loops_of_chosen_cycles_are_closed_curves_of_their_steps(results, path):
@@ -224,7 +224,7 @@ def test_a_map_of_a_cycle_is_that_of_its_end(results, path, monkeypatch):
             3,
             "--turns load_q: has no such scalar: is load_n meant? It has contact_area",
         ),
-        (("--loop", "--cycle", "9"), 3, "--cycle 9: there are cycles 1 to 3, by turning points of disp_x"),
+        (("--loop", "--cycle", "9"), 3, "--cycle 9: there are cycles 1 to 3, by reversals of disp_x"),
         (("--energy", "--period", "99"), 3, "--energy: has no whole cycle, by a period of 99 s; see"),
         (("--energy", "--period", "1e-9"), 3, "is shorter than the steps"),
         (("--energy", "--period", "0"), 2, "--period: 0: expected a positive time, or T,START"),

@@ -176,6 +176,10 @@ def test_history_of_the_topic_is_one(petsam, tmp_path):
     assert re.findall(r"^ +\d+ +[0-3] +180 +(\S+)", said, re.M) == ["0", "20", "-20", "20"]
 
 
+def test_fatigue_is_found_in_the_other_program(petsam):
+    assert "petsam-stress -help fatigue" in topic(petsam, "fatigue")
+
+
 def test_exit_codes_of_the_topic_are_those_of_the_manual(petsam):
     codes = re.findall(r"^  (\d+) ", topic(petsam, "exit codes"), re.M)
     table = (ROOT / "examples" / "RESULTS.md").read_text().split("| exit code | meaning |")
@@ -187,7 +191,7 @@ def test_exit_codes_of_the_topic_are_those_of_the_manual(petsam):
 def test_gap_types_of_the_topic_are_all_there_are(petsam):
     text = topic(petsam, "gap")
     listed = re.findall(r"^  (\w+)   +\S", text.split("\nGap\n")[0], re.M)
-    found = re.search(r"-gap_type <word> +(.*): required", text).group(1)
+    found = re.search(r"-gap_type <keyword> +(.*): required", text).group(1)
     assert sorted(listed) == re.split(r", | or ", found)
 
 

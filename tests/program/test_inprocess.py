@@ -20,7 +20,7 @@ def write(path, columns, rows):
 
 
 def test_history_has_the_bits_of_the_program(petsam, tmp_path):
-    """Given as arrays and as the program's own file, which may have comments and other separators."""
+    """Given as arrays and as the program's own file, which may have comments and other separators. Its columns, too."""
     write(tmp_path / "h.csv", COLUMNS, ROWS)
     (tmp_path / "h.txt").write_text("# a history\n" + (tmp_path / "h.csv").read_text().replace(",", " ; "))
     petsam(dict(CASE, history="h.csv", steps=3, output="h.h5", output_fields="all"))
@@ -29,19 +29,22 @@ def test_history_has_the_bits_of_the_program(petsam, tmp_path):
         + """
 found = {}
 for name, given in ("a", history), ("f", "h.txt"):
-    with petsam.Contact(steps=3, **case) as contact:
+    with petsam.Contact(steps=3, output=f"{name}.h5", **case) as contact:
         steps = contact.run(given)
+        assert not hasattr(steps[-1], "friction_scale")
         for number in "time", "load_tx", "disp_z", "dissipated_energy", "contact_area", "normal_iterations":
             found[f"{name}/{number}"] = [getattr(step, number) for step in steps]
         for field in "pressure", "shear_x", "slip_y", "gap":
             found[f"{name}/{field}"] = contact.field(field)
+    with petsam.Contact(**case) as contact:
+        assert contact.run(dict(history, friction_scale=[1, 1, 0.9, 0.9]))[-1].friction_scale == 0.9
 np.savez("found.npz", **found)
 """,
         tmp_path,
     )
     found = np.load(tmp_path / "found.npz")
-    with h5py.File(tmp_path / "h.h5") as f:
-        assert len(f["history/time"]) == 12
+    with h5py.File(tmp_path / "h.h5") as f, h5py.File(tmp_path / "a.h5") as own:
+        assert len(f["history/time"]) == 12 and set(f["history"]) == set(own["history"])
         for key in found:
             name = key.split("/")[1]
             expected = f["history"][name][:] if name in f["history"] else f[name][-1]
@@ -160,7 +163,7 @@ with petsam.Contact(wear_coefficient1=1e-14, **case) as contact:
     refused("not a finite number", lambda: contact.run(dict(history, load_n=[1, 2, 3, np.nan])))
     refused("not a closed cycle", lambda: contact.live(10, history))
     refused("number > 0", lambda: contact.live(0, history))
-    refused("whole number", lambda: contact.live(1.5, history))
+    refused("expected an integer", lambda: contact.live(1.5, history))
     slides = dict(time=[1, 2, 3], load_n=[500] * 3, load_tx=[0, 100, 1e4])
     error = refused("gross slip", lambda: contact.run(slides), petsam.NoEquilibrium)
     assert len(error.steps) == 2 and error.step.time == 3 and abs(error.steps[1].load_tx - 100) < 1e-6

@@ -123,7 +123,7 @@ told("it is rigid", rigid.stress)
 assert rigid.stress(body=1)["mises"].max() > 0
 periodic = petsam.Contact(elasticity="periodic", **{CASE!r})
 periodic.try_step(load_n=100)
-told("no stresses are known of bodies of type periodic", periodic.stress)
+told("stresses are not available for bodies of type periodic", periodic.stress)
 """,
         tmp_path,
     )

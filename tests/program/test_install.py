@@ -163,6 +163,27 @@ def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, lau
         assert float(tangential) == pytest.approx(4.16312e-7, rel=1e-4)
 
 
+@pytest.mark.parametrize("compiler", ["mpicc -std=c11", "mpicxx -std=c++11"])
+def test_every_installed_header_stands_alone(prefix, tmp_path, compiler):
+    """In C and in C++, without warnings: a header includes what it needs."""
+    sources = []
+    for k, header in enumerate(sorted((prefix / "include").rglob("*.h"))):
+        sources.append(tmp_path / f"{k}.{'c' if compiler.startswith('mpicc') else 'cpp'}")
+        sources[-1].write_text(f"#include <{header.relative_to(prefix / 'include')}>\n")
+    assert len(sources) > 40
+    command = [
+        *compiler.split(),
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-fsyntax-only",
+        *pkg_config(prefix, "--cflags"),
+        *sources,
+    ]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
 def test_programs_need_the_library_by_the_version_of_its_interface(prefix):
     """libpetsam.so is for the linker; programs that were linked with another interface do not find their own."""
     name = re.search(
@@ -207,8 +228,8 @@ def test_installed_example_runs_from_anywhere(prefix, tmp_path):
     assert Results(tmp_path / "sphere" / "hertz.h5").saved == 1
 
 
-def test_what_the_README_says_is_installed_is(prefix):
-    """Folders named in README's paragraph on installing."""
-    text = re.search(r"`make install.*?\n\n", (ROOT / "README.md").read_text(), re.S).group()
+def test_what_the_manual_says_is_installed_is(prefix):
+    """Folders named in the paragraph on installing."""
+    text = re.search(r"`make install.*?\n\n", (ROOT / "scripts/README.md").read_text(), re.S).group()
     for place in re.findall(r"`((?:bin|lib|include|share)/[\w/.*-]*)`", text):
         assert list(prefix.glob(place.rstrip("/"))), place

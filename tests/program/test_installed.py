@@ -1,21 +1,15 @@
-"""Scripts from the build tree and installed, their Python and petsam; the manual's commands; the package recipes."""
+"""Scripts from the build tree and installed, their Python and petsam; the manual's commands."""
 
 import os
 import re
 import shutil
 import subprocess
 import sys
-import types
 
 import pytest
 
 from conftest import PROGRAM, environment, make_install
 from support import ROOT, ball, words
-
-VERSION = ".".join(
-    re.findall(r"define SAM_VERSION_(?:MAJOR|MINOR|SUBMINOR) +(\d+)", (ROOT / "include/petsam/base.h").read_text())
-)
-MAKEFILE = (ROOT / "Makefile").read_text()
 
 
 def shell(command, cwd, check=0, **variables):
@@ -139,59 +133,3 @@ def test_the_example_study_runs_to_its_figure(tree, tmp_path):
     ][-1].split()
     # nu = 0, where the closed solution is exact: about 42 cells in the contact's radius; mu is only a factor
     assert cases == "4" and float(radius) < 0.02 and float(energy) < 0.01 and float(mu) < 1e-5
-
-
-# ---------------------------------------------------------------- recipes, which are not run
-
-
-def test_apptainer_definition_names_files_that_exist_and_this_version():
-    text = (ROOT / "scripts/packaging/petsam.def").read_text()
-    sections = dict(re.findall(r"^%(\w+)\n((?:    .*\n|\n)*)", text, re.M))
-    assert {"files", "post", "runscript", "test", "labels", "help"} <= set(sections)
-    sources = [line.split()[0] for line in sections["files"].splitlines() if line.strip()]
-    for source in sources:
-        assert (ROOT / source).exists(), source
-    # all that the build and the scripts need is taken along
-    assert {"Makefile", "src", "include", "scripts"} <= set(sources)
-    assert f"version {VERSION}\n" in sections["labels"]
-    assert subprocess.run(["sh", "-n"], input=sections["post"], text=True).returncode == 0
-    assert "Never built" in text
-
-
-def test_spack_recipe_asks_for_what_makefile_and_scripts_need(monkeypatch):
-    depends, versions = [], []
-
-    class Any:
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            return False
-
-    package = types.ModuleType("spack.package")
-    package.depends_on = lambda spec, **_: depends.append(spec)
-    package.version = lambda name, **_: versions.append(name)
-    package.variant = package.license = lambda *_, **__: None
-    package.when = lambda _: Any()
-    makefile = types.ModuleType("makefile")
-    makefile.MakefilePackage = object
-    for name in ("spack", "spack_repo", "spack_repo.builtin", "spack_repo.builtin.build_systems"):
-        monkeypatch.setitem(sys.modules, name, types.ModuleType(name))
-    monkeypatch.setitem(sys.modules, "spack.package", package)
-    monkeypatch.setitem(sys.modules, "spack_repo.builtin.build_systems.makefile", makefile)
-    names = {}
-    exec((ROOT / "scripts/packaging/package.py").read_text(), names)  # pylint: disable=exec-used
-    assert VERSION in versions
-    packages = {re.match(r"[\w-]+", spec).group(0) for spec in depends}
-    assert {"mpi", "petsc", "fftw", "hdf5", "pkgconfig", "cmocka", "python"} <= packages
-    libraries = {
-        re.match(r"\w+", line).group(0).lower() for line in (ROOT / "scripts/requirements.txt").read_text().splitlines()
-    }
-    assert {name[3:] for name in packages if name.startswith("py-")} == libraries - {"pytest"}
-    recipe = names["Petsam"]()
-    recipe.prefix = "/opt/petsam"
-    recipe.spec = {"mpi": types.SimpleNamespace(mpicc="/opt/bin/mpicc")}
-    for word in recipe.build_targets + recipe.install_targets:
-        name, _, value = word.partition("=")
-        # variables and targets that the Makefile knows
-        assert re.search(rf"^ *{name} *[:?]?=" if value else rf"^{name}:", MAKEFILE, re.M), word

@@ -203,7 +203,7 @@ def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
     first.kill()
     assert_intact(folder / "out" / "out.h5", 8)
     assert not [path.name for path in (folder / "out").iterdir() if path.name.endswith(".lock")]
-    third = start(launcher, folder, ranks, mine)
+    third = start(launcher, folder, ranks, dict(mine, overwrite=True))
     wait_for(third, 2)
     conftest.kill_all(third, ranks)
     third.communicate(timeout=60)

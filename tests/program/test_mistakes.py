@@ -49,12 +49,12 @@ MISTAKES = [
     mistake("Poisson's ratio in percent", dict(body1_poisson=30.0), says=["-body1_poisson 30", "at most 0.5", "0.3"]),
     mistake("negative friction", dict(friction=-0.3), says=["-friction -0.3", ">= 0"]),
     mistake("load that pulls", dict(load_n=-1000.0), says=["-load_n -1000", ">= 0"]),
-    mistake("thousands", dict(grid_n="1e3"), says=["-grid_n 1e3", "whole number"]),
+    mistake("thousands", dict(grid_n="1e3"), says=["-grid_n 1e3", "an integer"]),
     mistake("cells with an x", dict(grid_n="64x64"), says=["-grid_n 64x64", "separated by a comma"]),
     mistake("cells as two words", {}, "-grid_n", "64", "64", says=["64:", "-grid_n are joined by a comma: 64,64"]),
     mistake("one cell", dict(grid_n=1), says=["-grid_n 1", "from 2"]),
     mistake("no steps", {}, "-steps", "0", says=["-steps 0", "from 1"]),
-    mistake("half a step", {}, "-steps", "2.5", says=["-steps 2.5", "whole number"]),
+    mistake("half a step", {}, "-steps", "2.5", says=["-steps 2.5", "an integer"]),
     # ---- the command line
     mistake("equals sign", dict(load_n=None), "-load_n=1000", says=["-load_n=1000", "expected -load_n 1000"]),
     mistake("equals sign in the environment's style", {}, "-output=a.h5", says=["-output=a.h5", "-output a.h5"]),
@@ -430,13 +430,13 @@ def test_rough_surface_is_warned_of_once(petsam, folder):
         f["height"] = 1e-6 * rng.random((64, 64))
     done = petsam(SPHERE, dict(load_n=30.0), "-gap_rough_file", "rough.h5")
     assert len(done.complaint) == 1
-    assert re.search(r"the contact is in \d+ zones, the narrow ones [\d.]+ cells across", done.complaint[0])
+    assert re.search(r"the contact is in \d+ spots, the narrow ones [\d.]+ cells across", done.complaint[0])
     assert "a file with heights at smaller distances" in done.complaint[0]
 
 
 def test_checkpoint_says_when_it_is_written(petsam, folder):
     line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5")).stdout).group(1)
-    assert "s.h5: only at the signals USR2 and USR1" in line and "-checkpoint_every k" in line
+    assert "s.h5: only on USR2, and on TERM or USR1 (to stop)" in line and "-checkpoint_every k" in line
     line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5", checkpoint_every=7)).stdout).group(1)
     assert "after every 7 steps" in line and "-checkpoint_every k" not in line
     line = re.search(r"checkpoint +(.*)", petsam(SPHERE, dict(checkpoint="s.h5", max_walltime="1:40")).stdout).group(1)

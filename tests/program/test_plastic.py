@@ -371,7 +371,7 @@ def test_same_bits_on_any_number_of_ranks_and_after_a_restart(petsam, tmp_path):
     one = read(tmp_path / "o1.h5")
     for count, ranks in ((2, 1), (3, 2)):
         go = dict(grid_n=(41, 43), output="r.h5", checkpoint="c.h5", checkpoint_every=1)
-        petsam(SOFT, history(count), go, ranks=ranks)
+        petsam(SOFT, history(count), dict(go, overwrite=True), ranks=ranks)
         petsam(SOFT, history(5), dict(go, restart="c.h5"), ranks=3 - ranks)
         for name, value in read(tmp_path / "r.h5").items():
             assert np.array_equal(value, one[name], equal_nan=True), name

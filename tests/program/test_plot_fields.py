@@ -124,12 +124,12 @@ def test_a_few_peaks_do_not_darken_the_map_and_the_label_says_so():
     cells = np.concatenate([np.zeros(1000), chance.uniform(1e6, 2e6, 9850), np.full(150, 5e7)])
     found = colours.choose("pressure", [cells], "Pa")
     assert found.norm.vmax == pytest.approx(1e-6 * np.percentile(cells[1000:], 98.0), rel=1e-12)
-    assert found.text("$p$") == "$p$, MPa\n98 % of non-zero cells below, largest 50" and found.extend == "max"
+    assert found.text("$p$") == "$p$, MPa\n98 % of non-zero cells below, maximum 50" and found.extend == "max"
     share = np.mean(found.factor * cells[1000:] <= found.norm.vmax)
     assert 0.979 < share < 0.981
     signed = colours.choose("shear_x", [-cells], "Pa")
     assert signed.norm.vmin == -signed.norm.vmax and signed.extend == "min"
-    assert signed.text("q").endswith("98 % of non-zero cells within, largest 50")
+    assert signed.text("q").endswith("98 % of non-zero cells within, maximum 50")
 
 
 @pytest.mark.parametrize("count, share", [(0, 100.0), (5, 99.8), (90, 99.0), (150, 98.0), (400, 95.0), (600, 100.0)])
@@ -150,7 +150,7 @@ def test_the_percentile_is_that_which_is_given(results):
     drawn, bar = image(maps.maps([(results, 0)], whole=True, names=["pressure"], choice=choice))
     inside = np.asarray(drawn.get_array())
     assert drawn.get_clim()[1] == pytest.approx(np.median(inside[inside > 0]), rel=1e-12)
-    assert f"50 % of non-zero cells below, largest {inside.max():.3g}" in bar.get_ylabel()
+    assert f"50 % of non-zero cells below, maximum {inside.max():.3g}" in bar.get_ylabel()
 
 
 def test_logarithmic_colours_span_some_decades_or_the_limits():
@@ -345,6 +345,36 @@ def test_numbers_of_a_logarithmic_axis_are_plain():
     assert any("10^{6}" in text.get_text() or "10^{7}" in text.get_text() for text in axes.get_yticklabels())
 
 
+@pytest.mark.parametrize(
+    "low, high", [(1e-4, 9e-4), (2e-4, 3e-3), (0.3, 40.0), (1e-6, 1e3), (110.0, 140.0), (1.0, 5.0)]
+)
+def test_numbers_of_a_logarithmic_axis_do_not_collide(low, high):
+    figure, panels = plt.subplots(1, 3, figsize=(13.2, 3.4), constrained_layout=True)
+    for axes in panels:
+        axes.plot([low, high], [low, high])
+        style.logarithmic(axes, ["x", "y"])
+    figure.canvas.draw()
+    for axis in (panels[1].xaxis, panels[1].yaxis):
+        shown = [text for which in (True, False) for text in axis.get_ticklabels(minor=which)]
+        inside = [text for text in shown if text.get_text() and text.get_visible()]
+        first, last = axis.get_view_interval()
+        boxes = [
+            text.get_window_extent()
+            for text in inside
+            if first <= text.get_position()[0 if axis is panels[1].xaxis else 1] <= last
+        ]
+        assert len(boxes) >= 2
+        assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
+
+
+def test_six_maps_are_drawn_in_two_rows():
+    layout = maps.Layout([{"extent": [0.0, 1.0, 0.0, 1.0]}] * 2, 6)
+    assert (layout.rows, layout.columns) == (4, 3)
+    assert [layout.place(1, k, 6) for k in (0, 2, 3, 5)] == [(2, 0), (2, 2), (3, 0), (3, 2)]
+    assert [k for k in range(6) if layout.is_left(k)] == [0, 3]
+    assert (maps.Layout([{"extent": [0.0, 1.0, 0.0, 1.0]}], 4).rows, layout.width) == (1, layout.height)
+
+
 # ---------------------------------------------------------------- the program
 
 
@@ -381,7 +411,7 @@ def test_one_picture_as_asked_for(draw, path, tmp_path, words, name, begin):
         (["--scalar", ""], "--scalar"),
         (["--where", "mu"], "--where: mu: expected NAME=VALUE"),
         (["--format", "gif"], "--format"),
-        (["--format", "pdf", "-o", "a.svg"], "--format pdf: the name a.svg says otherwise"),
+        (["--format", "pdf", "-o", "a.svg"], "--format pdf: contradicts the ending of a.svg"),
     ],
 )
 def test_bad_usage_names_the_option_with_exit_code_2(draw, path, words, says):

@@ -114,7 +114,7 @@ def test_by_itself_what_varies_is_drawn_over_the_input_with_the_most_values(stud
     # neither what is constant, nor numbers without a unit, nor rounding
     assert drawn == ["dissipated energy", "$T_x$", "stick area"]
     assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx, N"}
-    assert figure.get_suptitle() == "left out, as they have not finished: 1 of the cases"
+    assert figure.get_suptitle() == "omitted: 1 unfinished cases"
 
 
 @pytest.fixture
@@ -203,7 +203,7 @@ def test_one_picture_is_drawn(draw, path, tmp_path, words):
         (["--where", "mu=high"], "--where mu=high: expected a number"),
         (["--where", "shape=cube"], "--where shape=cube: no case has it; there are ball, punch"),
         (["--where", "size=1"], "--where size: there is no such column"),
-        (["--where", "ratio=1"], "none of the cases asked for has finished"),
+        (["--where", "ratio=1"], "none of the chosen cases has finished"),
         (["--maps"], "--maps: a table of petsam-study, drawn by --scalar, --against and --by"),
         (["--step", "1"], "--step: a table of petsam-study, which has no steps"),
     ],

@@ -155,7 +155,7 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
         (dict(input="h.csv"), 3, "h.csv: cannot be read: it is not an HDF5 file"),
         (dict(input="other.h5"), 3, "other.h5: cannot be read: it lacks the attribute"),
         (dict(input="cut.h5"), 3, "cut.h5: cannot be read"),
-        (dict(input="periodic.h5"), 2, "-input periodic.h5: no stresses are known of bodies of type periodic"),
+        (dict(input="periodic.h5"), 2, "-input periodic.h5: stresses are not available for bodies of type periodic"),
         (dict(input="plate.h5"), 3, "-input plate.h5: cannot be read: its elasticity is of type plate"),
         (dict(input="soft.h5"), 3, "-input soft.h5: cannot be read: body2_poisson 0.6"),
         (dict(output="c.h5"), 2, "-output c.h5"),

@@ -171,7 +171,7 @@ def test_more_than_one_cycle_is_warned_of_with_the_steps_of_one(stress, steps):
     common = dict(input="c.h5", output="w.h5", section="y=0", fatigue="swt", quantities="none")
     one = "48:56:8" if steps == "8:56:8" else "41:56"
     told = stress(dict(common, steps=steps)).stderr
-    said = "more than one cycle, taken as one: tractions of step 40 are those of the last one already; one cycle is"
+    said = "more than one cycle: step 40 already has the last step's tractions; for one cycle use"
     assert f"{said} -steps {one}\n" in told
 
 

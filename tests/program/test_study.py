@@ -4,9 +4,11 @@ import csv
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 
 import h5py
@@ -17,13 +19,14 @@ from conftest import PROGRAM as PETSAM
 from conftest import environment
 from petsam.study import cases as study_cases
 from petsam.study import command as study_command
+from petsam.study import runs as study_runs
 from petsam.study.slurm import ranges
-from support import ROOT, ball, slide_limit, words
+from support import ROOT, ball, limit, slide_limit, words
 
 PROGRAM = ROOT / "scripts" / "petsam-study"
 CASE = ball(n=32)
 LIMIT = slide_limit(CASE)[0]
-AT_ONCE = 60.0  # seconds, on the busiest machine: what it guards against takes hours
+AT_ONCE = 60.0  # seconds on an idle machine: what it guards against takes hours
 
 
 def executable(path, text):
@@ -114,7 +117,7 @@ def table(tmp_path, text, name="cases.csv"):
 
 def until(condition, seconds=60):
     """Wait for what another process does."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + limit(seconds)
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)
@@ -135,6 +138,21 @@ def test_csv_columns_are_options(tmp_path):
     assert one.words() == ["-load_tx", "10", "-grid_center", "0,1e-4", "-grid_n", "64", "-allow_edge_contact"]
     assert two.words() == ["-load_tx", "20", "-grid_n", "64", "-allow_edge_contact"]
     assert (one.name, one.ranks, two.name, two.ranks) == ("one", 2, "two", 3)
+
+
+def test_columns_may_be_separated_by_semicolons(tmp_path):
+    path = table(tmp_path, 'load_tx; -grid_center; case\n10; 0,1e-4; one\n20; "0;1"; two\n')
+    one, two = study_cases.read(str(path))
+    assert one.words() == ["-load_tx", "10", "-grid_center", "0,1e-4"] and (one.name, two.name) == ("one", "two")
+    assert two.options["grid_center"] == "0;1"
+
+
+def test_the_table_with_files_in_the_help_is_one(run, tmp_path):
+    text = run("--help")
+    example = text[text.index("  options: {history") : text.index("\nOptions after")]
+    cases = study_cases.read(str(table(tmp_path, textwrap.dedent(example), "t.yaml")))
+    assert [case.files["cycle.csv"].split()[-1] for case in cases] == ["80", "400"]
+    assert cases[0].options["history"] == "cycle.csv"
 
 
 def test_yaml_combines_all_lists_and_computes_expressions(tmp_path):
@@ -202,15 +220,15 @@ def test_a_file_of_any_option_is_found_and_its_change_noticed(tmp_path, option):
         ("t.csv", "load_tx\n", "at least one case"),
         ("t.csv", "load_tx\n1\n2\n1\n", "t.csv, line 4: the same name, load_tx=1, as"),
         ("t.csv", "load_tx,ranks\n1,0\n", "t.csv, line 2: ranks 0"),
-        ("t.csv", "load_tx,output\n1,a.h5\n", "t.csv, line 2: -output: petsam-study names the results"),
+        ("t.csv", "load_tx,output\n1,a.h5\n", "t.csv, line 2: -output: petsam-study chooses the file"),
         ("t.csv", "load_tx,case\n1,../a\n", "t.csv, line 2: case ../a"),
         ("t.yaml", "options:\n  load_tx: [1\n", "t.yaml, line 3:"),
         ("t.yaml", "options:\n  load_tx: 1\nrank: 1\n", "t.yaml: rank: unknown"),
-        ("t.yaml", 'options:\n  load_tx: "{2 * a}"\n', "t.yaml: {2 * a}: there is no parameter or option a"),
+        ("t.yaml", 'options:\n  load_tx: "{2 * a}"\n', "t.yaml: {2 * a}: unknown parameter or option a"),
         ("t.yaml", 'options:\n  load_tx: "{load_tx}"\n', "refers to itself"),
         ("t.yaml", 'options:\n  load_tx: "{1 / 0}"\n', "t.yaml: {1 / 0}: "),
         ("t.yaml", 'options:\n  load_tx: "{open(1)}"\n', "only numbers, names"),
-        ("t.yaml", 'options:\n  a: x\n  load_tx: "{2 * a}"\n', "a = x is no number"),
+        ("t.yaml", 'options:\n  a: x\n  load_tx: "{2 * a}"\n', "a = x is not a number"),
         ("t.yaml", "options:\n  load_tx: {a: 1}\n", "t.yaml: options: load_tx: expected a value or a list"),
         ("t.yaml", "options:\n  load_tx: 1\nfiles:\n  ../a: b\n", "t.yaml: files: expected names without folders"),
         ("t.yaml", "options:\n  a: 1\nparameters:\n  a: 1\n", "t.yaml: a: is both"),
@@ -268,8 +286,8 @@ def test_ranks_are_whole_numbers(tmp_path, monkeypatch, capsys, ranks):
     [
         (b"load_tx\n\xe9\n", "line 2: is not UTF-8"),
         ("load_tx\n1\n".encode("utf-16"), "line 1: is UTF-16"),
-        ("load_tx\n1\n".encode("utf-16-le"), "line 1: holds a NUL"),
-        (b"load_tx\n1\0\n", "line 2: holds a NUL"),
+        ("load_tx\n1\n".encode("utf-16-le"), "line 1: contains a NUL"),
+        (b"load_tx\n1\0\n", "line 2: contains a NUL"),
         (bytes(range(256)) * 9, "line "),
         (b"", "expected"),
     ],
@@ -287,7 +305,7 @@ def test_a_table_that_is_no_text_is_refused(tmp_path, monkeypatch, capsys, name,
         ("load_tx\n1\n" + "1" * 100000, "line 3: a value of 100000 characters"),
         ('load_tx,a\n"1,2\n3,4\n', "line 2: a quote is not closed"),
         ('load_tx,a\n1,2\n"1\n2",3\n', "line 3: a quote is not closed"),
-        ("load_tx\n" + "".join(f"{k}\n" for k in range(100001)), "100001 cases: expected at most 100000"),
+        ("load_tx\n" + "".join(f"{k}\n" for k in range(100001)), "100001 cases; use at most 100000"),
     ],
 )
 def test_a_bad_csv_table_names_its_line(tmp_path, monkeypatch, capsys, text, message):
@@ -304,28 +322,28 @@ SECTION = "options:\n  load_tx: "
         ("options: " + "[" * 20000, "nested too deeply"),
         ("options: {load_tx: &a [1, *a]}", "expected a value or a list"),
         ("options: &o\n  <<: *o\n", "line 2: "),
-        ("options:\n  1: 2\n", "line 2: options: 1: is no name"),
+        ("options:\n  1: 2\n", "line 2: options: 1: is not a name"),
         ("options:\n  ? [a]\n  : 1\n", "line 2: "),
-        ("options:\n  a/b: 1\n", "options: a/b: is no option's name"),
+        ("options:\n  a/b: 1\n", "options: a/b: is not an option's name"),
         ("options:\n\tload_tx: 1\n", "line 2: "),
         (SECTION + "1\n  load_tx: 2\n", "line 3: load_tx: appears twice"),
         (SECTION + "1\n---\na: 1\n", "line 3: expected a single document"),
         (SECTION + "9" * 6000, "line 2: "),
         (SECTION + '"\\0"\n', "line 2: "),
         (SECTION + '"\\ud800"\n', "line 2: "),
-        (SECTION + '"\\Uffffffff"\n', "is no YAML"),
+        (SECTION + '"\\Uffffffff"\n', "is not YAML"),
         (SECTION + "!!int abc\n", "line 2: abc"),
         (SECTION + "!!binary aGk=\n", "line 2: "),
         (SECTION + "[[1], [2]]\n", "expected a value or a list"),
         (SECTION + "1\nfiles: {1: a}\n", "line 3: "),
         (SECTION + "1\nranks: [1, 2]\n", "line 3: ranks: expected a number"),
-        ("options:\n" + "".join(f"  a{k}: [1, 2, 3]\n" for k in range(900)), "expected at most 100000"),
+        ("options:\n" + "".join(f"  a{k}: [1, 2, 3]\n" for k in range(900)), "use at most 100000"),
     ],
 )
 def test_a_bad_yaml_table_is_refused(tmp_path, monkeypatch, capsys, text, message):
     start = time.monotonic()
     code, said = in_process(monkeypatch, capsys, table(tmp_path, text, "t.yaml"), "--list")
-    assert code == 2 and message in refused(said) and time.monotonic() - start < AT_ONCE
+    assert code == 2 and message in refused(said) and time.monotonic() - start < limit(AT_ONCE)
 
 
 @pytest.mark.parametrize(
@@ -340,7 +358,7 @@ def test_an_expression_without_a_finite_value_is_refused_at_once(tmp_path, monke
     start = time.monotonic()
     path = table(tmp_path, SECTION + "'{" + expression.replace("'", "''") + "}'\n", "t.yaml")
     code, said = in_process(monkeypatch, capsys, path, "--list")
-    assert code == 2 and "t.yaml: {" in refused(said) and time.monotonic() - start < AT_ONCE
+    assert code == 2 and "t.yaml: {" in refused(said) and time.monotonic() - start < limit(AT_ONCE)
 
 
 @pytest.mark.parametrize("count, link", [(25, "{%s + %s}"), (200, "{%s + %s}"), (29, "{%s}{%s}"), (3000, "{%s}%.0s")])
@@ -350,14 +368,14 @@ def test_names_that_refer_to_names_take_no_time(tmp_path, monkeypatch, capsys, c
     chain = "".join("  a{}: '{}'\n".format(k, link % (f"a{k + 1}", f"a{k + 1}")) for k in range(count))
     text = "parameters:\n" + chain + f"  a{count}: 1\n" + SECTION + "'{a0}'\n"
     code, said = in_process(monkeypatch, capsys, table(tmp_path, text, "t.yaml"), "--list")
-    assert time.monotonic() - start < AT_ONCE
+    assert time.monotonic() - start < limit(AT_ONCE)
     assert code == 0 if count == 25 else code == 2 and "a" in refused(said)
 
 
 @pytest.mark.parametrize("name", ["results.csv", "results.h5", "results.csv.tmp", "results.h5.tmp", "slurm-1_2.out"])
 def test_a_case_cannot_have_the_name_of_a_file_of_the_study(tmp_path, monkeypatch, capsys, name):
     code, said = in_process(monkeypatch, capsys, table(tmp_path, f"case,load_tx\na,1\n{name},2\n"), "--list")
-    assert code == 2 and f"line 3: case {name}: is the name of a file" in refused(said)
+    assert code == 2 and f"line 3: case {name}: is reserved for a file" in refused(said)
     table(tmp_path, f"case,load_tx\n{name.upper()},2\n")
     assert in_process(monkeypatch, capsys, tmp_path / "cases.csv", "--list") == (0, "")
 
@@ -660,7 +678,9 @@ def slurm(tmp_path, fake):
     when the file `limit` does.
     """
     executable(
-        tmp_path / "bin" / "srun", '#!/bin/sh\n[ "$1" = -n ] && { RANKS=$2; export RANKS; shift 2; }\nexec "$@"\n'
+        tmp_path / "bin" / "srun",
+        f'#!/bin/sh\necho "$@" >>{tmp_path}/srun.txt\n[ "$1" != --cpu-bind=cores ] || shift\n'
+        '[ "$1" = -n ] && { RANKS=$2; export RANKS; shift 2; }\nexec "$@"\n',
     )
     executable(tmp_path / "bin" / "scontrol", f'#!/bin/sh\necho "$@" >>{tmp_path}/scontrol.txt\n')
     executable(
@@ -734,6 +754,35 @@ def test_a_study_is_submitted_as_arrays_and_collected(run, tmp_path, slurm):
     assert "--array=2 " in lines(tmp_path / "sbatch.txt")[3]
 
 
+@pytest.mark.parametrize("words", [("--sbatch", "--time=2:00:00"), ("--sbatch=--time=2:00:00",)])
+def test_a_single_option_of_sbatch_is_taken_as_the_help_writes_it(run, tmp_path, slurm, words):
+    table(tmp_path, "load_tx\n1\n")
+    run("cases.csv", "--slurm", *words, **slurm)
+    assert all(" --time=2:00:00 " in line for line in lines(tmp_path / "sbatch.txt"))
+    assert "--sbatch requires --slurm" in run("cases.csv", *words, check=2, **slurm)
+
+
+def test_each_rank_of_a_task_is_bound_to_its_cores(run, tmp_path, slurm):
+    table(tmp_path, "load_tx,ranks\n1,2\n")
+    run("cases.csv", "--slurm", "--cores", 2, **slurm)
+    assert any(line.startswith("--cpu-bind=cores -n 2 ") for line in lines(tmp_path / "srun.txt"))
+
+
+def test_the_grace_of_a_run_is_the_time_that_the_job_has_left(monkeypatch):
+    monkeypatch.delenv("GRACE", raising=False)
+    monkeypatch.delenv("SLURM_JOB_END_TIME", raising=False)
+    assert study_runs.grace() == 90.0
+    monkeypatch.setenv("SLURM_JOB_END_TIME", str(int(time.time()) + 600))
+    assert 560.0 < study_runs.grace() <= 570.0
+    monkeypatch.setenv("SLURM_JOB_END_TIME", "5")
+    assert study_runs.grace() == 1.0
+    monkeypatch.setenv("GRACE", "7")
+    assert study_runs.grace() == 7.0
+    monkeypatch.setenv("GRACE", "long")
+    with pytest.raises(study_runs.Error, match="GRACE is long"):
+        study_runs.grace()
+
+
 @pytest.mark.parametrize(
     "words, passed",
     [
@@ -759,7 +808,9 @@ def test_a_task_of_the_array_that_was_stopped_is_queued_again(run, tmp_path, slu
 
 def test_without_sbatch_slurm_is_refused(run, tmp_path, fake):
     table(tmp_path, "load_tx\n1\n")
-    assert "no sbatch on PATH" in run("cases.csv", "--slurm", check=2, PATH=os.path.dirname(sys.executable), **fake)
+    assert "sbatch not found on PATH" in run(
+        "cases.csv", "--slurm", check=2, PATH=os.path.dirname(sys.executable), **fake
+    )
 
 
 # one large run: the program writes checkpoints to the path it is given
@@ -776,7 +827,7 @@ trap 'echo "$$ $RANDOM" >"$file"; exit 75' USR1
 def large(tmp_path, slurm):
     """large(script): runs scripts/slurm/run.sbatch with a petsam that does script; exit code and requeues."""
 
-    def submit(script, limit=False):
+    def submit(script, *more, limit=False, **variables):
         executable(tmp_path / "bin" / "petsam", LARGE.format(tmp_path, script))
         for name in ("started.txt", "scontrol.txt", "codes.txt"):
             (tmp_path / name).unlink(missing_ok=True)
@@ -787,9 +838,11 @@ def large(tmp_path, slurm):
             **{k: str(v) for k, v in slurm.items()},
             "CHECKPOINT": "big.checkpoint.h5",
             "GRACE": "1",
+            **variables,
         }
+        script, words = ROOT / "scripts/slurm/run.sbatch", ["-grid_n", "64", "-output", "big.h5", *more]
         subprocess.run(
-            ["sbatch", "--nodes=2", str(ROOT / "scripts/slurm/run.sbatch"), "-grid_n", "64", "-output", "big.h5"],
+            ["sbatch", "--nodes=2", str(script), *words],
             cwd=tmp_path,
             env=env,
             check=True,
@@ -822,3 +875,22 @@ def test_a_large_run_without_a_new_checkpoint_is_not_queued_again(large, tmp_pat
 def test_a_step_longer_than_the_grace_goes_on_from_the_checkpoint_before(large):
     """The program takes no notice of USR1, but has written a checkpoint in this job."""
     assert large("trap '' USR1; echo state >$file; exec sleep 60", limit=True) == (0, ["requeue 1"])
+
+
+def test_a_large_run_is_bound_and_knows_how_much_time_is_left(large, tmp_path):
+    end = str(int(time.time()) + 3600)
+    large("exit 0", SLURM_JOB_END_TIME=end)
+    large("exit 0", "-max_walltime", "5:00", SLURM_JOB_END_TIME=end)
+    large("exit 0", SLURM_JOB_END_TIME="5", MARGIN="10")
+    first, second, third = lines(tmp_path / "runs.txt")
+    assert 3400 < int(re.search(r"-checkpoint_every 10 -max_walltime (\d+)$", first).group(1)) <= 3540
+    assert second.count("-max_walltime") == 1 and "-max_walltime 5:00" in second
+    assert third.endswith("-max_walltime 1")
+    assert all(line.startswith("--cpu-bind=cores ") for line in lines(tmp_path / "srun.txt"))
+
+
+def test_a_long_step_gets_the_time_that_is_left(large):
+    """The program takes two seconds to stop; with GRACE it would be ended after one, without a new checkpoint."""
+    slow = "trap 'sleep 2; echo state >$file; exit 75' USR1; sleep 60 & wait"
+    assert large(slow, limit=True)[1] == []
+    assert large(slow, limit=True, GRACE="", SLURM_JOB_END_TIME=str(int(time.time()) + 600)) == (0, ["requeue 2"])

@@ -89,7 +89,7 @@ def test_results_with_sums_need_a_checkpoint_with_sums(folder, petsam):
 
 def test_sums_are_kept_only_where_they_are_asked_for(folder, petsam):
     for fields, there in (("pressure", False), ("slip_path", True)):
-        petsam(CASE, dict(output_fields=fields, checkpoint="state.h5", checkpoint_every=6))
+        petsam(CASE, dict(output_fields=fields, checkpoint="state.h5", checkpoint_every=6, overwrite=True))
         with h5py.File(folder / "state.h5") as f:
             assert ("slip_path" in f) == there and "friction_energy" not in f
 

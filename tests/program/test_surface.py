@@ -286,7 +286,7 @@ def test_words_for_missing_points(tmp_path):
     ("1,5;2,5\n1,6;2,6\n", ["line 1", "1,5 has a decimal comma", "--decimal comma"]),
     ("1,5 2,5\n1,6 2,6\n", ["line 1", "--decimal comma"]),
     ("1,5\t2\n1,6\t2,6\n", ["line 1", "--decimal comma"]),
-    ("a,b\nc,d\n", ["has no numbers"]),
+    ("a,b\nc,d\n", ["contains no numbers"]),
     ("\n".join(f"{x},{y},{x * y}" for x in range(4) for y in range(4)), ["points x, y, z"]),
     ("1,2,3\n", ["1 x 3 points", "2 x 2"]),
     ("1\n2\n3\n", ["3 x 1 points", "2 x 2"]),
@@ -305,7 +305,7 @@ def test_tables_that_are_no_map_are_named_by_line(surface, tmp_path, text, says)
 @pytest.mark.parametrize("value, says", [
     (np.zeros((3, 4, 5)), "has shape (3, 4, 5)"), (np.zeros(9), "has shape (9,)"), (np.array(1.0), "has shape ()"),
     (np.zeros((3, 3), complex), "no array of real numbers"), (np.array([["a", "b"]]), "no array of real numbers"),
-    (np.array([[None, 1], [2, 3]]), "is no array of NumPy"), (np.zeros((1, 7)), "1 x 7 points"),
+    (np.array([[None, 1], [2, 3]]), "is not an array of NumPy"), (np.zeros((1, 7)), "1 x 7 points"),
 ], ids=str)  # fmt: skip
 def test_arrays_that_are_no_map(surface, tmp_path, value, says):
     np.save(tmp_path / "z.npy", value)
@@ -318,7 +318,7 @@ def test_a_damaged_array_is_refused(surface, tmp_path):
     data = (tmp_path / "z.npy").read_bytes()
     for part in (data[:400], data[:20], b"text"):
         (tmp_path / "z.npy").write_bytes(part)
-        assert "z.npy: is no array of NumPy" in surface("z.npy", "--body", 2, *KNOWS, check=3)[0]
+        assert "z.npy: is not an array of NumPy" in surface("z.npy", "--body", 2, *KNOWS, check=3)[0]
 
 
 @pytest.mark.parametrize("kind", [np.float32, np.int16, np.uint8, ">f8"])
@@ -363,8 +363,8 @@ def test_a_file_that_says_all_needs_no_option(surface, tmp_path):
     (dict(units="nm"), True, [], "whether it holds heights"),
     (dict(quantity="height1"), True, [], "in which unit"),
     (dict(units="nm", quantity="height1"), False, [], "how large the surface is"),
-    (dict(units="ell", quantity="height1"), True, [], "'ell': known are m, cm"),
-    (dict(units="nm", quantity="depth"), True, [], "'depth': known are height1"),
+    (dict(units="ell", quantity="height1"), True, [], "'ell'; use one of m, cm"),
+    (dict(units="nm", quantity="depth"), True, [], "'depth'; use one of height1"),
     (dict(units=3, quantity="height1"), True, [], "units is not a text"),
     (dict(units="nm", quantity="height1", scale_factor=0.1), True, [], "packed"),
     (dict(units="nm", quantity="height1", add_offset=5.0), True, [], "packed"),
@@ -529,11 +529,11 @@ def test_files_of_others_and_inputs_are_not_replaced(surface, tmp_path):
         else:
             write_hdf5(tmp_path / "z.h5", TABLE, {})
         before = (tmp_path / "z.h5").read_bytes()
-        assert "z.h5: is there already" in surface("z.npy", "--body", 2, *KNOWS, check=3)[0]
+        assert "z.h5: exists and was not written" in surface("z.npy", "--body", 2, *KNOWS, check=3)[0]
         assert (tmp_path / "z.h5").read_bytes() == before
     surface("z.npy", "--body", 2, *KNOWS, "-o", "a.h5")
     surface("z.npy", "--body", 1, *KNOWS, "-o", "a.h5")  # its own
-    assert "would replace what is read" in surface("a.h5", check=3)[0]
+    assert "a.h5: is an input file" in surface("a.h5", check=3)[0]
     assert "cannot be written" in surface("z.npy", "--body", 2, *KNOWS, "-o", "nowhere/a.h5", check=3)[0]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.h5", "a.png", "z.h5", "z.npy"]
 

@@ -2,12 +2,11 @@
  * Friction that follows the slip of the step: shear and bound are solved together. The law and the body are those of
  * the plugin in examples/embed.
  */
-#include "contacts.h"
+#include "derivatives.h"
 
 #include "../../examples/embed/plugin/plugin.h"
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/private/problemimpl.h>
-#include <petsam/stiffness.h>
 
 #define N      13
 #define WIDTH  1e-3
@@ -153,19 +152,24 @@ static void test_all_cells_slide_like_one(void **state)
 
 /* ---- spheres ---- */
 
-static Case NewFading(SamPair pair, double length, const char *options)
+/* Adds the law to a contact: with `final` above 1 friction grows with the slip. */
+static Case AddFading(Case c, double length, double final)
 {
-  Case   c = NewCase(pair, 41, 1.6, MU, options);
-  char   fading[64];
+  char   fading[128];
   SamLaw law;
 
   sam_call(SamLawRegister("fading", CreateFading));
   sam_call(SamProblemAddLawOfType(c.problem, "fading", &law));
-  (void)snprintf(fading, sizeof(fading), "-fading_length %.17g -fading_final %g", length, FINAL);
+  (void)snprintf(fading, sizeof(fading), "-fading_length %.17g -fading_final %g", length, final);
   SetOptions(fading);
-  sam_call(SamLawSetFromOptions(law, &(SamOptions){PETSC_COMM_WORLD, NULL}, &(PetscBool){PETSC_FALSE}));
+  sam_call(SamLawSetFromOptions(law, &(SamOptions){c.s.grid->comm, NULL}, &(PetscBool){PETSC_FALSE}));
   SetOptions("");
   return c;
+}
+
+static Case NewFading(SamPair pair, double length, const char *options)
+{
+  return AddFading(NewCase(pair, 41, 1.6, MU, options), length, FINAL);
 }
 
 /* The slip that a sphere's contact has before it slides, by orders of magnitude. */
@@ -303,21 +307,63 @@ static void test_derivatives_of_the_bound(void **state)
   DestroyCase(&c);
 }
 
-static void test_stiffness_is_known_at_the_reversal_only(void **state)
+/*
+  Loads of all kinds beyond a committed step, by the rigid displacements that belong to them; solved well enough for
+  differences.
+*/
+static Case NewFaded(SamPair pair, double final, PetscReal rigid[SAM_COMPONENTS])
 {
-  Case             c       = NewFading(Steel(), 1e-7, "");
-  const SamControl control = Loads(&c, 1, 0.2, 0, 0);
-  SamStiffness     stiffness;
+  Case       c = NewCase(pair, 40, 1.4, MU, "-normal_rtol 1e-11 -tangential_rtol 1e-10 -coupling_rtol 1e-10");
+  SamControl control;
+  SamStep    step;
+
+  c       = AddFading(c, 0.3 * TypicalSlip(&c), final);
+  control = Loads(&c, 1, 0.25, 0, 0);
+  step    = Solve(&c, &control);
+  sam_assert(step.status == SAM_STATUS_CONVERGED);
+  control           = Loads(&c, 1, 0.4, -0.15, 0.1);
+  control.value[MX] = 0.05 * control.value[Z] * c.s.a;
+  control.value[MY] = -0.1 * control.value[Z] * c.s.a;
+  step              = Try(&c, &control);
+  sam_assert(step.status == SAM_STATUS_CONVERGED);
+  memcpy(rigid, step.rigid, sizeof(step.rigid));
+  return c;
+}
+
+/* Friction that falls, and that grows; what the change with the slip adds is far more than the differences' error. */
+static void test_stiffness_is_the_derivative_of_trials(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    PetscReal          rigid[SAM_COMPONENTS];
+    Case               c = NewFaded(k % 2 ? Dissimilar() : Steel(), k / 2 ? 2.5 : FINAL, rigid);
+    const SamStiffness s = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+    double             error;
+
+    sam_assert(s.converged);
+    error = ErrorOf(&c, &s, rigid, 1e-5);
+    if (getenv("SAM_SHOW")) print_message("# error %g after %d products\n", error, (int)s.applies);
+    sam_assert(error < 1e-4);
+    DestroyCase(&c);
+  }
+}
+
+static void test_stiffness_has_the_same_bits_on_any_number_of_ranks(void **state)
+{
+  const Case   bare = NewCase(Steel(), 45, 1.4, MU, "");
+  const double slip = 0.3 * TypicalSlip(&bare);
+  Case         c    = AddFading(bare, slip, FINAL),
+       alone = AddFading(NewCaseOn(NewSphereOn(PETSC_COMM_SELF, Steel(), 45, 1.4, 0, 0), MU, NULL, ""), slip, FINAL);
+  const SamControl control = Loads(&c, 1, 0.4, 0.2, 0.1);
+  SamStiffness     k, one;
 
   (void)state;
-  sam_assert(!Try(&c, &control).status);
-  sam_call(SamStiffnessCompute(c.contact, SAM_STIFFNESS_REVERSAL, &stiffness));
-  sam_assert(stiffness.converged);
-  BeginCatching();
-  sam_assert(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, &stiffness) == SAM_ERR_USER);
-  EndCatching();
-  sam_assert(strstr(CaughtMessage(), "law fading"));
+  sam_assert(!Try(&c, &control).status && !Try(&alone, &control).status);
+  k   = Stiffness(&c, SAM_STIFFNESS_FORWARD);
+  one = Stiffness(&alone, SAM_STIFFNESS_FORWARD);
+  sam_assert(k.converged && !memcmp(k.k, one.k, sizeof(k.k)));
   DestroyCase(&c);
+  DestroyCase(&alone);
 }
 
 int main(int argc, char **argv)
@@ -328,7 +374,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_law_that_does_not_fade_changes_nothing),
     cmocka_unit_test(test_step_that_jumps_fails_by_the_name_of_the_law),
     cmocka_unit_test(test_derivatives_of_the_bound),
-    cmocka_unit_test(test_stiffness_is_known_at_the_reversal_only),
+    cmocka_unit_test(test_stiffness_is_the_derivative_of_trials),
+    cmocka_unit_test(test_stiffness_has_the_same_bits_on_any_number_of_ranks),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -244,6 +244,27 @@ static void test_field_that_the_file_lacks_is_named(void **state)
   }
 }
 
+/* It would be lost, also if it is optional. */
+static void test_field_that_only_the_file_has_is_named(void **state)
+{
+  const SamParameters parameters = NewParameters(friction);
+
+  (void)state;
+  for (int optional = 0; optional < 2; optional++) {
+    Case    one = NewBody(), other = NewBody();
+    SamStep step;
+
+    DeclareOther(&one, optional);
+    SolveStep(&one, 0, &step);
+    Write(&one, &parameters, 0, NULL);
+    sam_assert(Read(&other) == SAM_ERR_USER && strstr(CaughtMessage(), "has the field other_field"));
+    sam_assert(KeptOf(&other, "steps") == 0);
+    DestroyCase(&one);
+    DestroyCase(&other);
+    Remove();
+  }
+}
+
 static void test_number_that_the_file_lacks_is_named(void **state)
 {
   static const SamStateNumber number     = {"other_number", "m",        "of another law", SAM_NUMBER_REAL, 2,
@@ -304,6 +325,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_state_in_the_file_is_the_committed_one),
     cmocka_unit_test(test_gap_that_has_changed_is_told),
     cmocka_unit_test(test_field_that_the_file_lacks_is_named),
+    cmocka_unit_test(test_field_that_only_the_file_has_is_named),
     cmocka_unit_test(test_number_that_the_file_lacks_is_named),
     cmocka_unit_test(test_sum_in_the_file_goes_on),
   };

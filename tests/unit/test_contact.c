@@ -387,14 +387,19 @@ static void test_dissipation_under_changing_pressure_is_of_second_order(void **s
 /* The passes end when both problems are solved, or at the largest number of passes, with a status. */
 static void test_too_few_passes_are_a_status(void **state)
 {
-  Case             c       = NewCase(Dissimilar(), 40, 1.5, MU, "-coupling_max_it 2");
-  const SamControl control = Loads(&c, 1, 0.3, 0, 0);
-  SamStep          step    = Try(&c, &control);
+  Case               c       = NewCase(Dissimilar(), 40, 1.5, MU, "-coupling_max_it 2");
+  const SamControl   control = Loads(&c, 1, 0.3, 0, 0);
+  SamStep            step    = Try(&c, &control);
+  SamContactSettings set;
 
   (void)state;
   sam_assert(step.status == SAM_STATUS_NOT_CONVERGED && NumberOf(&c, "coupling_iterations") == 2);
   sam_assert(strstr(step.message, "coupling"));
-  sam_call(SamContactSetCoupling(c.contact, PETSC_TRUE, PETSC_DEFAULT, 30));
+  sam_call(SamContactGetSettings(c.contact, &set));
+  set.coupling_max_it = 0;
+  sam_fails(SamContactSetSettings(c.contact, &set), PETSC_ERR_ARG_OUTOFRANGE);
+  set.coupling_max_it = 30;
+  sam_call(SamContactSetSettings(c.contact, &set));
   step = Try(&c, &control);
   sam_assert(step.status == SAM_STATUS_CONVERGED && NumberOf(&c, "coupling_iterations") < 15);
   sam_assert(step.check.normal <= 1.05e-8 && step.check.tangential <= 1.05e-6); /* as strict as of similar bodies */

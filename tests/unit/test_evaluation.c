@@ -51,6 +51,39 @@ static void NewTractions(SamGrid g, double mu, Vec *pressure, Vec *shear)
   sam_call(VecRestoreArray(*pressure, &p));
 }
 
+/* Two steps that an evaluation reads; they have no slip. */
+typedef struct {
+  SamGrid grid;
+  Vec     pressure[2], shear[2];
+} Given;
+
+static PetscErrorCode Read(void *context, PetscInt step, SamStepField field, double values[])
+{
+  const Given *const g    = (const Given *)context;
+  const Vec          v    = field == SAM_STEP_PRESSURE ? g->pressure[step] : g->shear[step];
+  const ptrdiff_t    skip = field == SAM_STEP_SHEAR_Y ? g->grid->cells : 0;
+  const double      *cells;
+
+  if (field >= SAM_STEP_SLIP_X) return SAM_ERR_USER;
+  sam_call(VecGetArrayRead(v, &cells));
+  memcpy(values, cells + skip, sizeof(*values) * (size_t)g->grid->cells);
+  sam_call(VecRestoreArrayRead(v, &cells));
+  return 0;
+}
+
+static void GiveSteps(SamEvaluation e, Given *given, const double bulk[][SAM_BULK_COMPONENTS])
+{
+  sam_call(SamEvaluationSetSource(e, &(SamEvaluationSource){.steps = 2, .bulk = bulk, .read = Read, .context = given}));
+}
+
+static void DestroyGiven(Given *given)
+{
+  for (int step = 0; step < 2; step++) {
+    sam_call(VecDestroy(&given->pressure[step]));
+    sam_call(VecDestroy(&given->shear[step]));
+  }
+}
+
 /* The stress xx of a map at each depth, by the class of stresses, and a bulk stress. */
 static int IsMap(SamElasticity elasticity, const Kept *kept, int step, Vec pressure, Vec shear, double bulk)
 {
@@ -86,40 +119,37 @@ static int IsMap(SamElasticity elasticity, const Kept *kept, int step, Vec press
   return good;
 }
 
-static void test_added_steps_have_the_stresses_of_their_tractions(void **state)
+static void test_steps_have_the_stresses_of_their_tractions(void **state)
 {
-  const PetscReal depths[2]             = {0, 1e-4};
-  const PetscBool wants[SAM_QUANTITIES] = {[SAM_QUANTITY_STRESS] = PETSC_TRUE, [SAM_QUANTITY_SWT] = PETSC_TRUE};
-  Sphere          s                     = NewSphereOf(NewPair(210e9, 0.3, 70e9, 0.2), 24, 1.5);
-  Kept            kept                  = {.grid = s.grid};
-  Vec             pressure[2], shear[2];
+  const PetscReal depths[2]                    = {0, 1e-4};
+  const PetscBool wants[SAM_QUANTITIES]        = {[SAM_QUANTITY_STRESS] = PETSC_TRUE, [SAM_QUANTITY_SWT] = PETSC_TRUE};
+  Sphere          s                            = NewSphereOf(NewPair(210e9, 0.3, 70e9, 0.2), 24, 1.5);
+  const double    bulk[2][SAM_BULK_COMPONENTS] = {{3e7}, {3e7}};
+  Kept            kept                         = {.grid = s.grid};
+  Given           given                        = {.grid = s.grid};
   SamEvaluation   e;
   SamLargest      largest;
-  SamControl      control;
 
   (void)state;
-  sam_call(SamControlInitialize(&control));
-  control.bulk_stress[1][SAM_BULK_XX] = 3e7;
   sam_call(SamEvaluationCreate(PETSC_COMM_WORLD, &e));
   sam_call(SamEvaluationSetDepths(e, 2, depths));
   sam_call(SamEvaluationSetQuantities(e, wants));
   sam_call(SamEvaluationSetElasticity(e, s.elasticity, NULL, "these bodies"));
   for (int step = 0; step < 2; step++) {
-    NewTractions(s.grid, step ? -0.2 : 0.3, &pressure[step], &shear[step]);
-    sam_call(SamEvaluationAddStep(e, pressure[step], shear[step], NULL, &control));
+    NewTractions(s.grid, step ? -0.2 : 0.3, &given.pressure[step], &given.shear[step]);
     for (int d = 0; d < 2; d++) kept.xx[step][d] = (double *)calloc((size_t)kept.grid->cells + 1, sizeof(double));
   }
+  GiveSteps(e, &given, bulk);
   sam_call(SamEvaluationCompute(e, Keep, &kept));
   sam_assert(kept.calls[SAM_QUANTITY_STRESS] == 2 * 2 * SAM_STRESS_COMPONENTS && kept.calls[SAM_QUANTITY_MISES] == 0);
   sam_assert(kept.calls[SAM_QUANTITY_SWT] == 2 * SamQuantityComponents(SAM_QUANTITY_SWT));
-  for (int step = 0; step < 2; step++) sam_assert(IsMap(s.elasticity, &kept, step, pressure[step], shear[step], 3e7));
+  for (int step = 0; step < 2; step++)
+    sam_assert(IsMap(s.elasticity, &kept, step, given.pressure[step], given.shear[step], 3e7));
   sam_call(SamEvaluationGetLargest(e, SAM_QUANTITY_SWT, 0, &largest));
   sam_assert(largest.value > 0 && largest.place[2] == 0);
-  for (int step = 0; step < 2; step++) {
-    sam_call(VecDestroy(&pressure[step]));
-    sam_call(VecDestroy(&shear[step]));
+  for (int step = 0; step < 2; step++)
     for (int d = 0; d < 2; d++) free(kept.xx[step][d]);
-  }
+  DestroyGiven(&given);
   sam_call(SamEvaluationDestroy(&e));
   DestroySphere(&s);
 }
@@ -127,15 +157,14 @@ static void test_added_steps_have_the_stresses_of_their_tractions(void **state)
 static void test_settings_that_cannot_be_are_refused(void **state)
 {
   const PetscReal wrong[2] = {1e-4, 0}, little = 1e-15;
-  const PetscBool ruiz[SAM_QUANTITIES] = {[SAM_QUANTITY_RUIZ] = PETSC_TRUE};
-  Sphere          s                    = NewSphereOf(NewPair(210e9, 0.3, 210e9, 0.3), 24, 1.5);
-  SamControl      control;
-  Vec             pressure, shear;
+  const PetscBool ruiz[SAM_QUANTITIES]         = {[SAM_QUANTITY_RUIZ] = PETSC_TRUE};
+  Sphere          s                            = NewSphereOf(NewPair(210e9, 0.3, 210e9, 0.3), 24, 1.5);
+  const double    bulk[2][SAM_BULK_COMPONENTS] = {{0}};
+  Given           given                        = {.grid = s.grid};
   SamEvaluation   e;
 
   (void)state;
-  sam_call(SamControlInitialize(&control));
-  NewTractions(s.grid, 0.1, &pressure, &shear);
+  for (int step = 0; step < 2; step++) NewTractions(s.grid, 0.1, &given.pressure[step], &given.shear[step]);
   sam_call(SamEvaluationCreate(PETSC_COMM_WORLD, &e));
   BeginCatching();
   sam_assert(SamEvaluationSetBody(e, 3) == SAM_ERR_USER && strstr(CaughtMessage(), "body 3: expected 1 or 2"));
@@ -147,7 +176,7 @@ static void test_settings_that_cannot_be_are_refused(void **state)
   sam_call(SamEvaluationSetDepths(e, 1, wrong));
   sam_call(SamEvaluationSetQuantities(e, ruiz));
   sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER); /* no cycle */
-  for (int k = 0; k < 2; k++) sam_call(SamEvaluationAddStep(e, pressure, shear, NULL, &control));
+  GiveSteps(e, &given, bulk);
   sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER); /* not on the surface */
   sam_call(SamEvaluationSetDepths(e, 1, &wrong[1]));
   sam_call(SamEvaluationSetUp(e));
@@ -157,8 +186,7 @@ static void test_settings_that_cannot_be_are_refused(void **state)
   sam_assert(SamEvaluationCompute(e, Keep, NULL) == SAM_ERR_USER); /* without slip */
   EndCatching();
   sam_call(SamEvaluationDestroy(&e));
-  sam_call(VecDestroy(&pressure));
-  sam_call(VecDestroy(&shear));
+  DestroyGiven(&given);
   DestroySphere(&s);
 }
 
@@ -269,7 +297,7 @@ static void test_mistakes_in_embedded_stresses_are_named(void **state)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_added_steps_have_the_stresses_of_their_tractions),
+    cmocka_unit_test(test_steps_have_the_stresses_of_their_tractions),
     cmocka_unit_test(test_settings_that_cannot_be_are_refused),
     cmocka_unit_test(test_embedded_stresses_do_not_depend_on_the_ranks),
     cmocka_unit_test(test_mistakes_in_embedded_stresses_are_named),

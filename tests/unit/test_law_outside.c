@@ -112,13 +112,6 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Destroy(SamLaw law)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(law->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Create(SamLaw law)
 {
   Fading *fading;
@@ -132,7 +125,6 @@ static PetscErrorCode Create(SamLaw law)
   law->ops.bound          = Bound;
   law->ops.separation     = Separation;
   law->ops.advance        = Advance;
-  law->ops.destroy        = Destroy;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

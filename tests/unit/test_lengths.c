@@ -241,7 +241,7 @@ static PetscErrorCode GetGrid(const Words *words, const char *options, PetscInt 
   sam_call(PetscOptionsClear(NULL));
   sam_call(PetscOptionsInsertString(NULL, options));
   sam_call(SamGapCreate(PETSC_COMM_WORLD, &gap));
-  if (!options[0]) sam_call(SamGapSetRoughness(gap, "test_lengths.h5", "/s/z"));
+  if (!options[0]) sam_call(SamGapSetFile(gap, PETSC_TRUE, "test_lengths.h5", "/s/z"));
   BeginCatching();
   ierr = SamGapGetFileGrid(gap, n, size);
   EndCatching();

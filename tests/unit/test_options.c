@@ -256,7 +256,7 @@ static void test_enums(void **state)
 
 static void test_strings(void **state)
 {
-  static const char *const expected[] = {"a text", "the name of a file", "one of one,two", "some of one,two"};
+  static const char *const expected[] = {"a string", "the name of a file", "one of one,two", "some of one,two"};
 
   (void)state;
   for (int getter = STRING; getter <= WORDS; getter++) {
@@ -308,10 +308,10 @@ static void test_help_is_told_all_of_an_option(void **state)
   sam_assert(!strcmp(notes, "[Group]\n"
                             "pre_pair <number>[,<number>]: two (0.5,2) \n"
                             "pre_real <number>: size: required () \n"
-                            "pre_enum <word>: how much (some) none,some,all\n"
+                            "pre_enum <keyword>: how much (some) none,some,all\n"
                             "pre_bool [<bool>]: whether (true) true,false\n"
                             "pre_file <file>: where (one) \n"
-                            "pre_words <word>[,...]: which (one) one,two\n"
+                            "pre_words <keyword>[,...]: which (one) one,two\n"
                             "pre_other <list>: read elsewhere (1) 1,2\n"));
   sam_assert(SamOptionsIsKnown("pre_other", NULL)); /* for suggestions */
 }

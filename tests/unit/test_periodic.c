@@ -2,6 +2,7 @@
   Periodic bodies: products against sums over waves and against half-spaces; symmetry, translations, precision, inverses
 */
 #include "fields.h"
+#include "preconditioners.h"
 
 #include <petsam/elasticity.h>
 
@@ -391,7 +392,7 @@ static void test_single_precision_is_double_but_for_rounding(void **state)
 /* Of everything but the mean, which has none. */
 static void test_preconditioners_are_the_inverses(void **state)
 {
-  const Product precondition[2] = {SamElasticityPreconditionNormal, SamElasticityPreconditionTangential};
+  const Product precondition[2] = {PreconditionNormal, PreconditionTangential};
 
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {

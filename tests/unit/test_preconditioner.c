@@ -1,6 +1,8 @@
 /* The preconditioners of the influence operator: symmetry, and what a Krylov method gains by them. */
 #include "elasticities.h"
+#include "preconditioners.h"
 
+#include <petsam/private/elasticityimpl.h>
 #include <petscksp.h>
 
 static void AssertPreconditioner(PetscInt components, Product precondition)
@@ -35,13 +37,40 @@ static void AssertPreconditioner(PetscInt components, Product precondition)
 static void test_normal_preconditioner_is_symmetric_positive(void **state)
 {
   (void)state;
-  AssertPreconditioner(1, SamElasticityPreconditionNormal);
+  AssertPreconditioner(1, PreconditionNormal);
 }
 
 static void test_tangential_preconditioner_is_symmetric_positive(void **state)
 {
   (void)state;
-  AssertPreconditioner(2, SamElasticityPreconditionTangential);
+  AssertPreconditioner(2, PreconditionTangential);
+}
+
+/* The operator and its preconditioner as PETSc's Mat and PC, by shells. */
+static PetscErrorCode Multiply(Mat mat, Vec x, Vec y)
+{
+  void    *e;
+  PetscInt n, cells;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(mat, &e));
+  PetscCall(VecGetSize(x, &n));
+  cells = ((SamElasticity)e)->grid->nx * ((SamElasticity)e)->grid->ny;
+  PetscCall((n == cells ? SamElasticityApplyNormal : SamElasticityApplyTangential)((SamElasticity)e, x, y));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Precondition(PC pc, Vec x, Vec y)
+{
+  void    *e;
+  PetscInt n, cells;
+
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &e));
+  PetscCall(VecGetSize(x, &n));
+  cells = ((SamElasticity)e)->grid->nx * ((SamElasticity)e)->grid->ny;
+  PetscCall((n == cells ? PreconditionNormal : PreconditionTangential)((SamElasticity)e, x, y));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Iterations of PETSc's CG for C x = random b to 1e-8, and the true residual. */
@@ -50,23 +79,24 @@ static PetscInt Iterations(PetscInt components, PetscInt nx, PetscInt ny, PetscB
   SamGrid            grid = NewGrid(nx, ny, 3e-3, 2e-3);
   SamElasticity      C    = NewDissimilar(grid);
   Vec                b = NewRandom(grid, components, 3), x = NewField(grid, components), r = NewField(grid, components);
+  const PetscInt     m = components * grid->cells;
   Mat                mat;
   PC                 pc;
   KSP                ksp;
   PetscInt           its;
   KSPConvergedReason reason;
 
-  sam_call(SamElasticityCreateMat(C, components, &mat));
+  sam_call(MatCreateShell(PETSC_COMM_WORLD, m, m, PETSC_DETERMINE, PETSC_DETERMINE, C, &mat));
+  sam_call(MatShellSetOperation(mat, MATOP_MULT, (void (*)(void))Multiply));
+  sam_call(MatSetOption(mat, MAT_SYMMETRIC, PETSC_TRUE));
   sam_call(KSPCreate(PETSC_COMM_WORLD, &ksp));
   sam_call(KSPSetType(ksp, KSPCG));
   sam_call(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
+  sam_call(KSPGetPC(ksp, &pc));
+  sam_call(PCSetType(pc, precondition ? PCSHELL : PCNONE));
   if (precondition) {
-    sam_call(SamElasticityCreatePC(C, components, &pc));
-    sam_call(KSPSetPC(ksp, pc));
-    sam_call(PCDestroy(&pc));
-  } else {
-    sam_call(KSPGetPC(ksp, &pc));
-    sam_call(PCSetType(pc, PCNONE));
+    sam_call(PCShellSetContext(pc, C));
+    sam_call(PCShellSetApply(pc, Precondition));
   }
   sam_call(KSPSetOperators(ksp, mat, mat));
   sam_call(KSPSetTolerances(ksp, 1e-8, 0, PETSC_DEFAULT, 500));

@@ -4,13 +4,11 @@
  */
 #include "contacts.h"
 
-#include "../../src/simulation/checkpoints.h"
+#include "../../src/simulation/simulationimpl.h"
 #include <signal.h>
 #include <unistd.h>
 
 static const char file[] = "test_restart.h5";
-
-static const SamParameters none = {.count = 0};
 
 static int Rank(void)
 {
@@ -27,17 +25,6 @@ static void Remove(void)
   (void)MPI_Barrier(PETSC_COMM_WORLD);
   for (int k = 0; k < 3 && !Rank(); k++) (void)unlink(names[k]);
   (void)MPI_Barrier(PETSC_COMM_WORLD);
-}
-
-static SamCheckpoints NewCheckpoints(const Case *c, const char *options)
-{
-  SamCheckpoints k;
-
-  SetOptions(options);
-  sam_call(SamCheckpointsCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &k));
-  sam_call(SamCheckpointsBegin(k, c->s.grid, 0));
-  SetOptions("");
-  return k;
 }
 
 static SamHistory NewHistory(const char *options)
@@ -74,44 +61,62 @@ static Case NewBody(void)
   return NewCase(Steel(), 37, 2.5, MU, "");
 }
 
-/* Solves step `point->steps`, then calls SamCheckpointsAfterStep(); returns whether the run is to stop. */
-static PetscBool TakeStep(SamCheckpoints k, const Case *c, SamSimulationPoint *point)
+/* A simulation of a load history, which it takes over, with the options of checkpoints; it borrows the contact. */
+static SamSimulation NewSimulation(const Case *c, SamHistory history, const char *options)
+{
+  SamSimulation s;
+
+  sam_call(SamSimulationCreate(PETSC_COMM_WORLD, &s));
+  s->setup.grid    = c->s.grid;
+  s->setup.contact = c->contact;
+  s->history       = history;
+  sam_call(SamHistoryGetCount(history, &s->needs.steps));
+  SetOptions(options);
+  sam_call(SamSimulationReadCheckpoints(s, &(SamOptions){PETSC_COMM_WORLD, NULL}));
+  SetOptions("");
+  return s;
+}
+
+static SamSimulation Begun(SamSimulation s)
+{
+  sam_call(SamSimulationBeginCheckpoints(s));
+  return s;
+}
+
+static void DestroySimulation(SamSimulation s)
+{
+  s->setup = (SamSetup){.grid = NULL};
+  sam_call(SamSimulationDestroy(&s));
+}
+
+/* Solves the next step, then writes a checkpoint if one is due; returns whether the run is to stop. */
+static PetscBool TakeStep(SamSimulation s, const Case *c)
 {
   SamControl control;
   SamStep    step;
-  PetscBool  stop;
-  char       said[512];
 
-  sam_call(SamHistoryGetStep(point->history, point->steps, &control));
+  sam_call(SamHistoryGetStep(s->history, s->point.steps, &control));
   step = Solve(c, &control);
   sam_assert(step.status == SAM_STATUS_CONVERGED);
-  point->steps++;
-  sam_call(SamCheckpointsAfterStep(k, c->contact, &none, point, &stop, said, sizeof(said)));
-  return stop;
-}
-
-static PetscInt LastOf(SamCheckpoints k)
-{
-  PetscInt last;
-
-  sam_call(SamCheckpointsGetLast(k, &last));
-  return last;
+  s->point.steps++;
+  s->stopped = PETSC_FALSE;
+  sam_call(SamSimulationCheckpoint(s));
+  return s->stopped;
 }
 
 static void test_checkpoints_come_after_every_so_many_steps(void **state)
 {
   static const PetscInt expected[4] = {0, 2, 2, 4};
+  static const char     options[]   = "-checkpoint test_restart.h5 -checkpoint_every 2";
   Case                  c           = NewBody();
-  SamCheckpoints        k           = NewCheckpoints(&c, "-checkpoint test_restart.h5 -checkpoint_every 2");
-  SamSimulationPoint    point       = {.history = NewUsualProgram()};
+  SamSimulation         s           = Begun(NewSimulation(&c, NewUsualProgram(), options));
 
   (void)state;
   for (int step = 0; step < 4; step++) {
-    sam_assert(!TakeStep(k, &c, &point));
-    sam_assert(LastOf(k) == expected[step]);
+    sam_assert(!TakeStep(s, &c));
+    sam_assert(s->checkpoints.last == expected[step]);
   }
-  sam_call(SamHistoryDestroy(&point.history));
-  sam_call(SamCheckpointsDestroy(&k));
+  DestroySimulation(s);
   DestroyCase(&c);
   Remove();
 }
@@ -119,25 +124,24 @@ static void test_checkpoints_come_after_every_so_many_steps(void **state)
 /* The first signal asks for a checkpoint, the second also to stop, on any rank; nobody stops after the last step. */
 static void test_signals_ask_for_checkpoints(void **state)
 {
-  Case               c     = NewBody();
-  SamCheckpoints     k     = NewCheckpoints(&c, "-checkpoint test_restart.h5");
-  SamSimulationPoint point = {.history = NewUsualProgram()};
-  int                ranks;
+  Case          c = NewBody();
+  SamSimulation s = Begun(NewSimulation(&c, NewUsualProgram(), "-checkpoint test_restart.h5"));
+  int           ranks;
 
   volatile sig_atomic_t signals[2] = {0, 0}; /* as set by a handler */
 
   (void)state;
-  sam_call(SamCheckpointsSetSignals(k, signals));
+  sam_call(SamSimulationSetSignals(s, signals));
   MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
-  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 0);
+  sam_assert(!TakeStep(s, &c) && s->checkpoints.last == 0);
   if (Rank() == ranks - 1) signals[0] = 1;
-  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 2);
+  sam_assert(!TakeStep(s, &c) && s->checkpoints.last == 2);
   if (Rank() == ranks - 1) signals[1] = 1;
-  sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 3);
+  sam_assert(TakeStep(s, &c) && s->checkpoints.last == 3);
   if (Rank() == 0) signals[1] = 1;
-  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 4);
-  sam_call(SamHistoryDestroy(&point.history));
-  sam_call(SamCheckpointsDestroy(&k));
+  sam_assert(!TakeStep(s, &c) && s->checkpoints.last == 4);
+  sam_assert(!signals[0] && !signals[1]); /* both have been answered */
+  DestroySimulation(s);
   DestroyCase(&c);
   Remove();
 }
@@ -145,17 +149,15 @@ static void test_signals_ask_for_checkpoints(void **state)
 /* No step is begun that would not end in time. */
 static void test_limit_of_time_stops_with_a_checkpoint(void **state)
 {
-  Case               c     = NewBody();
-  SamCheckpoints     k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -max_walltime 1e-6");
-  SamSimulationPoint point = {.history = NewUsualProgram()};
+  Case          c = NewBody();
+  SamSimulation s = Begun(NewSimulation(&c, NewUsualProgram(), "-checkpoint test_restart.h5 -max_walltime 1e-6"));
 
   (void)state;
-  sam_assert(TakeStep(k, &c, &point) && LastOf(k) == 1);
-  sam_call(SamCheckpointsDestroy(&k));
-  k = NewCheckpoints(&c, "-checkpoint test_restart.h5 -max_walltime 10:00");
-  sam_assert(!TakeStep(k, &c, &point) && LastOf(k) == 0);
-  sam_call(SamCheckpointsDestroy(&k));
-  sam_call(SamHistoryDestroy(&point.history));
+  sam_assert(TakeStep(s, &c) && s->checkpoints.last == 1);
+  DestroySimulation(s);
+  s = Begun(NewSimulation(&c, NewUsualProgram(), "-checkpoint test_restart.h5 -max_walltime 10:00 -overwrite"));
+  sam_assert(!TakeStep(s, &c) && s->checkpoints.last == 0);
+  DestroySimulation(s);
   DestroyCase(&c);
   Remove();
 }
@@ -163,13 +165,13 @@ static void test_limit_of_time_stops_with_a_checkpoint(void **state)
 /* A checkpoint of the second step of the usual program. */
 static void WriteCheckpoint(void)
 {
-  Case               c     = NewBody();
-  SamCheckpoints     k     = NewCheckpoints(&c, "-checkpoint test_restart.h5 -checkpoint_every 2");
-  SamSimulationPoint point = {.history = NewUsualProgram(), .worst = SAM_STATUS_EDGE_CONTACT};
+  Case          c = NewBody();
+  SamSimulation s =
+    Begun(NewSimulation(&c, NewUsualProgram(), "-checkpoint test_restart.h5 -checkpoint_every 2 -overwrite"));
 
-  for (int step = 0; step < 2; step++) (void)TakeStep(k, &c, &point);
-  sam_call(SamHistoryDestroy(&point.history));
-  sam_call(SamCheckpointsDestroy(&k));
+  s->point.worst = SAM_STATUS_EDGE_CONTACT;
+  for (int step = 0; step < 2; step++) (void)TakeStep(s, &c);
+  DestroySimulation(s);
   DestroyCase(&c);
 }
 
@@ -179,22 +181,43 @@ static void WriteCheckpoint(void)
 */
 static void AssertRestart(SamHistory history, const char *says)
 {
-  Case               c     = NewBody();
-  SamCheckpoints     k     = NewCheckpoints(&c, "-restart test_restart.h5");
-  SamSimulationPoint point = {.history = history};
-  PetscErrorCode     ierr;
+  Case           c = NewBody();
+  SamSimulation  s = NewSimulation(&c, history, "-restart test_restart.h5");
+  PetscErrorCode ierr;
 
   BeginCatching();
-  ierr = SamCheckpointsRestart(k, c.contact, &none, &point);
+  ierr = SamSimulationRestart(s);
   EndCatching();
   if (says) {
     if (!strstr(CaughtMessage(), says)) print_error("%s\n", CaughtMessage());
     sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), says) && strstr(CaughtMessage(), file));
   } else
-    sam_assert(ierr == 0 && point.steps == 2 && point.worst == SAM_STATUS_EDGE_CONTACT);
-  sam_call(SamHistoryDestroy(&history));
-  sam_call(SamCheckpointsDestroy(&k));
+    sam_assert(ierr == 0 && s->point.steps == 2 && s->point.worst == SAM_STATUS_EDGE_CONTACT);
+  DestroySimulation(s);
   DestroyCase(&c);
+}
+
+/* A run from the start does not replace the checkpoint of an earlier one, unless it is told to; a restart does. */
+static void test_checkpoint_of_an_earlier_run_is_kept(void **state)
+{
+  Case           c = NewBody();
+  SamSimulation  s;
+  PetscErrorCode ierr;
+
+  (void)state;
+  WriteCheckpoint();
+  s = NewSimulation(&c, NewUsualProgram(), "-checkpoint test_restart.h5");
+  BeginCatching();
+  ierr = SamSimulationBeginCheckpoints(s);
+  EndCatching();
+  sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), "-restart test_restart.h5") &&
+             strstr(CaughtMessage(), "-overwrite"));
+  DestroySimulation(s);
+  DestroySimulation(Begun(NewSimulation(&c, NewUsualProgram(), "-checkpoint test_restart.h5 -overwrite")));
+  s = NewSimulation(&c, NewUsualProgram(), "-checkpoint test_restart.h5 -restart test_restart.h5");
+  DestroySimulation(Begun(s));
+  DestroyCase(&c);
+  Remove();
 }
 
 /* After the checkpoint the program may differ, also in the number of steps. */
@@ -228,6 +251,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_checkpoints_come_after_every_so_many_steps),
     cmocka_unit_test(test_signals_ask_for_checkpoints),
     cmocka_unit_test(test_limit_of_time_stops_with_a_checkpoint),
+    cmocka_unit_test(test_checkpoint_of_an_earlier_run_is_kept),
     cmocka_unit_test(test_run_goes_on_with_the_program_that_it_had),
     cmocka_unit_test(test_other_programs_up_to_the_checkpoint_are_named),
   };

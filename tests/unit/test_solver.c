@@ -5,6 +5,7 @@
 #include "fields.h"
 #include "methods/methods.h"
 
+#include <petsam/private/help.h>
 #include <petsam/private/normalimpl.h>
 #include <petsam/private/tangentialimpl.h>
 
@@ -298,7 +299,7 @@ static void test_unknown_type_names_those_registered(void **state)
   sam_call(PetscPushErrorHandler(Listen, NULL));
   AssertFails(SamSolverSetFromOptions(SamNormalAsSolver(normal)), SAM_ERR_USER, "-my_normal_type foo",
               "polonskykeer, toy or zzz");
-  AssertFails(SamSolverSetType(SamNormalAsSolver(normal), "foo"), SAM_ERR_USER, "foo is no type of normal solver",
+  AssertFails(SamSolverSetType(SamNormalAsSolver(normal), "foo"), SAM_ERR_USER, "foo is not a type of normal solver",
               "activeset, polonskykeer");
   sam_call(PetscPopErrorHandler());
   sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));
@@ -409,6 +410,35 @@ static void test_solve_is_a_function_of_its_input(void **state)
   DestroySphere(&s);
 }
 
+static PetscErrorCode CountToyOptions(void *count, MPI_Comm comm, const char title[], const SamOptionHelp *option)
+{
+  (void)comm;
+  (void)title;
+  if (option && !strcmp(option->name, "normal_toy_relaxation")) ++*(int *)count;
+  return 0;
+}
+
+static void test_help_lists_the_options_of_methods_that_are_not_chosen(void **state)
+{
+  Sphere        s     = NewSphere(32, 1.5, 0.3);
+  int           count = 0;
+  SamNormal     normal;
+  SamSolverType type;
+
+  (void)state;
+  sam_call(SamNormalCreate(s.elasticity, &normal));
+  SamHelpSetFunction(CountToyOptions, &count);
+  Option("-help", NULL);
+  sam_call(SamSolverSetFromOptions(SamNormalAsSolver(normal)));
+  sam_assert(count == 2); /* of `toy` and of `zzz`, which have been registered by now */
+  sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));
+  sam_assert(!strcmp(type, SAM_NORMAL_ACTIVESET));
+  SamHelpSetFunction(NULL, NULL);
+  ClearOptions();
+  sam_call(SamNormalDestroy(&normal));
+  DestroySphere(&s);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -419,6 +449,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_balance_of_the_other_kind_is_refused),
     cmocka_unit_test(test_not_converging_is_an_error_where_that_is_asked_for),
     cmocka_unit_test(test_solve_is_a_function_of_its_input),
+    cmocka_unit_test(test_help_lists_the_options_of_methods_that_are_not_chosen),
   };
 
   return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));

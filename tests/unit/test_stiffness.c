@@ -1,21 +1,8 @@
 /* The tangent stiffness: closed forms, differences of trials in both directions, symmetry, and what it leaves alone. */
-#include "contacts.h"
-
-#include <petsam/stiffness.h>
-
-/* The components by short names; N stands alone in Sphere. */
-enum { Z, TX, TY, MX, MY, MZ };
+#include "derivatives.h"
 
 /* Steel without Poisson's ratio: then Cattaneo's and Mindlin's solution is exact. */
 #define PLAIN NewPair(210e9, 0, 210e9, 0)
-
-static SamStiffness Stiffness(const Case *c, SamStiffnessDirection direction)
-{
-  SamStiffness k;
-
-  sam_call(SamStiffnessCompute(c->contact, direction, &k));
-  return k;
-}
 
 /* Of two similar bodies. */
 static double NormalStiffness(const Case *c, double young, double poisson)
@@ -25,12 +12,6 @@ static double NormalStiffness(const Case *c, double young, double poisson)
 static double ShearStiffness(const Case *c, double young, double poisson)
 {
   return 4 * c->s.a / (2 - poisson) * young / (2 * (1 + poisson));
-}
-
-/* Entries count in units of a, so that forces and moments can be compared. */
-static double Unit(const Case *c, PetscInt i)
-{
-  return i < SAM_COMPONENT_MX ? 1 : c->s.a;
 }
 
 /* ---- closed forms ---- */
@@ -95,33 +76,6 @@ static void test_unloading_softens_half_as_fast(void **state)
 }
 
 /* ---- differences ---- */
-
-/* The largest error of the columns against differences of trials, as a part of the largest entry. */
-static double ErrorOf(const Case *c, const SamStiffness *k, const PetscReal rigid[], double by)
-{
-  const double size  = by * c->s.a * c->s.a / c->s.R;
-  double       error = 0, most = 0;
-  SamControl   control;
-  SamStep      base;
-
-  sam_call(SamControlInitialize(&control));
-  for (PetscInt i = 0; i < SAM_COMPONENTS; i++) Displace(&control, (SamComponent)i, rigid[i]);
-  base = Try(c, &control);
-  for (PetscInt j = 0; j < SAM_COMPONENTS; j++) {
-    SamControl    moved = control;
-    const double  step  = size / Unit(c, j);
-    const SamStep other = (moved.value[j] += step, Try(c, &moved));
-
-    for (PetscInt i = 0; i < SAM_COMPONENTS; i++) {
-      const double unit = Unit(c, i) * Unit(c, j), difference = (other.load[i] - base.load[i]) / step / unit,
-                   entry = k->k[i][j] / unit;
-
-      error = fmax(error, fabs(difference - entry));
-      most  = fmax(most, fabs(entry));
-    }
-  }
-  return error / most;
-}
 
 /* Some load of all kinds, the solvers being exact enough for differences. */
 static Case NewLoaded(SamPair pair, PetscReal rigid[SAM_COMPONENTS])

@@ -192,7 +192,7 @@ static void test_only_cells_that_slip_wear(void **state)
   }
   sam_call(VecRestoreArrayRead(states, &is));
   sam_call(VecRestoreArrayRead(depth, &d));
-  MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  (void)MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   sam_assert(counts[0] > 100 && counts[1] == counts[0] && counts[2] == 0);
   sam_call(VecDestroy(&states));
   sam_call(VecDestroy(&depth));

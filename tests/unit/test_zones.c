@@ -3,8 +3,8 @@
 */
 #include "fields.h"
 
-/* Square, odd, thin, and fewer rows than ranks. */
-static const PetscInt sizes[][2] = {{16, 16}, {23, 31}, {40, 2}, {7, 60}, {64, 50}, {5, 3}};
+/* Square, odd, thin; fewer rows than ranks; four rows, which leave the last of three ranks without one. */
+static const PetscInt sizes[][2] = {{16, 16}, {23, 31}, {40, 2}, {7, 60}, {64, 50}, {5, 3}, {9, 4}};
 enum { NUM_SIZES = sizeof(sizes) / sizeof(sizes[0]), MOST = 64 * 64 };
 
 static const int sides[][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};

@@ -87,11 +87,6 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   return Sum(law, step->state, slip, step->pressure, sum);
 }
 
-static PetscErrorCode Destroy(SamLaw law)
-{
-  return PetscFree(law->data);
-}
-
 PetscErrorCode CreateFading(SamLaw law)
 {
   PetscCall(PetscNew((Fading **)&law->data));
@@ -104,6 +99,5 @@ PetscErrorCode CreateFading(SamLaw law)
   law->ops.declare              = Declare;
   law->ops.bound                = Bound;
   law->ops.advance              = Advance;
-  law->ops.destroy              = Destroy;
   return 0;
 }

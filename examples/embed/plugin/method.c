@@ -35,7 +35,7 @@ static PetscErrorCode ComputeGap(SamLevel *l, const double p[], double g[], doub
       row[0] += g[k];
       row[1] -= eta * g[k];
       row[2] += xi * g[k];
-      SamGramAddNormal(row + 3, xi, eta);
+      SamGramNormalRow(row + 3, 1, xi, xi * xi, eta);
     }
     SamAddAll(3 + SAM_GRAM, totals, row);
   }

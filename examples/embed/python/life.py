@@ -1,4 +1,4 @@
-"""A life of 1e5 cycles of wear in this process, with its log."""
+"""A wear simulation of 1e5 cycles in this process, with its log."""
 
 import petsam
 
@@ -8,4 +8,4 @@ cycle = dict(time=range(9), load_n=[1000.0] * 9, disp_x=[6e-7 * k for k in (0, 0
 with petsam.Contact(grid_n=64, grid_size=2.6e-3, **steel, **sphere) as contact:
     log = contact.live(1e5, cycle)
     for one in log:
-        print(f"{one.cycle:8.0f} cycles  depth {one.depth_max2:.3e} m  largest pressure {one.pressure_max:.3e} Pa")
+        print(f"{one.cycle:8.0f} cycles  depth {one.depth_max2:.3e} m  peak pressure {one.pressure_max:.3e} Pa")

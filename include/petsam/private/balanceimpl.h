@@ -22,22 +22,22 @@ typedef struct {
   double         basis[3][3];  /* (count, 3) */
   double         lower[3][3];  /* the components as combinations of the phi = lower * basis */
   double         target[3];    /* what sum phi traction must be along the basis: loads/(dx dy) in the basis */
-  double         fixed[3];     /* the given rigid displacement as a combination of the phi */
-  double         most;         /* normal: the largest admissible pressure, Pa; infinite: there is none */
+  double         fixed[3];     /* the given rigid-body displacement as a combination of the phi */
+  double         most;         /* normal: the maximum admissible pressure, Pa; infinite: there is none */
   double         xi0;          /* xi of the first column */
   double         dxi, deta;    /* steps of xi and eta from cell to cell */
 } SamFrame;
 
-/* SamFrameGetComponent - the rigid displacement of component k of a kind (1 m or rad) as a combination of the phi. */
+/* SamFrameGetComponent - the rigid-body displacement of component k (1 m or rad) as a combination of the phi. */
 PETSC_EXTERN void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3]);
 /*
   SamFrameSet - the frame of a grid (borrowed) for what a balance controls. Its pressures have no upper bound until the
   caller sets `most`. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
-/* SamFrameSetGiven - the same with all rigid displacements given as they stand in the balance. */
+/* SamFrameSetGiven - the same with all rigid-body displacements given as they stand in the balance. */
 PETSC_EXTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
-/* SamFrameGetRigid - rigid displacements of the force-controlled components, from a free combination a of the phi. */
+/* SamFrameGetRigid - rigid-body displacements of the force-controlled components, from a combination a of the phi. */
 PETSC_EXTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
 
 /* eta of this rank's row j: to the last bit the same on whatever rank the row is. */
@@ -74,7 +74,7 @@ static inline double SamFrameDot(const double a[3], const double b[3])
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The normal rigid displacement a at (xi, eta), and the two components of the tangential one. */
+/* The normal rigid-body displacement a at (xi, eta), and the two components of the tangential one. */
 static inline double SamFrameNormal(const double a[3], double xi, double eta)
 {
   return a[0] - a[1] * eta + a[2] * xi;
@@ -104,7 +104,7 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
 
 /*
   Stretches: cells of a row that loops pass over together when none of them takes part, as on a rough surface few cells
-  are in contact. An array `busy` of one char a stretch, row after row, says which ones take part.
+  are in contact. An array `busy` of one char per stretch, row after row, marks the stretches that take part.
 */
 #define SAM_STRETCH 64
 
@@ -134,18 +134,7 @@ static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *fi
 /* Gram matrices sum phi phi' are stored as their six upper entries 00, 01, 02, 11, 12, 22. */
 #define SAM_GRAM 6
 
-/* Adds a cell to the Gram matrix of the normal phi. */
-static inline void SamGramAddNormal(double gram[SAM_GRAM], double xi, double eta)
-{
-  gram[0] += 1;
-  gram[1] -= eta;
-  gram[2] += xi;
-  gram[3] += eta * eta;
-  gram[4] -= eta * xi;
-  gram[5] += xi * xi;
-}
-
-/* The same for the cells of a row, from their number and their sums of xi and xi^2. */
+/* Adds the cells of a row to the Gram matrix of the normal phi, from their number and their sums of xi and xi^2. */
 static inline void SamGramNormalRow(double gram[SAM_GRAM], double count, double xi, double xi2, double eta)
 {
   gram[0] += count;
@@ -203,8 +192,8 @@ PETSC_EXTERN double SamFrameSolveSeen(const SamFrame *frame, const double gram[S
 /*
   SamFrameProjectNormal - p := p + phi a, cut off at 0 and at the frame's `most`, on the cells where mask is 1 (mask
   NULL: all), with the a for which the force-controlled loads are exact: the nearest admissible pressure. Where the mask
-  is 0 p becomes the nearer one of its bounds: 0 without an upper one. `found` is false when there is none; p is then as
-  it was. Collective.
+  is 0 p becomes the nearer one of its bounds: 0 without an upper one. `found` is false if there is none; p is then
+  unchanged. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const float mask[], double p[],
                                                   PetscBool *found);
@@ -215,7 +204,7 @@ typedef struct {
   const char  *busy; /* stretches with cells in the mask, or with pressure */
   const float *step; /* the pressure goes by `by` times this */
   double       by;
-  PetscBool    nearest; /* the nearest admissible pressure is wanted, even if that takes longer */
+  PetscBool    nearest; /* find the nearest admissible pressure, even if that takes longer */
   float       *made;    /* result: `scale` times the change of the pressure */
   double       scale;
   double       motion[3]; /* result: the combination of the phi that was added before cells were cut off */
@@ -224,7 +213,7 @@ typedef struct {
 /*
   SamFrameProjectNormalStep - the same for p + by step, when that nearly carries the loads. p becomes an admissible
   pressure: the nearest one with `nearest`, or where a single step of Newton's method finds it, else one about as near.
-  Not found: p is as it was, to the rounding of `made`. Collective.
+  Not found: p is unchanged, to the rounding of `made`. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, SamPressureStep *step, double p[],
                                                       PetscBool *found);
@@ -241,7 +230,7 @@ PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
 PETSC_EXTERN PetscErrorCode SamFrameProjectNormalBetween(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
-  SamFrameClear - whether some free rigid displacement a leaves no cell with field + phi a > 0, to rounding of the
+  SamFrameClear - whether some free rigid-body displacement a leaves no cell with field + phi a > 0, to rounding of the
   field: bodies that are free to tilt then lose contact. For frames without load. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double field[], double a[3], PetscBool *clear);
@@ -249,8 +238,8 @@ PETSC_EXTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double fi
 /*
   SamFrameProjectTangential - q := D(q + weight phi a), D the projection of each cell's shear onto the disc of radius
   bound, with the a for which the force-controlled loads are exact: the nearest admissible shear, a cell's distance
-  squared counting 1/weight (weight NULL: 1). `motion`, when not NULL, becomes a. `found` is false when there is none; q
-  is then of no use.
+  squared counting 1/weight (weight NULL: 1). `motion`, when not NULL, becomes a. `found` is false if there is none; q
+  is then undefined.
   The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
   faster, it may differ from that by 1e-6 of the change. Collective.
 */

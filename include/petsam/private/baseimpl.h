@@ -53,7 +53,6 @@ typedef enum {
   SAM_EVENT_COUNT
 } SamEvent;
 PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
-PETSC_EXTERN PetscClassId  SamClassId;
 
 /* ---- errors ---- */
 /* SamKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
@@ -90,6 +89,8 @@ PETSC_EXTERN void SamZero(PetscInt n, double x[]);
   again, which takes time, so call it only at the end of long stages.
 */
 PETSC_EXTERN void SamReturnMemory(void);
+/* SamDescribeBytes - a size for a person: "1.23 GB", where a GB is 1e9 bytes. Not collective. */
+PETSC_EXTERN void SamDescribeBytes(double bytes, char text[], size_t size);
 
 /* ---- options ---- */
 
@@ -102,8 +103,6 @@ PETSC_EXTERN PetscBool   SamRangeHas(SamRange range, double value);
 PETSC_EXTERN const char *SamRangeDescribe(SamRange range);
 
 /* ---- mistakes in options and names (spelling.c); none is collective, but for SamOptionsRequire() ---- */
-/* SamIsNear - whether one name may be another one misspelled. */
-PETSC_EXTERN PetscBool SamIsNear(const char tried[], const char name[]);
 /* SamNearestName - the name out of these that may be meant; NULL: none. */
 PETSC_EXTERN const char *SamNearestName(const char tried[], size_t count, const char *const names[]);
 /*
@@ -211,6 +210,9 @@ PETSC_EXTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], do
 /* SamGetFolder - the folder that a file's name names it in, "." without one. Not collective. */
 PETSC_EXTERN void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN]);
 
+/* SamJoin - names as a text, with `between` between them, but `last` before the last one. Not collective. */
+PETSC_EXTERN void SamJoin(PetscInt count, const char *const names[], const char between[], const char last[],
+                          char text[], size_t size);
 /* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
 PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */

@@ -7,13 +7,14 @@
 #include <petsam/fourier.h>
 
 /*
-  A type that adds something to another - a half-space and a smooth compliance, say - calls SamElasticitySetInner() in
-  its create function, which makes an object of that type on the same grid and takes over its traits. What the type has
-  no method for is then done by the inner one; its own methods add to (*e->inner->ops.applynormal)(e->inner, p, u),
-  and so on. Since u may be p, what depends on p must be taken from it before. The class sets up, trims, records and
-  destroys the inner object, gives it the options, and makes another one on each coarse grid and each part, as it makes
-  another object of the type itself: `inherit` passes on what it knows of the finest grid, on which the object's place
-  is first[] and factor[]. tests/unit/test_elasticity_inner.c is a complete example.
+  A type that adds something to another - a half-space and a smooth compliance, for instance - calls
+  SamElasticitySetInner() in its create function, which makes an object of that type on the same grid and takes over its
+  traits. What the type has no method for is then done by the inner one; its own methods add to
+  (*e->inner->ops.applynormal)(e->inner, p, u), and so on. Since u may be p, what depends on p must be taken from it
+  before. The class sets up, trims, records and destroys the inner object, gives it the options, and makes another one
+  on each coarse grid and each part, as it makes another object of the type itself: `inherit` passes on its settings on
+  the finest grid, on which the object's place is first[] and factor[]. tests/unit/test_elasticity_inner.c is a complete
+  example.
 
   SamElasticityOps - the methods of a type; NULL where it has none. in[c] and out[c] are component c of a field, arrays
   of this rank's cells, and out may be in. All but destroy are called after setup, and collectively. Results must not
@@ -26,7 +27,7 @@ typedef struct {
   /* the type's own parameters, all of them always: recorded, also what identifies its files, and set from a record */
   PetscErrorCode (*addparameters)(SamElasticity, SamParameters *);
   PetscErrorCode (*setparameters)(SamElasticity, const SamParameters *, const char source[]);
-  PetscErrorCode (*destroy)(SamElasticity); /* frees `data` */
+  PetscErrorCode (*destroy)(SamElasticity); /* frees what `data` refers to; the class frees `data` */
   /* required: products, with `factor` in single precision, preconditioners, and a cell's influence on itself */
   PetscErrorCode (*applynormal)(SamElasticity, const double *const p[], double *const u_z[]);
   PetscErrorCode (*applytangential)(SamElasticity, const double *const q[], double *const u_t[]);
@@ -37,10 +38,10 @@ typedef struct {
   PetscErrorCode (*getselfinfluence)(SamElasticity, PetscReal *normal, PetscReal *tangential);
   /* the stresses in a body that is not rigid */
   PetscErrorCode (*createstress)(SamElasticity, PetscInt body, const SamFourierSettings *, SamStress *);
-  /* required if the traits say coupled */
+  /* required with the trait coupled */
   PetscErrorCode (*applynormaltotangential)(SamElasticity, const double *const p[], double *const u_t[]);
   PetscErrorCode (*applytangentialtonormal)(SamElasticity, const double *const q[], double *const u_z[]);
-  /* required if the traits say within */
+  /* required with the trait within */
   PetscErrorCode (*applynormalslopes)(SamElasticity, const double *const slopes[], double *const u_z[]);
   PetscErrorCode (*getnear)(SamElasticity, PetscInt reach, PetscInt sub, double table[]);
 } SamElasticityOps;

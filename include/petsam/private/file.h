@@ -33,20 +33,16 @@ struct _n_SamFile {
   void       *print_data;
 };
 
-#define SAM_FILE_METADATA (1 << 20) /* bytes, more than HDF5's metadata take at creation or in a step */
-
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ } SamFileMode;
 /*
   SamFileOpen - opens a file to READ, or CREATEs it, replacing one of that name; CREATE_SEALED: with room for a seal.
-  `option` is not copied. Collective. Errors: SAM_ERR_FILE.
+  `option` is not copied. `grid` NULL: on this rank alone, without MPI-IO. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
-/* SamFileOpenAlone - opens a file to read it on this rank, without MPI-IO. Not collective. Errors: SAM_ERR_FILE. */
-PETSC_INTERN PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file);
 /*
   SamFileExamine - rank 0 examines an HDF5 file before all ranks open it: reports one that is not there, may not be read
-  or is not HDF5, then calls `look` with the file open on this rank alone (SamFileOpenAlone()). This happens in a child
+  or is not HDF5, then calls `look` with the file open on this rank alone. This happens in a child
   process, since HDF5 may crash, or never end, on a damaged file. The `answer` (`size` bytes without pointers) is
   returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
   SAM_ERR_FILE, and those of `look`.
@@ -86,7 +82,7 @@ PETSC_INTERN PetscBool SamFileHasAttribute(SamFile file, const char name[]);
 /* SamFileWriteOrigin - the attributes that say what a file is, and which program has written it. */
 PETSC_INTERN void SamFileWriteOrigin(SamFile file, const char title[], const char program[]);
 
-/* A dataset's name, and two of its attributes. */
+/* A dataset's name, and two of its attributes (NULL: without). */
 typedef struct {
   const char *name, *units, *long_name;
 } SamLabel;
@@ -109,8 +105,11 @@ PETSC_INTERN hid_t SamFileCreateDataset(SamFile file, hid_t where, const SamLabe
 PETSC_INTERN hid_t SamFileCreateScale(SamFile file, hid_t where, const SamLabel *label, const char axis[],
                                       const char standard_name[], const SamShape *shape, const double values[]);
 PETSC_INTERN void  SamFileAttachScales(SamFile file, hid_t dataset, int count, const hid_t scales[]);
-/* SamFileGetSize - the size of a dataset of that rank; zeros after a failure. */
-PETSC_INTERN void SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
+/*
+  SamFileGetSize - the size of a dataset of that rank (0: any; then there is room for SAM_SHAPE_RANK); returns its rank.
+  Zeros after a failure.
+*/
+PETSC_INTERN int SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
 
 /* The part of a dataset that a rank writes or reads; none where a count is 0. */
 typedef struct {
@@ -169,14 +168,6 @@ PETSC_INTERN PetscErrorCode SamFileGetSpace(SamFile file, double *bytes);
 */
 PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
                                            const char filename[], const char kept[]);
-/* SamFileRemoveLeftOvers - what MPI-IO has put beside an open file, and would leave after a kill. */
-PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
-/*
-  SamFileRaise - raises SAM_ERR_FILE for rank 0's result of a function of disk.c; does nothing if that is 0.
-  Collective.
-*/
-PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
-
 /*
   SamHold - keeps a file that a run writes from other runs, and notices what other programs do to it. Held by rank 0;
   ends with the process. Other programs can read the file.
@@ -208,17 +199,14 @@ PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold,
 PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
 PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
 
-#define SAM_CHECKPOINT_FORMAT 7   /* version of a checkpoint's contents */
-#define SAM_SEAL              512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
+#define SAM_SEAL 512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
 /*
   SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
   SamSealCheck - compares it. Nothing of the file is interpreted before.
   Both are collective. Errors: SAM_ERR_FILE.
-  SamSealIsOne - whether the first bytes of a file are a seal. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSealWrite(SamGrid grid, const char option[], const char filename[]);
 PETSC_INTERN PetscErrorCode SamSealCheck(SamGrid grid, const char option[], const char filename[]);
-PETSC_INTERN PetscBool      SamSealIsOne(const char head[], size_t size);
 
 /* ---- XDMF (xdmf.c) ---- */
 
@@ -246,33 +234,10 @@ typedef struct {
   SamXdmfMakeName - results.h5 -> results.xdmf; the caller frees it. Not collective.
 */
 typedef struct _n_SamXdmf  *SamXdmf;
-extern const char           SamXdmfHead[]; /* the first bytes of the file */
 PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], const SamXdmfMesh *mesh, SamXdmf *xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);
 PETSC_INTERN PetscErrorCode SamXdmfMakeName(const char results[], char **name);
 PETSC_INTERN const char    *SamXdmfGetName(SamXdmf xdmf);
 PETSC_INTERN PetscErrorCode SamXdmfDestroy(SamXdmf *xdmf);
-
-/* ---- lengths (lengths.c) ---- */
-
-/* What a dataset of lengths says about itself. */
-typedef struct {
-  double factor;  /* values times this are a separation in m */
-  double size[2]; /* full width in x and y (m); 0 where the file does not say */
-} SamLengths;
-/*
-  SamLengthsRead - reads what a dataset `name` of shape (ny, nx), in a file that is examined, says about itself; each
-  part may be missing.
-
-  Attribute units: a unit of length (m). Attribute quantity: separation, or height1, height2, heights of body 1 or 2,
-  positive out of the body; so a peak of either body reduces the separation (separation). The size: attribute size of
-  the dataset, two numbers in m; or else x and y beside the dataset, which hold the nx and ny cell centres and have
-  units; without units they say nothing.
-
-  Errors: SAM_ERR_FILE for an unknown unit or quantity, packed numbers, another size than two positive numbers, and an
-  axis that falls along its dataset, so that the surface would be mirrored.
-*/
-PETSC_INTERN PetscErrorCode SamLengthsRead(SamFile file, hid_t dataset, const char name[], const hsize_t shape[2],
-                                           SamLengths *lengths);
 
 #endif

@@ -9,9 +9,9 @@
 #define SAM_GAP_PARAMETERS 4 /* most parameters of a shape */
 
 /*
-  The contact of a shape without friction, under a central force, by a closed solution: half widths along x and y (m,
-  infinite where it goes on without end), force over the composite modulus E* (m2), approach (m). All of them grow with
-  the half width that it is computed from.
+  The contact of a shape without friction, under a central force, by a closed-form solution: half widths along x and y
+  (m, infinite where it has no end), force over the composite modulus E* (m2), approach (m). All of them grow with the
+  half width that it is computed from.
 */
 typedef struct {
   PetscReal half[2], force, approach;

@@ -19,40 +19,15 @@ typedef enum {
 } SamIntegral;
 
 /*
-  SamIntegralCell - the integral of one kernel over one cell. Not collective, no state.
-
-  Input:
-    kind   - the kernel
-    dx, dy - the cell's sides, m, positive and finite
-    i, j   - the lag of the cell's centre, in cells
-
-  Returns the integral, in m for every kind. For lags up to 16384 and sides whose ratio
-  is between 1/50 and 50 the relative error is below 1e-14. Nothing overflows or underflows for
-  sides from 1e-9 m to 1e3 m. Signs under i -> -i and j -> -j and the zeros of the odd kernels are
-  exact, and so is scaling of both sides by a power of two.
-
-  Source: kernels from Johnson (1985), Contact Mechanics, sections 3.2 and 3.6; integrals over a
-  rectangle from Love (1929). The method stands in src/elasticity/halfspace/influence.c.
+  SamIntegralCell - the integral of a kernel over the cell at the lag (i, j), in m for every kind; dx, dy: the cell's
+  sides, m, positive and finite.
+  SamIntegralRow - the same, to the last bit, of the n cells (i0 + k, j) at a fraction of the time.
+  For lags up to 16384 and sides whose ratio is between 1/50 and 50 the relative error is below 1e-14. Nothing overflows
+  or underflows for sides from 1e-9 to 1e3 m. Signs under i -> -i and j -> -j, the zeros of the odd kernels and scaling
+  of both sides by a power of two are exact. Not collective, no state. Method and sources: influence.c.
 */
 double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrdiff_t j);
-
-/*
-  SamIntegralRow - the integrals of one kernel over consecutive cells of a row. Not collective.
-
-  Input:
-    kind   - the kernel
-    dx, dy - the cells' sides, m, positive and finite
-    j      - the lag of the row, in cells
-    i0     - the lag of the first cell in the row
-    n      - the number of cells; nothing is done if it is not positive
-
-  Output:
-    values - n integrals, m; values[k] is that of the cell (i0 + k, j)
-
-  The numbers are those of SamIntegralCell(), to the last bit, at a fraction of the time: the
-  accuracy, signs and zeros are the same.
-*/
-void SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
+void   SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
 
 /*
   SamSlopeRow - the integrals of factor/r over consecutive cells of a row whose pressures are linear and zero in the
@@ -75,25 +50,16 @@ PETSC_EXTERN PetscErrorCode SamSlopeRulesCreate(SamSlopeRules *rules);
 PETSC_EXTERN void           SamSlopeRow(const SamSlopeKernel *kernel, ptrdiff_t j, ptrdiff_t n, double values[]);
 
 /*
-  SamHalfSpaceStressCell - the stress in a half-space z >= 0 by uniform tractions on a rectangle of its surface. Not
-  collective.
-
-  Input:
-    side    - the rectangle's sides, m
-    poisson - Poisson's ratio
-    point   - where, from the rectangle's centre, m; z >= 0. At z = 0 the stress is infinite on the rectangle's edges.
-
-  Output:
-    stress  - of each component by a unit of each traction: by p, which presses in the direction of z, and by q_x and
-              q_y, which pull in the direction of x and y. On the surface zz is -p, xz is -q_x, yz is -q_y.
-
-  The error is below 1e-12 of the largest kernel at that point, up to 16384 sides away. Sources: Love 1929, Phil. Trans.
-  R. Soc. A 228, 377; Johnson 1985, Contact Mechanics, ch. 3.
+  SamHalfSpaceStressCell - the stress in a half-space z >= 0 by uniform tractions on a rectangle of its surface, at a
+  point whose place from the rectangle's centre is given (m): of each component by a unit of each traction, by p, which
+  presses in the direction of z, and by q_x and q_y, which pull in the direction of x and y. On the surface zz is -p, xz
+  is -q_x, yz is -q_y, and the stress is infinite on the rectangle's edges. The error is below 1e-12 of the largest
+  kernel at that point, up to 16384 sides away. Not collective. Method and sources: stresscell.c.
 */
 PETSC_EXTERN void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal poisson, const PetscReal point[3],
                                          PetscReal stress[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]);
 
-/* SamHalfSpaceSource - unit traction on a cell, seen from a depth. */
+/* SamHalfSpaceSource - unit traction on a cell, as it acts at a depth. */
 typedef struct {
   double side[2]; /* of the cell, m */
   double depth;   /* z >= 0, m */

@@ -64,29 +64,21 @@ struct _n_SamLawStep {
   Vec               pressure, shear; /* Pa */
   PetscBool         same_pressure;   /* the pressure is that of the step before */
   PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
-  /* made when first asked for, by SamLawStepGetFriction(); the step's own */
+  /* made when first needed, by SamLawStepGetFriction(); the step's own */
   Vec path, pressed, work;
-  /* from the contact */
+  /* from the contact; collective */
   PetscErrorCode (*friction)(SamLawStep *step, Vec path, Vec pressed, Vec work);
-  PetscErrorCode (*gap)(SamLawStep *step, Vec gap);
-  PetscErrorCode (*slope)(SamLawStep *step, Vec by_pressure);
+  PetscErrorCode (*gap)(SamLawStep *step, Vec gap);           /* m, of the surfaces as they were before the step */
+  PetscErrorCode (*slope)(SamLawStep *step, Vec by_pressure); /* the derivative of the bound by the pressure */
   void *context;
 };
 /*
-  SamLawStepGetFriction - what friction does in the step, each of one component, NULL for one that is not wanted;
-  borrowed:
-    path     |ds|, the length of the slip of the step, m, in all cells; outside of the contact it is how far the
-             surfaces have moved over each other
-    pressed  p |ds|, Pa m, in cells that slip, else 0; p is the mean of the pressures before and after the step
-    work     -q.ds, J/m2, in cells that slip, else 0; where the pressure changes, by the mean of the bounds before and
-             after, as the dissipated energy
-  SamLawStepGetGap - the gap (m) of the surfaces as they were before the step, into a vector of one component.
-  SamLawStepGetSlope - the derivative of the bound by the pressure, likewise.
-  All are collective.
+  SamLawStepGetFriction - what friction does in the step: the fields of SamContactComputeFriction(), NULL for one that
+  is not wanted; borrowed. Collective.
+  SamLawAddToSum - the tried generation of a field becomes the committed one plus `more`. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
-PETSC_EXTERN PetscErrorCode SamLawStepGetGap(SamLawStep *step, Vec gap);
-PETSC_EXTERN PetscErrorCode SamLawStepGetSlope(SamLawStep *step, Vec by_pressure);
+PETSC_EXTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /* SamLawOrder - the place of a type among those registered. Not collective. */
 PETSC_INTERN PetscInt SamLawOrder(SamLawType type);
 
@@ -98,17 +90,17 @@ struct _n_SamLaw {
   PetscObjectState revision;       /* to be raised by setters: the pressure has to be solved again */
   PetscBool        follows_slip;   /* bound() depends on the slip of the step */
   PetscBool        accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
-  const char      *option;         /* that asks for the law, without dash; NULL: none */
+  const char      *option;         /* that selects the law, without dash; NULL: none */
   PetscInt         bytes;          /* of memory that it takes for each cell */
   PetscBool        needs_friction; /* makes no sense without friction */
   PetscBool        forbids_jumps;  /* cannot be in a life with cycle jumps */
   PetscBool        forbids_others; /* supports neither friction nor a limit of the pressure */
-  void            *data;           /* the type's own */
+  void            *data;           /* the type's own, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {
     PetscErrorCode (*setfromoptions)(SamLaw law, const SamOptions *from, PetscBool *asked);
     PetscErrorCode (*addparameters)(SamLaw law, SamParameters *parameters);
-    PetscErrorCode (*destroy)(SamLaw law); /* frees `data` */
+    PetscErrorCode (*destroy)(SamLaw law); /* frees what `data` refers to; SamLawDestroy() frees `data` itself */
     /* declares fields and numbers */
     PetscErrorCode (*declare)(SamLaw law, SamState state);
     /*
@@ -133,7 +125,7 @@ struct _n_SamLaw {
     PetscErrorCode (*energy)(SamLaw law, SamState state, Vec pressure, Vec u_z, PetscReal *energy);
     /* prints the law's numbers of a step, on a line of its own */
     PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
-    /* what a user should know of a solved step; empty: nothing */
+    /* a warning about a solved step; empty: none */
     PetscErrorCode (*advise)(SamLaw law, SamState state, char text[], size_t size);
   } ops;
 };

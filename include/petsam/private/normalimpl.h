@@ -17,11 +17,19 @@ enum {
 };
 
 /*
-  SamNormalSolveKeeping - SamNormalSolve() that knows the product with the guess, where there is one, and leaves that
-  with the result; product NULL: none is kept. The balance then holds the rigid displacements of the guess. Collective.
+  SamNormalSolveKeeping - SamNormalSolve() with the product of the guess, if valid, which becomes that of the result;
+  product NULL: none is kept. The balance then holds the rigid-body displacements of the guess. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
                                                   SamProduct *product);
+
+/*
+  SamNormalLookOutside - after a solve in a window of the level: whether the bodies are apart outside of the window, so
+  that the solution is that of the whole grid. If not, first and size become the smallest rectangle that holds the
+  contact and all cells that penetrate. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamNormalLookOutside(SamSolver solver, SamLevel *level, SamWindow window, PetscInt first[2],
+                                                 PetscInt size[2], PetscBool *apart);
 
 PETSC_EXTERN PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver);
 

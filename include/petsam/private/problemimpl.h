@@ -1,4 +1,4 @@
-/* What solver, check and results ask of all laws of a problem together. */
+/* All laws of a problem together, for solver, check and results. */
 #ifndef PETSAM_PROBLEMIMPL_H
 #define PETSAM_PROBLEMIMPL_H
 
@@ -26,7 +26,7 @@ PETSC_INTERN PetscBool      SamProblemFollowsSlip(SamProblem problem);
   SamProblemAddDisplacement - adds to u_z (m) what the pressure does beyond the influence of its means over cells.
   SamProblemGetLeast - the least pressure of each cell (Pa, one component), which it bears without touching at its
   centre; borrowed, NULL: none.
-  SamProblemFindEdge - the edge of contact, if a law knows it.
+  SamProblemFindEdge - the contact edge, if a law has it.
   SamProblemAddEnergy - adds to the elastic energy (J).
 */
 PETSC_INTERN PetscErrorCode SamProblemCorrect(SamProblem problem, SamCorrection *correction);

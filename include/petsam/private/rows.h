@@ -38,4 +38,11 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen);
 PETSC_EXTERN PetscErrorCode SamForget(SamSeen *seen);
 
+/*
+  SamGather - arrays of all ranks, n items of this one, one after the other on rank 0. `all`: the address of a pointer,
+  NULL on other ranks, to be freed by PetscFree(); `total`: the items of all ranks, on all of them. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGather(MPI_Comm comm, MPI_Datatype type, PetscInt n, const void *mine, PetscInt *total,
+                                      void *all);
+
 #endif

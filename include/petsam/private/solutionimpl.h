@@ -7,6 +7,14 @@
 #include <petsam/private/problemimpl.h>
 #include <petsam/solution.h>
 
+/* SamValues - this rank's values of a solution's fields, between SamValuesGet() and SamValuesRestore(). */
+typedef struct {
+  PetscInt      cells;
+  const double *p, *b, *q, *u_z, *u_t; /* pressure, bound, shear, displacements; NULL where there is no field */
+} SamValues;
+PETSC_INTERN PetscErrorCode SamValuesGet(const SamSolution *solution, SamValues *values);
+PETSC_INTERN PetscErrorCode SamValuesRestore(const SamSolution *solution, SamValues *values);
+
 /*
   SamStretch - the strains of body 2's surface by its bulk stress minus those of body 1's. They move a point at (x, y)
   by (xx x + xy y, xy x + yy y).
@@ -29,10 +37,7 @@ typedef struct {
 } SamMotionRow;
 PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamProblem problem, const SamSolution *solution);
 PETSC_INTERN SamMotionRow   SamMotionOfGap(const SamMotion *motion, PetscInt j);
-PETSC_INTERN SamMotionRow   SamMotionOfSlip(const SamMotion *motion, PetscInt component, PetscInt j);
-/* value = u - a - b xi along a row of the grid. */
-PETSC_INTERN void SamMotionSubtract(const SamMotion *motion, SamMotionRow row, const double u[], double value[]);
-/* value = u + h - a - b xi. */
+/* value = u + h - a - b xi along a row of the grid. */
 PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
                                double value[]);
 /*

@@ -40,14 +40,14 @@ typedef struct {
 typedef struct {
   SamElasticity elasticity;
   SamGrid       grid;
-  SamFrame      frame;            /* the rigid displacements in this grid's coordinates */
+  SamFrame      frame;            /* the rigid-body displacements in this grid's coordinates */
   SamBalance   *balance;          /* what is controlled; the kind writes the results into it */
   Vec           given[SAM_GIVEN]; /* the given fields, as the kind's header numbers them; NULL: zero */
   Vec           traction;         /* the unknown: start and result */
   SamProduct   *product;          /* NULL: not to be kept */
   PetscReal     rtol;
-  PetscBool     finest;   /* only work on the finest grid is counted and shown to monitors */
-  double        rigid[3]; /* start and result: rigid displacement as a combination of the phi, fixed part included */
+  PetscBool     finest; /* only work on the finest grid is counted and shown to monitors */
+  double rigid[3];      /* start and result: rigid-body displacement as a combination of the phi, fixed part included */
 } SamLevel;
 
 /* Where the traction of a level comes from when its solve begins. */
@@ -87,18 +87,15 @@ struct _n_SamSolverKind {
   PetscErrorCode (*preconditionsingle)(SamElasticity elasticity, double factor, const float r[], float z[]);
   /* the whole solve, on the level of the finest grid: sets the reason, the traction and the balance */
   PetscErrorCode (*solve)(SamSolver solver, SamLevel *level, PetscBool guess);
-  /* one of the nested grids, from that start: sets the reason, the traction and the rigid displacement */
+  /* one of the nested grids, from that start: sets the reason, the traction and the rigid-body displacement */
   PetscErrorCode (*solvelevel)(SamSolver solver, SamLevel *level, SamStart start);
   /* the start of a level from the solution on the next coarser grid */
   PetscErrorCode (*prolong)(SamTransfer transfer, const SamLevel *coarse, SamLevel *fine);
-  /* the types that come with the library, the default one first; an empty name ends them */
-  struct {
-    SamSolverType name;
-    PetscErrorCode (*create)(SamSolver);
-  } own[4];
+  /* the default type */
+  SamSolverType type;
+  PetscErrorCode (*create)(SamSolver);
   /* the registry */
   PetscFunctionList types;
-  PetscBool         registered;
   SamSolverKind    *next;
 };
 
@@ -117,9 +114,9 @@ struct _n_SamSolver {
   void     *data; /* the type's own */
   PetscInt  default_levels, default_max_it;
   PetscBool keeps_product;
-  PetscBool limits_pressure; /* normal: knows frame.most */
+  PetscBool limits_pressure; /* normal: obeys frame.most */
   /* what the user set; 0 stands for the type's default */
-  char             type[64], prefix[SAM_PREFIX];
+  char             type[64], prefix[SAM_PREFIX + 16]; /* the prefix with `<kind>_` */
   PetscReal        rtol;
   PetscReal        pressure_limit; /* normal: Pa; infinite: none */
   PetscInt         max_it, levels;
@@ -127,7 +124,7 @@ struct _n_SamSolver {
   PetscInt         monitors;
   SamSolverMonitor monitor[SAM_MONITORS];
   void            *monitor_context[SAM_MONITORS];
-  /* what the caller of the next solves wants */
+  /* of the next solves */
   SamEffort effort;
   PetscReal enough; /* relative error that is enough; 0: the user's rtol */
   /* of the last solve, on the finest grid */
@@ -160,8 +157,8 @@ PETSC_EXTERN PetscErrorCode SamLevelSolveNested(SamSolver solver, SamLevel *leve
 
 /*
   SamLevelSolveInWindow - takes the given fields, and with `guess` the traction, out of a level into a window of it, has
-  `solve` solve there, and puts the traction back, zero outside. The rigid displacement then is that of the window's
-  frame, which becomes the level's. Collective.
+  `solve` solve there, and puts the traction back, zero outside. The rigid-body displacement then is that of the
+  window's frame, which becomes the level's. Collective.
 */
 typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, PetscBool guess);
 PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
@@ -172,14 +169,14 @@ PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *wh
   collective.
 */
 PETSC_EXTERN void SamSolverSetEffort(SamSolver solver, PetscReal rtol, SamEffort effort);
-/* SamLevelHasProduct - whether the product with the level's traction is known everywhere. Not collective. */
+/* SamLevelHasProduct - whether the level's product is valid everywhere. Not collective. */
 PETSC_EXTERN PetscBool SamLevelHasProduct(const SamLevel *level);
-/* SamLevelKeepProduct - says that it is, with this rounding, and everywhere. Not collective. */
+/* SamLevelKeepProduct - marks it as valid everywhere, with this rounding. Not collective. */
 PETSC_EXTERN void SamLevelKeepProduct(SamLevel *level, double rounding);
-/* SamLevelForgetProduct - says that it is not known. Not collective. */
+/* SamLevelForgetProduct - marks it as invalid. Not collective. */
 PETSC_EXTERN void SamLevelForgetProduct(SamLevel *level);
 
-/* SamLevelGetRigid - writes a level's rigid displacement into the force-controlled components of a balance. */
+/* SamLevelGetRigid - writes a level's rigid-body displacement into the force-controlled components of a balance. */
 PETSC_EXTERN void SamLevelGetRigid(const SamLevel *level, SamBalance *balance);
 
 /* ---- for methods ---- */
@@ -206,34 +203,12 @@ PETSC_EXTERN PetscErrorCode SamLevelIterated(SamSolver solver, SamLevel *level, 
 /* SamLevelAtMaxIterations - whether this is the finest grid, and max_it iterations have been made. Not collective. */
 PETSC_EXTERN PetscBool SamLevelAtMaxIterations(SamSolver solver, const SamLevel *level);
 
-/* ---- the account of rounding ---- */
-
 /*
-  SamRounding - what rounding may have done to a gradient that is kept up to date. A method computes its gradient (the
-  gap, the slip) in double precision once, and then adds to it the products of its steps, which are in single precision
-  at half the cost. Each of them brings in an error of about SAM_SINGLE_ROUNDING of its size. `bound` is how much that
-  may be by now, in the gradient's units; where it matters, the gradient is computed anew in double precision, which
-  sets it to zero.
+  A method computes its gradient (the gap, the slip) in double precision once, and then adds to it the products of its
+  steps, which are in single precision at half the cost. Each of them has an error of about this much, relative to its
+  size. The method keeps a bound of what these errors have added up to; where that matters, it computes the gradient
+  anew in double precision.
 */
-typedef struct {
-  double bound;
-} SamRounding;
-
-#define SAM_SINGLE_ROUNDING 3e-7 /* error of a product in single precision, relative */
-
-/* The bound grows by the errors of one more product: for norms, where errors add up. */
-static inline void SamRoundingAdd(SamRounding *rounding, double error)
-{
-  rounding->bound += error;
-}
-/* The bound is at least this: for the largest error of a cell, where one product dominates. */
-static inline void SamRoundingRaise(SamRounding *rounding, double error)
-{
-  rounding->bound = SamLarger(rounding->bound, error);
-}
-static inline PetscBool SamRoundingIsWithin(const SamRounding *rounding, double limit)
-{
-  return (PetscBool)(rounding->bound <= limit);
-}
+#define SAM_SINGLE_ROUNDING 3e-7
 
 #endif

@@ -2,9 +2,9 @@
   The inside of SamTangential, for methods of the tangential problem; see solverimpl.h for how to write one.
 
   A method starts from a shear in level->traction that is admissible: within the discs, and in equilibrium; and from the
-  rigid displacement in level->rigid. That some admissible shear carries the loads has been checked. With the product of
-  the start at hand (SamLevelHasProduct()) neither holds: the start may lie outside of the discs, and the method sets
-  NO_EQUILIBRIUM when no admissible shear is found.
+  rigid-body displacement in level->rigid. That some admissible shear carries the loads has been checked. With the
+  product of the start at hand (SamLevelHasProduct()) neither holds: the start may lie outside of the discs, and the
+  method sets NO_EQUILIBRIUM when no admissible shear is found.
 */
 #ifndef PETSAM_TANGENTIALIMPL_H
 #define PETSAM_TANGENTIALIMPL_H
@@ -31,7 +31,7 @@ typedef struct {
   const double   *bound, *offset; /* offset: NULL for zero */
   double         *q, *s;          /* shear, Pa; slip increment, m, with `motion` in it */
   Vec             vs;             /* the field of s */
-  double          motion[3];      /* rigid displacement in s, fixed part included */
+  double          motion[3];      /* rigid-body displacement in s, fixed part included */
   double          self;           /* influence of a cell on itself, m/Pa */
   double          error;          /* residual of the projection equation, relative to scale */
   double          scale;          /* norm of the shear, Pa */
@@ -98,8 +98,8 @@ PETSC_EXTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *state);
 PETSC_EXTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *state, const SamTotal squares[SAM_SQUARES]);
 
 /*
-  SamTangentialSolveKeeping - SamTangentialSolve() that knows the product with the guess, where there is one, and leaves
-  that with the result; product NULL: none is kept. Collective.
+  SamTangentialSolveKeeping - SamTangentialSolve() with the product of the guess, if valid, which becomes that of the
+  result; product NULL: none is kept. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Vec offset,
                                                       SamBalance *balance, PetscBool guess, Vec q, SamProduct *product);

@@ -1,4 +1,4 @@
-"""Closed solutions for elastic half-spaces in contact, with which results are compared.
+"""Closed-form solutions for elastic half-spaces in contact, with which results are compared.
 
 Conventions
 -----------
@@ -18,7 +18,7 @@ plane      infinitely long punch with rounded edges, upright or inclined, in par
 
 `python3 -m petsam.closed` compares every formula with a numerical quadrature and fails when one disagrees.
 
-Functions of materials, sphere and stress have their names here; the others are imported when they are first asked for.
+Functions of materials, sphere and stress have their names here; the others are imported when they are first used.
 """
 
 import importlib

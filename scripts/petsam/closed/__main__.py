@@ -1,4 +1,4 @@
-"""`python3 -m petsam.closed` checks the closed solutions: exit code 1 when one disagrees."""
+"""`python3 -m petsam.closed` checks the closed-form solutions: exit code 1 when one disagrees."""
 
 import sys
 

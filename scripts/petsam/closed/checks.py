@@ -1,4 +1,4 @@
-"""Checks of the closed solutions against quadrature, limits and each other, which share nothing with the formulas.
+"""Checks of the closed-form solutions against quadrature, limits and each other, which share nothing with the formulas.
 
 Each check yields (what, error, bound).
 """
@@ -373,7 +373,7 @@ def _check_mises():
     z = np.linspace(0.4, 0.6, 200001)
     rr, zz = hertz_axis(z, 1.0, 1.0, 0.3)
     k = np.argmax(rr - zz)
-    yield "Hertz: largest von Mises stress", (rr - zz)[k] - HERTZ_MISES, 1e-9
+    yield "Hertz: maximum von Mises stress", (rr - zz)[k] - HERTZ_MISES, 1e-9
     yield "Hertz: its depth", z[k] - HERTZ_MISES_DEPTH, 1e-4
 
 

@@ -1,4 +1,4 @@
-"""Elastic constants of two bodies in contact, and what the closed solutions need of them."""
+"""Elastic constants of two bodies in contact, for the closed-form solutions."""
 
 from typing import NamedTuple
 

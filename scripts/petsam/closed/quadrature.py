@@ -1,4 +1,4 @@
-"""Gauss points and weights, for the closed solutions and for their checks."""
+"""Gauss points and weights, for the closed-form solutions and for their checks."""
 
 import numpy as np
 

@@ -1,6 +1,6 @@
 """Stresses under a spherical contact: Hertz on the axis and on the surface, Hamilton under sliding shear.
 
-Tension positive, z into the body; a is the contact radius, p0 the largest pressure, poisson that of the body.
+Tension positive, z into the body; a is the contact radius, p0 the maximum pressure, poisson that of the body.
 """
 
 import numpy as np

@@ -121,7 +121,7 @@ def _pictures(parser):
     kinds.add_argument("--profiles", action="store_true", help="fields along x and y; a stress on the surface")
     kinds.add_argument("--sections", action="store_true", help="von Mises and another stress over depth")
     kinds.add_argument("--component", choices=bodies.COMPONENTS, help="that other stress (xx)")
-    kinds.add_argument("--fatigue", action="store_true", help="fatigue parameters, with the place of the largest")
+    kinds.add_argument("--fatigue", action="store_true", help="fatigue parameters, with the place of the maximum")
     kinds.add_argument("--loop", action="store_true", help="a load over its displacement, of --cycle or of all steps")
     kinds.add_argument("--load", choices=tuple(PAIRS), help="the loops' load (that which does the most work)")
     kinds.add_argument("--energy", action="store_true", help="dissipated energy of every cycle")
@@ -162,15 +162,15 @@ def _steps(parser):
     which.add_argument("--time", type=numbers(float), metavar="T,...", help="the saved steps nearest to times, s")
     which.add_argument(
         "--cycle", type=numbers(float), metavar="C,...",
-        help="cycles from 1, -1 is the last: their loops, or ends; of a life the saved cycles nearest to C",
+        help="cycles from 1, -1 is the last: their loops, or ends; of a wear simulation the saved cycles nearest to C",
     )  # fmt: skip
     group.add_argument(
         "--range", type=steps, metavar="FIRST:LAST",
         help="only these load steps in histories and loops, from 1, -1 is the last: 33: leaves out the first 32",
     )  # fmt: skip
-    title = "cycles (by turning points of the displacement that works)"
+    title = "cycles (by reversals of the displacement that does the most work)"
     how = parser.add_argument_group(title).add_mutually_exclusive_group()
-    how.add_argument("--turns", metavar="NAME", help="by turning points of another scalar of /history")
+    how.add_argument("--turns", metavar="NAME", help="by reversals of another scalar of /history")
     how.add_argument(
         "--period",
         type=period,
@@ -197,7 +197,7 @@ def _look(parser):
     look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png, .pdf or .svg")
     look.add_argument("--format", choices=[end[1:] for end in FORMATS], help="instead of an end of the name (png)")
-    look.add_argument("--dpi", type=resolution, default=150, help="pixels an inch of a PNG, 10 to 1200 (150)")
+    look.add_argument("--dpi", type=resolution, default=150, help="pixels per inch of a PNG, 10 to 1200 (150)")
 
 
 def _check(parser, options):
@@ -209,7 +209,7 @@ def _check(parser, options):
         formats = ", ".join(FORMATS[:-1]) + " or " + FORMATS[-1]
         parser.error(f"--output {short(options.output)}: expected a name that ends in {formats}, or has no ending")
     if options.format and ending in FORMATS and ending != "." + options.format:
-        parser.error(f"--format {options.format}: the name {options.output} says otherwise")
+        parser.error(f"--format {options.format}: contradicts the ending of {options.output}: remove one of the two")
     if options.limits and len(options.field or ()) != 1 and not options.component:
         parser.error("--limits: is for one field or stress; name it by --field, or --component")
     if options.limits and options.percentile:

@@ -1,6 +1,6 @@
 """Pictures of the stresses in a body; each function takes stresses.Stresses and gives a matplotlib figure.
 
-A step is given as a pair (Stresses, index). Depth points down. Places of largest values are marked.
+A step is given as a pair (Stresses, index). Depth points down. Places of maximum values are marked.
 """
 
 import numpy as np
@@ -18,6 +18,10 @@ FATIGUE = {
     "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "Smith, Watson and Topper",
     "fatemi_socie": "Fatemi and Socie", "ruiz_1": "Ruiz, first", "ruiz_2": "Ruiz, second",
 }  # fmt: skip
+SHORT = {
+    "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "SWT", "fatemi_socie": "FS",
+    "ruiz_1": "$\\kappa_1$", "ruiz_2": "$\\kappa_2$",
+}  # fmt: skip
 LEVELS = 24  # of colours
 LINES = 8  # contours with a number
 STRESSES = ("xx", "yy", "zz", "xy", "xz", "yz")
@@ -27,11 +31,15 @@ OTHERS = {
 }  # fmt: skip
 COMPONENTS = (*STRESSES, *OTHERS)
 LABEL, MARK = "label", "mark"  # ids of the numbers of contours and of marks
-PLANES = 4  # of maps in a picture, unless --depth asks for some
+PLANES = 4  # of maps in a picture without --depth
 
 
 def _dataset(component):
     return "stress_" + component if component in STRESSES else component
+
+
+def _component(dataset):
+    return dataset.removeprefix("stress_")
 
 
 def _symbol(component):
@@ -43,7 +51,7 @@ def _have(files, name):
 
 
 def _one(files, component):
-    """The component that is asked for, and is there; None stands for xx, or else von Mises."""
+    """The requested component, if it is there; None stands for xx, or else von Mises."""
     if component is None:
         component = "xx" if _have(files, "stress_xx") or not _have(files, "mises") else "mises"
     for file in files:
@@ -140,9 +148,9 @@ def _untangle(figure):
 
 
 def _extremes(name, values):
-    """The largest value, and the smallest one of a stress that has a sign."""
-    high = f"largest {np.max(values):.4g}"
-    return f"{high}, smallest {np.min(values):.4g}" if _is_signed(name) else high
+    """The maximum, and the minimum of a stress that has a sign."""
+    high = f"maximum {np.max(values):.4g}"
+    return f"{high}, minimum {np.min(values):.4g}" if _is_signed(name) else high
 
 
 def _title(panel, text, remark, file, index):
@@ -151,7 +159,7 @@ def _title(panel, text, remark, file, index):
 
 
 def sections(steps, component=None, at=(0.0, 0.0), limits=None):
-    """Von Mises and a component of the stress over depth: a row a step, one scale a column."""
+    """Von Mises and a component of the stress over depth: one row per step, one scale per column."""
     need_few(len(steps), "steps and files")
     for file, _ in steps:
         if file.z.size < 2:
@@ -177,7 +185,7 @@ def sections(steps, component=None, at=(0.0, 0.0), limits=None):
                 xlabel=label(f"${axis}$", unit) + _at(where, length, unit),
                 ylabel=label("depth $z$", unit) if column == 0 else "",
             )
-            bar(panel, image, prefixed)
+            bar(panel, image, label(_symbol(_component(name)), prefixed))
             _title(panel, text, f"{_extremes(name, factor * values)} {prefixed}", file, index)
     _untangle(figure)
     return figure
@@ -216,7 +224,7 @@ def _planes(file, depths):
 
 
 def maps(steps, component=None, depths=None, limits=None):
-    """Von Mises and a component of the stress over planes: a row a step and depth, one scale a column."""
+    """Von Mises and a component of the stress over planes: one row per step and depth, one scale a column."""
     rows = [(file, index, k) for file, index in steps for k in _planes(file, depths)]
     for file, _ in steps:
         if file.along:
@@ -239,9 +247,9 @@ def maps(steps, component=None, depths=None, limits=None):
         for row, ((file, index, k), values) in enumerate(zip(rows, data)):
             panel = axes[layout.place(row, column, len(columns))]
             image = field(panel, factor * values, edges[row], factor * low, factor * high, colours)
-            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if column == 0 or layout.stacked else "")
+            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if layout.is_left(column) else "")
             layout.number(panel)
-            bar(panel, image, prefixed, layout.height)
+            bar(panel, image, label(_symbol(_component(name)), prefixed), layout.height)
             most = f"{_extremes(name, factor * values)} {prefixed}"
             depth = f"$z$ = {length * file.z[k]:.4g} {unit}, {most}{layout.remark}"
             _title(panel, text, depth, file, index)
@@ -249,7 +257,7 @@ def maps(steps, component=None, depths=None, limits=None):
 
 
 def fatigue(file, at=(0.0, 0.0)):
-    """Every fatigue parameter of a file: over a section, or over the first plane; the largest value is marked."""
+    """Every fatigue parameter of a file: over a section, or over the first plane; the maximum is marked."""
     names = file.fatigue
     if not names:
         raise Error(f"{file.path}: has no fatigue parameter (petsam-stress -fatigue)")
@@ -296,7 +304,7 @@ def _fatigue_panel(figure, panel, file, name, at):
     else:
         _mark(panel, length * along[i], length * down[k])
         panel.set(ylabel=label("depth $z$" if other == "z" else "$y$", unit))
-        bar(panel, image, prefixed)
+        bar(panel, image, label(SHORT[name], prefixed))
     place = f"${axis}$ = {length * along[i]:.4g} {unit}, ${other}$ = {length * down[k]:.4g} {unit}"
     panel.set_xlabel(label(f"${axis}$", unit) + _at(where, length, unit))
-    panel.set_title(f"{FATIGUE[name]}\nlargest {factor * high:.4g} {prefixed} at {place}", fontsize=9)
+    panel.set_title(f"{FATIGUE[name]}\nmaximum {factor * high:.4g} {prefixed} at {place}", fontsize=9)

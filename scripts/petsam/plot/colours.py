@@ -73,7 +73,7 @@ def _remark(share, signed, whole):
     """What the label says of a limit that is a percentile; whole is the largest value, in the label's unit."""
     if share >= 100.0:
         return ""
-    return f"{share:g} % of non-zero cells {'within' if signed else 'below'}, largest {whole:.3g}"
+    return f"{share:g} % of non-zero cells {'within' if signed else 'below'}, maximum {whole:.3g}"
 
 
 def _log_limits(magnitudes, high, limits):

@@ -9,15 +9,15 @@
     petsam-plot --scalar contact_area --against load_n a.h5 b.h5               any scalar of /history over any other
     petsam-plot --loop --range 33:64 strokes.h5     load steps 33 to 64 only
     petsam-plot --scalar stick_area --against load_tx --by friction study/results.h5       a study's table
-    petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles of a life
+    petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
-if friction works, and the history, of three cycles or more their loops and energies, too; of a life of many cycles
-(-wear_cycles) its fretting log, scar and life instead of these; of a file of petsam-stress its section or maps, the
-profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that vary, over the input with
-the most values. What does not vary, and what is zero but for rounding, is drawn only if it is asked for by name. An
-option that none of the pictures uses is refused.
+if friction works, and the history, of three cycles or more their loops and energies, too; of a wear simulation
+(-wear_cycles) its fretting log, scar and curves over the cycles instead of these; of a file of petsam-stress its
+section or maps, the profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that
+vary, over the input with the most values. Constant scalars and fields that are zero to rounding are drawn only by name.
+An option that none of the pictures uses is rejected.
 Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
 """
 
@@ -59,7 +59,7 @@ def asked(options):
 
 
 def chosen(options, results):
-    """The kinds of picture asked for, or all that the files are good for."""
+    """The kinds of picture that are requested, or all that the files contain data for."""
     kinds = asked(options)
     for one in results:
         if type(one) is not type(results[0]):
@@ -73,7 +73,7 @@ def chosen(options, results):
     for kind in kinds:
         if kind not in allowed:
             there = ", ".join(allowed)
-            raise Error(f"{results[0].path}: --{kind}: a file of {program(results[0])}, of which there are {there}")
+            raise Error(f"{results[0].path}: --{kind}: not for files of {program(results[0])}; use one of {there}")
     if kinds:
         return kinds
     if stresses:
@@ -197,7 +197,7 @@ def draw_cycles(options, results, kind):
     if kind == "loop":
         for one in results:
             if one.has_life:
-                raise Error(f"{one.path}: --loop: loops of the cycles of a life are drawn by --fretting-log --cycle")
+                raise Error(f"{one.path}: --loop: has wear cycles: draw their loops by --fretting-log --cycle")
         return loops.cycle_loops([found(options, one) for one in results], options.load, options.cycle)
     if kind == "energy":
         return loops.energy([found(options, one) for one in results], axes_of(options))

@@ -1,13 +1,14 @@
 """Loops of a load over its displacement, and the energy of every cycle, of results.Results.
 
-Cycles are those of petsam.cycles, given as one Cycles a file.
+Cycles are those of petsam.cycles, given as one Cycles per file. The energy beside a loop is that of this load on this
+displacement in one cycle; the dissipated energy of a cycle is that of all loads.
 """
 
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 
-from ..cycles import ENERGY, PAIRS, busiest
+from ..cycles import ENERGY, PAIRS, busiest, by_turns
 from ..errors import Error
 from . import symbols
 from .style import colors, curve, logarithmic, need_few, plt, tint
@@ -19,9 +20,7 @@ PIECE = 20  # points of a piece
 HEADROOM = 1.08  # the top of an axis of energies over the largest one
 
 
-def of_computed(results):
-    """What a sum over the steps of a life has to say: the cycles between those computed are not in it."""
-    return " in the computed cycles" if results.has_life else ""
+ALONE = 1e-3  # of a loop's area: smaller areas of the other loads' loops are rounding
 
 
 def loop_axes(results, pair=None):
@@ -30,6 +29,43 @@ def loop_axes(results, pair=None):
     if pair is None:
         raise Error(f"{results[0].path}: no load varies, a loop needs several steps")
     return {name: scale(results[0].units[name], largest(one.series(name) for one in results)) for name in PAIRS[pair]}
+
+
+def _area(x, y):
+    """Area of a closed polygon, positive when it is passed clockwise, as a load passes its displacement."""
+    return 0.5 * float(np.sum((x + np.roll(x, -1)) * (np.roll(y, -1) - y))) * -1.0
+
+
+def loop_energy(results, names, values, energy):
+    """Energy (J) that a load spends on its displacement over a closed loop; values(name) are those of its steps.
+
+    Where no other load and no bulk stress does work, that is the dissipated energy of the cycle (energy), which needs
+    no fine steps; else the area of the loop as it is drawn, whose sides are straight.
+    """
+    force, way = names
+    areas = {pair: _area(values(pair[1]), values(pair[0])) for pair in PAIRS.values()}
+    mine = areas.pop((force, way))
+    bulk = any(np.ptp(values(name)) > 0.0 for name in results.history if name.startswith("bulk"))
+    if force == "load_n" or bulk or max(map(abs, areas.values())) > ALONE * abs(mine):
+        return mine
+    return energy
+
+
+def _last_cycle(results, names):
+    """Energy of the last whole cycle of the displacement, J; None without one."""
+    if results.has_life:
+        steps = results.of_computed_cycle(results.wear["cycle"][-1])
+        return loop_energy(results, names, lambda name: results.history[name][steps], results.wear[ENERGY][-1])
+    cycles = by_turns(results.series(names[1]).astype(float))
+    if not cycles:
+        return None
+    return cycle_energy(results, names, cycles[-1])
+
+
+def cycle_energy(results, names, cycle):
+    """The same of a petsam.cycles.Cycle."""
+    friction = float(np.sum(results.series(ENERGY)[cycle.first + 1 : cycle.last + 1]))
+    return loop_energy(results, names, lambda name: results.series(name)[cycle.rows], friction)
 
 
 def _labels(axes, factors):
@@ -49,7 +85,7 @@ def _cloud(axes, x, y, color, text):
 
 
 def loop(results, pair=None):
-    """A load over its displacement, of every file; steps without a solution are left out."""
+    """A load over its displacement, of every file, with the energy of the last cycle; only steps with a solution."""
     for one in results:
         one.need_solution()
     factors = loop_axes(results, pair)
@@ -57,9 +93,9 @@ def loop(results, pair=None):
     figure, axes = plt.subplots(figsize=(6.4, 4.8), constrained_layout=True)
     for one, color in zip(results, colors(len(results))):
         x, y = (factors[name][0] * one.series(name) for name in (way, force))
-        energy = float(np.sum(one.series(ENERGY)))
-        factor, unit = scale("J", energy)
-        text = f"{plain(one.label)}: {factor * energy:.4g} {unit} dissipated" + of_computed(one)
+        energy = _last_cycle(one, tuple(factors))
+        factor, unit = scale("J", energy or 0.0)
+        text = plain(one.label) + (f": {factor * energy:.4g} {unit} in the last cycle" if energy is not None else "")
         (_line if x.size <= DENSE else _cloud)(axes, x, y, color, text)
         last = {"markersize": 6.0, "markerfacecolor": "white", "zorder": 3}
         axes.plot(x[-1], y[-1], "o", color=color, label="last step" if one is results[-1] else None, **last)
@@ -79,18 +115,18 @@ def cycle_loops(found, pair=None, numbers=None):
     need_few(len(chosen), "cycles and files")
     factors = loop_axes(results, pair)
     force, way = factors
-    energies = {id(one): one.energies for one in found}
-    joules, unit = scale("J", largest(energies.values()))
+    energies = [cycle_energy(one.results, tuple(factors), cycle) for one, cycle in chosen]
+    joules, unit = scale("J", largest([np.array(energies)]))
     figure, axes = plt.subplots(figsize=(7.6, 4.8), constrained_layout=True)
     tints = [tint(k, len(chosen)) for k in range(len(chosen))] if len(found) == 1 else colors(len(chosen))
-    for (one, cycle), color in zip(chosen, tints):
+    for (one, cycle), energy, color in zip(chosen, energies, tints):
         x, y = (factors[name][0] * one.results.series(name)[cycle.rows] for name in (way, force))
         who = "" if len(found) == 1 else plain(one.results.label) + ", "
-        text = f"{who}{cycle.number}: {joules * energies[id(one)][cycle.number - 1]:.4g} {unit}"
+        text = f"{who}{cycle.number}: {joules * energy:.4g} {unit}"
         axes.plot(x, y, color=color, label=text, **curve(x.size))
     _labels(axes, factors)
     outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.3}
-    axes.legend(title="cycle: dissipated", **outside)
+    axes.legend(title="cycle: energy of the loop", **outside)
     axes.set_title("cycles by " + plain(found[0].manner), fontsize=9.5, color="0.35")
     return figure
 
@@ -111,7 +147,7 @@ def _energies(one):
 
 
 def energy(found, logs=()):
-    """Dissipated energy of every cycle, a line a file."""
+    """Dissipated energy of every cycle, one line per file."""
     for one in found:
         if not one.results.has_life and not len(one):
             raise Error(f"{one.results.path}: --energy: has no whole cycle, by {one.manner}; see --turns and --period")

@@ -1,7 +1,7 @@
 """Maps of fields over the surface, of results.Results.
 
 A saved step is given as a pair (Results, index into its saved fields), and read no further than is drawn. Maps of
-grids that are twice as wide as high stand below each other, others side by side.
+grids that are twice as wide as high are drawn below each other, others side by side, more than four in two rows.
 """
 
 import textwrap
@@ -21,6 +21,7 @@ STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip",
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
 WIDE = 2.0  # width over height from which maps stand below each other
 FLAT = 12.0  # width over height of a map at most: what is longer is stretched, and says so
+ABREAST = 4  # maps of a snapshot side by side at most; more are drawn in two rows
 SIDE, LONG = 2.4, 7.0  # inches of a map: its height side by side, its width one below the other
 ONE = 5.0  # inches of the longer side of a map that is alone
 NARROW = 1.0  # inches of a map's width below which the numbers of x stand upright
@@ -81,11 +82,13 @@ class Layout:
         shown = self.ratio / self.stretch
         alone = fields == 1 and len(data) == 1
         if self.stacked:
+            self.abreast = 1
             self.rows, self.columns = len(data) * fields, 1
             self.width = LONG
             self.height = LONG / shown
         else:
-            self.rows, self.columns = len(data), fields
+            self.abreast = fields if fields <= ABREAST else -(-fields // 2)
+            self.rows, self.columns = len(data) * -(-fields // self.abreast), self.abreast
             side = ONE if alone else side
             self.height = side / min(1.0, shown) if not alone else side / max(1.0, shown)
             self.height = min(self.height, 6.0)
@@ -115,8 +118,13 @@ class Layout:
         return f" (${axis}$ is stretched {times:.3g} times)"
 
     def place(self, snapshot, column, fields):
-        """Row and column of a panel."""
-        return (snapshot * fields + column, 0) if self.stacked else (snapshot, column)
+        """Row and column of the panel of a snapshot's field."""
+        row, column = divmod(column, self.abreast)
+        return snapshot * -(-fields // self.abreast) + row, column
+
+    def is_left(self, column):
+        """Whether the map of a field begins a row."""
+        return column % self.abreast == 0
 
 
 def _colours_of_state(results, name, values):
@@ -179,7 +187,7 @@ def maps(snapshots, whole=False, names=None, choice=None):
         raise Error("--limits: expected one field, by --field")
     data, names = _gather(snapshots, names, whole)
     layout = Layout(data, len(names))
-    need_few(layout.rows * layout.columns if layout.stacked else layout.rows, "steps and files")
+    need_few(layout.rows, "steps and files")
     length, unit = scale("m", largest(np.array(one["extent"]) for one in data))
     figure, axes = plt.subplots(layout.rows, layout.columns, figsize=layout.size, squeeze=False, layout="constrained")
     for column, name in enumerate(names):
@@ -197,6 +205,8 @@ def maps(snapshots, whole=False, names=None, choice=None):
             one.setdefault("symbols", {})[name] = symbol
             _draw(panel, one, name, shown, layout, length)
             _titles(panel, layout, title, plain(results.title(index)) + layout.remark if column == 0 else "")
-            first = column == 0 or layout.stacked
-            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if first else "")
+            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if layout.is_left(column) else "")
+    for panel in axes.flat:
+        if not panel.images:  # behind the last field
+            panel.set_axis_off()
     return figure

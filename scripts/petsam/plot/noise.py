@@ -1,9 +1,9 @@
-"""What a picture leaves out by itself: what does not vary, and what is rounding noise. Asked for by name it is drawn.
+"""Pictures omit constants and rounding noise, unless they are named.
 
 The rule: a scalar counts where it varies, a field where it differs from zero, by more than NOISE of the scale of its
-kind, over all files of a picture. The scales: of forces the largest load; of displacements and slip the largest
+kind, over all files of a picture. The scales: of forces the maximum load; of displacements and slip the maximum
 displacement; of moments a force times the size of the contact; of rotations a displacement over it; of shear the
-largest pressure; of energies a force times a displacement; of other units the largest value itself. Moments of periodic
+maximum pressure; of energies a force times a displacement; of other units the maximum itself. Moments of periodic
 bodies, which do not rotate, do not count.
 """
 

@@ -101,7 +101,7 @@ def _panel(panel, results, name, other, across):
 
 
 def history(results, names=None, other=TIME, option="--names", logs=()):
-    """Scalars of /history over time, or over another scalar: a panel each, a line a file.
+    """Scalars of /history over time, or over another scalar: one panel each, one line per file.
 
     Of steps without a solution the status alone. logs are the axes, x or y, that are logarithmic.
     """

@@ -22,7 +22,7 @@ PANELS = 64  # of a picture at most, one below the other or side by side
 MARKED = 80  # points of a curve that are marked one by one; more would be a band
 TURNS = 20  # of the abscissa, of ten cycles; with more a curve over it is drawn as points
 BINS = 1500  # parts of an axis of time, more than a panel has pixels: of each the extremes are drawn
-CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed solution
+CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed-form solution
 
 
 def colors(count):
@@ -62,7 +62,7 @@ def curve(count, **style):
 
 def scattered(x, **style):
     """The same of a curve over any quantity x: points without lines when there are more than MARKED and x turns back
-    more than TURNS times, where lines to and fro would be a solid block. A loop that is passed a few times keeps them.
+    more than TURNS times, where the lines would be a solid block. A loop that is passed a few times keeps them.
     """
     moves = np.sign(np.diff(x[np.isfinite(x)]))
     moves = moves[moves != 0.0]
@@ -133,11 +133,22 @@ def field(axes, values, edges, low=0.0, high=None, color_map="viridis", norm=Non
 
 
 class _Plain(LogFormatterMathtext):
-    """Numbers of a logarithmic axis as they are written elsewhere: 30, not 3 times 10 to the first."""
+    """Numbers of a logarithmic axis as they are written elsewhere: 30, not 3 times 10 to the first; of those between
+    the decades no more than there is room for."""
+
+    # decades on the axis at most, and the first digits that are written
+    ROOM = ((0.2, range(1, 10)), (0.45, (1, 2, 3, 4, 5, 6, 8)), (0.9, (1, 2, 3, 5)), (2.2, (1, 2, 5)))
 
     def __call__(self, x, pos=None):
-        text = super().__call__(x, pos)
-        return f"{x:g}" if text and 1e-3 <= abs(x) < 1e5 else text
+        if not x > 0.0:
+            return ""
+        low, high = sorted(self.axis.get_view_interval())
+        decades = np.log10(high / low) if low > 0.0 else np.inf
+        first = x / 10.0 ** np.floor(np.log10(x) + 1e-9)
+        digits = next((digits for most, digits in self.ROOM if decades <= most), (1,))
+        if abs(first - round(first)) < 1e-6 and round(first) not in digits:
+            return ""
+        return f"{x:g}" if 1e-3 <= abs(x) < 1e5 or abs(first - 1.0) > 1e-6 else super().__call__(x, pos)
 
 
 def logarithmic(panel, axes):
@@ -146,7 +157,7 @@ def logarithmic(panel, axes):
         panel.set(**{f"{name}scale": "log"})
         axis = getattr(panel, name + "axis")
         axis.set_major_formatter(_Plain())
-        axis.set_minor_formatter(_Plain(minor_thresholds=(1.0, 0.4)))
+        axis.set_minor_formatter(_Plain())
 
 
 def log_ticks(axes, values):

@@ -94,7 +94,7 @@ def _once(study, names):
 
 
 def rows(study, where=()):
-    """Which cases are drawn: those that finished, and whose columns have the values asked for (name, text)."""
+    """Which cases are drawn: those that finished, and whose columns have the given values (name, text)."""
     chosen = study.codes == 0
     for name, text in where:
         values, _ = study.column(name, "--where")
@@ -111,7 +111,7 @@ def rows(study, where=()):
             raise Error(f"{study.path}: --where {short(name)}={short(text)}: no case has it; there are {there}")
         chosen = chosen & match
     if not chosen.any():
-        raise Error(f"{study.path}: none of the cases asked for has finished")
+        raise Error(f"{study.path}: none of the chosen cases has finished")
     return chosen
 
 
@@ -229,7 +229,7 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
         (figure if outside else axes.flat[0]).legend(handles, texts, **outside)
     left = sum(int(np.sum(one.codes != 0)) for one in studies)
     if left:
-        figure.suptitle(f"left out, as they have not finished: {left} of the cases", fontsize=9, color="0.35")
+        figure.suptitle(f"omitted: {left} unfinished cases", fontsize=9, color="0.35")
     return figure
 
 

@@ -40,7 +40,7 @@ def scale(unit, largest):
 
 
 def counted(largest):
-    """Factor and words in which up to so many cycles are told."""
+    """Factor and words for numbers of cycles up to the largest."""
     size, word = next((pair for pair in NUMBERS if largest >= pair[0]), (1.0, ""))
     return 1.0 / size, word + "cycles"
 

@@ -1,4 +1,4 @@
-"""Which pictures use which options: one that no picture uses is refused, not ignored."""
+"""Which pictures use which options: an option that no picture uses is rejected, not ignored."""
 
 from ..errors import Error
 from ..stresses import Stresses

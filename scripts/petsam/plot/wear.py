@@ -1,14 +1,14 @@
-"""Pictures of wear: the fretting log, scars and the life of a joint; each function gives a matplotlib figure.
+"""Pictures of wear: the fretting log, scars, and quantities over the cycles; each function gives a matplotlib figure.
 
-A fretting log is the family of a life's loops: the tangential load of a cycle over its displacement. Cycles are told in
-thousands or millions, and coloured in their order, dark to bright: they range over decades, and begin with 0.
+A fretting log is the family of loops of a wear simulation: the tangential load of a cycle over its displacement. Cycles
+are numbered in thousands or millions, and coloured in their order, dark to bright: they range over decades, from 0.
 """
 
 import numpy as np
 
 from ..errors import Error
 from ..results import BLOCK
-from .loops import LOOPS, loop_axes, spread
+from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
 from .profiles import crossing
 from .style import colors, curve, need_few, plt, tint
 from .symbols import SYMBOLS
@@ -18,10 +18,10 @@ LINES = 10  # of a scar by itself
 # names in /wear, of both bodies or of the joint, and what they are called
 LIFE = (
     (("volume1", "volume2"), "removed volume"),
-    (("depth_max1", "depth_max2"), "largest depth"),
+    (("depth_max1", "depth_max2"), "maximum depth"),
     (("dissipated_energy",), "dissipated energy of a cycle"),
     (("contact_area",), "contact area"),
-    (("pressure_max",), "largest pressure"),
+    (("pressure_max",), "maximum pressure"),
 )
 BODIES = (".-", "s--")  # lines of the first and the second body that wears
 LOOK = {"linewidth": 1.2, "markersize": 3.5, "markerfacecolor": "white"}
@@ -46,23 +46,26 @@ def logged(one):
     return sorted({0, volume.size - 1, *(int(np.argmin(np.abs(volume - part))) for part in wanted[1:-1])})
 
 
-def _of_life(one, wanted):
+def _of_life(one, names, wanted):
     """Cycles, energies and points (name: values) of the loops of a life: of the computed cycles nearest to those
     wanted, or of some."""
     cycles = one.wear["cycle"]
     rows = sorted({int(np.argmin(np.abs(cycles - cycle))) for cycle in wanted}) if wanted else logged(one)
     loops = [one.of_computed_cycle(cycle) for cycle in cycles[rows]]
     points = [lambda name, steps=steps: _closed(one.history[name][steps]) for steps in loops]
-    return cycles[rows], one.wear["dissipated_energy"][rows], points
+    friction = one.wear["dissipated_energy"][rows]
+    energies = [loop_energy(one, names, values, energy) for values, energy in zip(points, friction)]
+    return cycles[rows], np.array(energies), points
 
 
-def _of_history(one, found, wanted):
-    """The same of a history without a life."""
+def _of_history(one, names, found, wanted):
+    """The same of a history without wear over cycles."""
     if not len(found):
         raise Error(f"{one.path}: --fretting-log: has no whole cycle, by {found.manner}; see --turns and --period")
     chosen = [found.numbered(number) for number in wanted or spread(len(found))]
     points = [lambda name, rows=cycle.rows: one.series(name)[rows] for cycle in chosen]
-    return np.array([float(cycle.number) for cycle in chosen]), found.energies[[c.number - 1 for c in chosen]], points
+    energies = [cycle_energy(one, names, cycle) for cycle in chosen]
+    return np.array([float(cycle.number) for cycle in chosen]), np.array(energies), points
 
 
 def _loops(panel, one, factors, loops):
@@ -74,22 +77,25 @@ def _loops(panel, one, factors, loops):
         y, x = (size * values(name) for name, (size, _) in factors.items())
         text = f"{factor * cycle:.3g}: {joules * energy:.3g} {unit}"
         panel.plot(x, y, color=tint(k, cycles.size), label=text, **curve(x.size, markersize=3.0))
-    _legend(panel, f"{words}: dissipated")
+    _legend(panel, f"{words}: energy of the loop")
     panel.set_title(plain(one.label), fontsize=9.5)
 
 
 def fretting_log(files, pair=None, find=None, wanted=None):
-    """Loops of some cycles, or of those wanted, a panel a file; pair names the load, that which does most work if None.
+    """Loops of some cycles, or of those wanted, one panel per file; pair names the load (that which does most work).
 
-    Of a life these are computed cycles, of another history those of find(file), petsam.cycles.Cycles.
+    Of wear over cycles these are computed cycles, of another history those of find(file), petsam.cycles.Cycles.
     """
     need_few(len(files), "files")
     need_few(len(wanted or ()), "cycles")
     for one in files:
         if find is None:
             one.need_life()
-    data = [_of_life(one, wanted) if one.has_life else _of_history(one, find(one), wanted) for one in files]
     factors = loop_axes(files, pair)
+    names = tuple(factors)
+    data = [
+        _of_life(one, names, wanted) if one.has_life else _of_history(one, names, find(one), wanted) for one in files
+    ]
     figure, axes = plt.subplots(
         1, len(files), figsize=(6.9 * len(files), 4.8), squeeze=False, sharex=True, sharey=True, constrained_layout=True
     )
@@ -182,7 +188,7 @@ def _scar_panel(panel, row, axis, units, whole):
 
 
 def scar(steps, at=None, whole=False):
-    """Removed depth along x (left) and y (right) through its deepest point: a row a body, a line a step."""
+    """Removed depth along x (left) and y (right) through its deepest point: one row per body, one line per step."""
     need_few(len(steps), "steps and files")
     rows = _scar_rows(steps, at)
     depth = largest(
@@ -237,7 +243,7 @@ def _life_legend(panel, files):
 
 
 def life(files):
-    """Volume, largest depth, energy of a cycle, contact area and largest pressure over the cycles, a line a file."""
+    """Volume, maximum depth, energy, contact area and maximum pressure over the cycles, one line per file."""
     for one in files:
         one.need_life()
     figure, axes = plt.subplots(2, 3, figsize=(12.6, 6.2), sharex=True, constrained_layout=True)

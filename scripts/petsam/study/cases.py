@@ -1,7 +1,8 @@
-"""The cases of a study, from its table: a CSV file with a row a case, or a small YAML file of combinations.
+"""The cases of a study, from its table: a CSV file with one row per case, or a small YAML file of combinations.
 
 CSV: the first line names options of petsam (with or without their dash), each further row is a case; an empty cell
-leaves the option out, `#` starts a comment. A column `ranks` gives a case's MPI ranks, a column `case` its name.
+leaves the option out, `#` starts a comment. Semicolons separate the columns if the first line has one. A column
+`ranks` gives a case's MPI ranks, a column `case` its name.
 
 YAML: `options` maps options of petsam to a value or to a list; every combination of the lists is a case. `parameters`
 is the same for names that are no options, `files` maps names of files that every case gets in its own folder to their
@@ -28,17 +29,17 @@ PATHS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file"
 HASHED = ("options_file", "history", "load_history")
 SMALL = 16 << 20  # bytes; a larger text is compared as the others are
 TAKEN = {
-    "output": "petsam-study names the results",
-    "checkpoint": "see --checkpoint",
-    "restart": "see --checkpoint",
-    "checkpoint_every": "see --checkpoint",
+    "output": "petsam-study chooses the file; remove the option",
+    "checkpoint": "use --checkpoint instead",
+    "restart": "use --checkpoint instead",
+    "checkpoint_every": "use --checkpoint instead",
 }
 
 
 CASES = 100000  # of a study at most
 FILES = 100 << 20  # characters of all files that the cases of a YAML table get
 RANKS = 1000000  # of a case at most
-# what petsam-study itself writes beside the cases' folders
+# files of petsam-study beside the cases' folders
 OWN = re.compile(r"results\.(csv|h5)(\.tmp)?|slurm-\d+(_\d+)?\.out")
 NAME = 255  # bytes of a file's name
 
@@ -81,7 +82,7 @@ def _content(path):
         with open(path, encoding="utf-8", errors="replace") as file:
             return file.read()
     except (OSError, Error):
-        return path  # petsam will say so
+        return path  # petsam reports it
 
 
 def _stamp(path):
@@ -96,7 +97,7 @@ def _stamp(path):
 
 
 def _name(inputs):
-    """A folder's name for what differs, which does not change when cases are added."""
+    """A folder's name from the inputs that vary; it does not change when cases are added."""
     text = "_".join("{}={}".format(name, os.path.basename(value or "")) for name, value in inputs.items()) or "case"
     text = re.sub(r"[^A-Za-z0-9.,=+_-]", "-", text)
     if len(text) > 100:
@@ -110,12 +111,12 @@ def _ranks(text, where):
     except ValueError:
         ranks = math.nan
     if not (1 <= ranks <= RANKS and ranks == int(ranks)):
-        raise TableError(f"{where}: ranks {short(text)}: expected a whole number from 1 to {RANKS}")
+        raise TableError(f"{where}: ranks {short(text)}: use an integer from 1 to {RANKS}")
     return int(ranks)
 
 
 def _located(options, files, folder):
-    """Options with their files' absolute paths; those that the case gets in its own folder stay."""
+    """Options with their files' absolute paths; names of files in the case's own folder stay."""
     return {
         name: os.path.normpath(os.path.join(folder, value)) if name in PATHS and value and value not in files else value
         for name, value in options.items()
@@ -130,14 +131,14 @@ def common_options(words):
             name = word[1:]
             options[name] = None
         elif name is None or options[name] is not None:
-            raise TableError(f"{word}: expected an option, that is a word that begins with a dash")
+            raise TableError(f"{word}: expected an option: it begins with a dash")
         else:
             options[name] = word
     return _located(options, {}, os.getcwd())
 
 
 def _csv_cases(path, _common):
-    """(where, inputs, options, files, ranks, name) of each row; what differs makes the name."""
+    """(where, inputs, options, files, ranks, name) of each row; the inputs that vary make the name."""
     names, rows = read_csv(path)
     _need_few(path, len(rows))
     varied = [
@@ -158,11 +159,11 @@ def _csv_cases(path, _common):
 
 def _need_few(path, count):
     if count > CASES:
-        raise TableError(f"{path}: {count:.6g} cases: expected at most {CASES}")
+        raise TableError(f"{path}: {count:.6g} cases; use at most {CASES}")
 
 
 def _yaml_cases(path, common):
-    """The same of each combination; what is common to all counts in expressions, too."""
+    """The same of each combination; expressions may use the common options, too."""
     table = read_yaml(path)
     choices = {**table.parameters, **table.options}
     choices.update({name: [value] for name, value in common.items() if name in table.options})
@@ -194,17 +195,17 @@ def _yaml_cases(path, common):
 def _check_name(name, where, seen):
     """Error unless the name can be that of a case's folder."""
     if not re.fullmatch(r"[A-Za-z0-9.,=+_-]+", name) or not name.strip("."):
-        raise TableError(f"{where}: case {short(name)}: expected letters, digits and .,=+_-")
+        raise TableError(f"{where}: case {short(name)}: use letters, digits and .,=+_-")
     if len(name) > NAME:
-        raise TableError(f"{where}: case {short(name)}: expected at most {NAME} characters")
+        raise TableError(f"{where}: case {short(name)}: use at most {NAME} characters")
     if OWN.fullmatch(name):
-        raise TableError(f"{where}: case {name}: is the name of a file that petsam-study writes")
+        raise TableError(f"{where}: case {name}: is reserved for a file of petsam-study; use another name")
     if name in seen:
-        raise TableError(f"{where}: the same name, {name}, as {seen[name]}; a column `case` tells them apart")
+        raise TableError(f"{where}: the same name, {name}, as {seen[name]}; add a column `case` with names")
 
 
 def read(path, common=None, ranks=1):
-    """The cases of a table, with options common to all (which override the table's) and the ranks of those without."""
+    """The cases of a table, with options common to all (which override the table's) and the default number of ranks."""
     kind = _yaml_cases if path.lower().endswith((".yaml", ".yml")) else _csv_cases
     folder, common, cases, seen = os.path.dirname(os.path.abspath(path)), common or {}, [], {}
     for where, inputs, options, files, (count, place), name in kind(path, common):

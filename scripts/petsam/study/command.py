@@ -4,11 +4,24 @@
     petsam-study study.yaml --cores 16 --ranks 4
     petsam-study study.yaml --slurm --sbatch "--time=2:00:00 --partition=short"
 
-The table is CSV (a column an option, a row a case) or YAML (all combinations of lists of values); options after `--`
-hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that
-have finished with the same inputs are not run again, so the same command goes on after an interruption (Ctrl-C, or the
-end of a job). Results of all go to DIRECTORY/results.csv and results.h5. A study has at most 100000 cases.
-petsam-plot draws results.h5. Of histories with cycles the table has the energies of some: --turns, --period, --cycle.
+The table is CSV (one column per option, one row per case; commas or semicolons) or YAML (all combinations of lists).
+Sections of a YAML table:
+  options     options of petsam: a value or a list of values
+  parameters  names of your own for {expressions}, likewise
+  files       NAME: text of a file that each case gets in its folder, with {expressions}; an option refers to NAME
+  ranks       MPI ranks of a case
+
+  options: {history: cycle.csv, load_n: 1000, friction: [0.1, 0.5]}
+  files:
+    cycle.csv: |
+      time, load_tx
+      1,    {0.8 * friction * load_n}
+
+Options after `--` hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in
+DIRECTORY/NAME. Cases that have finished with the same inputs are not run again, so the same command resumes after an
+interruption (Ctrl-C, or the end of a job). The results of all cases are written to DIRECTORY/results.csv and
+results.h5. A study has at most 100000 cases. petsam-plot draws results.h5. For histories with cycles the table lists
+the energies of some: --turns, --period, --cycle.
 """
 
 import argparse
@@ -33,7 +46,7 @@ def positive(text):
     except ValueError:
         value = 0
     if not 1 <= value <= MOST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a whole number from 1 to {MOST}")
+        raise argparse.ArgumentTypeError(f"{short(text)}: use an integer from 1 to {MOST}")
     return value
 
 
@@ -52,22 +65,35 @@ def numbers(text):
     except ValueError:
         values = (0,)
     if 0 in values or max(map(abs, values)) > MOST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected whole numbers from 1, or from -1, and commas")
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected integers separated by commas: from 1, or from -1 backwards"
+        )
     return values
 
 
 def _cycle_options(parser):
     of_cycles = parser.add_argument_group("energies of cycles in the table")
     how = of_cycles.add_mutually_exclusive_group()
-    how.add_argument("--turns", metavar="NAME", help="cycles by turning points of this scalar (a displacement)")
-    how.add_argument("--period", type=period, metavar="T[,START]", help="cycles by time, s, instead")
+    how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
+    how.add_argument(
+        "--period", type=period, metavar="T[,START]", help="instead: duration of a cycle, and its start (s)"
+    )
     of_cycles.add_argument(
         "--cycle",
         type=numbers,
         metavar="K,...",
         default=(),
-        help="further cycles than the last; -2 is the one before it",
+        help="cycles in addition to the last; -2 is the second last",
     )
+
+
+def _taken(words):
+    """Join --sbatch to its value, which begins with dashes."""
+    found = list(words)
+    while "--sbatch" in found[:-1]:
+        at = found.index("--sbatch")
+        found[at : at + 2] = [f"--sbatch={found[at + 1]}"]
+    return found
 
 
 def arguments():
@@ -82,8 +108,8 @@ def arguments():
     )
     parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
     parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")
-    parser.add_argument("--cores", type=positive, help="cores to use (all that this process may)")
-    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases whose table says nothing (1)")
+    parser.add_argument("--cores", type=positive, help="cores to use (all available to this process)")
+    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases without a value in the table (1)")
     parser.add_argument(
         "--launcher", metavar="WORDS", help="MPI launcher, to which -n RANKS is added ($MPIRUN, mpirun)"
     )
@@ -91,20 +117,22 @@ def arguments():
         "--checkpoint",
         type=positive,
         metavar="M",
-        help="write a checkpoint every M steps; a case that was stopped goes on from it",
+        help="write a checkpoint every M steps; a stopped case resumes from it",
     )
-    parser.add_argument("--skip-failed", action="store_true", help="do not run again what has failed before")
+    parser.add_argument("--skip-failed", action="store_true", help="do not rerun failed cases")
     parser.add_argument("--quiet", action="store_true", help="print failures only")
     what = parser.add_mutually_exclusive_group()
-    what.add_argument("--list", action="store_true", help="print the cases and how they stand, run nothing")
-    what.add_argument("--case", type=positive, metavar="K", help="run the K-th case of --list only, write no tables")
-    what.add_argument("--collect", action="store_true", help="write the tables, run nothing")
-    what.add_argument("--slurm", action="store_true", help="submit a job array of the cases, and a job that collects")
+    what.add_argument("--list", action="store_true", help="print the cases and their status only")
+    what.add_argument("--case", type=positive, metavar="K", help="run only the K-th case of --list, without tables")
+    what.add_argument("--collect", action="store_true", help="write the tables only")
+    what.add_argument(
+        "--slurm", action="store_true", help="submit a job array of the cases, and a job that writes the tables"
+    )
     parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
     _cycle_options(parser)
-    options = parser.parse_args(joined(words[:at]))
+    options = parser.parse_args(joined(_taken(words[:at])))
     if options.sbatch and not options.slurm:
-        parser.error("--sbatch: is for --slurm")
+        parser.error("--sbatch requires --slurm")
     options.words = words[at + 1 :]
     options.directory = os.path.abspath(options.directory or os.path.splitext(os.path.basename(options.table))[0])
     return options
@@ -119,7 +147,7 @@ def due(options, cases):
     """Cases that are to be run, in order."""
     wanted = cases if options.case is None else cases[options.case - 1 : options.case]
     if not wanted:
-        raise TableError(f"--case {options.case}: there are {len(cases)} cases")
+        raise TableError(f"--case {options.case}: use 1 to {len(cases)}")
     waiting = []
     for case in wanted:
         code = record(options.directory, case).get("exit_code")
@@ -129,19 +157,21 @@ def due(options, cases):
 
 
 def run(options, cases, waiting):
-    """Run what waits; the number of the signal that ended it, or 0."""
+    """Run the waiting cases; the number of the signal that ended the study, or 0."""
     cores = options.cores or available_cores()
     words = environment.launcher(options.launcher)
     program = environment.petsam()
     for case in waiting:
         if case.ranks > cores and options.case is None:
-            raise TableError(f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; see --cores")
+            raise TableError(
+                f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; use fewer ranks or larger --cores"
+            )
     cores = max([cores, *[case.ranks for case in waiting]]) if options.case else cores
     before = len(cases) - len(waiting)
     if not options.quiet and options.case is None:
         print(
             "{} cases{}, {} cores, {}".format(
-                len(waiting), f" ({before} more need not run)" if before else "", cores, options.directory
+                len(waiting), f" ({before} others skipped)" if before else "", cores, options.directory
             ),
             flush=True,
         )
@@ -160,14 +190,14 @@ def run(options, cases, waiting):
 
 
 def prepare(options, cases):
-    """Make the study's folder; Error where what is to be written there would replace something else."""
+    """Make the study's folder; Error where the results would replace another file."""
     if os.path.lexists(options.directory) and not os.path.isdir(options.directory):
-        raise Error(f"{options.directory}: is not a folder; --directory names another")
+        raise Error(f"{options.directory}: is not a folder; choose another by --directory")
     os.makedirs(options.directory, exist_ok=True)
     for name in ("results.csv", "results.h5"):
         path = os.path.join(options.directory, name)
         if same(path, options.table) or same(path + ".tmp", options.table):
-            raise Error(f"{options.table}: would be replaced by the results; --directory names another folder")
+            raise Error(f"{options.table}: would be replaced by the results; choose another folder by --directory")
     check_folders(options.directory, cases)
 
 
@@ -182,7 +212,7 @@ def write(options, cases):
 
 
 def carry_out(options):
-    """Do what the options ask for; the exit code."""
+    """Carry out the options; the exit code."""
     cases = read(options.table, common_options(options.words), options.ranks)
     if options.list:
         for case in cases:
@@ -199,7 +229,7 @@ def carry_out(options):
         write(options, cases)
     code = summary(options.directory, cases)
     if ended:
-        print("petsam-study: interrupted; the same command goes on from here", file=sys.stderr)
+        print("petsam-study: interrupted; run the same command again to resume", file=sys.stderr)
     return 128 + ended if ended else code
 
 

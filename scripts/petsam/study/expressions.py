@@ -49,14 +49,14 @@ def _number(node, lookup):
         and not node.keywords
     ):
         return FUNCTIONS[node.func.id](*[_number(argument, lookup) for argument in node.args])
-    raise ValueError("only numbers, names, + - * / **, and {} are understood".format(", ".join(sorted(FUNCTIONS))))
+    raise ValueError("use only numbers, names, + - * / **, and {}".format(", ".join(sorted(FUNCTIONS))))
 
 
 @functools.lru_cache(maxsize=10000)
 def _tree(expression):
     """Syntax tree of an expression; the same ones come again in every case."""
     if len(expression) > LENGTH:
-        raise ValueError(f"expected at most {LENGTH} characters")
+        raise ValueError(f"use at most {LENGTH} characters")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return ast.parse(expression, mode="eval").body
@@ -71,7 +71,7 @@ class Expander:
     def text(self, name):
         """Value of a name, expanded (once: names that refer to others twice would take for ever)."""
         if name not in self.values:
-            raise ValueError(f"there is no parameter or option {short(name)}")
+            raise ValueError(f"unknown parameter or option {short(name)}")
         if name in self.open:
             raise ValueError(f"{name} refers to itself")
         if name not in self.known:
@@ -89,7 +89,7 @@ class Expander:
         try:
             return float(text)
         except (TypeError, ValueError):
-            raise ValueError(f"{name} = {short(text)} is no number") from None
+            raise ValueError(f"{name} = {short(text)} is not a number") from None
 
     def _value(self, expression):
         """Text of an expression's value; None for an option without a value."""
@@ -102,7 +102,7 @@ class Expander:
         except (SyntaxError, ArithmeticError, TypeError) as error:
             raise ValueError(getattr(error, "msg", None) or str(error)) from error
         if not isinstance(value, float) or not math.isfinite(value):
-            raise ValueError(f"is {value:g}, no finite number" if isinstance(value, float) else "is no number")
+            raise ValueError(f"is {value:g}, which is not finite" if isinstance(value, float) else "is not a number")
         return f"{value:.15g}"
 
     def expand(self, text):
@@ -120,5 +120,5 @@ class Expander:
                     raise ExpressionError(f"{{{short(part.strip())}}}: {error}") from error
             length += len(parts[k])
             if length > TEXT:
-                raise ExpressionError(f"{short(text)}: expected at most {TEXT} characters when it is expanded")
+                raise ExpressionError(f"{short(text)}: use at most {TEXT} characters after expansion")
         return "".join(parts)

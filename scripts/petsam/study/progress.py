@@ -1,4 +1,4 @@
-"""What petsam-study says: a line a case, how all stand, and what has failed."""
+"""Printed lines of petsam-study: one per case, a summary, the failures."""
 
 import os
 import sys
@@ -8,7 +8,7 @@ from .runs import LOG, MEANINGS, STOPPED, record
 
 
 def standing(directory, case):
-    """A word on how a case stands."""
+    """The status of a case in a word."""
     code = record(directory, case).get("exit_code", "")
     if code == 0:
         return "finished"
@@ -22,7 +22,7 @@ def clock(seconds):
 
 
 class Progress:
-    """A line for each case that ends, and on a terminal one that says what is going on."""
+    """A line for each case that ends, and on a terminal a line of progress."""
 
     def __init__(self, total, quiet):
         self.total, self.quiet, self.start = total, quiet, time.monotonic()
@@ -72,7 +72,7 @@ class Progress:
 
 
 def summary(directory, cases):
-    """Print how all cases stand, failures with exit codes and messages; the study's exit code."""
+    """Print the status of all cases, failures with exit codes and messages; the study's exit code."""
     records = [(case, record(directory, case)) for case in cases]
     failed = [(case, known) for case, known in records if known.get("exit_code") not in (0, None, STOPPED)]
     stopped = sum(known.get("exit_code") == STOPPED for _, known in records)

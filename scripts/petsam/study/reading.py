@@ -1,4 +1,4 @@
-"""The text of a study's table, CSV or YAML, as names and values; errors of whatever it holds, with their place."""
+"""The text of a study's table, CSV or YAML, as names and values; errors with their place."""
 
 import collections
 import csv
@@ -17,7 +17,7 @@ VALUE = 16384  # characters of a value: the system bounds the words of a command
 NAME = re.compile(r"[A-Za-z]\w*")  # of an option or a parameter
 KEYS = ("options", "parameters", "files", "ranks")
 EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
-# what a case's folder holds anyway (runs.py), and what petsam writes beside it
+# files in the folder of every case (runs.py), and of petsam
 FOLDER = re.compile(r"(petsam\.log|record\.json|lock|results\.(h5|xdmf)|checkpoint.*)(\..*)?")
 FILE_NAME = 251  # bytes: it is written as NAME.tmp first
 SCALARS = {"tag:yaml.org,2002:" + kind for kind in ("null", "bool", "int", "float", "str", "timestamp")}
@@ -35,19 +35,19 @@ def _text_of(path, limit):
     """All text of a file, without the mark of its encoding."""
     size = need_regular(path).st_size
     if size > limit:
-        raise TableError(f"{path}: has {size} bytes; expected a table of at most {limit}")
+        raise TableError(f"{path}: has {size} bytes; use at most {limit}")
     with open(path, "rb") as file:
         data = file.read(limit + 1)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise TableError(f"{path}, line 1: is UTF-16; expected UTF-8")
+        raise TableError(f"{path}, line 1: is UTF-16; save it as UTF-8")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise TableError(f"{path}, line {line}: is not UTF-8 text") from error
+        raise TableError(f"{path}, line {line}: is not UTF-8; save it as UTF-8") from error
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
-        raise TableError(f"{path}, line {line}: holds a NUL character, which no text does")
+        raise TableError(f"{path}, line {line}: contains a NUL character; remove it")
     return text
 
 
@@ -56,9 +56,9 @@ def _check_value(value, where):
     if value is None:
         return
     if len(value) > VALUE:
-        raise TableError(f"{where}: a value of {len(value)} characters; expected at most {VALUE}")
+        raise TableError(f"{where}: a value of {len(value)} characters; use at most {VALUE}")
     if "\0" in value or not _encodes(value):
-        raise TableError(f"{where}: {short(value)}: holds a character that no text does")
+        raise TableError(f"{where}: {short(value)}: contains an invalid character; remove it")
 
 
 def _encodes(text):
@@ -72,9 +72,9 @@ def _encodes(text):
 # ---------------------------------------------------------------- CSV
 
 
-def _cells(path, number, line):
+def _cells(path, number, line, separator):
     """The cells of one line; a quoted one ends on it, too."""
-    table = csv.reader([line, ""], skipinitialspace=True)
+    table = csv.reader([line, ""], skipinitialspace=True, delimiter=separator)
     try:
         row = next(table)
     except csv.Error as error:
@@ -91,7 +91,7 @@ def _check_columns(path, number, names):
     counts = collections.Counter(names)
     for name in names:
         if not NAME.fullmatch(name) or counts[name] > 1:
-            reason = "is no option's name" if counts[name] == 1 else "appears twice"
+            reason = "is not an option's name" if counts[name] == 1 else "appears twice"
             raise TableError(f"{path}, line {number}: column {short(name) or repr('')}: {reason}")
 
 
@@ -99,11 +99,12 @@ def read_csv(path):
     """Names of the columns, and rows as (line's number, values by name without the empty ones)."""
     text = io.StringIO(_text_of(path, CSV), newline="")
     # blank lines and comments go, but lines are counted
-    rows = [
-        (number, _cells(path, number, line))
-        for number, line in enumerate(text, 1)
-        if line.strip() and not line.lstrip().startswith("#")
+    lines = [
+        (number, line) for number, line in enumerate(text, 1) if line.strip() and not line.lstrip().startswith("#")
     ]
+    # as in histories: spreadsheets write semicolons where the decimal sign is a comma
+    separator = ";" if lines and ";" in lines[0][1] else ","
+    rows = [(number, _cells(path, number, line, separator)) for number, line in lines]
     if len(rows) < 2:
         raise TableError(f"{path}: expected a line of option names and at least one case")
     names = [_plain(name) for name in rows[0][1]]
@@ -140,14 +141,14 @@ class _Reader:
         return TableError("{}{}: {}".format(self.path, f", line {node.start_mark.line + 1}" if node else "", text))
 
     def pairs(self, node, key):
-        """{name: node} of a mapping; key is what it belongs to."""
+        """{name: node} of a mapping below a key."""
         if not isinstance(node, yaml.MappingNode):
             raise self.error(f"{key}: expected names and values")
         found = {}
         for name, value in node.value:
             if not isinstance(name, yaml.ScalarNode) or not name.tag.endswith(":str"):
                 shown = short(name.value) if isinstance(name, yaml.ScalarNode) else "a list"
-                raise self.error(f"{key}: {shown}: is no name; one that looks like another value needs quotes", name)
+                raise self.error(f"{key}: {shown}: is not a name; quote a name that looks like another value", name)
             if name.value in found:
                 raise self.error(f"{short(name.value)}: appears twice", name)
             found[name.value] = value
@@ -161,9 +162,9 @@ class _Reader:
     def scalar(self, node, most=VALUE):
         """A scalar as petsam takes it; None for an option without a value."""
         if node.tag not in SCALARS:
-            raise self.error(f"{short(node.value)}: expected a number, a text, true or false", node)
+            raise self.error(f"{short(node.value)}: expected a number, a string, true or false", node)
         if len(node.value) > most:
-            raise self.error(f"a value of {len(node.value)} characters; expected at most {most}", node)
+            raise self.error(f"a value of {len(node.value)} characters; use at most {most}", node)
         if node.tag.endswith((":str", ":timestamp")):
             value = node.value
         else:
@@ -171,13 +172,13 @@ class _Reader:
                 value = self.loader.construct_object(node)
                 value = None if value is None else repr(value).lower() if isinstance(value, bool) else repr(value)
             except (ValueError, ArithmeticError, yaml.YAMLError) as error:
-                raise self.error(f"{short(node.value)}: is no number that can be read", node) from error
+                raise self.error(f"{short(node.value)}: is not a number", node) from error
         if value is not None and most == VALUE:
             _check_value(value, f"{self.path}, line {node.start_mark.line + 1}")
         return value
 
     def choices(self, node, key):
-        """Name: list of texts, of a section; and the names of those with lists."""
+        """Name: list of texts, of a section; and the names of the entries with lists."""
         choices, lists = {}, []
         for name, value in self.pairs(node, key).items():
             values = value.value if isinstance(value, yaml.SequenceNode) else [value]
@@ -185,7 +186,7 @@ class _Reader:
                 raise self.error(f"{key}: {short(name)}: expected a value or a list of values")
             plain = _plain(name)
             if not NAME.fullmatch(plain):
-                raise self.error(f"{key}: {short(name)}: is no option's name", value)
+                raise self.error(f"{key}: {short(name)}: is not an option's name", value)
             if plain in choices:
                 raise self.error(f"{plain}: appears twice", value)
             choices[plain] = [self.scalar(one) for one in values]
@@ -199,25 +200,25 @@ class _Reader:
         for name, value in found.items():
             text = isinstance(value, yaml.ScalarNode) and value.tag.endswith(":str")
             if not text or os.path.basename(name) != name or name in ("", ".", "..") or not _encodes(name):
-                raise self.error("files: expected names without folders, and texts")
+                raise self.error("files: expected names without folders, each with a string")
             if "\0" in name or len(name.encode()) > FILE_NAME:
-                raise self.error(f"files: {short(name)}: expected at most {FILE_NAME} characters, without NUL", value)
+                raise self.error(f"files: {short(name)}: use at most {FILE_NAME} characters, without NUL", value)
             if FOLDER.fullmatch(name) or name.endswith(".tmp") and name[:-4] in found:
-                raise self.error(f"files: {name}: is the name of a file that the case's folder holds anyway", value)
+                raise self.error(f"files: {name}: is reserved in the folder of a case; use another name", value)
             if not _encodes(value.value):
-                raise self.error(f"files: {name}: holds a character that no text does", value)
+                raise self.error(f"files: {name}: contains an invalid character; remove it", value)
         return {name: self.scalar(value, YAML) for name, value in found.items()}
 
     def table(self, root):
         """The whole table."""
         sections = self.pairs(root, "the table") if isinstance(root, yaml.MappingNode) else {}
         if "options" not in sections:
-            error = self.error("expected a section `options`, a line for each option of petsam below it, such as")
+            error = self.error("expected a section `options` with one line per option of petsam, such as")
             error.example = EXAMPLE
             raise error
         for key in sections:
             if key not in KEYS:
-                raise self.error(f"{short(key)}: unknown; known are options, parameters, files and ranks")
+                raise self.error(f"{short(key)}: unknown; use options, parameters, files or ranks")
         ranks, place = sections.get("ranks"), self.lines.get("ranks")
         parameters, lists = {}, []
         if not self.empty(sections.get("parameters")):
@@ -235,10 +236,10 @@ class _Reader:
 
 
 def _problem(error, text):
-    """Line, if known, and words of what YAML says."""
+    """Line, if known, and words of YAML's message."""
     mark, words = getattr(error, "problem_mark", None), getattr(error, "problem", None) or ""
     if isinstance(error, yaml.reader.ReaderError):
-        return text.count("\n", 0, error.position) + 1, "holds a character that YAML does not allow"
+        return text.count("\n", 0, error.position) + 1, "contains a character that YAML does not allow"
     if words.startswith("but "):
         words = (getattr(error, "context", None) or "") + " " + words
     return mark.line + 1 if mark else None, words or str(error)
@@ -254,6 +255,6 @@ def read_yaml(path):
         line, words = _problem(error, text)
         raise TableError("{}{}: {}".format(path, f", line {line}" if line else "", words)) from error
     except (RecursionError, ValueError, TypeError, AttributeError, LookupError, ArithmeticError, MemoryError) as error:
-        # what PyYAML raises besides, of nodes in nodes and of escapes that mean no character
-        reason = "is nested too deeply" if isinstance(error, RecursionError) else f"is no YAML: {error}"
+        # other exceptions of PyYAML, for deep nesting and for invalid escapes
+        reason = "is nested too deeply" if isinstance(error, RecursionError) else f"is not YAML: {error}"
         raise TableError(f"{path}: {reason}") from error

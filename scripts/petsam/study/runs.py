@@ -23,14 +23,15 @@ LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "c
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
 MEANINGS = {
     2: "bad usage",
-    3: "a file",
+    3: "file error",
     10: "not converged",
     11: "no equilibrium",
     12: "contact at the grid's edge",
     STOPPED: "stopped early, to be run again",
 }
 PATIENCE = 10.0  # seconds that runs get to end when asked to
-GRACE = 90.0  # seconds that they get to write a checkpoint and stop; the variable GRACE overrides it
+GRACE = 90.0  # seconds that they get to write a checkpoint and stop, unless a variable gives the time that is left
+RESERVE = 30.0  # seconds before the end of a Slurm job in which it is queued again
 WORDS = 1000  # characters of a run's own words on how it ended
 PAUSE = 0.05  # seconds between looks at the runs
 
@@ -43,7 +44,7 @@ class Busy(Exception):
 
 
 def write_atomically(path, text):
-    """The file holds either what it held before or all of the text."""
+    """The file contains either its old text or all of the new one."""
     beside = path + ".tmp"
     need_replaceable(beside)
     with open(beside, "w", encoding="utf-8", errors="backslashreplace") as file:  # names of files need not be text
@@ -100,27 +101,37 @@ def _message(log, code):
     return one_line(lines[-1], WORDS) if lines and code else ""
 
 
-def grace():
-    """Seconds that runs get to write a checkpoint and stop."""
-    text = os.environ.get("GRACE") or str(GRACE)
+def _seconds(name):
+    """A variable's number of seconds, or None where it is not set."""
+    text = os.environ.get(name)
+    if not text:
+        return None
     try:
         seconds = float(text)
     except ValueError:
         seconds = math.nan
     if not 0.0 <= seconds < math.inf:
-        raise Error(f"the variable GRACE is {text}; expected a number of seconds")
+        raise Error(f"the variable {name} is {short(text)}; expected a number of seconds")
     return seconds
 
 
+def grace():
+    """Seconds from now that runs get to write a checkpoint and stop: $GRACE, the job's time left, or GRACE."""
+    seconds, end = _seconds("GRACE"), _seconds("SLURM_JOB_END_TIME")
+    if seconds is not None:
+        return seconds
+    return GRACE if end is None else max(1.0, end - time.time() - RESERVE)
+
+
 def check_folders(directory, cases):
-    """Error where something else has the name of what is to be written, before any case runs."""
+    """Error where a result or a case would replace another file, before any case runs."""
     for name in ("results.csv", "results.h5"):
         for path in (os.path.join(directory, name), os.path.join(directory, name + ".tmp")):
             need_replaceable(path)
     for case in cases:
         folder = os.path.join(directory, case.name)
         if os.path.lexists(folder) and not os.path.isdir(folder):
-            raise Error(f"{folder}: is not a folder; it has the name of a case")
+            raise Error(f"{folder}: is not a folder, but has the name of a case; rename or remove it")
 
 
 # ---------------------------------------------------------------- one case
@@ -129,15 +140,15 @@ def check_folders(directory, cases):
 class Run:
     """A case that is running."""
 
-    def __init__(self, case, directory, command, checkpoint_every=None, patience=GRACE):
-        """Make the folder ready and start `command -n RANKS petsam ...` in it; patience is that of grace()."""
+    def __init__(self, case, directory, command, checkpoint_every=None):
+        """Make the folder ready and start `command -n RANKS petsam ...` in it."""
         self.case, self.folder = case, os.path.join(directory, case.name)
         os.makedirs(self.folder, exist_ok=True)
         self.lock = self._lock()
         goes_on = self._goes_on(directory, checkpoint_every)
         for name, text in case.files.items():
             write_atomically(os.path.join(self.folder, name), text)
-        self.start, self.told, self.patience = time.monotonic(), None, patience
+        self.start, self.told, self.patience = time.monotonic(), None, 0.0
         self.before = record(directory, case).get("seconds", 0.0) if goes_on else 0.0
         self._note(None, "")
         words = [
@@ -213,7 +224,7 @@ class Run:
         )
 
     def ended(self):
-        """Exit code when the run has ended by itself, which is then on record; else None."""
+        """Exit code, also on record, once the run has ended by itself; else None."""
         code = self.process.poll()
         if self.told and code is None and time.monotonic() > self.told + self.patience:
             self.signal(signal.SIGTERM)
@@ -226,8 +237,8 @@ class Run:
         return code
 
     def tell(self):
-        """Ask for a checkpoint and an early end; it does not get to go on for long."""
-        self.told = time.monotonic()
+        """Ask for a checkpoint and an early end, within the seconds of grace()."""
+        self.told, self.patience = time.monotonic(), grace()
         self.signal(signal.SIGUSR1)
 
     def signal(self, number):
@@ -254,7 +265,7 @@ class Study:
         self.directory, self.command, self.cores = directory, command, cores
         self.report, self.tick, self.checkpoint_every = report, tick, checkpoint_every
         self.running, self.interrupted, self.stop = [], 0, False
-        self.patience = grace()
+        grace()  # refuses variables that are no numbers
 
     def _catch(self, number, _frame):
         if number == signal.SIGUSR1:  # Slurm's notice of the end: the runs write their checkpoints and stop
@@ -266,7 +277,7 @@ class Study:
 
     def run(self, cases):
         """Run all; the number of the signal that ended it early, or 0."""
-        # what the caller ignores (nohup) stays ignored
+        # signals that the caller ignores (nohup) stay ignored
         caught = [
             number
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
@@ -296,7 +307,7 @@ class Study:
 
     def _start(self, case):
         try:
-            self.running.append(Run(case, self.directory, self.command, self.checkpoint_every, self.patience))
+            self.running.append(Run(case, self.directory, self.command, self.checkpoint_every))
         except Busy:
             self.report(case, None)
 
@@ -308,7 +319,7 @@ class Study:
                 self.report(run.case, code)
 
     def _end(self):
-        """Ask what still runs to end, and make it; their records say that they have not ended by themselves."""
+        """End the runs that are left; their records show that they have not ended by themselves."""
         for run in self.running:
             run.signal(signal.SIGTERM)
         until = time.monotonic() + PATIENCE

@@ -9,9 +9,6 @@ import subprocess
 from .. import environment
 from ..errors import Error, short
 
-SCRIPT = environment.SCRIPTS / "slurm" / "array.sbatch"
-STUDY = environment.SCRIPTS / "petsam-study"
-
 
 class SubmitError(Error):
     """sbatch is missing or refuses; the message is its own."""
@@ -31,7 +28,7 @@ def ranges(numbers):
 def _sbatch(words):
     """Submit; the job's number."""
     if not shutil.which("sbatch"):
-        raise SubmitError("--slurm: no sbatch on PATH")
+        raise SubmitError("--slurm: sbatch not found on PATH")
     try:
         done = subprocess.run(
             ["sbatch", "--parsable", *words],
@@ -49,7 +46,7 @@ def _sbatch(words):
         )
     job = done.stdout.strip().split(";")[0]  # number;cluster
     if not re.fullmatch(r"[0-9]+", job):
-        raise SubmitError(f"sbatch: says {short(job) or 'nothing'} instead of a job's number")
+        raise SubmitError(f"sbatch: printed {short(job) or 'nothing'} instead of a job number")
     return job
 
 
@@ -70,6 +67,7 @@ def _study_words(options):
 def submit(options, cases, waiting):
     """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables at the end."""
     words, extra = _study_words(options), environment.split(options.sbatch, "--sbatch")
+    script, study = environment.script("slurm/array.sbatch"), environment.script("petsam-study")
     common = ["--", *options.words] if options.words else []
     log = "--output=" + os.path.join(options.directory, "slurm-%A_%a.out")
     jobs = []
@@ -82,9 +80,9 @@ def submit(options, cases, waiting):
                 f"--ntasks={ranks}",
                 "--chdir=" + os.getcwd(),
                 log,
-                f"--export=ALL,PETSAM_STUDY={STUDY}",
+                f"--export=ALL,PETSAM_STUDY={study}",
                 *extra,
-                str(SCRIPT),
+                str(script),
                 *words,
                 *common,
             ]
@@ -92,9 +90,9 @@ def submit(options, cases, waiting):
         print("job {}: {} cases of {} rank{}".format(job, len(numbers), ranks, "s" if ranks > 1 else ""))
         jobs.append(job)
     if not jobs:
-        print(f"all {len(cases)} cases need not run")
+        print(f"no case to submit: none of {len(cases)} is left to run")
         return 0
-    collect = shlex.join([str(STUDY), *words, "--collect", *common])
+    collect = shlex.join([str(study), *words, "--collect", *common])
     job = _sbatch(
         [
             "--dependency=afterany:" + ":".join(jobs),
@@ -106,5 +104,5 @@ def submit(options, cases, waiting):
             collect,
         ]
     )
-    print("job {}: writes {} when they have ended".format(job, os.path.join(options.directory, "results.csv")))
+    print("job {}: writes {} after the others".format(job, os.path.join(options.directory, "results.csv")))
     return 0

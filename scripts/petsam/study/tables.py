@@ -1,10 +1,10 @@
-"""The results table of a study: a row a case, with inputs and the scalars of its last load step, as CSV and HDF5.
+"""The results table of a study: one row per case, with inputs and the scalars of its last load step, as CSV and HDF5.
 
 CSV: case, exit_code (empty: not run), seconds, ranks, the inputs, `steps`, the names of petsam's /history (those of the
 last step, with NaN for what is unknown if it has no solution; `dissipated_energy_sum` of all steps that have one),
 message. A scalar that has an input's name gets `_end` added. Of histories with cycles (petsam.cycles) there are also
 `cycles`, their number, `dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last cycle
-differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the cycles K that are asked for.
+differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles K.
 
 HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
@@ -41,7 +41,7 @@ LAST = Figures()
 
 
 def of_cycles(results, figures):
-    """Name: (value, unit) of what the cycles of a file say, empty where it has none; NaN for cycles it has not."""
+    """Name: (value, unit) from the cycles of a file, empty where it has none; NaN for missing cycles."""
     if results.has_life:
         energies, count = results.wear[ENERGY], results.wear["cycle"][-1].item()
         by_number = dict(zip(results.wear["cycle"].tolist(), energies.tolist()))
@@ -188,7 +188,7 @@ def write_hdf5(path, found, study):
 
 
 def write(directory, cases, study, figures=LAST):
-    """Both tables; their names, and what is wrong with the cycles asked for, or None."""
+    """Both tables; their names, and the error in the chosen cycles, or None."""
     found, complaint = rows(directory, cases, figures)
     names = [os.path.join(directory, "results" + ending) for ending in (".csv", ".h5")]
     write_csv(names[0], found)

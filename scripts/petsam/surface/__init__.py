@@ -1,13 +1,13 @@
 """Height maps for petsam: petsam-surface.
 
 lengths     units, and lengths with a unit
-maps        a map, how it is turned, cut, and what describes it
+maps        a map: orientation, window, description
 tables      maps in text files
 reading     maps from files of any kind
 filling     missing points
 levels      mean, tilt and form taken off
 resampling  a map on another grid
 writing     HDF5 for petsam's -gap_file and -gap_rough_file
-picture     what has been made, as PNG
+picture     the result as PNG
 command     the command
 """

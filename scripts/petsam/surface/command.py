@@ -4,12 +4,12 @@
     petsam-surface scan.sur --body 1 --mirror x --level sphere --grid-n 512 -o top.h5
     petsam-surface top.h5 bottom.h5 -o pair.h5         heights of body 1 and 2 make a separation
 
-Reads NumPy's .npy, text (.csv, .txt: a line for each y, a number for each x), HDF5 (.h5), and through the library
+Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x), HDF5 (.h5), and through the library
 SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for petsam's -gap_file and -gap_rough_file,
-and a picture beside it. What a file does not say itself (units, size, body) must be given. A map lies about
-x = y = 0 unless its file says where. Heights are positive out of their body, so a peak of either body reduces the
-separation. In this order a map is turned, cut, filled, levelled, and brought to another grid; options hold for both
-of two files, which are then laid centre on centre.
+and a picture beside it. Options give what the file does not contain (units, size, body). A map is
+centred on x = y = 0 unless its file gives a position. Heights are positive outward, so a peak of either body reduces
+the separation. Each map is oriented, cut, filled, levelled and resampled, in this order. Options apply to both files;
+their maps are then aligned at their centres.
 """
 
 import argparse
@@ -40,7 +40,7 @@ def cells(text):
     except ValueError:
         values = []
     if len(values) not in (1, 2) or not all(2 <= value <= MOST for value in values):
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected one or two whole numbers from 2 to {MOST}: NX[,NY]")
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected one or two integers from 2 to {MOST}: NX[,NY]")
     return values[0], values[-1]
 
 
@@ -55,7 +55,7 @@ def bodies(text):
 def count(text):
     """Reader of a number from 0 for argparse."""
     if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a whole number")
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer")
     return int(text)
 
 
@@ -68,26 +68,32 @@ def _window(text):
 
 
 def _file_options(parser):
-    about = parser.add_argument_group("what a file holds, if it does not say so itself")
+    about = parser.add_argument_group("contents of the files, where a file does not state them")
     holds = about.add_mutually_exclusive_group()
     holds.add_argument("--body", type=bodies, metavar="1|2", help="heights of this body; of two files: 1,2")
     holds.add_argument("--separation", action="store_true", help="the separation of both bodies")
     about.add_argument("--units", type=unit, metavar="UNIT", help="unit of the values: m, mm, um, nm, ...")
     extent = about.add_mutually_exclusive_group()
     extent.add_argument("--size", type=sides, metavar="X[,Y]", help="full width of all cells: 1e-3 (m) or 1mm")
-    extent.add_argument("--pixel", type=sides, metavar="DX[,DY]", help="instead: width of one")
-    about.add_argument("--first-row", choices=("bottom", "top"), help="y of the first row, as in images top (bottom)")
+    extent.add_argument("--pixel", type=sides, metavar="DX[,DY]", help="instead: width of one cell")
+    about.add_argument(
+        "--first-row", choices=("bottom", "top"), help="position of the first row, in images top (bottom)"
+    )
     about.add_argument("--transpose", action="store_true", help="a line of the file, or the first index, is x")
-    about.add_argument("--mirror", choices=("x", "y"), help="turn x or y round, as for body 1 seen from its own side")
+    about.add_argument("--mirror", choices=("x", "y"), help="reverse x or y, as for body 1 seen from its own side")
     about.add_argument("--depths", action="store_true", help="values are positive into the body: valleys are large")
-    about.add_argument("--missing", type=float, metavar="VALUE", help="this value stands for a missing point")
-    reader = parser.add_argument_group("how it is read")
-    reader.add_argument("--format", choices=FORMATS, help="instead of by the end of its name")
-    reader.add_argument("--decimal", choices=("point", "comma"), default="point", help="of numbers in a text (point)")
-    reader.add_argument("--skip-rows", type=count, default=0, metavar="K", help="first lines of a text to leave out")
-    reader.add_argument("--skip-columns", type=count, default=0, metavar="K", help="first columns likewise")
-    reader.add_argument("--dataset", metavar="NAME", help="of HDF5 (/height, or /separation)")
-    reader.add_argument("--channel", metavar="NAME|K", help="of an instrument's file (its heights)")
+    about.add_argument("--missing", type=float, metavar="VALUE", help="value of missing points")
+    reader = parser.add_argument_group("reading")
+    reader.add_argument("--format", choices=FORMATS, help="format of the file (by its name)")
+    reader.add_argument(
+        "--decimal", choices=("point", "comma"), default="point", help="decimal sign in text files (point)"
+    )
+    reader.add_argument(
+        "--skip-rows", type=count, default=0, metavar="K", help="lines to skip at the start of a text file"
+    )
+    reader.add_argument("--skip-columns", type=count, default=0, metavar="K", help="columns to skip")
+    reader.add_argument("--dataset", metavar="NAME", help="HDF5 dataset (/height, or /separation)")
+    reader.add_argument("--channel", metavar="NAME|K", help="channel of an instrument's file (heights)")
 
 
 def arguments(words):
@@ -95,35 +101,37 @@ def arguments(words):
     parser = Parser(prog="petsam-surface", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="FILE", help="one map, or two for a separation")
     _file_options(parser)
-    done = parser.add_argument_group("what is done")
+    done = parser.add_argument_group("processing")
     done.add_argument("--window", type=_window, metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
-    done.add_argument("--fill", choices=("smooth", "nearest"), help="missing points: from their rim, from the nearest")
     done.add_argument(
-        "--level", choices=levels.KINDS, default="none", help="what is taken off, by least squares (none)"
+        "--fill",
+        choices=("smooth", "nearest"),
+        help="fill missing points smoothly from their boundary, or by the nearest",
+    )
+    done.add_argument("--level", choices=levels.KINDS, default="none", help="form to remove by least squares (none)")
+    done.add_argument(
+        "--grid-n", type=cells, metavar="NX[,NY]", help="cells of a new grid; values are averaged over each"
     )
     done.add_argument(
-        "--grid-n", type=cells, metavar="NX[,NY]", help="cells of another grid; values are means over them"
+        "--grid-size", type=sides, metavar="X[,Y]", help="full width of the new grid, about the map's centre (all)"
     )
-    done.add_argument("--grid-size", type=sides, metavar="X[,Y]", help="its full width, about the map's middle (all)")
-    done.add_argument(
-        "--center", type=several(2, "X,Y"), metavar="X,Y", help="where the middle lies then (where it is)"
-    )
-    out = parser.add_argument_group("what is written")
+    done.add_argument("--center", type=several(2, "X,Y"), metavar="X,Y", help="new position of the centre (unchanged)")
+    out = parser.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the first file's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
     out.add_argument("--no-picture", action="store_true", help="draw none")
     options = parser.parse_args(_joined(words))
     if len(options.files) > 2:
-        parser.error(f"{len(options.files)} files: expected one, or two for a separation")
+        parser.error(f"{len(options.files)} files: use one, or two for a separation")
     if options.body and len(options.body) not in (1, len(options.files)):
-        parser.error(f"--body: {len(options.body)} bodies for {len(options.files)} file: expected one for each")
+        parser.error(f"--body: {len(options.body)} bodies for {len(options.files)} file: give one for each")
     if options.separation and options.depths:
-        parser.error("--depths: is for heights, not for a separation")
+        parser.error("--depths applies to heights, not to a separation")
     base = os.path.splitext(os.path.basename(options.files[0]))[0]
     options.output = options.output or base + ".h5"
     options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
     if not options.picture.lower().endswith(".png"):
-        parser.error(f"--picture: {short(options.picture)}: expected a name that ends in .png")
+        parser.error(f"--picture: {short(options.picture)}: use a name that ends in .png")
     return options
 
 
@@ -137,7 +145,7 @@ def _joined(words):
 
 
 def prepared(path, options, quantity):
-    """The map of one file after all that is done to a single map; says what that was."""
+    """The processed map of one file; prints the steps."""
     one, remarks = read_map(path, options, quantity)
     if options.window:
         one = cut(one, options.window)
@@ -148,8 +156,8 @@ def prepared(path, options, quantity):
     if peak_to_valley(one) > max(one.size):
         texts = [shown(value) for value in (peak_to_valley(one), max(one.size))]
         print(
-            "petsam-surface: warning: {}: peak to valley {} is more than the size {}: is the unit right, and "
-            "does no value stand for missing points (--missing)?".format(short(path), *texts),
+            "petsam-surface: warning: {}: peak to valley {} is more than the size {}: check the unit, and "
+            "give the value of missing points by --missing".format(short(path), *texts),
             file=sys.stderr,
         )
     one, taken = levels.levelled(one, options.level)
@@ -165,7 +173,7 @@ def prepared(path, options, quantity):
     return one
 
 
-def said(one):
+def description(one):
     """Lines that describe a map."""
     n, cell, size, center = one.n, one.cell, one.size, one.center
     low, high = (shown(float(value)) for value in (one.values.min(), one.values.max()))
@@ -190,11 +198,11 @@ def petsam_options(one, path):
 
 
 def carry_out(options, words):
-    """Read, combine, write, draw and say; in a child, as files are read here."""
+    """Read, combine, write, draw and print; in a child, as files are read here."""
     outputs = [options.output] + ([] if options.no_picture else [options.picture])
     for name in outputs:
         if any(same(name, path) for path in options.files):
-            raise Error(f"{name}: would replace what is read: --output gives another name")
+            raise Error(f"{name}: is an input file; choose another name by --output")
     writing.need_own(options.output)
     quantities = ["separation"] if options.separation else options.body or [None]
     if len(quantities) < len(options.files):
@@ -204,12 +212,12 @@ def carry_out(options, words):
     if options.center:
         one = replace(one, center=options.center)
     if not picture.finite(one):
-        raise Error(f"{one.name}: holds numbers that are too large")
+        raise Error(f"{one.name}: contains numbers that are too large")
     writing.write(one, options.output, shlex.join(["petsam-surface", *words]))
     if not options.no_picture:
         picture.save(one, options.picture)
     print(f"{options.output}: /{writing.dataset(one)}, {QUANTITIES[one.quantity]}, m")
-    print("\n".join("  " + line for line in said(one)))
+    print("\n".join("  " + line for line in description(one)))
     if not options.no_picture:
         print("wrote " + options.picture)
     gap, rough = petsam_options(one, options.output)
@@ -226,7 +234,7 @@ def _child(options, words):
 
 
 def main():
-    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or does not say enough."""
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks information."""
 
     def parent():
         words = sys.argv[1:]

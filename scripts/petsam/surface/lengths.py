@@ -64,7 +64,7 @@ def sides(text):
 
 
 def several(count, form):
-    """Reader of so many lengths for argparse; form says which."""
+    """Reader of so many lengths for argparse; form describes them."""
 
     def read(text):
         values = lengths(text)

@@ -127,19 +127,19 @@ def _slopes(coefficients, length):
 
 
 def levelled(one, kind):
-    """The map without mean, tilt or form, and what was taken off, in words ("" for nothing)."""
+    """The map without mean, tilt or form, and the removed part in words ("" for nothing)."""
     if kind == "none":
         return one, ""
     if kind in TERMS:
         coefficients = _polynomial(one, TERMS[kind])
         surface, length = _evaluated(one, TERMS[kind], coefficients), _scaled(one)[1]
-        said = [f"mean {shown(coefficients[0])}"] if kind == "mean" else [_slopes(coefficients, length)]
+        removed = [f"mean {shown(coefficients[0])}"] if kind == "mean" else [_slopes(coefficients, length)]
         if kind == "second-order":
             xx, xy, yy = coefficients[3:] / length**2
-            said.append(f"curvatures {2 * xx:.4g} and {2 * yy:.4g} 1/m in x and y, twist {xy:.3g} 1/m")
-        return replace(one, values=one.values - surface), f"{kind} taken off: " + ", ".join(said)
+            removed.append(f"curvatures {2 * xx:.4g} and {2 * yy:.4g} 1/m in x and y, twist {xy:.3g} 1/m")
+        return replace(one, values=one.values - surface), f"{kind} removed: " + ", ".join(removed)
     surface, radius = _fit(one, kind)
-    return replace(one, values=one.values - surface), f"{kind} taken off: radius {radius:.6g} m"
+    return replace(one, values=one.values - surface), f"{kind} removed: radius {radius:.6g} m"
 
 
 def tilt(one):

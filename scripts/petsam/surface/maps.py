@@ -52,12 +52,12 @@ def new_map(values, size, quantity, name, center=(0.0, 0.0)):
     if min(values.shape) < SMALLEST:
         rows, columns = values.shape
         raise Error(f"{name}: has {rows} x {columns} points (rows x columns): a map has at least 2 x 2")
-    values = np.array(values, dtype=np.float64)  # a copy: what comes may be read-only, or in another order
+    values = np.array(values, dtype=np.float64)  # a copy: the array may be read-only, or in another order
     values[~np.isfinite(values)] = np.nan
     largest = np.max(np.abs(values), initial=0.0, where=~np.isnan(values))
     if largest > HIGHEST * max(size):
         raise Error(
-            f"{name}: has values up to {largest:.3g} m: if one stands for missing points, --missing gives it, "
+            f"{name}: has values up to {largest:.3g} m: give the value of missing points by --missing, "
             "in the file's unit"
         )
     return Map(values, tuple(size), tuple(center), quantity, name, tuple(np.arange(n) for n in values.shape))
@@ -80,7 +80,7 @@ def cut(one, window):
         if inside.size < SMALLEST:
             edges = [one.center[d] + side * one.size[d] / 2 for side in (-1, 1)]
             raise Error(
-                "{}: --window: {} = {:g} ... {:g} m holds {} cells, expected 2 or more of the map, "
+                "{}: --window: {} = {:g} ... {:g} m contains {} cells; use at least 2 of the map, "
                 "which goes from {:g} to {:g} m".format(one.name, "xy"[d], first, last, inside.size, *edges)
             )
         chosen.append(slice(inside[0], inside[-1] + 1))

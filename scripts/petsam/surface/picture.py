@@ -77,5 +77,5 @@ def save(one, path):
 
 
 def finite(one):
-    """Whether the map can be drawn: what overflows cannot."""
+    """Whether the map can be drawn: it must not overflow."""
     return bool(np.all(np.isfinite(one.values)))

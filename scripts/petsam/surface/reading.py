@@ -1,6 +1,6 @@
-"""Maps from files: NumPy, text, HDF5, and what the library SurfaceTopography reads.
+"""Maps from files: NumPy, text, HDF5, and the formats of the library SurfaceTopography.
 
-What a file does not say, the command line must.
+The command line gives all that is not in the file.
 """
 
 import os
@@ -20,12 +20,12 @@ from .tables import read_table
 FORMATS = ("npy", "table", "hdf5", "surfacetopography")
 ENDINGS = {".npy": "npy", ".csv": "table", ".txt": "table", ".h5": "hdf5", ".hdf5": "hdf5"}
 LIBRARY = "SurfaceTopography"
-EVEN = 1e-3  # largest relative difference of the distances of cells
+EVEN = 1e-3  # maximum relative difference of the distances of cells
 THEIRS = {"A": "angstrom"}  # SurfaceTopography's names that are not ours
 
 
-class Told(NamedTuple):
-    """What a file says about its values (all lengths in m); None: it does not say."""
+class Stated(NamedTuple):
+    """Statements of a file about its values (all lengths in m); None where it makes none."""
 
     values: np.ndarray  # (rows, columns)
     unit: float = None
@@ -45,17 +45,17 @@ def _read_npy(path, _):
     except OSError:
         raise
     except Exception as error:  # the header is read as Python, so a damaged one raises anything
-        raise Error(f"{path}: is no array of NumPy: {short(error)}") from error
+        raise Error(f"{path}: is not an array of NumPy: {short(error)}") from error
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "iuf":
-        raise Error(f"{path}: holds no array of real numbers")
+        raise Error(f"{path}: contains no array of real numbers")
     if values.ndim != 2:
         raise Error(f"{path}: has shape {values.shape}: a map has two dimensions, (ny, nx)")
-    return Told(values)
+    return Stated(values)
 
 
 def _read_table(path, options):
     values, header = read_table(path, options.decimal, options.skip_rows, options.skip_columns)
-    return Told(values, remarks=(f"{header} header line{'s' if header > 1 else ''} left out",) if header else ())
+    return Stated(values, remarks=(f"{header} header line{'s' if header > 1 else ''} left out",) if header else ())
 
 
 def _attribute(path, data, name):
@@ -68,10 +68,10 @@ def _attribute(path, data, name):
 
 
 def _unit(path, data, name):
-    """Metres of what the attribute units says; None without it."""
+    """Metres of the unit in the attribute; None without it."""
     text = _attribute(path, data, "units")
     if text is not None and metres(text) is None:
-        raise Error(f"{path}: {name}: its attribute units is {short(text)!r}: known are {KNOWN}")
+        raise Error(f"{path}: {name}: its attribute units is {short(text)!r}; use one of {KNOWN}")
     return None if text is None else metres(text)
 
 
@@ -97,22 +97,24 @@ def _read_hdf5(path, options):
         name = (options.dataset or ("height" if "height" in file else "separation")).strip("/")
         data = file.get(name)
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
-            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); --dataset names another")
+            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); choose another by --dataset")
         if "scale_factor" in data.attrs or "add_offset" in data.attrs:
-            raise Error(f"{path}: /{name}: its attributes scale_factor or add_offset say that it is packed")
+            raise Error(
+                f"{path}: /{name}: its attributes scale_factor or add_offset show that it is packed; unpack it first"
+            )
         values = data[:]
         quantity = _attribute(path, data, "quantity")
         if quantity is not None and quantity not in QUANTITIES:
             known = ", ".join(QUANTITIES)
-            raise Error(f"{path}: /{name}: its attribute quantity is {short(quantity)!r}: known are {known}")
+            raise Error(f"{path}: /{name}: its attribute quantity is {short(quantity)!r}; use one of {known}")
         unit, group = _unit(path, data, "/" + name), data.parent
         axes = [_axis(path, group, letter, n) for letter, n in zip("xy", values.shape[::-1])]
     if None in axes:
-        return Told(values, unit, quantity=quantity)
+        return Stated(values, unit, quantity=quantity)
     x, y = axes
     if x[2]:
         values = values[:, ::-1]
-    return Told(values, unit, (x[0], y[0]), (x[1], y[1]), quantity, y[2])
+    return Stated(values, unit, (x[0], y[0]), (x[1], y[1]), quantity, y[2])
 
 
 def _library(path):
@@ -136,8 +138,8 @@ def _channel(path, reader, wanted):
         return reader.channels[names.index(wanted)]
     if wanted.isdigit() and int(wanted) < len(names):
         return reader.channels[int(wanted)]
-    told = ", ".join(f"{k} {short(name)}" for k, name in enumerate(names))
-    raise Error(f"{path}: --channel {short(wanted)}: there are {told}")
+    stated = ", ".join(f"{k} {short(name)}" for k, name in enumerate(names))
+    raise Error(f"{path}: --channel {short(wanted)}: use one of {stated}")
 
 
 def _read_instrument(path, options):
@@ -146,7 +148,7 @@ def _read_instrument(path, options):
         with library.open_topography(path) as reader:
             channel = _channel(path, reader, options.channel)
             if channel.dim != 2:
-                raise Error(f"{path}: {short(channel.name)} is a line, expected a map")
+                raise Error(f"{path}: {short(channel.name)} is a line, not a map")
             sizes = channel.physical_sizes
             unknown = {} if sizes is not None else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}
             topography = channel.topography(**unknown)
@@ -157,39 +159,39 @@ def _read_instrument(path, options):
     except Exception as error:  # of a library that raises whatever a reader meets
         reason = type(error).__name__
         if reason == "CannotDetectFileFormat":  # its text is that of each of its readers
-            raise Error(f"{path}: is of no format that {LIBRARY} knows") from error
+            raise Error(f"{path}: has no format known to {LIBRARY}") from error
         raise Error(f"{path}: {LIBRARY} cannot read it: {error or reason}") from error
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
     unit = None if text is None else metres(THEIRS.get(text, text))
     if text is not None and unit is None:
         raise Error(
-            f"{path}: {short(channel.name)} is in {short(text)}, which is none of {KNOWN}; --channel names another"
+            f"{path}: {short(channel.name)} is in {short(text)}, not in one of {KNOWN}; choose another by --channel"
         )
     remarks = ()
     if len(names) > 1:
         remarks = (f"channel {short(channel.name)} of {', '.join(short(name) for name in names)}",)
     size = tuple(side * unit for side in sizes) if unit and sizes is not None else None
     # the library's first index is x, and its y goes up
-    return Told(heights.T, unit, size, top=False, remarks=remarks)
+    return Stated(heights.T, unit, size, top=False, remarks=remarks)
 
 
 READERS = {"npy": _read_npy, "table": _read_table, "hdf5": _read_hdf5, "surfacetopography": _read_instrument}
 
 
-# ---------------------------------------------------------------- what files and options say together
+# ---------------------------------------------------------------- files and options together
 
 
-def _agreed(path, told, given, option):
-    """What the file says or the option does; None if neither does, an Error if one contradicts the other."""
-    if told is None or given is None:
-        return given if told is None else told
-    if not (told == given if isinstance(told, (str, bool)) else np.allclose(told, given, rtol=SAME, atol=0.0)):
-        raise Error(f"{path}: says something else itself than {option}: leave the option out")
-    return told
+def _agreed(path, stated, given, option):
+    """The value in the file or of the option; None without either, an Error if they contradict each other."""
+    if stated is None or given is None:
+        return given if stated is None else stated
+    if not (stated == given if isinstance(stated, (str, bool)) else np.allclose(stated, given, rtol=SAME, atol=0.0)):
+        raise Error(f"{path}: contradicts {option}: leave the option out")
+    return stated
 
 
 def _need(path, kind, quantity, unit, size):
-    """An Error that names all that neither the file nor an option says."""
+    """An Error that names all that is given neither in the file nor by an option."""
     lacking = [
         text
         for value, text in (
@@ -208,53 +210,56 @@ def _kind(path, options):
     return options.format or ENDINGS.get(os.path.splitext(path)[1].lower(), "surfacetopography")
 
 
-def _told(path, options):
-    """What the file says."""
+def _stated(path, options):
+    """The statements of the file."""
     try:
         if need_regular(path).st_size == 0:
             raise Error(f"{path}: is empty")
-        told = READERS[_kind(path, options)](path, options)
+        stated = READERS[_kind(path, options)](path, options)
     except MemoryError as error:
         raise Error(f"{path}: is too large for the memory") from error
     except DAMAGED as error:
         raise Error(f"{path}: cannot be read: {getattr(error, 'strerror', None) or short(error)}") from error
-    for option, given, said in (("transpose", options.transpose, told.size), ("depths", options.depths, told.quantity)):
+    for option, given, said in (
+        ("transpose", options.transpose, stated.size),
+        ("depths", options.depths, stated.quantity),
+    ):
         if given and said is not None:
             what = "which direction is x" if option == "transpose" else "what its values are"
-            raise Error(f"{path}: says {what} itself: leave out --{option}")
-    return told
+            raise Error(f"{path}: already states {what}: leave out --{option}")
+    return stated
 
 
-def _top(path, told, options):
-    """Whether the first row has the largest y, and what is to be said about it."""
-    if told.top is None:
+def _top(path, stated, options):
+    """Whether the first row has the largest y, and remarks to print."""
+    if stated.top is None:
         turned_round = "" if options.first_row else "; --first-row top turns it round"
         place = "largest" if options.first_row == "top" else "smallest"
         return options.first_row == "top", [f"first row at the {place} y{turned_round}"]
-    if options.first_row and (options.first_row == "top") != told.top:
-        raise Error(f"{path}: says itself which way y goes: leave out --first-row")
-    return told.top, []
+    if options.first_row and (options.first_row == "top") != stated.top:
+        raise Error(f"{path}: already states the direction of y: leave out --first-row")
+    return stated.top, []
 
 
 def read_map(path, options, quantity):
     """The map of a file, its first row at the smallest y, and remarks about the reading.
 
-    quantity is what the options say that it holds, or None. options: of the command line, see command.py.
+    quantity: of the options, or None. options: of the command line, see command.py.
     """
-    told = _told(path, options)
-    values = np.asarray(told.values, dtype=np.float64)  # before it is scaled: single precision would stay so
+    stated = _stated(path, options)
+    values = np.asarray(stated.values, dtype=np.float64)  # before it is scaled: single precision would stay so
     values = values.T if options.transpose else values
-    quantity = _agreed(path, told.quantity, quantity, "--body or --separation")
-    unit = _agreed(path, told.unit, options.units, "--units")
+    quantity = _agreed(path, stated.quantity, quantity, "--body or --separation")
+    unit = _agreed(path, stated.unit, options.units, "--units")
     given = options.size or options.pixel and tuple(w * n for w, n in zip(options.pixel, values.shape[::-1]))
-    size = _agreed(path, told.size, given, "--size or --pixel")
+    size = _agreed(path, stated.size, given, "--size or --pixel")
     _need(path, _kind(path, options), quantity, unit, size)
     if options.missing is not None:
         values = np.where(values == options.missing, np.nan, values)
-    one = new_map(values * (-unit if options.depths else unit), size, quantity, path, told.center or (0.0, 0.0))
-    top, remarks = _top(path, told, options)
-    if quantity == "height1" and told.quantity is None and not options.mirror:
+    one = new_map(values * (-unit if options.depths else unit), size, quantity, path, stated.center or (0.0, 0.0))
+    top, remarks = _top(path, stated, options)
+    if quantity == "height1" and stated.quantity is None and not options.mirror:
         remarks.append(
             "x and y are petsam's, as seen from above; seen from its own side, body 1 is mirrored: --mirror x or y"
         )
-    return turned(one, top, options.mirror or ""), [*told.remarks, *remarks]
+    return turned(one, top, options.mirror or ""), [*stated.remarks, *remarks]

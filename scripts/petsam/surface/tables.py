@@ -1,4 +1,4 @@
-"""Maps in text files: a line a row of the map, a column a point; what cannot be a map is named by its line."""
+"""Maps in text files: one line per row of the map, one column per point; errors name the line."""
 
 import codecs
 import re
@@ -8,7 +8,7 @@ import numpy as np
 from ..errors import Error, short
 
 COMMENTS = ("#", "%")
-# what instruments and spreadsheets write for a point without a value
+# missing points as instruments and spreadsheets write them
 MISSING = {"", "nan", "na", "n/a", "bad", "null", "none", "-", "--", "***", "---", "#n/a"}
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
 POINTS = 9  # lines of three numbers from which on they are taken for points x, y, z
@@ -43,7 +43,7 @@ def _has_decimal_commas(words, separator):
 
 
 def _words(line, decimal):
-    """The words of a line, and what separates them."""
+    """The words of a line, and their separator."""
     separator = _separator(line.replace(",", "") if decimal == "comma" else line)
     if separator == "," and all(DECIMAL_COMMA.fullmatch(word) for word in line.split()) and len(line.split()) > 1:
         separator = None  # 0,1 0,2 0,3
@@ -52,7 +52,7 @@ def _words(line, decimal):
 
 
 def _number(word):
-    """A word as a number, NaN for what stands for a missing point; None for another text."""
+    """A word as a number, NaN for a missing point; None for another text."""
     if word.lower() in MISSING:
         return np.nan
     try:
@@ -76,7 +76,7 @@ def _row(path, number, words, separator, decimal):
         column = values.index(None) + 1
         raise Error(
             f"{path}: line {number}, column {column}: {short(repr(word))} is not a number; "
-            "--skip-rows and --skip-columns leave out what is no height"
+            "--skip-rows and --skip-columns skip text and other columns"
         )
     return np.array(values, dtype=float)
 
@@ -101,13 +101,13 @@ def read_table(path, decimal="point", skip_rows=0, skip_columns=0):
         first = first or number
         rows.append(row)
     if not rows:
-        raise Error(f"{path}: has no numbers")
+        raise Error(f"{path}: contains no numbers")
     values = np.array(rows)
     if values.shape[1] > 1 and np.all(np.isnan(values[:, -1])) and line.rstrip(" ").endswith((",", ";", "\t")):
         values = values[:, :-1]  # every line ends with a separator
     if values.shape[1] == 3 and values.shape[0] >= POINTS:
         raise Error(
-            f"{path}: three numbers a line are points x, y, z: a map has a line for each y and a number for each x; "
+            f"{path}: three numbers a line are points x, y, z: a map has one line per y and one number per x; "
             "--format surfacetopography reads points on a regular grid"
         )
     return values, header

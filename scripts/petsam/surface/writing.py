@@ -30,7 +30,7 @@ def need_own(path):
     except OSError:
         own = False
     if not own:
-        raise Error(f"{path}: is there already, and not by petsam-surface: --output gives another name")
+        raise Error(f"{path}: exists and was not written by petsam-surface; choose another name by --output")
 
 
 def write(one, path, command):

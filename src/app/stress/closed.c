@@ -64,7 +64,7 @@ static PetscErrorCode CheckLife(SamStressRun *run, PetscBool *life)
   *life = cycle[0] > 0 || cycle[1] > 0;
   if (cycle[0] == cycle[1]) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(text, sizeof(text),
-                 "of several cycles of a life, from %g to %g, which are taken as one: expected the steps of one",
+                 "of several cycles of a wear simulation, from %g to %g, treated as one: select the steps of one cycle",
                  cycle[0], cycle[1]);
   Warn(run, text);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -88,7 +88,7 @@ static PetscErrorCode CheckEnds(SamStressRun *run, const Ends *ends)
     (void)snprintf(
       text, sizeof(text),
       "not a closed cycle, or not a steady one: the %s of step %ld, the last one, differs from that of step "
-      "%ld, before the first, by up to %.0f %% of the largest",
+      "%ld, before the first, by up to %.0f %% of the maximum",
       f ? "shear" : "pressure", (long)step[1], (long)step[0], 100 * (double)(most[2 * f] / most[2 * f + 1]));
     Warn(run, text);
   }
@@ -109,8 +109,7 @@ static PetscErrorCode WarnOfMore(SamStressRun *run, PetscInt k)
   if (stride > 1) (void)snprintf(every, sizeof(every), ":%ld", (long)stride);
   (void)snprintf(
     text, sizeof(text),
-    "more than one cycle, taken as one: tractions of step %ld are those of the last one already; one cycle is "
-    "-steps %ld:%ld%s",
+    "more than one cycle: step %ld already has the last step's tractions; for one cycle use -steps %ld:%ld%s",
     (long)step[0], (long)step[1], (long)step[2], every);
   Warn(run, text);
   PetscFunctionReturn(PETSC_SUCCESS);

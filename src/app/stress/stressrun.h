@@ -2,9 +2,24 @@
 #ifndef PETSAM_APP_STRESS_RUN_H
 #define PETSAM_APP_STRESS_RUN_H
 
-#include <petsam/private/arguments.h>
-#include "request.h"
+#include <petsam/results.h>
 #include <petsam/stressfile.h>
+
+/* The files and steps that are asked for, before any file is opened. */
+typedef struct {
+  char      input[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN];
+  PetscBool all_steps, last_step;
+  PetscInt  first, last, stride; /* load steps from 1, where neither is set */
+} SamStressRequest;
+
+/* SamStressRequestRead - reads these options. Collective. Errors: SAM_ERR_USER. */
+PETSC_INTERN PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *request);
+/*
+  SamStressRequestSteps - the saved steps that are asked for, as numbers of saved steps from 0 on; the caller frees
+  them with PetscFree(). Collective. Errors: SAM_ERR_USER for steps that are not there or have not been saved.
+*/
+PETSC_INTERN PetscErrorCode SamStressRequestSteps(const SamStressRequest *request, SamResults results, PetscInt *count,
+                                                  PetscInt **saved);
 
 typedef struct {
   SamStressRequest request;
@@ -22,13 +37,6 @@ typedef struct {
   char               source[PETSC_MAX_PATH_LEN + 16]; /* of the bodies, for messages */
   SamFourierSettings transforms;
 } SamStressRun;
-
-/* SamStressRunSetUp - reads all options and the results' parameters; writes nothing. Collective. */
-PETSC_INTERN PetscErrorCode SamStressRunSetUp(SamStressRun *run, const SamArguments *arguments);
-/* SamStressRunCompute - computes and writes everything. Collective. */
-PETSC_INTERN PetscErrorCode SamStressRunCompute(SamStressRun *run);
-/* SamStressRunTearDown - destroys all objects, also after an error. Collective. */
-PETSC_INTERN PetscErrorCode SamStressRunTearDown(SamStressRun *run);
 
 /*
   SamCycleCheckClosed - warns if the step before the first one has been saved and has not the tractions of the last: the

@@ -2,15 +2,18 @@
   Two half-spaces: tractions constant on each cell, kernels from the closed forms over a rectangle (influence.c),
   products by convolution without wrapping round (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
 */
-#include "halfspaceimpl.h"
+#include "../waves.h"
 #include <petsam/private/halfspace.h>
+#include <math.h>
 
-/* Kernels: row and column of the 3 x 3 operator; the lower triangle follows by symmetry. */
-typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
+/*
+  Kernels: row and column of the 3 x 3 operator, whose lower triangle follows by symmetry; u_z from pressures linear in
+  x and in y.
+*/
+typedef enum { ZZ, XX, YY, XY, XZ, YZ, SLOPE_X, SLOPE_Y, KERNELS } Kind;
 
 typedef struct {
   SamKernel kernel[KERNELS]; /* NULL until needed */
-  SamKernel slope[2];        /* of pressures linear in x and in y; likewise */
 } HalfSpace;
 
 /* A kernel is a sum of at most two integrals over the cell. */
@@ -22,30 +25,20 @@ typedef struct {
 
 static Coefficients GetCoefficients(SamElasticity e, Kind kind)
 {
-  const SamPair *pair = &e->pair;
-  Coefficients   c    = {.dx = e->grid->dx, .dy = e->grid->dy};
+  static const SamIntegral integrals[][2] = {{SAM_INTEGRAL_R},
+                                             {SAM_INTEGRAL_R, SAM_INTEGRAL_XX},
+                                             {SAM_INTEGRAL_R, SAM_INTEGRAL_YY},
+                                             {SAM_INTEGRAL_XY},
+                                             {SAM_INTEGRAL_X},
+                                             {SAM_INTEGRAL_Y}};
+  const SamPair           *p              = &e->pair;
+  const double             factors[][2]   = {{p->normal},   {p->shear, p->shear_xx}, {p->shear, p->shear_xx},
+                                             {p->shear_xx}, {p->coupling},           {p->coupling}};
 
-  switch (kind) {
-  case ZZ:
-    c.integral[0] = SAM_INTEGRAL_R;
-    c.factor[0]   = pair->normal;
-    break;
-  case XX:
-  case YY:
-    c.integral[0] = SAM_INTEGRAL_R;
-    c.factor[0]   = pair->shear;
-    c.integral[1] = kind == XX ? SAM_INTEGRAL_XX : SAM_INTEGRAL_YY;
-    c.factor[1]   = pair->shear_xx;
-    break;
-  case XY:
-    c.integral[0] = SAM_INTEGRAL_XY;
-    c.factor[0]   = pair->shear_xx;
-    break;
-  default:
-    c.integral[0] = kind == XZ ? SAM_INTEGRAL_X : SAM_INTEGRAL_Y;
-    c.factor[0]   = pair->coupling;
-  }
-  return c;
+  return (Coefficients){.dx       = e->grid->dx,
+                        .dy       = e->grid->dy,
+                        .integral = {integrals[kind][0], integrals[kind][1]},
+                        .factor   = {factors[kind][0], factors[kind][1]}};
 }
 
 static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const void *context)
@@ -83,132 +76,166 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
-{
-  HalfSpace *data = (HalfSpace *)e->data;
-
-  PetscFunctionBegin;
-  if (!data->kernel[kind]) {
-    const Coefficients c        = GetCoefficients(e, kind);
-    const PetscBool    odd[][2] = {{kind == XY || kind == XZ, kind == XY || kind == YZ}};
-
-    PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, &data->kernel[kind]));
-  }
-  *kernel = data->kernel[kind];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- products ---- */
-
-/* The kernels of u_z from p, and of u_t from q. */
-static PetscErrorCode GetMatrix(SamElasticity e, PetscInt components, SamKernelMatrix *matrix)
-{
-  PetscFunctionBegin;
-  *matrix = (SamKernelMatrix){.n_in = components, .n_out = components, .scale = {{1, 1}, {1, 1}}};
-  PetscCall(GetKernel(e, components == 1 ? ZZ : XX, &matrix->kernel[0][0]));
-  if (components == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetKernel(e, XY, &matrix->kernel[0][1]));
-  PetscCall(GetKernel(e, YY, &matrix->kernel[1][1]));
-  matrix->kernel[1][0] = matrix->kernel[0][1];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Apply(SamElasticity e, PetscInt components, const double *const in[], double *const out[])
-{
-  SamKernelMatrix matrix;
-
-  PetscFunctionBegin;
-  PetscCall(GetMatrix(e, components, &matrix));
-  PetscCall(SamConvolve(e->fourier, &matrix, in, out));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ApplySingle(SamElasticity e, PetscInt components, double factor, const float *const in[],
-                                  float *const out[])
-{
-  SamKernelMatrix matrix;
-
-  PetscFunctionBegin;
-  PetscCall(GetMatrix(e, components, &matrix));
-  PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, in, out));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
-{
-  return Apply(e, 1, p, u_z);
-}
-
-static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
-{
-  return Apply(e, 2, q, u_t);
-}
-
-static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
-{
-  return ApplySingle(e, 1, factor, p, u_z);
-}
-
-static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
-{
-  return ApplySingle(e, 2, factor, q, u_t);
-}
-
-static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
-{
-  SamKernelMatrix matrix = {.n_in = 1, .n_out = 2, .scale = {{1}, {1}}};
-
-  PetscFunctionBegin;
-  PetscCall(GetKernel(e, XZ, &matrix.kernel[0][0]));
-  PetscCall(GetKernel(e, YZ, &matrix.kernel[1][0]));
-  PetscCall(SamConvolve(e->fourier, &matrix, p, u_t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
-{
-  SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{-1, -1}}};
-
-  PetscFunctionBegin;
-  PetscCall(GetKernel(e, XZ, &matrix.kernel[0][0]));
-  PetscCall(GetKernel(e, YZ, &matrix.kernel[0][1]));
-  PetscCall(SamConvolve(e->fourier, &matrix, q, u_z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- within cells ---- */
-
 static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
 {
   SamSlopeRow((const SamSlopeKernel *)context, j, n, values[0]);
 }
 
-/* The kernel for pressures that are linear along an axis. */
-static PetscErrorCode GetSlopeKernel(SamElasticity e, int axis, SamKernel *kernel)
+static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 {
-  HalfSpace *data = (HalfSpace *)e->data;
+  SamKernel *kept = &((HalfSpace *)e->data)->kernel[kind];
 
   PetscFunctionBegin;
-  if (!data->slope[axis]) {
-    const PetscBool odd[][2] = {{axis == 0, axis == 1}};
-    SamSlopeRules   rules;
-    SamSlopeKernel  c = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal};
+  if (!*kept && kind < SLOPE_X) {
+    const Coefficients c        = GetCoefficients(e, kind);
+    const PetscBool    odd[][2] = {{kind == XY || kind == XZ, kind == XY || kind == YZ}};
+
+    PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, kept));
+  } else if (!*kept) {
+    const int            axis     = kind - SLOPE_X;
+    const PetscBool      odd[][2] = {{axis == 0, axis == 1}};
+    SamSlopeRules        rules;
+    const SamSlopeKernel c = {
+      .rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal};
 
     PetscCall(SamSlopeRulesCreate(&rules));
-    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, &data->slope[axis]));
+    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, kept));
   }
-  *kernel = data->slope[axis];
+  *kernel = *kept;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- products ---- */
+
+/* The matrix of `scale` times these kernels, row by row. */
+static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
+                                SamKernelMatrix *matrix)
+{
+  PetscFunctionBegin;
+  *matrix = (SamKernelMatrix){.n_in = n_in, .n_out = n_out};
+  for (PetscInt o = 0; o < n_out; o++)
+    for (PetscInt i = 0; i < n_in; i++) {
+      matrix->scale[o][i] = scale;
+      PetscCall(GetKernel(e, kinds[o * n_in + i], &matrix->kernel[o][i]));
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Apply(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
+                            const double *const in[], double *const out[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(GetMatrix(e, n_out, n_in, scale, kinds, &matrix));
+  PetscCall(SamConvolve(e->fourier, &matrix, in, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplySingle(SamElasticity e, PetscInt n, const Kind kinds[], double factor,
+                                  const float *const in[], float *const out[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  PetscCall(GetMatrix(e, n, n, 1, kinds, &matrix));
+  PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, in, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static const Kind normal[] = {ZZ}, tangential[] = {XX, XY, XY, YY}, coupling[] = {XZ, YZ}, slope[] = {SLOPE_X, SLOPE_Y};
+
+static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
+{
+  return Apply(e, 1, 1, 1, normal, p, u_z);
+}
+
+static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
+{
+  return Apply(e, 2, 2, 1, tangential, q, u_t);
+}
+
+static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
+{
+  return Apply(e, 2, 1, 1, coupling, p, u_t);
+}
+
+static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
+{
+  return Apply(e, 1, 2, -1, coupling, q, u_z);
 }
 
 static PetscErrorCode ApplyNormalSlopes(SamElasticity e, const double *const slopes[], double *const u_z[])
 {
-  SamKernelMatrix matrix = {.n_in = 2, .n_out = 1, .scale = {{1, 1}}};
+  return Apply(e, 1, 2, 1, slope, slopes, u_z);
+}
+
+static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
+{
+  return ApplySingle(e, 1, normal, factor, p, u_z);
+}
+
+static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
+{
+  return ApplySingle(e, 2, tangential, factor, q, u_t);
+}
+
+/* ---- the spectral preconditioner ---- */
+
+/*
+  On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair.normal,
+  so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
+  pair.shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
+  grid made periodic, which costs a quarter of a padded transform and needs as few iterations. The symbol is
+  recomputed each time. Single precision suffices for an approximation. `local`: A or A + B.
+*/
+static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, double local, SamSymbol s,
+                                   const float *const in[], float *const out[])
+{
+  PetscInt hx, hy;
 
   PetscFunctionBegin;
-  for (int axis = 0; axis < 2; axis++) PetscCall(GetSlopeKernel(e, axis, &matrix.kernel[0][axis]));
-  PetscCall(SamConvolve(e->fourier, &matrix, slopes, u_z));
+  PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
+  s.step[0] = 2 * PETSC_PI / (double)hx * e->grid->length / e->grid->dx;
+  s.step[1] = 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
+  s.gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
+  s.mean    = 0.5 * PetscMin(s.step[0], s.step[1]);
+  PetscCall(SamSymbolApplySingle(e, &s, n, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Times gain |k| (I + nu kk'/|k|^2). */
+SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
+{
+  const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->nu, least = mean * mean,
+              step = (float)s->step[1], kx = (float)at.kx, sign = (float)at.cross;
+  float(*restrict x)[2] = (float(*)[2])at.x, (*restrict y)[2] = (float(*)[2])at.y;
+
+#pragma omp simd
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least,
+                g    = gain * sqrtf(some);
+    const float part = g * extra / some, cross = sign * part * kx * ky, gx = g + part * kx * kx,
+                gy = g + part * ky * ky;
+    const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
+
+    x[m][0] = gx * x0 + cross * y0;
+    x[m][1] = gx * x1 + cross * y1;
+    y[m][0] = gy * y0 + cross * x0;
+    y[m][1] = gy * y1 + cross * x1;
+  }
+}
+
+static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
+{
+  return Precondition(e, 1, factor, e->pair.normal, (SamSymbol){.multiply = SamSymbolDivideNormal}, r, p);
+}
+
+static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
+{
+  const SamSymbol s = {.nu = e->pair.shear_xx / e->pair.shear, .multiply = DivideTangential};
+
+  return Precondition(e, 2, factor, e->pair.shear + e->pair.shear_xx, s, r, q);
 }
 
 static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
@@ -232,17 +259,12 @@ static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, dou
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                    SamStress *stress)
 {
-  PetscFunctionBegin;
-  PetscCall(
-    SamHalfSpaceCreateStress(e->grid, settings, body, e->pair.young[body - 1], e->pair.poisson[body - 1], stress));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamHalfSpaceCreateStress(e->grid, settings, body, e->pair.young[body - 1], e->pair.poisson[body - 1], stress);
 }
 
 static PetscErrorCode SetUp(SamElasticity e)
 {
-  PetscFunctionBegin;
-  PetscCall(SamFourierCreate(e->grid, SAM_FOURIER_FAST, &e->fft, &e->fourier));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamFourierCreate(e->grid, SAM_FOURIER_FAST, &e->fft, &e->fourier);
 }
 
 static PetscErrorCode Destroy(SamElasticity e)
@@ -251,8 +273,6 @@ static PetscErrorCode Destroy(SamElasticity e)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
-  for (PetscInt axis = 0; axis < 2; axis++) PetscCall(SamKernelDestroy(&data->slope[axis]));
-  PetscCall(PetscFree(e->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -275,8 +295,8 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .applytangential         = ApplyTangential,
                                  .applynormalsingle       = ApplyNormalSingle,
                                  .applytangentialsingle   = ApplyTangentialSingle,
-                                 .preconditionnormal      = SamHalfSpacePreconditionNormal,
-                                 .preconditiontangential  = SamHalfSpacePreconditionTangential,
+                                 .preconditionnormal      = PreconditionNormal,
+                                 .preconditiontangential  = PreconditionTangential,
                                  .getselfinfluence        = GetSelfInfluence,
                                  .createstress            = CreateStress,
                                  .applynormaltotangential = ApplyNormalToTangential,

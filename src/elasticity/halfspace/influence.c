@@ -259,7 +259,7 @@ static ptrdiff_t BlockLength(ptrdiff_t i, ptrdiff_t n)
 
 /*
   The integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not
-  on where the n cells begin or end in it, so that a cell has one value however it is asked for.
+  on where the n cells begin or end in it, so that a cell has one value in whatever range it is computed.
 */
 static void BlockIntegrals(Expansion *e, ptrdiff_t j, ptrdiff_t i, ptrdiff_t n, double *values)
 {

@@ -9,27 +9,15 @@
   by the transforms of 1/r, 2 pi/|k|, of x_a x_b/r^3, (2 pi/|k|)(delta_ab - k_a k_b/|k|^2), and of x/r^2,
   -2 pi i k/|k|^2.
 
-  The mean, k = 0: a uniform traction would displace the surface without bound, so displacements are counted from the
-  mean surface, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
+  The mean, k = 0: a uniform traction would displace the surface without bound, so displacements are measured from the
+  mean planes, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
   mirror image; there a symbol that is odd in its wave number, which would be the mean of both, is 0.
 
   Source of the normal symbol: Westergaard 1939, J. Appl. Mech. 6, A49-A53; Stanley and Kato 1997, J. Tribol. 119,
   481-485.
 */
-#include <petsam/private/elasticityimpl.h>
+#include "../waves.h"
 #include <math.h>
-
-typedef struct {
-  double step[2]; /* wave numbers of the longest waves, 2 pi/period, in units of 1/length of the grid */
-  double gain;    /* what the symbol has before its function of k, times a factor and the transforms' normalisation */
-  double nu;
-  double mean; /* stands for |k| at k = 0 in the inverse */
-} Symbol;
-
-/* Entries of a column whose wave numbers count from one origin. */
-typedef struct {
-  PetscInt first, last, origin;
-} Stretch;
 
 /* The self-influence of a cell, m/Pa. */
 typedef struct {
@@ -48,65 +36,16 @@ typedef struct {
 #define Name(x) x##Single
 #include "symbols.h"
 
-/* A column in three stretches: wave numbers from 0 up, that of two cells' length if there is one, the negative ones. */
-static void GetStretches(PetscInt n, Stretch s[3])
-{
-  s[0] = (Stretch){0, (n + 1) / 2, 0};
-  s[1] = (Stretch){(n + 1) / 2, n / 2 + 1, 0};
-  s[2] = (Stretch){n / 2 + 1, n, n};
-}
-
 /* Whether a wave number of that index is its own mirror image. */
 static inline double IsOwnMirror(PetscInt k, PetscInt n)
 {
   return 2 * k == n ? 1 : 0;
 }
 
-static void FilterNormal(const SamFourierBlock *block, const void *context)
-{
-  const Symbol *s = (const Symbol *)context;
-  Stretch       stretch[3];
-
-  GetStretches(block->hy, stretch);
-  for (PetscInt b = 0; b < block->columns; b++) {
-    const double    kx     = s->step[0] * (double)(block->first + b);
-    const ptrdiff_t offset = (ptrdiff_t)b * block->stride;
-
-    for (PetscInt k = 0; k < 3; k++) {
-      if (block->data[0])
-        MultiplyNormalDouble(s, kx, stretch[k], block->data[0] + offset);
-      else
-        MultiplyNormalSingle(s, (float)kx, stretch[k], block->single[0] + offset);
-    }
-  }
-}
-
-static void FilterTangential(const SamFourierBlock *block, const void *context)
-{
-  const Symbol *s = (const Symbol *)context;
-  Stretch       stretch[3];
-
-  GetStretches(block->hy, stretch);
-  for (PetscInt b = 0; b < block->columns; b++) {
-    const double    kx     = s->step[0] * (double)(block->first + b);
-    const ptrdiff_t offset = (ptrdiff_t)b * block->stride;
-
-    for (PetscInt k = 0; k < 3; k++) {
-      const double cross = k == 1 ? 0 : 1 - IsOwnMirror(block->first + b, block->hx);
-
-      if (block->data[0])
-        MultiplyTangentialDouble(s, kx, cross, stretch[k], block->data[0] + offset, block->data[1] + offset);
-      else
-        MultiplyTangentialSingle(s, (float)kx, (float)cross, stretch[k], block->single[0] + offset,
-                                 block->single[1] + offset);
-    }
-  }
-}
-
 /* ---- coupling ---- */
 
 /* gain k/|k|^2 at entry m of column b: odd in k, so 0 for waves that are their own mirror images, and for the mean. */
-static void CouplingAt(const Symbol *s, const SamFourierBlock *block, PetscInt b, PetscInt m, double g[2])
+static void CouplingAt(const SamSymbol *s, const SamFourierBlock *block, PetscInt b, PetscInt m, double g[2])
 {
   const double kx = s->step[0] * (double)(block->first + b),
                ky = s->step[1] * (double)(2 * m <= block->hy ? m : m - block->hy), k2 = kx * kx + ky * ky;
@@ -124,7 +63,7 @@ static void FilterNormalToTangential(const SamFourierBlock *block, const void *c
       const double    p[2] = {block->data[0][k][0], block->data[0][k][1]};
       double          g[2];
 
-      CouplingAt((const Symbol *)context, block, b, m, g);
+      CouplingAt((const SamSymbol *)context, block, b, m, g);
       for (PetscInt c = 0; c < 2; c++) {
         block->data[c][k][0] = g[c] * p[1];
         block->data[c][k][1] = -g[c] * p[0];
@@ -140,7 +79,7 @@ static void FilterTangentialToNormal(const SamFourierBlock *block, const void *c
       const ptrdiff_t k = (ptrdiff_t)b * block->stride + m;
       double          g[2], re, im;
 
-      CouplingAt((const Symbol *)context, block, b, m, g);
+      CouplingAt((const SamSymbol *)context, block, b, m, g);
       re = g[0] * block->data[0][k][0] + g[1] * block->data[1][k][0];
       im = g[0] * block->data[0][k][1] + g[1] * block->data[1][k][1];
 
@@ -151,25 +90,12 @@ static void FilterTangentialToNormal(const SamFourierBlock *block, const void *c
 
 /* ---- inverses ---- */
 
-/* gain |k|, with `mean` for |k| of the mean. */
-SAM_VECTORIZED static void DivideNormal(const Symbol *s, float kx, Stretch at, float (*restrict column)[2])
-{
-  const float gain = (float)s->gain, mean = (float)s->mean, step = (float)s->step[1];
-
-#pragma omp simd
-  for (PetscInt m = at.first; m < at.last; m++) {
-    const float ky = step * (float)(m - at.origin), k = sqrtf(kx * kx + ky * ky), g = gain * (k > mean ? k : mean);
-
-    column[m][0] *= g;
-    column[m][1] *= g;
-  }
-}
-
 /* gain |k| times the inverse of the matrix I - nu kk'/|k|^2 whose cross term is multiplied by `cross`. */
-SAM_VECTORIZED static void DivideTangential(const Symbol *s, float kx, float cross, Stretch at, float (*restrict x)[2],
-                                            float (*restrict y)[2])
+SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 {
   const float gain = (float)s->gain, nu = (float)s->nu, least = (float)(s->mean * s->mean), step = (float)s->step[1];
+  const float kx = (float)at.kx, cross = (float)at.cross;
+  float(*restrict x)[2] = (float(*)[2])at.x, (*restrict y)[2] = (float(*)[2])at.y;
 
 #pragma omp simd
   for (PetscInt m = at.first; m < at.last; m++) {
@@ -185,60 +111,27 @@ SAM_VECTORIZED static void DivideTangential(const Symbol *s, float kx, float cro
   }
 }
 
-static void FilterNormalInverse(const SamFourierBlock *block, const void *context)
-{
-  const Symbol *s = (const Symbol *)context;
-  Stretch       stretch[3];
-
-  GetStretches(block->hy, stretch);
-  for (PetscInt b = 0; b < block->columns; b++)
-    for (PetscInt k = 0; k < 3; k++)
-      DivideNormal(s, (float)(s->step[0] * (double)(block->first + b)), stretch[k],
-                   block->single[0] + (ptrdiff_t)b * block->stride);
-}
-
-static void FilterTangentialInverse(const SamFourierBlock *block, const void *context)
-{
-  const Symbol *s = (const Symbol *)context;
-  Stretch       stretch[3];
-
-  GetStretches(block->hy, stretch);
-  for (PetscInt b = 0; b < block->columns; b++)
-    for (PetscInt k = 0; k < 3; k++) {
-      const double    cross  = k == 1 ? 0 : 1 - IsOwnMirror(block->first + b, block->hx);
-      const ptrdiff_t offset = (ptrdiff_t)b * block->stride;
-
-      DivideTangential(s, (float)(s->step[0] * (double)(block->first + b)), (float)cross, stretch[k],
-                       block->single[0] + offset, block->single[1] + offset);
-    }
-}
-
 /* ---- methods ---- */
 
-/* Wave numbers are in units of 1/length of the grid, so that their squares are numbers that floats hold. */
-static Symbol NewSymbol(SamElasticity e)
+typedef void (*Product)(const SamSymbol *symbol, SamWaves waves);
+
+/* The symbol factor * amplitude * (a function of k of degree -1). */
+static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Product multiply)
 {
   const SamGrid  grid = e->grid;
   const SamPair *pair = &e->pair;
-  Symbol         s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx)};
+  SamSymbol      s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx), .multiply = multiply};
 
   for (PetscInt c = 0; c < 2; c++) s.step[c] = 2 * PETSC_PI / grid->width[c] * grid->length;
   s.mean = 0.5 * PetscMin(s.step[0], s.step[1]);
+  s.gain = factor * amplitude * grid->length / ((double)grid->nx * (double)grid->ny);
   return s;
 }
 
-/* The symbol factor * amplitude * (a function of k of degree -1), and its inverse. */
-static Symbol SymbolOf(SamElasticity e, double factor, double amplitude)
+/* Its inverse. */
+static SamSymbol InverseOf(SamElasticity e, double factor, double amplitude, Product multiply)
 {
-  Symbol s = NewSymbol(e);
-
-  s.gain = factor * amplitude * e->grid->length / ((double)e->grid->nx * (double)e->grid->ny);
-  return s;
-}
-
-static Symbol InverseOf(SamElasticity e, double factor, double amplitude)
-{
-  Symbol s = NewSymbol(e);
+  SamSymbol s = SymbolOf(e, factor, amplitude, multiply);
 
   s.gain = factor / (amplitude * e->grid->length * (double)e->grid->nx * (double)e->grid->ny);
   return s;
@@ -254,80 +147,62 @@ static double TangentialAmplitude(SamElasticity e)
   return 2 * PETSC_PI * (e->pair.shear + e->pair.shear_xx);
 }
 
-static double CouplingAmplitude(SamElasticity e)
-{
-  return 2 * PETSC_PI * e->pair.coupling;
-}
-
-typedef void (*Filter)(const SamFourierBlock *block, const void *symbol);
-
-static PetscErrorCode Apply(SamElasticity e, double amplitude, PetscInt n_in, PetscInt n_out, Filter apply,
-                            const double *const in[], double *const out[])
-{
-  const Symbol           s      = SymbolOf(e, 1, amplitude);
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, n_in, n_out, apply, &s};
-
-  PetscFunctionBegin;
-  PetscCall(SamFourierApply(e->fourier, &filter, in, out));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ApplySingle(SamElasticity e, const Symbol *s, PetscInt n, Filter apply, const float *const in[],
-                                  float *const out[])
-{
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, n, n, apply, s};
-
-  PetscFunctionBegin;
-  PetscCall(SamFourierApplySingle(e->fourier, &filter, in, out));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
 {
-  return Apply(e, NormalAmplitude(e), 1, 1, FilterNormal, p, u_z);
+  const SamSymbol s = SymbolOf(e, 1, NormalAmplitude(e), MultiplyNormalDouble);
+
+  return SamSymbolApply(e, &s, 1, p, u_z);
 }
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
 {
-  return Apply(e, TangentialAmplitude(e), 2, 2, FilterTangential, q, u_t);
+  const SamSymbol s = SymbolOf(e, 1, TangentialAmplitude(e), MultiplyTangentialDouble);
+
+  return SamSymbolApply(e, &s, 2, q, u_t);
 }
 
 static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
 {
-  return Apply(e, CouplingAmplitude(e), 1, 2, FilterNormalToTangential, p, u_t);
+  const SamSymbol        s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling, NULL);
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 2, FilterNormalToTangential, &s};
+
+  return SamFourierApply(e->fourier, &filter, p, u_t);
 }
 
 static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
 {
-  return Apply(e, CouplingAmplitude(e), 2, 1, FilterTangentialToNormal, q, u_z);
+  const SamSymbol        s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling, NULL);
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 1, FilterTangentialToNormal, &s};
+
+  return SamFourierApply(e->fourier, &filter, q, u_z);
 }
 
 static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
 {
-  const Symbol s = SymbolOf(e, factor, NormalAmplitude(e));
+  const SamSymbol s = SymbolOf(e, factor, NormalAmplitude(e), MultiplyNormalSingle);
 
-  return ApplySingle(e, &s, 1, FilterNormal, p, u_z);
+  return SamSymbolApplySingle(e, &s, 1, p, u_z);
 }
 
 static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
 {
-  const Symbol s = SymbolOf(e, factor, TangentialAmplitude(e));
+  const SamSymbol s = SymbolOf(e, factor, TangentialAmplitude(e), MultiplyTangentialSingle);
 
-  return ApplySingle(e, &s, 2, FilterTangential, q, u_t);
+  return SamSymbolApplySingle(e, &s, 2, q, u_t);
 }
 
 static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
 {
-  const Symbol s = InverseOf(e, factor, NormalAmplitude(e));
+  const SamSymbol s = InverseOf(e, factor, NormalAmplitude(e), SamSymbolDivideNormal);
 
-  return ApplySingle(e, &s, 1, FilterNormalInverse, r, p);
+  return SamSymbolApplySingle(e, &s, 1, r, p);
 }
 
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
-  const Symbol s = InverseOf(e, factor, TangentialAmplitude(e));
+  const SamSymbol s = InverseOf(e, factor, TangentialAmplitude(e), DivideTangential);
 
-  return ApplySingle(e, &s, 2, FilterTangentialInverse, r, q);
+  return SamSymbolApplySingle(e, &s, 2, r, q);
 }
 
 static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
@@ -349,7 +224,7 @@ static inline double Multiplicity(PetscInt k, PetscInt n)
 }
 
 /* Sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3. */
-static void SumWaves(SamElasticity e, const Symbol *s, PetscInt m, double sums[3])
+static void SumWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sums[3])
 {
   const double ky = s->step[1] * (double)m, weight = Multiplicity(m, e->grid->ny);
 
@@ -370,10 +245,10 @@ static void SumWaves(SamElasticity e, const Symbol *s, PetscInt m, double sums[3
 */
 static PetscErrorCode ComputeSelfInfluence(SamElasticity e, Periodic *data)
 {
-  const Symbol s         = SymbolOf(e, 1, 1);
-  SamTotal     totals[3] = {{0}};
-  double       sums[3];
-  PetscMPIInt  rank, ranks;
+  const SamSymbol s         = SymbolOf(e, 1, 1, NULL);
+  SamTotal        totals[3] = {{0}};
+  double          sums[3];
+  PetscMPIInt     rank, ranks;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(e->grid->comm, &rank));
@@ -396,13 +271,6 @@ static PetscErrorCode SetUp(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Destroy(SamElasticity e)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(e->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
 {
   Periodic *data;
@@ -412,7 +280,6 @@ PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
   e->data   = data;
   e->traits = (SamElasticityTraits){.coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE};
   e->ops    = (SamElasticityOps){.setup                   = SetUp,
-                                 .destroy                 = Destroy,
                                  .applynormal             = ApplyNormal,
                                  .applytangential         = ApplyTangential,
                                  .applynormalsingle       = ApplyNormalSingle,

@@ -3,13 +3,13 @@
     Real       double or float
     Root(x)    square root
     Name(x)    name of a function of this precision
-  Entries m = first ... last - 1 of the column have the wave number ky = step (m - origin).
 */
 
 /* gain/|k|, and 0 for the mean. */
-SAM_VECTORIZED static void Name(MultiplyNormal)(const Symbol *s, Real kx, Stretch at, Real (*restrict column)[2])
+SAM_VECTORIZED static void Name(MultiplyNormal)(const SamSymbol *s, SamWaves at)
 {
-  const Real gain = (Real)s->gain, step = (Real)s->step[1];
+  const Real gain = (Real)s->gain, step = (Real)s->step[1], kx = (Real)at.kx;
+  Real(*restrict column)[2] = (Real(*)[2])at.x;
 
 #pragma omp simd
   for (PetscInt m = at.first; m < at.last; m++) {
@@ -22,10 +22,10 @@ SAM_VECTORIZED static void Name(MultiplyNormal)(const Symbol *s, Real kx, Stretc
 }
 
 /* (gain/|k|)(I - nu kk'/|k|^2), and 0 for the mean; the cross term times `cross`. */
-SAM_VECTORIZED static void Name(MultiplyTangential)(const Symbol *s, Real kx, Real cross, Stretch at,
-                                                    Real (*restrict x)[2], Real (*restrict y)[2])
+SAM_VECTORIZED static void Name(MultiplyTangential)(const SamSymbol *s, SamWaves at)
 {
-  const Real gain = (Real)s->gain, nu = (Real)s->nu, step = (Real)s->step[1];
+  const Real gain = (Real)s->gain, nu = (Real)s->nu, step = (Real)s->step[1], kx = (Real)at.kx, cross = (Real)at.cross;
+  Real(*restrict x)[2] = (Real(*)[2])at.x, (*restrict y)[2] = (Real(*)[2])at.y;
 
 #pragma omp simd
   for (PetscInt m = at.first; m < at.last; m++) {

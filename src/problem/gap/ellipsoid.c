@@ -7,8 +7,8 @@
 #include <math.h>
 
 static const SamGapParameter parameters[] = {
-  {"gap_radius_x", "relative radius of curvature along x (m, inf: straight)", SAM_RANGE_POSITIVE_INF},
-  {"gap_radius_y", "relative radius of curvature along y (m, inf: straight)", SAM_RANGE_POSITIVE_INF}};
+  {"gap_radius_x", "relative radius of curvature along x (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF},
+  {"gap_radius_y", "relative radius of curvature along y (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF}};
 
 static PetscReal Height_Ellipsoid(const PetscReal radius[], PetscReal x, PetscReal y)
 {
@@ -51,7 +51,7 @@ static double RatioOfAxes(double radii)
   return radii > 1 - 1e-7 ? 1 : high; /* there the difference above is only rounding */
 }
 
-/* Hertz: Johnson, eqs 4.25 to 4.30. Of a cylinder only the contact's half width is known, not its length. */
+/* Hertz: Johnson, eqs 4.25 to 4.30. For a cylinder they give the half width of the contact, not its length. */
 static SamGapContact Contact_Ellipsoid(const PetscReal radius[], PetscReal half)
 {
   const int     x     = radius[0] >= radius[1] ? 0 : 1; /* along the longer axis */

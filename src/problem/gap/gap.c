@@ -113,25 +113,13 @@ PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SetSource(SamFieldFile *source, const char file[], const char dataset[])
+PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[])
 {
+  SamFieldFile *source = rough ? &gap->rough : &gap->source;
+
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(source->file, file ? file : "", sizeof(source->file)));
   PetscCall(PetscStrncpy(source->dataset, dataset ? dataset : source->default_dataset, sizeof(source->dataset)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamGapSetFile(SamGap gap, const char file[], const char dataset[])
-{
-  PetscFunctionBegin;
-  PetscCall(SetSource(&gap->source, file, dataset));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamGapSetRoughness(SamGap gap, const char file[], const char dataset[])
-{
-  PetscFunctionBegin;
-  PetscCall(SetSource(&gap->rough, file, dataset));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -190,7 +178,7 @@ static PetscErrorCode PrintTypes(SamGap gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes the options of all types known: one that is given with another type is not misspelled. */
+/* Registers the options of all types: an option that is given with another type is not misspelled. */
 static PetscErrorCode KnowTypes(MPI_Comm comm, const SamOptions *from)
 {
   const char **types;
@@ -237,7 +225,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
     if (strcmp(type, gap->type)) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
   }
-  PetscCall(SamFieldFileSetFromOptions(&gap->rough, &from, "HDF5 file with a roughness that is added to any type"));
+  PetscCall(SamFieldFileSetFromOptions(&gap->rough, &from, "HDF5 file with a roughness, added to the gap of any type"));
   if (help) gap->rough.file[0] = '\0';
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -336,11 +324,11 @@ PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what a closed solution says of the contact ---- */
+/* ---- the contact by a closed-form solution ---- */
 
 #define HALVINGS 200 /* of an interval of half widths, more than doubles have digits and half of their exponents */
 
-/* What of a contact is compared with the prescribed value. */
+/* The number of a contact that is compared with the prescribed value. */
 static PetscReal ValueOf(const SamGapContact *contact, PetscBool force)
 {
   return force ? contact->force : contact->approach;

@@ -93,7 +93,7 @@ void SamFrameGetRigid(const SamFrame *f, const double a[3], SamBalance *balance)
 
   /* a = basis' b with b = lower' d */
   for (PetscInt k = f->count - 1; k >= 0; k--) {
-    double b = a[0] * f->basis[k][0] + a[1] * f->basis[k][1] + a[2] * f->basis[k][2];
+    double b = SamFrameDot(a, f->basis[k]);
 
     for (PetscInt m = k + 1; m < f->count; m++) b -= f->lower[m][k] * d[m];
     d[k]                            = b / f->lower[k][k];

@@ -1,5 +1,5 @@
 /*
-  Which loads can be balanced at all: the lever arms of a normal load, and the limit of sliding.
+  Admissible loads: the lever arms of a normal load, and the limit of sliding.
 
   Sliding: shears with |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of
   loads is convex, and the sum is its support function). So the least sum b |v| dA over the v with F.v = 1 is the factor
@@ -9,7 +9,7 @@
 #include "projectionimpl.h"
 #include <math.h>
 
-/* Of the sum of the bound: an error of equilibrium that is taken for none. */
+/* An error of equilibrium, relative to the sum of the bound, that is ignored. */
 #define TOLERANCE 1e-11
 /*
   Numbers of smoothings, 1, 0.1, ..., and of that of the shear: less would leave rounding in it where the motion turns.
@@ -18,7 +18,7 @@
 #define SMOOTHING_OF_SHEAR 6
 /* Rounding of a load or a lever that all pressures at their limit just bear, relative. */
 #define FULL 1e-12
-/* The part of the power that a step must promise for the power to tell its worth. */
+/* The part of the power that a step must promise for the power to measure its gain. */
 #define FLAT 1e-10
 
 /* A row's sums of t and of xi t. */
@@ -106,7 +106,7 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
 }
 
 /*
-  The largest moment about the grid's first or last row or column of centres that a load (Pa, a sum over the cells) has
+  The maximum moment about the grid's first or last row or column of centres that a load (Pa, a sum over the cells) has
   under a pressure limit: the outermost lines of cells bear all of it. Returns the place of its resultant (m), along y
   for k = 1, along x for 2; `last`: at the last line.
 */
@@ -139,7 +139,8 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   *possible = load <= most * (1 + FULL);
   if (!*possible)
     PetscCall(PetscSNPrintf(
-      message, size, "load_n = %.8g N is more than pressure_limit = %g Pa on the whole grid bears (limit %.8g N)", load,
+      message, size,
+      "load_n = %.8g N exceeds the load that the whole grid carries under pressure_limit = %g Pa (limit %.8g N)", load,
       (double)limit, most));
   for (PetscInt k = 1; k < 3 && *possible; k++) {
     const double sign  = k == 1 ? -1 : 1, /* lever of Mx along -y, of My along x */
@@ -245,8 +246,8 @@ static double FindStep(const SamFrame *across, const Power *now, double step[3])
 }
 
 /*
-  Newton with halving for one smoothing, moving a within the directions of `across`. Where the power is too flat to tell
-  a step's worth, the slope does: the motion is wanted exactly, and not only its power.
+  Newton with halving for one smoothing, moving a within the directions of `across`. Where the power is too flat to
+  measure a step's gain, the slope does: the motion must be accurate, not only its power.
 */
 static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing,
                                     double a[3])
@@ -268,7 +269,7 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
       t *= 0.5;
     }
     next_slope = FindStep(across, &next, next_step);
-    if (flat ? next_slope > 0.25 * slope : next.value >= now.value) break; /* all is rounding */
+    if (flat ? next_slope > 0.25 * slope : next.value >= now.value) break; /* rounding dominates */
     PetscCall(PetscArraycpy(a, trial, 3));
     PetscCall(PetscArraycpy(step, next_step, 3));
     now   = next;
@@ -277,7 +278,7 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear along a smoothed motion a; a cell at the centre of rotation has what is left to carry. */
+/* The shear along a smoothed motion a; a cell at the centre of rotation carries the rest. */
 static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const double a[3], double smoothing,
                                  Vec shear)
 {

@@ -4,13 +4,13 @@
 
 /* Most projections in a row. */
 #define PROJECT_MAX 4
-/* An error of equilibrium from which one step of Newton's method is likely to reach the solution. */
+/* The error of equilibrium below which one step of Newton's method usually reaches the solution. */
 #define CLOSE 1e-3
 
 /* The cells that take part, where there is no mask: all, those with pressure, those with one between its bounds. */
 typedef enum { ALL, PRESSED, BETWEEN } Which;
 
-/* What a pass over the cells needs to know. */
+/* The input of a pass over the cells. */
 typedef struct {
   const double *field;     /* what is projected */
   const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: */
@@ -21,7 +21,7 @@ typedef struct {
   double        by, scale; /* see SamPressureStep */
   float        *made;
   PetscBool     quick;  /* a single step of Newton's method may do */
-  double       *motion; /* what has been added along the phi; NULL: not wanted */
+  double       *motion; /* result: the sum added along the phi; NULL: unused */
 } Cells;
 
 static const float *MaskOfRow(const Cells *c, const SamFrame *f, PetscInt j)
@@ -32,11 +32,6 @@ static const float *MaskOfRow(const Cells *c, const SamFrame *f, PetscInt j)
   if (c->mask) return c->mask + (ptrdiff_t)j * nx;
   for (PetscInt i = 0; c->which != ALL && i < nx; i++) c->row[i] = field[i] > 0 && field[i] < below ? 1.0f : 0.0f;
   return c->row;
-}
-
-static const char *BusyOfRow(const Cells *c, SamGrid grid, PetscInt j)
-{
-  return c->busy ? c->busy + (ptrdiff_t)j * SamStretches(grid) : NULL;
 }
 
 /* Arrays of some cells; `most` bounds their pressures. */
@@ -75,25 +70,6 @@ SAM_VECTORIZED static void AddPressures(SamRow row, Fields cells, const double a
   SamGramNormalRow(sums->gram, count, sum_xi, xi2, row.eta);
 }
 
-static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
-{
-  const Cells   *c  = (const Cells *)context;
-  const PetscInt nx = f->grid->nx;
-
-  for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const float *mask = MaskOfRow(c, f, j), *step = c->step + (c->by != 0 ? (ptrdiff_t)j * nx : 0);
-    const char  *busy = BusyOfRow(c, f->grid, j);
-    SamDual      sums = {0};
-
-    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);) {
-      const SamRow row = SamFrameRow(f, j, i, end);
-
-      AddPressures(row, (Fields){c->field + row.first, step + i, mask + i, c->by, f->most}, a, &sums);
-    }
-    SamAddAll(SAM_DUAL, dual, (const double *)&sums);
-  }
-}
-
 /* Arrays of some cells, for the next function. */
 typedef struct {
   double      *p;
@@ -128,24 +104,35 @@ SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, const double
   sums->sums[2] += turn;
 }
 
-/* The projection that belongs to a, in place of the field p, and its moments. `scratch`: a row, where made is NULL. */
-static void ApplyRows(const SamFrame *f, const Cells *c, const double a[3], double p[], float scratch[],
-                      SamTotal dual[])
+/*
+  A pass over the cells: adds the dual at a and its derivatives. With p, the field, the projection that belongs to a
+  takes its place, and only its moments are added; `scratch`: a row, where made is NULL.
+*/
+static void PassRows(const SamFrame *f, const Cells *c, const double a[3], double p[], float scratch[], SamTotal dual[])
 {
-  const PetscInt nx = f->grid->nx;
+  const PetscInt nx = f->grid->nx, stretches = SamStretches(f->grid);
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const ptrdiff_t k    = (ptrdiff_t)j * nx;
     const float    *mask = MaskOfRow(c, f, j), *step = c->step + (c->by != 0 ? k : 0);
-    const char     *busy = BusyOfRow(c, f->grid, j);
     float          *made = c->made ? c->made + k : scratch;
     SamDual         sums = {0};
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(busy, nx, &i, &end);)
-      ApplyNormal(SamFrameRow(f, j, i, end),
-                  (Pressures){p + k + i, step + i, mask + i, made + i, c->by, f->most, c->scale}, a, &sums);
+    for (PetscInt i = 0, end = 0; SamNextBusy(c->busy ? c->busy + (ptrdiff_t)j * stretches : NULL, nx, &i, &end);) {
+      const SamRow row = SamFrameRow(f, j, i, end);
+
+      if (p)
+        ApplyNormal(row, (Pressures){p + k + i, step + i, mask + i, made + i, c->by, f->most, c->scale}, a, &sums);
+      else
+        AddPressures(row, (Fields){c->field + k + i, step + i, mask + i, c->by, f->most}, a, &sums);
+    }
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
   }
+}
+
+static void PassNormal(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
+{
+  PassRows(f, (const Cells *)context, a, NULL, NULL, dual);
 }
 
 /* p as it was before the changes in `made`. */
@@ -162,7 +149,7 @@ static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
 static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], PetscBool *found)
 {
   double   *before = NULL;
-  float    *zeros, *scratch; /* a row of no step, and of changes that are not wanted */
+  float    *zeros, *scratch; /* a row of no step, and of unused changes */
   PetscBool near = PETSC_TRUE;
 
   PetscFunctionBegin;
@@ -185,7 +172,7 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
       PetscCall(PetscMalloc1(f->grid->cells, &before));
       PetscCall(PetscArraycpy(before, p, f->grid->cells));
     }
-    if (near) ApplyRows(f, &cells, a, p, scratch, totals);
+    if (near) PassRows(f, &cells, a, p, scratch, totals);
     for (PetscInt i = 0; cells.motion && i < 3; i++) cells.motion[i] += a[i];
     if (once && near && !*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_ENOUGH, found));
     cells.by   = 0;
@@ -202,9 +189,7 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
 
 PetscErrorCode SamFrameProjectNormal(const SamFrame *f, const float mask[], double p[], PetscBool *found)
 {
-  PetscFunctionBegin;
-  PetscCall(ProjectNormal(f, (Cells){.mask = mask}, p, found));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ProjectNormal(f, (Cells){.mask = mask}, p, found);
 }
 
 PetscErrorCode SamFrameProjectNormalStep(const SamFrame *f, SamPressureStep *s, double p[], PetscBool *found)

@@ -9,7 +9,7 @@
       sum psi_b(|v + phi a|) - a.F,     psi_b(n) = n^2/2 up to the bound b, b n - b^2/2 beyond
   (for pressures: half the square of the positive part, and H v - H^2/2 beyond H). Its gradient is sum phi'P(v + phi a)
   - F, the error of equilibrium. Newton's method with a line search on the dual takes a few passes over the cells and no
-  transform. When no admissible traction carries F, the dual has no minimum and a grows without bound.
+  transform. If no admissible traction carries F, the dual has no minimum and a grows without bound.
 */
 #include "projectionimpl.h"
 #include <math.h>
@@ -71,7 +71,7 @@ typedef struct {
   double  rounding;       /* of the dual's value */
 } Iterate;
 
-/* The dual, its gradient and what goes with them at a. */
+/* The dual, its gradient and rounding at a. */
 static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void *context, Iterate *at)
 {
   SamTotal totals[SAM_DUAL] = {{0}};
@@ -107,8 +107,8 @@ static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void
     for (PetscInt i = 0; i < 3; i++) next->a[i] = now->a[i] + t * step[i];
     PetscCall(EvaluateAt(f, pass, context, next));
     end = SamFrameDot(next->error, step);
-    if (now->size <= SAM_BALANCED_ENOUGH) break;                   /* all is rounding */
-    fell = t * slope <= now->rounding ? end >= -MUCH_SLOPE * slope /* the value cannot tell */
+    if (now->size <= SAM_BALANCED_ENOUGH) break;                   /* rounding dominates */
+    fell = t * slope <= now->rounding ? end >= -MUCH_SLOPE * slope /* below the value's rounding */
                                       : next->dual.value <= now->dual.value - ENOUGH_FALL * t * slope;
     if (!fell)
       most = t;

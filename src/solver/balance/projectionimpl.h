@@ -1,4 +1,4 @@
-/* What the projections of pressures and of shears share: the dual problem, see projection.c. */
+/* Shared by the projections of pressures and of shears: the dual problem, see projection.c. */
 #ifndef PETSAM_PROJECTIONIMPL_H
 #define PETSAM_PROJECTIONIMPL_H
 

@@ -3,14 +3,14 @@
 #include <math.h>
 
 /*
-  An error of equilibrium from which one step of Newton's method is likely to reach the solution. Smaller than for
+  The error of equilibrium below which one step of Newton's method usually reaches the solution. Smaller than for
   pressures, as the equations of shears are not piecewise linear.
 */
 #define SMOOTH 1e-6
 /* Loads of this part of the sum of the shear are rounding. */
 #define ROUNDING 1e-13
 
-/* What a pass over the cells needs to know. */
+/* The input of a pass over the cells. */
 typedef struct {
   const double *field; /* what is projected */
   const double *bound;

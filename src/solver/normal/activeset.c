@@ -1,13 +1,13 @@
 /*
   Projected preconditioned conjugate gradients on a changing active set.
 
-  Problem: minimise p.S p/2 + h.p over the admissible p: 0 <= p <= H, in equilibrium (or with given rigid
+  Problem: minimise p.S p/2 + h.p over the admissible p: 0 <= p <= H, in equilibrium (or with given rigid-body
   displacements). Its gradient is the gap g. H is the hardness, infinite for bodies that do not yield.
 
   Algorithm; an iteration takes one product:
     1. A: the cells where pressure is, or is to be, between its bounds. Cells without pressure that penetrate are in A;
        cells with little pressure that are about to part are not. Likewise with H: cells under H whose gap is open are
-       in A, cells a little below H that penetrate are not. A cell outside of A goes to the nearer bound. The rigid
+       in A, cells a little below H that penetrate are not. A cell outside of A goes to the nearer bound. The rigid-body
        displacements (the multipliers of equilibrium) make the gap g on A smallest. The residual is -g on A.
     2. Direction: the preconditioned residual, plus the part of the last step that makes the two conjugate. Both stay
        meaningful when A changes, as the last step is the difference of two pressures, whose product is known.
@@ -19,13 +19,13 @@
   A step that ends before the trial, by t < 1 of it, leaves cells that are to reach a bound the part 1 - t of their way
   to it. So they come nearer to their bound and never reach it, while all of their gap counts as error. The energy
   converges and the error does not. Therefore, when the error has not fallen for some iterations, cells that are no
-  farther from it than rounding of the step are taken there, and the gap is computed anew.
+  farther from it than rounding of the step are taken there, and the gap is recomputed.
 
   If the trial is uphill, or the error has not fallen for several iterations, the direction is the residual itself:
   projected gradient steps with the best length converge whatever is between them, with one bound as with two. Where no
   cell at a bound has a gap of 0, they find the right cells at the right bounds after finitely many of them, and what is
   left is a linear system, for conjugate gradients (Dostal, ch. 5). Stops when |g| under pressure below H, -g where
-  there is none, and g under H are below the tolerance, relative to the largest displacement.
+  there is none, and g under H are below the tolerance, relative to the maximum displacement.
 
   Preconditioner: |k| on A, less half its loss. |k| = |k|' + loss on A, where |k|' is what the differences of a field
   within A cost, and loss = |k| 1_A what it costs that the field ends at the edge of A. The inverse of S on A lies
@@ -33,7 +33,7 @@
   much of it.
 
   Rounding: steps and their products are in single precision, at half the cost; p and g are in double. g collects about
-  SAM_SINGLE_ROUNDING of the largest error since the last product in double precision; before that matters there is
+  SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision; before that matters there is
   another one. Coarse grids, solved roughly, need none.
 
   References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
@@ -45,7 +45,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The part of the loss that is taken off, and the part of A that may change before the loss is computed anew. */
+/* The part of the loss that is subtracted, and the part of A that may change before the loss is recomputed. */
 #define LOSS_OFF 0.5
 #define LOSS_OLD 0.01
 /* A direction's least descent, as a part of that of the preconditioned residual. */
@@ -200,7 +200,7 @@ static PetscErrorCode NewDirection(Work *w)
 
 /*
   Step 3: p goes to the admissible pressure on A nearest to p + alpha z; s is the step there. `motion`: what the
-  projection took the rigid displacements to be short of, if z is -g.
+  projection took the rigid-body displacements to be short of, if z is -g.
 */
 static PetscErrorCode Try(Work *w, double alpha, PetscBool nearest, double motion[3], PetscBool *found)
 {
@@ -393,20 +393,10 @@ static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool downhill, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A start that is known by its product comes with its motion, which A may leave open. */
-static PetscErrorCode StartMotion(Work *w)
-{
-  SamFrame given;
-
-  PetscFunctionBegin;
-  PetscCall(SamFrameSetGiven(&given, w->level->grid, w->level->balance));
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] = SamLevelHasProduct(w->level) ? given.fixed[c] : w->frame->fixed[c];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level)
 {
   Work            w;
+  SamFrame        given;
   double          best;
   PetscInt        stagnant = 0;
   PetscBool       downhill = PETSC_TRUE, found = PETSC_TRUE;
@@ -414,7 +404,9 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
 
   PetscFunctionBegin;
   PetscCall(CreateWork(solver, level, &w));
-  PetscCall(StartMotion(&w));
+  /* a start with its product has its motion as well, which A may leave open */
+  PetscCall(SamFrameSetGiven(&given, level->grid, level->balance));
+  PetscCall(PetscArraycpy(w.motion, SamLevelHasProduct(level) ? given.fixed : level->frame.fixed, 3));
   PetscCall(SamActiveSetStart(&w));
   SamLevelForgetProduct(level);
   best = w.error;

@@ -15,7 +15,7 @@
 #define DOUBT 0.03
 /* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
 #define PROJECTION_ROUNDING 1e-9
-/* g is computed anew at the latest when the error has fallen by this factor, for then rounding may dominate it. */
+/* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3
 
 typedef SamActiveSet Work;
@@ -27,7 +27,7 @@ static double Tolerance(const Work *w)
   return w->level->rtol * w->displacement;
 }
 
-/* Single precision for S p is all that the tolerance asks for. */
+/* Single precision of S p suffices for the tolerance. */
 static PetscBool IsSingleEnough(const Work *w)
 {
   return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol;
@@ -36,14 +36,14 @@ static PetscBool IsSingleEnough(const Work *w)
 /* The rounding of g is no more than the tolerance has room for. */
 static PetscBool IsTrusted(const Work *w)
 {
-  return SamRoundingIsWithin(&w->rounding, DOUBT * Tolerance(w));
+  return w->rounding <= DOUBT * Tolerance(w);
 }
 
 PetscBool SamActiveSetIsStale(const Work *w)
 {
   const double later = SAM_SINGLE_ROUNDING * w->error; /* what rounding will be after a product */
 
-  return !IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding.bound);
+  return !IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding);
 }
 
 /* ---- the gap and the active set ---- */
@@ -76,7 +76,7 @@ static PetscErrorCode Apply(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g, which holds S p, becomes S p + h - motion; and the largest displacement. */
+/* g, which holds S p, becomes S p + h - motion; and the maximum displacement. */
 static PetscErrorCode FinishGap(Work *w)
 {
   double max = 0;
@@ -173,7 +173,7 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
     PetscCall(Choose(w, 0, motion));
   PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
   PetscCall(Move(w, motion));
-  SamRoundingRaise(&w->rounding, SAM_SINGLE_ROUNDING * w->error);
+  w->rounding = SamLarger(w->rounding, SAM_SINGLE_ROUNDING * w->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -190,7 +190,7 @@ PetscErrorCode SamActiveSetRefresh(Work *w)
     PetscCall(Apply(w));
   }
   PetscCall(FinishGap(w));
-  w->rounding.bound = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
+  w->rounding = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
   PetscCall(SamActiveSetChoose(w, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -207,7 +207,7 @@ PetscErrorCode SamActiveSetStart(Work *w)
   PetscCall(VecGetArrayRead(w->level->product->field, &u));
   PetscCall(PetscArraycpy(w->g, u, w->cells));
   PetscCall(VecRestoreArrayRead(w->level->product->field, &u));
-  w->rounding.bound = w->level->product->rounding;
+  w->rounding = w->level->product->rounding;
   PetscCall(FinishGap(w));
   PetscCall(SamActiveSetChoose(w, NULL));
   if (SamActiveSetIsStale(w)) PetscCall(SamActiveSetRefresh(w));
@@ -229,7 +229,7 @@ PetscErrorCode SamActiveSetKeepProduct(Work *w)
         w->g[row.first + i] - w->h[row.first + i] + SamFrameNormal(w->motion, row.xi0 + (double)i * row.dxi, row.eta);
   }
   PetscCall(VecRestoreArrayWrite(w->level->product->field, &u));
-  SamLevelKeepProduct(w->level, w->rounding.bound + PROJECTION_ROUNDING * w->displacement);
+  SamLevelKeepProduct(w->level, w->rounding + PROJECTION_ROUNDING * w->displacement);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -20,12 +20,12 @@ typedef struct {
   double         *open;           /* of other stretches: the least gap after the last step; not known: -infinity */
   double          unit;           /* m, of the iteration */
   double          self;           /* influence of a cell on itself, m/Pa */
-  double          most;           /* largest admissible pressure, Pa; infinite: none */
+  double          most;           /* maximum admissible pressure, Pa; infinite: none */
   double          gram[SAM_GRAM]; /* of A */
-  double          motion[3];      /* rigid displacement in g, fixed part included */
-  double          displacement;   /* largest |S p|, m */
-  double          error;          /* largest complementarity error, m */
-  SamRounding     rounding;       /* of g, m */
+  double          motion[3];      /* rigid-body displacement in g, fixed part included */
+  double          displacement;   /* maximum |S p|, m */
+  double          error;          /* maximum complementarity error, m */
+  double          rounding;       /* bound of that of g, for the maximum error of a cell, m */
   double          slope;          /* of the energy along the step: s.g */
   double          shrink;         /* largest part of its distance from a bound that a cell loses in the step */
   double          largest;        /* largest pressure of the trial, Pa */
@@ -64,12 +64,12 @@ PETSC_INTERN void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals
 PETSC_INTERN PetscErrorCode SamActiveSetChoose(SamActiveSet *w, SamTotal contact[]);
 /* The first step 1: by the product that the level has, or by a new one. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetStart(SamActiveSet *w);
-/* Leaves S p with the level, if that wants it. Not collective. */
+/* Stores S p in the level, if that keeps products. Not collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetKeepProduct(SamActiveSet *w);
 /* Computes g by a product, and does step 1 by it. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetRefresh(SamActiveSet *w);
 /*
-  Whether g is to be computed anew: when its rounding is too much for the tolerance, and either a product now will keep
+  Whether g is to be recomputed: when its rounding is too much for the tolerance, and either a product now will keep
   it below that to the end, or the error has fallen so far that rounding may dominate.
 */
 PETSC_INTERN PetscBool SamActiveSetIsStale(const SamActiveSet *w);
@@ -78,7 +78,7 @@ PETSC_INTERN PetscErrorCode SamActiveSetIsSolved(SamActiveSet *w, PetscBool *sol
 
 /* ---- loops over some cells of a row ---- */
 
-/* g becomes g + h - motion; returns the largest |g| before. */
+/* g becomes g + h - motion; returns the maximum |g| before. */
 PETSC_INTERN double SamActiveSetGapRow(SamActiveSet *w, SamRow row);
 /*
   Chooses A among some cells: those that are farther from their bounds than ease times the gap, which `motion` moves
@@ -87,7 +87,7 @@ PETSC_INTERN double SamActiveSetGapRow(SamActiveSet *w, SamRow row);
 PETSC_INTERN PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, double ease, const double motion[3],
                                              SamGapSums *sums);
 /*
-  Moves the gap by -motion; returns the largest complementarity error: |g| between the bounds of the pressure, -g where
+  Moves the gap by -motion; returns the maximum complementarity error: |g| between the bounds of the pressure, -g where
   there is none, g where it is the largest admissible one.
 */
 PETSC_INTERN double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const double motion[3]);
@@ -114,7 +114,7 @@ PETSC_INTERN double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t);
 PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);
 /* The same where there is neither pressure nor a step: returns the least gap. */
 PETSC_INTERN double SamActiveSetOpenRow(SamActiveSet *w, SamRow row, double t);
-/* The largest |S p|. */
+/* The maximum |S p|. */
 PETSC_INTERN double SamActiveSetDisplacementRow(const SamActiveSet *w, SamRow row);
 
 #endif

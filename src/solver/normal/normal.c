@@ -2,7 +2,7 @@
   The normal problem as a kind of solver: how it starts, how it goes from grid to grid and into windows, and the cases
   without contact. The methods are in files of their own.
 */
-#include "outside.h"
+#include <petsam/private/normalimpl.h>
 
 /* ---- starts ---- */
 
@@ -35,18 +35,6 @@ static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
   PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscCall(VecRestoreArrayWrite(level->traction, &p));
   PetscCall(VecRestoreArrayRead(gap, &h));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A start from the pressure that the level has: makes it admissible, within its bounds and in equilibrium. */
-static PetscErrorCode StartFromPressure(SamLevel *level, PetscBool *found)
-{
-  double *p;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(level->traction, &p));
-  PetscCall(SamFrameProjectNormalOnContact(&level->frame, p, found));
-  PetscCall(VecRestoreArray(level->traction, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -86,15 +74,22 @@ static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamL
 
 /* ---- one level ---- */
 
-/* The method on this grid, after its start. */
-static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscErrorCode (*start)(SamLevel *, PetscBool *))
+/* The method on this grid; with `guess` from the pressure that the level has, made admissible. */
+static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscBool guess)
 {
   PetscBool found;
+  double   *p;
 
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&level->frame, level->grid, level->balance));
   level->frame.most = (double)s->pressure_limit;
-  PetscCall(start(level, &found));
+  if (guess) {
+    PetscCall(VecGetArray(level->traction, &p));
+    PetscCall(SamFrameProjectNormalOnContact(&level->frame, p, &found));
+    PetscCall(VecRestoreArray(level->traction, &p));
+  } else {
+    PetscCall(StartAsFoundation(level, &found));
+  }
   if (found)
     PetscCall(s->ops.solve(s, level));
   else
@@ -102,16 +97,8 @@ static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscErrorCode (*s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveFromPressure(SamSolver s, SamLevel *level, PetscBool guess)
-{
-  PetscFunctionBegin;
-  (void)guess;
-  PetscCall(SolveHere(s, level, StartFromPressure));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
-  What is asked of a rough solution of the finest grid, as it costs no product: whether the contact, which becomes
+  The check of a rough solution on the finest grid, which costs no product: whether the contact, which becomes
   first, size, keeps clear of the window's border, where that is not the grid's.
 */
 static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt first[2], PetscInt size[2],
@@ -152,7 +139,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
   while (size[0]) {
     PetscCall(SamElasticityChoosePart(level->elasticity, first, size, level->finest, &window, &part));
     if (!window) break;
-    PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveFromPressure));
+    PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveHere));
     if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
     done = !level->finest || s->reason < 0;
     if (!done && s->effort == SAM_EFFORT_GLANCE)
@@ -161,7 +148,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
       PetscCall(SamNormalLookOutside(s, level, window, first, size, &done));
     if (done) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SolveFromPressure(s, level, PETSC_TRUE));
+  PetscCall(SolveHere(s, level, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -173,7 +160,7 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
   PetscFunctionBegin;
   if (start != SAM_START_NONE) PetscCall(VecMax(level->traction, NULL, &most));
   if (most <= 0)
-    PetscCall(SolveHere(s, level, StartAsFoundation));
+    PetscCall(SolveHere(s, level, PETSC_FALSE));
   else
     PetscCall(SolveInWindows(s, level));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -203,7 +190,7 @@ static PetscErrorCode ComputeOverlap(SamGrid grid, Vec separation, const SamFram
 
 /*
   Whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap, or bodies that
-  are free to tilt can clear each other. `apart`: the balance then. A rigid displacement that is not given is not
+  are free to tilt can clear each other. `apart`: the balance then. A rigid-body displacement that is not given is not
   determined by the problem either: the approach becomes 0, or as far back as the bodies need to clear each other, and
   rotations become 0, unless it takes others to clear.
 */
@@ -288,10 +275,11 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 
 static SamSolverKind kind = {
   .name               = "normal",
-  .error_help         = "largest gap error relative to the displacement",
+  .error_help         = "maximum gap error relative to the displacement",
   .balance            = SAM_BALANCE_NORMAL,
   .event              = SAM_EVENT_NORMAL_SOLVE,
-  .own                = {{SAM_NORMAL_ACTIVESET, SamNormalCreate_ActiveSet}},
+  .type               = SAM_NORMAL_ACTIVESET,
+  .create             = SamNormalCreate_ActiveSet,
   .rtol               = 1e-8,
   .coarse_rtol        = 1e-4,
   .components         = 1,
@@ -307,9 +295,7 @@ static SamSolverKind kind = {
 
 PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver))
 {
-  PetscFunctionBegin;
-  PetscCall(SamSolverRegister(&kind, name, create));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamSolverRegister(&kind, name, create);
 }
 
 PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
@@ -346,44 +332,37 @@ PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveProblem(SamSolver s, const SamLevel *problem, PetscBool guess)
+static PetscErrorCode SolveProblem(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess, Vec p,
+                                   SamProduct *product)
 {
-  const SamBalance *balance = problem->balance;
+  const SamSolver s       = SamNormalAsSolver(normal);
+  const SamLevel  problem = {.balance  = balance,
+                             .given    = {[SAM_NORMAL_SEPARATION] = h, [SAM_NORMAL_DIAGONAL] = diagonal},
+                             .traction = p,
+                             .product  = product};
 
   PetscFunctionBegin;
   PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0",
              (double)balance->load[0]);
   PetscCheck(isinf(s->pressure_limit) || s->limits_pressure, s->comm, PETSC_ERR_SUP,
-             "The method %s has no limit of the pressure", s->type);
-  PetscCall(SamSolverSolve(s, problem, guess));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
-                                     SamProduct *product)
-{
-  const SamLevel problem = {
-    .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h}, .traction = p, .product = product};
-
-  PetscFunctionBegin;
-  PetscCall(SolveProblem(SamNormalAsSolver(normal), &problem, guess));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess,
-                                      Vec p)
-{
-  const SamLevel problem = {
-    .balance = balance, .given = {[SAM_NORMAL_SEPARATION] = h, [SAM_NORMAL_DIAGONAL] = diagonal}, .traction = p};
-
-  PetscFunctionBegin;
-  PetscCall(SolveProblem(SamNormalAsSolver(normal), &problem, guess));
+             "The method %s does not support a pressure limit", s->type);
+  PetscCall(SamSolverSolve(s, &problem, guess));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p)
 {
-  PetscFunctionBegin;
-  PetscCall(SamNormalSolveKeeping(normal, h, balance, guess, p, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SolveProblem(normal, h, NULL, balance, guess, p, NULL);
+}
+
+PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
+                                     SamProduct *product)
+{
+  return SolveProblem(normal, h, NULL, balance, guess, p, product);
+}
+
+PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess,
+                                      Vec p)
+{
+  return SolveProblem(normal, h, diagonal, balance, guess, p, NULL);
 }

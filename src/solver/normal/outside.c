@@ -1,20 +1,20 @@
 /*
   The check of a pressure found in a window: do the bodies touch outside of it?
 
-  One product in single precision answers that in nearly all cases, as the gap there is far larger than its rounding.
-  Where it is not, a product in double precision does, and tells how far a larger window has to reach.
+  One product in single precision decides that in nearly all cases, as the gap there is far larger than its rounding.
+  Otherwise a product in double precision does, and shows how far a larger window has to reach.
 */
-#include "outside.h"
+#include <petsam/private/normalimpl.h>
 
-/* Gaps that rounding in single precision cannot be blamed for, relative to the largest displacement. */
+/* Gaps beyond rounding in single precision, relative to the maximum displacement. */
 #define CLEARANCE 1e-5
 
-/* The largest displacement, and what is nearest to touching: the largest -gap. */
+/* The maximum displacement, and the maximum -gap, of the cell nearest to touching. */
 typedef struct {
   double displacement, overlap;
 } Nearest;
 
-/* Raises what is nearest by some cells of a row, with the displacement v = scale u, and the gap h + v - motion. */
+/* Raises both maxima by some cells of a row, with the displacement v = scale u, and the gap h + v - motion. */
 SAM_VECTORIZED static void NearestCells(SamRow row, const float *restrict u, const double *restrict h, double scale,
                                         const double motion[3], Nearest *nearest)
 {

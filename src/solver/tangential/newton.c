@@ -1,8 +1,8 @@
 /*
   Newton's method and conjugate gradients in one, with changing stick and slip.
 
-  Problem: minimise q.C q/2 + offset.q over the discs |q| <= b in equilibrium (or with given rigid displacements). Its
-  gradient is the slip increment s. It is strictly convex, so there is one solution.
+  Problem: minimise q.C q/2 + offset.q over the discs |q| <= b in equilibrium (or with given rigid-body displacements).
+  Its gradient is the slip increment s. It is strictly convex, so there is one solution.
 
   Algorithm; an iteration takes one product:
     1. Sets: cells that are or should be on their circle, with s against q, slip; the others stick. Unknown are both
@@ -27,7 +27,7 @@
   between them. Stops on the residual of q = D(q - s/c), which is zero at the solution only.
 
   Rounding: steps and their products are in single precision, at half the cost; q and s are in double. The slip is
-  computed anew in double precision before rounding matters.
+  recomputed in double precision before rounding matters.
 
   References: Dostal and Kucera 2010, SIAM J. Optim. 20, 2913 (separable convex constraints); Alart and Curnier 1991,
   CMAME 92, 353 (semi-smooth Newton for friction). The classical alternative is Wang, Jin, Zhang and Keer 2010.
@@ -49,7 +49,7 @@
 /* Least and largest length of a step, in parts of that to the least energy, where these bound it. */
 #define LEAST_PART   0.5
 #define LARGEST_PART 1.8
-/* The part of the error that rounding of the slip may make up before the slip is computed anew. */
+/* The part of the error that rounding of the slip may make up before the slip is recomputed. */
 #define DOUBT 0.2
 /* The least unit of slip, relative to what the shear displaces: the residual may be zero, and steps are not. */
 #define LEAST_UNIT 1e-13
@@ -57,8 +57,8 @@
 #define ENERGY_ROUNDING 1e-14
 /*
   Sets and motion depend on each other: how often they are found in turn in an iteration, unless the motion changes by
-  less than STEADY of the largest slip. In the passes of coupled bodies, which say what is enough, they always are:
-  there what is left of the motion's error would be taken for a change of the shear.
+  less than STEADY of the maximum slip. In the coupling iterations of dissimilar bodies, which set the tolerance, they
+  always are: there what is left of the motion's error would be taken for a change of the shear.
 */
 #define SWEEPS 2
 #define STEADY 0.3
@@ -66,7 +66,7 @@
 #define STILL 1e-12
 /* Iterations without progress before the motion is looked for otherwise, before a gradient step, before giving up. */
 #define SHIFT 2
-/* The change of the motion, in parts of the largest residual, from which on the fit is taken to leave it open. */
+/* The change of the motion, in parts of the maximum residual, from which on the fit is taken to leave it open. */
 #define OPEN       2
 #define PATIENCE   10
 #define STAGNATION 100
@@ -75,6 +75,25 @@ typedef SamNewton Work;
 
 #define SPACE    ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
 #define PRODUCTS ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
+
+typedef void (*RowSums)(const SamNewton *w, SamRow row, double sums[]);
+
+/* The sums of a loop over all rows, at most PRODUCTS, in twice the digits. */
+static PetscErrorCode SumRows(const Work *w, RowSums add, PetscInt n, double sums[])
+{
+  const SamStickSlip *u                = &w->base;
+  SamTotal            totals[PRODUCTS] = {{0}};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < u->rows; j++) {
+    double row[PRODUCTS] = {0};
+
+    add(w, SamStickSlipRow(u, j), row);
+    SamAddAll(n, totals, row);
+  }
+  PetscCall(SamSumTotals(u->level->grid->comm, n, totals, sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /* z = 0 outside of the contact's part of each row, which is all that the loops write to. */
 static PetscErrorCode ClearMargins(const Work *w)
@@ -149,20 +168,13 @@ static PetscErrorCode Advance(Work *w, double t)
 /* Step 2: z = P M r + beta P step, conjugate to the last step. */
 static PetscErrorCode NewDirection(Work *w)
 {
-  SamStickSlip     *u                = &w->base;
-  SamTotal          totals[PRODUCTS] = {{0}};
+  SamStickSlip     *u = &w->base;
   SamNewtonProducts sums;
   double            a[3], a_step[3], zv, ev, beta = 0;
 
   PetscFunctionBegin;
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, u->self, w->z, w->z));
-  for (PetscInt j = 0; j < u->rows; j++) {
-    SamNewtonProducts row;
-
-    SamNewtonPreconditionedRow(w, SamStickSlipRow(u, j), &row);
-    SamAddAll(PRODUCTS, totals, (const double *)&row);
-  }
-  PetscCall(SamSumTotals(u->level->grid->comm, PRODUCTS, totals, (double *)&sums));
+  PetscCall(SumRows(w, SamNewtonPreconditionedRow, PRODUCTS, (double *)&sums));
   /* both are made orthogonal to the phi: sum phi'(z - h P phi a) = 0 */
   SamFrameSolve(u->frame, w->gram, sums.z, a);
   SamFrameSolve(u->frame, w->gram, sums.e, a_step);
@@ -181,20 +193,13 @@ static PetscErrorCode NewDirection(Work *w)
 */
 static PetscErrorCode Project(Work *w, const float weight[], double motion[3], PetscBool *found)
 {
-  SamStickSlip *u         = &w->base;
-  SamTotal      totals[4] = {{0}};
+  SamStickSlip *u = &w->base;
   double        sums[4];
 
   PetscFunctionBegin;
   PetscCall(SamFrameProjectTangential(u->frame, u->bound, weight, weight != NULL, w->trial, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt j = 0; j < u->rows; j++) {
-    double row[4] = {0, 0, 0, 0};
-
-    SamNewtonChangeRow(w, SamStickSlipRow(u, j), row);
-    SamAddAll(4, totals, row);
-  }
-  PetscCall(SamSumTotals(u->level->grid->comm, 4, totals, sums));
+  PetscCall(SumRows(w, SamNewtonChangeRow, 4, sums));
   w->slope = sums[0] / w->unit;
   w->along = sums[1];
   w->bend  = sums[2];
@@ -224,15 +229,10 @@ static PetscBool IsRounding(const Work *w)
   return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work;
 }
 
-/* Whether the trial is the shear itself, to rounding. */
-static PetscBool IsStill(const Work *w)
-{
-  return sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale;
-}
-
 static PetscBool IsDownhill(const Work *w)
 {
-  if (IsStill(w)) return PETSC_FALSE;
+  /* the trial is the shear itself, to rounding */
+  if (sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale) return PETSC_FALSE;
   return IsRounding(w) ? w->along > 0 : w->slope < 0;
 }
 
@@ -264,25 +264,18 @@ static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
 */
 static PetscErrorCode Step(Work *w, double *best)
 {
-  SamStickSlip *u         = &w->base;
-  SamTotal      totals[2] = {{0}};
+  SamStickSlip *u = &w->base;
   double        sums[2], least, t;
 
   PetscFunctionBegin;
   PetscCall(SamLevelApplySingle(u->solver, u->level, 1 / u->self, w->step, w->u));
-  for (PetscInt j = 0; j < u->rows; j++) {
-    double row[2] = {0, 0};
-
-    SamNewtonCurvatureRow(w, SamStickSlipRow(u, j), row);
-    SamAddAll(2, totals, row);
-  }
-  PetscCall(SamSumTotals(u->level->grid->comm, 2, totals, sums));
+  PetscCall(SumRows(w, SamNewtonCurvatureRow, 2, sums));
   *best    = w->along / (sums[0] + w->bend);
   least    = -w->slope / sums[0];
   t        = IsRounding(w) ? *best : PetscMin(PetscMax(*best, LEAST_PART * PetscMin(1, least)), LARGEST_PART * least);
   t        = w->whole ? 1 : PetscMin(1, t);
   w->whole = PETSC_FALSE;
-  SamRoundingAdd(&w->rounding, SAM_SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self);
+  w->rounding += SAM_SINGLE_ROUNDING * t * sqrt(sums[1]) * w->unit / u->self;
   PetscCall(Advance(w, t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -290,20 +283,19 @@ static PetscErrorCode Step(Work *w, double *best)
 /* The most that the error can be, rounding included. */
 static double Error(const Work *w)
 {
-  return w->base.error + (w->rounding.bound > 0 ? w->rounding.bound / w->base.scale : 0);
+  return w->base.error + (w->rounding > 0 ? w->rounding / w->base.scale : 0);
 }
 
-/* Computes the slip anew where its rounding matters. */
+/* Recomputes the slip where its rounding matters. */
 static PetscErrorCode Refresh(Work *w)
 {
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  if (SamRoundingIsWithin(&w->rounding, DOUBT * PetscMax(u->error, u->level->rtol) * u->scale))
-    PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->rounding <= DOUBT * PetscMax(u->error, u->level->rtol) * u->scale) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamStickSlipComputeSlip(u));
   PetscCall(Advance(w, 0));
-  w->rounding.bound = 0;
+  w->rounding = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -359,8 +351,8 @@ static PetscErrorCode MoveOnly(Work *w, const double motion[3], PetscBool *bette
   for (PetscInt c = 0; c < 3; c++) u->motion[c] += motion[c];
   PetscCall(SamStickSlipComputeSlip(u));
   PetscCall(Advance(w, 0));
-  w->rounding.bound = 0;
-  *better           = u->error < error;
+  w->rounding = 0;
+  *better     = u->error < error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -400,7 +392,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   PetscCall(Project(w, NULL, NULL, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   /* the slip is still that of the shear before: the step changes s/c by no more than this */
-  SamRoundingAdd(&w->rounding, (1 + w->reach) * sqrt(w->size) * w->unit / u->self);
+  w->rounding += (1 + w->reach) * sqrt(w->size) * w->unit / u->self;
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
   PetscCall(Refresh(w));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -416,7 +408,7 @@ static PetscErrorCode Start(Work *w, PetscBool *found)
 
   PetscFunctionBegin;
   w->whole = SamLevelHasProduct(level);
-  if (w->whole) w->rounding.bound = level->product->rounding;
+  if (w->whole) w->rounding = level->product->rounding;
   PetscCall(SamStickSlipStart(&w->base));
   SamLevelForgetProduct(level);
   PetscCall(Advance(w, 0));
@@ -463,7 +455,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   solver->reason = reason;
   solver->error  = Error(&w);
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = u->motion[c];
-  if (level->product && isfinite(u->error)) PetscCall(SamStickSlipKeepProduct(u, w.rounding.bound));
+  if (level->product && isfinite(u->error)) PetscCall(SamStickSlipKeepProduct(u, w.rounding));
   PetscCall(SamNewtonDestroy(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

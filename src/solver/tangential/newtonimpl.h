@@ -22,7 +22,7 @@ typedef struct {
   PetscBool    whole;          /* the next step has length 1, as the shear is not admissible */
   double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
   double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
-  SamRounding  rounding;       /* of s/c, in the 2-norm, Pa */
+  double       rounding;       /* bound of that of s/c, in the 2-norm, Pa */
 } SamNewton;
 
 /* Sums over cells: the slip in the tangent space with the phi and the Gram matrix there, both weighted by h; the work
@@ -42,7 +42,7 @@ PETSC_INTERN PetscErrorCode SamNewtonDestroy(SamNewton *newton);
 
 /*
   Makes the step of length t: q += t (trial - q), s += by u - the motion a. Chooses stick and slip, adds to the sums,
-  and returns the largest slip in the tangent space.
+  and returns the maximum slip in the tangent space.
 */
 PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
                                         SamNewtonSpace *space);
@@ -51,8 +51,8 @@ PETSC_INTERN void SamNewtonOutsideRow(const SamNewton *w, PetscInt j, double by)
 /* Subtracts the motion a from s; r = -P s, in units, and z = w r; adds to the squares of the error. */
 PETSC_INTERN void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],
                                        double squares[SAM_SQUARES]);
-/* z, which holds M w r, becomes P(w M w r + rest r), see newton.c; its products. */
-PETSC_INTERN void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, SamNewtonProducts *sums);
+/* z, which holds M w r, becomes P(w M w r + rest r), see newton.c; its products, a SamNewtonProducts. */
+PETSC_INTERN void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, double sums[]);
 /* z becomes z - h P a + beta P step. */
 PETSC_INTERN void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const double a[3], float beta);
 /* trial = q + alpha z, with cells that slip beyond their circles. */

@@ -106,7 +106,7 @@ SAM_VECTORIZED void SamNewtonResidualRow(const SamNewton *w, SamRow row, double 
   SamSumSquares(squares, residual, shear, projected, least);
 }
 
-SAM_VECTORIZED void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, SamNewtonProducts *sums)
+SAM_VECTORIZED void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, double sums[])
 {
   const ptrdiff_t cells        = w->base.cells;
   const float *restrict weight = w->weight + row.first, *restrict rx = w->r + row.first, *restrict ry = rx + cells;
@@ -143,13 +143,13 @@ SAM_VECTORIZED void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, S
     ev += ex * vx + ey * vy;
     er += ex * rx[i] + ey * ry[i];
   }
-  *sums = (SamNewtonProducts){{(double)z_x, (double)z_y, (double)z_turn - row.eta * (double)z_x},
-                              {(double)e_x, (double)e_y, (double)e_turn - row.eta * (double)e_x},
-                              {(double)v_x, (double)v_y, (double)v_turn - row.eta * (double)v_x},
-                              (double)zr,
-                              (double)zv,
-                              (double)ev,
-                              (double)er};
+  *(SamNewtonProducts *)sums = (SamNewtonProducts){{(double)z_x, (double)z_y, (double)z_turn - row.eta * (double)z_x},
+                                                   {(double)e_x, (double)e_y, (double)e_turn - row.eta * (double)e_x},
+                                                   {(double)v_x, (double)v_y, (double)v_turn - row.eta * (double)v_x},
+                                                   (double)zr,
+                                                   (double)zv,
+                                                   (double)ev,
+                                                   (double)er};
 }
 
 SAM_VECTORIZED void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const double a[3], float beta)

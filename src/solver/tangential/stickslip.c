@@ -1,4 +1,4 @@
-/* What the tangential methods share: the slip increment, the residual, and the fit of the rigid motion. */
+/* Shared by tangential methods: the slip increment, the residual, and the fit of the rigid-body motion. */
 #include <petsam/private/tangentialimpl.h>
 #include <math.h>
 

@@ -106,7 +106,7 @@ static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The rigid displacement that a level starts from: that of the guess or of the coarse solution, or the given part. */
+/* The rigid-body displacement at the start of a level: of the guess or of the coarse solution, or the given part. */
 static PetscErrorCode StartRigid(SamSolver s, SamLevel *level, SamStart start)
 {
   SamFrame given;
@@ -224,7 +224,7 @@ static PetscErrorCode SolveWithStarts(SamSolver s, SamLevel *level, PetscBool gu
 }
 
 /*
-  Whether some admissible shear carries the loads is known after the projection of any shear; that of the guess is the
+  The projection of any shear shows whether some admissible shear carries the loads; that of the guess is the
   start as well.
 */
 static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
@@ -282,7 +282,8 @@ static SamSolverKind kind = {
   .error_help         = "residual of the projection equation, relative to the shear",
   .balance            = SAM_BALANCE_TANGENTIAL,
   .event              = SAM_EVENT_TANGENTIAL_SOLVE,
-  .own                = {{SAM_TANGENTIAL_NEWTON, SamTangentialCreate_Newton}},
+  .type               = SAM_TANGENTIAL_NEWTON,
+  .create             = SamTangentialCreate_Newton,
   .rtol               = 1e-6,
   .coarse_rtol        = 1e-3,
   .components         = 2,
@@ -298,9 +299,7 @@ static SamSolverKind kind = {
 
 PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)(SamSolver))
 {
-  PetscFunctionBegin;
-  PetscCall(SamSolverRegister(&kind, name, create));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamSolverRegister(&kind, name, create);
 }
 
 PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential)
@@ -329,17 +328,13 @@ PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Ve
                             .traction = q,
                             .product  = product};
 
-  PetscFunctionBegin;
-  PetscCall(SamSolverSolve(SamTangentialAsSolver(tangential), &problem, guess));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamSolverSolve(SamTangentialAsSolver(tangential), &problem, guess);
 }
 
 PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance, PetscBool guess,
                                   Vec q)
 {
-  PetscFunctionBegin;
-  PetscCall(SamTangentialSolveKeeping(tangential, bound, offset, balance, guess, q, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamTangentialSolveKeeping(tangential, bound, offset, balance, guess, q, NULL);
 }
 
 PetscErrorCode SamTangentialGetLimit(SamTangential tangential, PetscReal *factor)

@@ -50,7 +50,7 @@ static PetscErrorCode FitOnContact(const Work *w, const double p[], const double
       row[0] += x[k];
       row[1] -= eta * x[k];
       row[2] += xi * x[k];
-      SamGramAddNormal(row + 3, xi, eta);
+      SamGramNormalRow(row + 3, 1, xi, xi * xi, eta);
     }
     SamAddAll(3 + SAM_GRAM, totals, row);
   }

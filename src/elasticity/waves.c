@@ -1,0 +1,56 @@
+/* Products of spectra with symbols, column by column. */
+#include "waves.h"
+#include <math.h>
+
+/* A column in three parts: wave numbers from 0 up, that of two cells' length if there is one, the negative ones. */
+static void Filter(const SamFourierBlock *block, const void *context)
+{
+  const SamSymbol *s       = (const SamSymbol *)context;
+  const PetscInt   ends[4] = {0, (block->hy + 1) / 2, block->hy / 2 + 1, block->hy};
+
+  for (PetscInt b = 0; b < block->columns; b++)
+    for (PetscInt k = 0; k < 3; k++) {
+      const ptrdiff_t offset = (ptrdiff_t)b * block->stride;
+      SamWaves        waves  = {.kx     = s->step[0] * (double)(block->first + b),
+                                .cross  = k == 1 || 2 * (block->first + b) == block->hx ? 0 : 1,
+                                .first  = ends[k],
+                                .last   = ends[k + 1],
+                                .origin = k == 2 ? block->hy : 0};
+
+      if (block->data[0]) waves.x = block->data[0] + offset;
+      if (block->data[1]) waves.y = block->data[1] + offset;
+      if (block->single[0]) waves.x = block->single[0] + offset;
+      if (block->single[1]) waves.y = block->single[1] + offset;
+      s->multiply(s, waves);
+    }
+}
+
+PetscErrorCode SamSymbolApply(SamElasticity e, const SamSymbol *s, PetscInt n, const double *const in[],
+                              double *const out[])
+{
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, n, n, Filter, s};
+
+  return SamFourierApply(e->fourier, &filter, in, out);
+}
+
+PetscErrorCode SamSymbolApplySingle(SamElasticity e, const SamSymbol *s, PetscInt n, const float *const in[],
+                                    float *const out[])
+{
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, n, n, Filter, s};
+
+  return SamFourierApplySingle(e->fourier, &filter, in, out);
+}
+
+SAM_VECTORIZED void SamSymbolDivideNormal(const SamSymbol *s, SamWaves at)
+{
+  const float gain = (float)s->gain, mean = (float)s->mean, step = (float)s->step[1], kx = (float)at.kx;
+  float(*restrict column)[2] = (float(*)[2])at.x;
+
+#pragma omp simd
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k = sqrtf(kx * kx + ky * ky), g = gain * (k > mean ? k : mean);
+
+    column[m][0] *= g;
+    column[m][1] *= g;
+  }
+}

@@ -1,0 +1,31 @@
+/* Operators that multiply each wave exp(i k.x) of a field by a symbol, a function of k. */
+#ifndef PETSAM_WAVES_H
+#define PETSAM_WAVES_H
+
+#include <petsam/private/elasticityimpl.h>
+
+/* Part of a column of spectra: entries first ... last - 1 have the wave number ky = step (m - origin). */
+typedef struct {
+  double   kx, cross; /* cross: factor on cross terms, 0 for a wave that is its own mirror image, else 1 */
+  PetscInt first, last, origin;
+  void    *x, *y; /* the column of one field or two: double or float (*)[2] */
+} SamWaves;
+
+/* Wave numbers are in units of 1/length of the grid, so that floats hold their squares. */
+typedef struct SamSymbol {
+  double step[2]; /* wave numbers of the longest waves, 2 pi/period */
+  double gain;    /* constants of the symbol, times a factor and the transforms' normalisation */
+  double nu;      /* of the tangential symbols: nu, or nu/(1 - nu) */
+  double mean;    /* stands for |k| at k = 0 in the inverses */
+  void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
+} SamSymbol;
+
+/* The same symbol applied to n fields; `multiply` must be of the same precision. Collective. */
+PETSC_INTERN PetscErrorCode SamSymbolApply(SamElasticity elasticity, const SamSymbol *symbol, PetscInt n,
+                                           const double *const in[], double *const out[]);
+PETSC_INTERN PetscErrorCode SamSymbolApplySingle(SamElasticity elasticity, const SamSymbol *symbol, PetscInt n,
+                                                 const float *const in[], float *const out[]);
+/* Multiplies by gain |k|, with `mean` for |k| of the mean; in single precision. */
+PETSC_INTERN void SamSymbolDivideNormal(const SamSymbol *symbol, SamWaves waves);
+
+#endif

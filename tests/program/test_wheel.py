@@ -1,0 +1,99 @@
+"""`make wheel`: in an environment of its own, without the sources, it solves the README's first contact."""
+
+import os
+import re
+import subprocess
+import sys
+import sysconfig
+
+import numpy as np
+import pytest
+
+from conftest import PROGRAM, environment
+from support import ROOT, Results
+
+FIRST = re.search(r"^mpirun -n 2 build/bin/petsam -grid_n (.*?[^\\])$", (ROOT / "README.md").read_text(), re.M | re.S)
+STEEL = "body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3"
+
+
+def shell(command, cwd, check=0, **variables):
+    """Output of a line of a shell that knows nothing of the sources."""
+    hidden = ("PYTHON", "PYTHONPATH", "PETSAM", "PETSAM_LIBRARY", "PETSAM_BUILD", "VIRTUAL_ENV")
+    env = {**{key: value for key, value in environment().items() if key not in hidden}, **variables}
+    done = subprocess.run(command, shell=True, cwd=cwd, env=env, capture_output=True, text=True, timeout=300)
+    assert done.returncode == check, (command, done.stdout, done.stderr)
+    return done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def wheel():
+    """Made of what is being tested."""
+    script = ROOT / "scripts/packaging/wheel.py"
+    build = PROGRAM.parents[1]
+    subprocess.run(["make", f"B={build}", "pages"], cwd=ROOT, check=True, capture_output=True, timeout=300)
+    done = subprocess.run([sys.executable, script, "--build", build], capture_output=True, text=True, timeout=600)
+    if "No matching distribution found for setuptools" in done.stderr:
+        pytest.skip("no setuptools to make a wheel with")
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout.split()[1]
+
+
+@pytest.fixture
+def fresh(wheel, tmp_path):
+    """A new environment with the wheel; numpy and the others are those of this Python."""
+    folder = tmp_path / "fresh"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True, timeout=300)
+    install = [sys.executable, "-m", "pip", "--python", folder / "bin/python", "install", "-q", "--no-deps", wheel]
+    subprocess.run(install, check=True, timeout=300)
+    (site,) = folder.glob("lib/python*/site-packages")
+    (site / "others.pth").write_text(sysconfig.get_path("purelib") + "\n")
+    return folder
+
+
+def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_README(fresh, tmp_path):
+    path = f"{fresh}/bin:{os.environ['PATH']}"
+    command = "mpirun --oversubscribe -n 2 petsam -grid_n " + re.sub(r"^\d+", "64", FIRST.group(1))
+    assert "check" in shell(command, tmp_path, PATH=path)
+    result = Results(next(tmp_path.glob("*.h5")))
+    assert np.isclose(result["load_n"], 1000, rtol=1e-12) and result.pressure.shape == (64, 64)
+    # the same contact in process, by the library of the wheel
+    code = (
+        f"import petsam; print(petsam.__file__); c = petsam.Contact(grid_n=64, grid_size=2.6e-3, {STEEL}, friction=0.1,"
+        "gap_type='sphere', gap_radius1=0.2, gap_radius2=0.2); print(c.try_step(load_n=1000, load_tx=60).pressure_max);"
+        "print(*[line.split()[-1] for line in open('/proc/self/maps') if 'libpetsam' in line])"
+    )
+    package, pressure, libraries = shell(f'"{fresh}/bin/python" -c "{code}"', tmp_path).splitlines()
+    assert package.startswith(str(fresh)) and set(libraries.split()) == {str(next(fresh.glob("lib/libpetsam.so.*.?")))}
+    assert np.isclose(float(pressure), result["pressure_max"], rtol=1e-12)
+    for tool in ("petsam-plot --maps -o maps.png *.h5", "petsam-surface --help", "petsam-stress --version"):
+        shell(tool, tmp_path, PATH=path)
+    assert (tmp_path / "maps.png").exists()
+
+
+def test_a_study_finds_program_and_job_script_of_the_wheel(fresh, tmp_path):
+    (tmp_path / "one.csv").write_text("load_n\n1\n")
+    fake = tmp_path / "bin" / "sbatch"
+    fake.parent.mkdir()
+    fake.write_text(f'#!/bin/sh\necho "$@" >>{tmp_path}/sbatch.txt\necho 1\n')
+    fake.chmod(0o755)
+    path = f"{fresh}/bin:{fake.parent}:{os.environ['PATH']}"
+    shell("petsam-study one.csv --slurm", tmp_path, PATH=path)
+    first, last = (tmp_path / "sbatch.txt").read_text().splitlines()
+    assert f"{fresh}/share/petsam/scripts/slurm/array.sbatch" in first and f"{fresh}/bin/petsam-study" in last
+    assert "exit 2: " in shell("petsam-study one.csv", tmp_path, check=1, PATH=path)  # petsam lacks the other options
+
+
+@pytest.mark.parametrize(
+    "command", ["bin/petsam", "bin/petsam-stress", "bin/python -c 'import petsam; petsam.Contact()'"]
+)
+def test_without_the_libraries_one_line_says_what_to_install(fresh, tmp_path, command):
+    """The library of petsam itself stands for those that it needs."""
+    (library,) = fresh.glob("lib/libpetsam.so.*.?")
+    library.write_bytes(b"") if "python" in command else library.unlink()
+    code = 1 if "python" in command else 127
+    last = shell(f"{fresh}/{command}", tmp_path, check=code).splitlines()[-1]
+    assert "build petsam from its source" in last
+    if "python" not in command:
+        assert re.match(r"petsam(-stress)?: error: shared libraries not found: libpetsam\.so\.\d+\.\d+; \w", last)
+    if os.path.exists("/usr/bin/dpkg") and not os.environ.get("PETSC_DIR"):
+        assert re.search(r"apt-get install .*libpetsc.* openmpi-bin;", last)
