@@ -116,14 +116,19 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
   const SamSetup    *setup;
   SamSimulationNeeds needs;
+  PetscReal          kept = 0;
+  PetscMPIInt        ranks;
   double             cell;
 
   PetscFunctionBegin;
   PetscCall(SamSimulationGetSetup(simulation, &setup));
+  PetscCallMPI(MPI_Comm_size(setup->grid->comm, &ranks));
   PetscCall(SamSimulationGetNeeds(simulation, &needs));
   cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
          (needs.life ? LIFE_BYTES : 0) + (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-cycle_memory", &kept, NULL)); /* there is no contact yet */
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
+  if (needs.steps > 1) *bytes += (double)kept / ranks;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

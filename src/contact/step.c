@@ -12,11 +12,8 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
                             SamSolve *w)
 {
   PetscFunctionBegin;
-  *w            = (SamSolve){.c             = c,
-                             .s             = &c->generation[SAM_TRIED],
-                             .step          = step,
-                             .same_pressure = same_pressure,
-                             .kept          = start->kept};
+  *w = (SamSolve){
+    .c = c, .s = &c->generation[SAM_TRIED], .step = step, .same_pressure = same_pressure, .kept = start->kept};
   w->coupled    = SamContactIsCoupled(c);
   w->before     = SamContactBefore(c);
   w->counts     = SamStateNumbers(c->state, c->counts, SAM_TRIED);

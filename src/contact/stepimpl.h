@@ -13,8 +13,8 @@ typedef struct {
   const SamSolution *before; /* whose slip it continues; NULL in the first step */
   SamStep           *step;
   PetscBool          coupled, same_pressure;
-  SamKept            kept;           /* the same step one cycle before; NULL: none */
-  PetscBool          known_pressure; /* the pressure is that of the kept step */
+  SamKept            kept;               /* the same step one cycle before; NULL: none */
+  PetscBool          known_pressure;     /* the pressure is that of the kept step */
   SamBalance         normal, tangential; /* as prescribed */
   double             rigid[3];           /* guess of the tangential rigid displacements */
   double            *counts;             /* of the solvers, in the state */
