@@ -116,7 +116,7 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
   const SamSetup    *setup;
   SamSimulationNeeds needs;
-  PetscReal          kept = 0;
+  char               kept[32] = "";
   PetscMPIInt        ranks;
   double             cell;
 
@@ -126,9 +126,10 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscCall(SamSimulationGetNeeds(simulation, &needs));
   cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
          (needs.life ? LIFE_BYTES : 0) + (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
-  PetscCall(PetscOptionsGetReal(NULL, NULL, "-cycle_memory", &kept, NULL)); /* there is no contact yet */
+  /* the contact, which reads it, is made later */
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), NULL));
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
-  if (needs.steps > 1) *bytes += (double)kept / ranks;
+  if (needs.steps > 1) *bytes += atof(kept) / ranks;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
