@@ -311,7 +311,10 @@ static PetscErrorCode Correct(SamSolve *w)
   }
   PetscCall(SamProblemCorrect(w->c->problem, &c));
   for (int k = 0; k < 3; k++) w->counts[SAM_COUNT_NORMAL + k] += (double)c.counts[k];
-  if (c.message[0]) PetscCall(PetscStrncpy(w->step->setting, "edges", sizeof(w->step->setting)));
+  if (c.message[0]) {
+    PetscCall(PetscStrncpy(w->step->setting, "edges", sizeof(w->step->setting)));
+    w->c->revision[SAM_TRIED] = -1; /* the step after this one solves again, and may succeed */
+  }
   SamBalanceStore(&c.found, w->s->load, w->s->rigid);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
