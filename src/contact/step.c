@@ -138,12 +138,16 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
 
 /* ---- the tangential problem ---- */
 
-/* The message for gross slip: the tangential loads, and the limit of each in the same proportions. */
+/*
+  The message for gross slip: the tangential loads, and the limit of each in the same proportions. Under a bound that
+  follows the slip that is no limit: smaller steps slip otherwise, and may reach more.
+*/
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
-  PetscReal factor;
-  PetscInt  loaded = 0;
-  PetscBool friction;
+  const PetscBool follows = SamProblemFollowsSlip(w->c->problem);
+  PetscReal       factor;
+  PetscInt        loaded = 0;
+  PetscBool       friction;
 
   PetscFunctionBegin;
   PetscCall(SamTangentialGetLimit(w->c->tangential, &factor));
@@ -154,13 +158,15 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
     char                    text[96];
 
     if (!w->tangential.force[k] || load == 0) continue;
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "", name->load, load,
-                            name->load_unit, (double)factor * load + 0.0)); /* and not -0 */
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (%s%.8g%s)", loaded++ ? ", " : "", name->load, load,
+                            name->load_unit, follows ? "" : "limit ", (double)factor * load + 0.0, /* and not -0 */
+                            follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
   }
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));
   PetscCall(PetscStrlcat(
     message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
+  if (follows) PetscCall(PetscStrlcat(message, ": use smaller load steps", size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
