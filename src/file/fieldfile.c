@@ -20,7 +20,8 @@ typedef struct {
 } Wanted;
 
 /*
-  What the file says: the dataset's shape, what its values are to be multiplied with, the surface's size (0: unknown) and centre.
+  What the file says: the dataset's shape, what its values are to be multiplied with, the surface's size and centre (0:
+  unknown).
 */
 typedef struct {
   hsize_t shape[2];
