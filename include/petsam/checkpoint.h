@@ -39,12 +39,13 @@ PETSC_EXTERN PetscErrorCode SamCheckpointWrite(SamCheckpoint checkpoint, SamCont
                                                const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 /*
   SamCheckpointRead - gives a contact the state in a file, to the last bit, on any number of ranks, and reads the notes.
-  When the problem's gap is not the one the checkpoint was written with, the next step solves the pressure again and
-  keeps the slip. Collective. Errors: SAM_ERR_USER for a checkpoint of another version, with another value of a fixed
-  parameter, or with a field that only one of the two has; the message names it. SAM_ERR_FILE for a file that is missing
-  or damaged (its checksum is compared). The message then names the checkpoint before it, name.1, if that can be read.
+  `sums`: the contact accumulates from now on what only the file has accumulated; else such sums are left out. When the
+  problem's gap is not the one the checkpoint was written with, the next step solves the pressure again and keeps the
+  slip. Collective. Errors: SAM_ERR_USER for a checkpoint of another version, with another value of a fixed parameter,
+  or with another field that only one of the two has; the message names it. SAM_ERR_FILE for a file that is missing or
+  damaged (its checksum is compared). The message then names the checkpoint before it, name.1, if that can be read.
 */
-PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact,
+PETSC_EXTERN PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, PetscBool sums,
                                               const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 
 #endif

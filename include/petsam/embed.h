@@ -134,7 +134,7 @@ const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
 /*
   petsam_save - writes the committed state to a file, safely: an older file of the name becomes name.1.
   petsam_load - gives a contact of the same options, and with the same gap and friction if these have been given, the
-  state in a file, to the last bit, on any number of ranks.
+  state in a file, to the last bit, on any number of ranks. Sums that only the file has are left out.
   Forgets a tried step. Of the step's numbers only loads, displacements and time are known then.
 */
 int petsam_save(petsam_contact *c, const char *file);

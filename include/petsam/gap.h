@@ -48,11 +48,11 @@ PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], Pe
 PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
 /*
   SamGapGetFileGrid - the grid that the file of the gap or of the roughness is given on, from the setters or options:
-  cells and full widths (m) in x and y, all 0 without a file. Does not look at files if there are -grid_n and
+  cells, full widths and centre (m) in x and y, all 0 without a file. Does not look at files if there are -grid_n and
   -grid_size; a width of 0, which the file does not give, is an error unless there is -grid_size. Collective. Errors:
   SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2]);
+PETSC_EXTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], PetscReal center[2]);
 /*
   SamGapSetFromOptions - reads -gap_type (required unless a type has been set, or there is -gap_file, whose type is
   `file`), the options of that type, which are all required unless they have been set, and those of a roughness.

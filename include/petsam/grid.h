@@ -31,11 +31,11 @@ struct _n_SamGrid {
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
 /*
-  SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. `n` and `width` are what counts without the first
-  two, which are required where it is 0, and become those of the grid. Collective. Errors: SAM_ERR_USER.
+  SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. `n`, `width` and `center` are what counts without
+  them, become those of the grid, and the first two are required where they are 0. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], PetscReal width[2],
-                                                     SamGrid *grid);
+                                                     PetscReal center[2], SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridReference(SamGrid grid);
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 /* SamGridCoarsen - the same rectangle with half the cells in each direction, rounded up. Collective. */

@@ -112,7 +112,7 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
     PetscCall(VecRestoreArrayWrite(field, &slips));
     break;
   case GAP:
-    PetscCall(SamSolutionCreateSeparation(c->problem, state, c->has_tried ? SAM_TRIED : SAM_COMMITTED, &h));
+    PetscCall(SamSolutionCreateSeparation(c->problem, state, SAM_TRIED, &h));
     PetscCall(SamSolutionComputeGap(c->problem, s, h, field));
     PetscCall(SamSolutionDestroySeparation(c->problem, &h));
     break;

@@ -144,12 +144,16 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
 
 /* ---- the tangential problem ---- */
 
-/* The message for gross slip: the tangential loads, and the limit of each in the same proportions. */
+/*
+  The message for gross slip: the tangential loads, and the limit of each in the same proportions. Under a bound that
+  follows the slip that is no limit: smaller steps slip otherwise, and may reach more.
+*/
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
-  PetscReal factor;
-  PetscInt  loaded = 0;
-  PetscBool friction;
+  const PetscBool follows = SamProblemFollowsSlip(w->c->problem);
+  PetscReal       factor;
+  PetscInt        loaded = 0;
+  PetscBool       friction;
 
   PetscFunctionBegin;
   PetscCall(SamTangentialGetLimit(w->c->tangential, &factor));
@@ -160,13 +164,15 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
     char                    text[96];
 
     if (!w->tangential.force[k] || load == 0) continue;
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (limit %.8g)", loaded++ ? ", " : "", name->load, load,
-                            name->load_unit, (double)factor * load + 0.0)); /* and not -0 */
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (%s%.8g%s)", loaded++ ? ", " : "", name->load, load,
+                            name->load_unit, follows ? "" : "limit ", (double)factor * load + 0.0, /* and not -0 */
+                            follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
   }
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));
   PetscCall(PetscStrlcat(
     message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
+  if (follows) PetscCall(PetscStrlcat(message, ": use smaller load steps", size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -355,7 +361,10 @@ static PetscErrorCode Correct(SamSolve *w)
   }
   PetscCall(SamProblemCorrect(w->c->problem, &c));
   for (int k = 0; k < 3; k++) w->counts[SAM_COUNT_NORMAL + k] += (double)c.counts[k];
-  if (c.message[0]) PetscCall(PetscStrncpy(w->step->setting, "edges", sizeof(w->step->setting)));
+  if (c.message[0]) {
+    PetscCall(PetscStrncpy(w->step->setting, "edges", sizeof(w->step->setting)));
+    w->c->revision[SAM_TRIED] = -1; /* the step after this one solves again, and may succeed */
+  }
   SamBalanceStore(&c.found, w->s->load, w->s->rigid);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

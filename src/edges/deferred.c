@@ -281,7 +281,6 @@ static PetscErrorCode Correct(SamLaw law, SamCorrection *c)
   PetscCall(MakePasses(&w, &made));
   PetscCall(End(&w));
   *passes = (double)made;
-  if (!made) law->revision++; /* the next step solves again, and may succeed */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -73,7 +73,7 @@ static PetscErrorCode Load(petsam_contact *c, const char file[])
 
   PetscFunctionBegin;
   PetscCall(CollectParameters(c, &parameters));
-  PetscCall(SamCheckpointRead(file, c->setup->contact, &parameters, 0, NULL));
+  PetscCall(SamCheckpointRead(file, c->setup->contact, PETSC_FALSE, &parameters, 0, NULL));
   PetscCall(KnowState(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

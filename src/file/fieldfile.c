@@ -20,11 +20,12 @@ typedef struct {
 } Wanted;
 
 /*
-  What the file says: the dataset's shape, what its values are to be multiplied with, the surface's size (0: unknown).
+  What the file says: the dataset's shape, what its values are to be multiplied with, the surface's size and centre (0:
+  unknown).
 */
 typedef struct {
   hsize_t shape[2];
-  double  factor, size[2];
+  double  factor, size[2], center[2];
 } Answer;
 
 PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[])
@@ -80,7 +81,10 @@ static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, An
 
   PetscFunctionBegin;
   PetscCall(SamLengthsRead(f, dataset, w->source->dataset, answer->shape, &lengths));
-  for (int d = 0; d < 2; d++) answer->size[d] = size[d];
+  for (int d = 0; d < 2; d++) {
+    answer->size[d]   = size[d];
+    answer->center[d] = lengths.center[d];
+  }
   answer->factor = lengths.factor;
   if (!grid) PetscFunctionReturn(PETSC_SUCCESS);
   for (int d = 0; d < 2; d++) {
@@ -220,7 +224,8 @@ static double RoundOff(double x)
   return strtod(text, NULL);
 }
 
-PetscErrorCode SamFieldFileGetGrid(const SamFieldFile *source, MPI_Comm comm, PetscInt n[2], PetscReal width[2])
+PetscErrorCode SamFieldFileGetGrid(const SamFieldFile *source, MPI_Comm comm, PetscInt n[2], PetscReal width[2],
+                                   PetscReal center[2])
 {
   Wanted w = {.source = source};
   Answer answer;
@@ -228,8 +233,9 @@ PetscErrorCode SamFieldFileGetGrid(const SamFieldFile *source, MPI_Comm comm, Pe
   PetscFunctionBegin;
   PetscCall(Examine(&w, comm, &answer));
   for (int d = 0; d < 2; d++) {
-    n[d]     = (PetscInt)PetscMin(answer.shape[1 - d], (hsize_t)PETSC_MAX_INT);
-    width[d] = RoundOff(answer.size[d]);
+    n[d]      = (PetscInt)PetscMin(answer.shape[1 - d], (hsize_t)PETSC_MAX_INT);
+    width[d]  = RoundOff(answer.size[d]);
+    center[d] = fabs(answer.center[d]) > 1e-12 * width[d] ? RoundOff(answer.center[d]) : 0;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

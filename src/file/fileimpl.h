@@ -29,8 +29,9 @@ PETSC_INTERN const char SamXdmfHead[]; /* the first bytes of an XDMF file */
 
 /* What a dataset of lengths says about itself. */
 typedef struct {
-  double factor;  /* values times this are a separation in m */
-  double size[2]; /* full width in x and y (m); 0 where the file does not say */
+  double factor;    /* values times this are a separation in m */
+  double size[2];   /* full width in x and y (m); 0 where the file does not say */
+  double center[2]; /* of x and y (m); likewise */
 } SamLengths;
 /*
   SamLengthsRead - reads what a dataset `name` of shape (ny, nx), in a file that is examined, says about itself; each

@@ -91,41 +91,45 @@ static PetscErrorCode ReadSize(SamFile f, hid_t dataset, const char name[], Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Width of n cells whose centres a dataset holds, in its unit; NaN for another dataset. */
-static double ReadWidth(hid_t axis, hsize_t n)
+/* Width and centre of n cells whose centres a dataset holds, in its unit; NaN for another dataset. */
+static double ReadWidth(hid_t axis, hsize_t n, double *center)
 {
   const hid_t space   = H5Dget_space(axis);
   double     *centres = NULL, width = NAN;
 
   if (space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_npoints(space) == (hssize_t)n)
     centres = (double *)malloc(n * sizeof(*centres));
-  if (centres && H5Dread(axis, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, centres) >= 0)
-    width = (centres[n - 1] - centres[0]) * (double)n / ((double)n - 1);
+  if (centres && H5Dread(axis, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, centres) >= 0) {
+    width   = (centres[n - 1] - centres[0]) * (double)n / ((double)n - 1);
+    *center = 0.5 * (centres[0] + centres[n - 1]);
+  }
   free(centres);
   if (space >= 0) (void)H5Sclose(space);
   return width;
 }
 
-/* Reads the width from the axis `letter` beside the dataset, if it is there, fits, and has units. */
-static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsize_t n, double *size)
+/* Reads width and centre from the axis `letter` beside the dataset, if it is there, fits, and has units. */
+static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsize_t n, double *size, double *center)
 {
   const char *slash   = strrchr(dataset, '/');
   const char  name[2] = {letter, '\0'};
   char        path[PETSC_MAX_PATH_LEN];
-  double      metres = 0, width = NAN;
+  double      metres = 0, width = NAN, middle = 0;
   hid_t       axis;
 
   PetscFunctionBegin;
   (void)snprintf(path, sizeof(path), "%.*s%c", slash ? (int)(slash - dataset) + 1 : 0, dataset, letter);
   axis = H5Lexists(f->id, path, H5P_DEFAULT) > 0 ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
   if (axis < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  if (H5Aexists(axis, "units") > 0) width = ReadWidth(axis, n);
+  if (H5Aexists(axis, "units") > 0) width = ReadWidth(axis, n, &middle);
   if (!isnan(width)) PetscCall(ReadUnits(f, axis, name, &metres)); /* else it is something else */
   (void)H5Dclose(axis);
   PetscCheck(!(width < 0), f->comm, SAM_ERR_FILE,
              "-%s %s: %s falls along the file, so the surface would be mirrored: reverse it and the values of %s",
              f->option, f->filename, name, dataset);
-  if (!isnan(width)) *size = width * metres;
+  if (isnan(width)) PetscFunctionReturn(PETSC_SUCCESS);
+  *size   = width * metres;
+  *center = middle * metres;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -145,7 +149,7 @@ PetscErrorCode SamLengthsRead(SamFile f, hid_t dataset, const char name[], const
   lengths->factor = sign * (metres > 0 ? metres : 1);
   PetscCall(ReadSize(f, dataset, name, &has, lengths->size));
   if (has) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ReadAxis(f, name, 'x', shape[1], &lengths->size[0]));
-  PetscCall(ReadAxis(f, name, 'y', shape[0], &lengths->size[1]));
+  PetscCall(ReadAxis(f, name, 'x', shape[1], &lengths->size[0], &lengths->center[0]));
+  PetscCall(ReadAxis(f, name, 'y', shape[0], &lengths->size[1], &lengths->center[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

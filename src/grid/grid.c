@@ -91,9 +91,9 @@ static PetscErrorCode RefuseThin(const SamOptions *from, const PetscInt n[2], co
           SamOptionsPrefix(from), numbers, SamOptionsPrefix(from));
 }
 
-PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], PetscReal width[2], SamGrid *grid)
+PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], PetscReal width[2], PetscReal center[2],
+                                        SamGrid *grid)
 {
-  PetscReal         center[2] = {0, 0};
   PetscBool         has_n, has_width, help;
   char              message[256], options[3][96];
   const char *const names[3] = {options[0], options[1], options[2]};

@@ -7,6 +7,7 @@
 */
 #include "ioimpl.h"
 #include <petsam/checkpoint.h>
+#include <petsam/private/lawimpl.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -40,6 +41,7 @@ typedef struct {
   const SamParameters *parameters;
   PetscInt             n;
   const SamNote       *notes;
+  PetscBool            sums; /* reading: whether sums that only the file has are read */
 } Rest;
 
 /* A name in the file, of values that are committed or one step back. */
@@ -227,7 +229,7 @@ static PetscErrorCode CheckNames(SamCheckpoint cp)
 PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamParameters *parameters, PetscInt n,
                                   const SamNote notes[])
 {
-  const Rest     rest = {parameters, n, notes};
+  const Rest     rest = {parameters, n, notes, PETSC_FALSE};
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
@@ -303,31 +305,51 @@ typedef struct {
   uint64_t gap[2];
 } Content;
 
-/*
-  Lets the contact's problem accumulate what the file has accumulated. The message names a field that only one of them
-  has.
-*/
-static PetscErrorCode MatchFields(SamContact contact, const char list[], char message[], size_t size)
+/* Whether a law of this name only accumulates its field, which it then declares; `state` NULL: it does not. */
+static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
 {
-  SamProblem problem;
-  SamState   state;
-  PetscBool  listed;
-  char     **names;
-  int        count;
+  SamProblem    problem;
+  SamElasticity elasticity;
+  SamLaw        law;
 
   PetscFunctionBegin;
+  *is = PETSC_FALSE;
+  if (!SamLawIsRegistered(name)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamLawCreate(elasticity, name, &law));
+  *is = law->accumulates;
+  if (*is && state) PetscCall(law->ops.declare(law, state));
+  PetscCall(SamLawDestroy(&law));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  A state with the declarations of the contact's, and, if asked for, of sums that only the file has. The message names
+  another field that only one of them has.
+*/
+static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBool sums, SamState *state,
+                                  char message[], size_t size)
+{
+  SamState  own;
+  PetscBool listed, is;
+  char    **names;
+  int       count;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &own));
+  PetscCall(SamStateCreateLike(own, state));
   PetscCall(PetscStrToArray(list, ',', &count, &names));
-  for (int k = 0; k < count; k++)
-    if (SamLawIsRegistered(names[k])) PetscCall(SamProblemAddSum(problem, names[k]));
-  PetscCall(SamContactGetState(contact, &state));
-  for (int k = 0; k < count; k++)
-    if (SamStateFindField(state, names[k]) < 0)
+  for (int k = 0; k < count; k++) {
+    if (SamStateFindField(own, names[k]) >= 0) continue;
+    PetscCall(DeclareSum(contact, names[k], sums ? *state : NULL, &is));
+    if (!is)
       (void)snprintf(message, size,
                      "it has the field %s, which no law of this run remembers: give the options of its run", names[k]);
+  }
   PetscCall(PetscStrToArrayDestroy(count, names));
-  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
-    const SamStateField *field = SamStateFieldOf(state, k);
+  for (PetscInt k = 0; k < SamStateCountFields(own); k++) {
+    const SamStateField *field = SamStateFieldOf(own, k);
 
     PetscCall(PetscStrInList(field->name, list, ',', &listed));
     if (field->kept && !listed && !field->optional) NameLacking(field->name, message, size);
@@ -335,20 +357,16 @@ static PetscErrorCode MatchFields(SamContact contact, const char list[], char me
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the state into a new one with the declarations of the contact's. */
-static PetscErrorCode ReadState(SamFile f, SamContact contact, Content *c, char message[], size_t size)
+static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, Content *c, char message[], size_t size)
 {
   const SamNote notes[] = {GAP(c->gap)};
   char         *list    = NULL;
-  SamState      state;
 
   PetscFunctionBegin;
   PetscCall(MoveNotes(f, 2, notes));
   SamFileReadTextAttribute(f, f->id, "fields", &list);
-  PetscCall(MatchFields(contact, list, message, size));
+  PetscCall(CreateState(contact, list, sums, &c->state, message, size));
   PetscCall(PetscFree(list));
-  PetscCall(SamContactGetState(contact, &state));
-  PetscCall(SamStateCreateLike(state, &c->state));
   MoveNumbers(f, c->state, message, size);
   PetscCall(MoveFields(f, c->state));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -366,7 +384,7 @@ static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, C
     (void)snprintf(message, sizeof(message), "it was written by petsam %s, this is %s", version, PETSAM_VERSION);
   else if (!SamParametersDiffer(f, rest->parameters, message, sizeof(message)) && !f->failed) {
     PetscCall(MoveNotes(f, rest->n, rest->notes));
-    PetscCall(ReadState(f, contact, c, message, sizeof(message)));
+    PetscCall(ReadState(f, contact, rest->sums, c, message, sizeof(message)));
   }
   PetscCall(PetscFree(version));
   PetscCall(SamFileEnd(f));
@@ -412,10 +430,24 @@ static PetscErrorCode Advise(SamContact contact, const char filename[], const Re
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, const SamParameters *parameters, PetscInt n,
-                                 const SamNote notes[])
+/* Lets the contact accumulate what has been read besides its own fields. */
+static PetscErrorCode AddSums(SamContact contact, SamState state)
 {
-  const Rest     rest = {parameters, n, notes};
+  SamProblem problem;
+  SamState   own;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetProblem(contact, &problem));
+  PetscCall(SamContactGetState(contact, &own));
+  for (PetscInt k = SamStateCountFields(own); k < SamStateCountFields(state); k++)
+    PetscCall(SamProblemAddSum(problem, SamStateFieldOf(state, k)->name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, PetscBool sums,
+                                 const SamParameters *parameters, PetscInt n, const SamNote notes[])
+{
+  const Rest     rest = {parameters, n, notes, sums};
   Content        c;
   SamGrid        grid;
   uint64_t       gap;
@@ -429,6 +461,7 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, cons
   ierr = ReadFile(contact, filename, &rest, &c);
   PetscCall(PetscPopErrorHandler());
   if (!ierr) {
+    PetscCall(AddSums(contact, c.state));
     PetscCall(GapChecksum(contact, &gap));
     PetscCall(SamContactSetState(contact, c.state, c.gap[1] && gap == c.gap[0]));
   }

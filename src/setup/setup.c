@@ -9,14 +9,14 @@ static const char *const files[] = {"-gap_file", "-gap_rough_file"};
 PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 {
   PetscInt  n[2];
-  PetscReal width[2];
+  PetscReal width[2], center[2];
 
   PetscFunctionBegin;
   PetscCall(SamOptionsPlugins(from));
   PetscCall(SamGapCreate(from->comm, &s->gap));
   PetscCall(SamGapSetOptionsPrefix(s->gap, from->prefix));
-  PetscCall(SamGapGetFileGrid(s->gap, n, width));
-  PetscCall(SamGridCreateFromOptions(from, n, width, &s->grid));
+  PetscCall(SamGapGetFileGrid(s->gap, n, width, center));
+  PetscCall(SamGridCreateFromOptions(from, n, width, center, &s->grid));
   PetscCall(SamPairSetFromOptions(&s->pair, from));
   PetscCall(SamElasticityCreate(s->grid, &s->pair, &s->elasticity));
   PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));

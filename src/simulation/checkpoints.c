@@ -234,7 +234,7 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
 
   PetscFunctionBegin;
   ListNotes(&n);
-  PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, &s->parameters, NOTES, n.note));
+  PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, PETSC_TRUE, &s->parameters, NOTES, n.note));
   p->steps     = (PetscInt)n.progress.at.steps;
   p->worst     = (SamStatus)n.progress.at.worst;
   p->rows      = (PetscInt)n.progress.at.rows;

@@ -1,6 +1,8 @@
 /* The laws of wear: what they remember, the separation that follows, and how they advance in a step. */
 #include "wearimpl.h"
 
+#define WEARS "wears" /* 1 if the step added to the wear load, 0 in cycles */
+
 PetscBool SamLawIsWear(SamLaw law)
 {
   return !strcmp(law->type, SAM_LAW_ARCHARD) || !strcmp(law->type, SAM_LAW_ENERGY);
@@ -83,14 +85,15 @@ static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, V
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  static const SamStateField load      = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 2, .kept = PETSC_TRUE},
+  static const SamStateField load      = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 3, .kept = PETSC_TRUE},
                              cycle     = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
                              path      = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
   static const SamStateNumber number[] = {
     {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
     {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
     {"wear_excess", "1", "wear of the step relative to the stability limit", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-     PETSC_FALSE}};
+     PETSC_FALSE},
+    {WEARS, "1", "whether the step added to the wear load", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE}};
   SamStateResult depth[2] = {
     {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
     {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};
@@ -100,23 +103,35 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscCall(SamStateDeclareField(state, &load, &id));
   PetscCall(SamStateDeclareField(state, &cycle, &id));
   PetscCall(SamStateDeclareField(state, &path, &id));
-  for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareNumber(state, &number[k], &id));
+  for (int k = 0; k < 4; k++) PetscCall(SamStateDeclareNumber(state, &number[k], &id));
   for (int k = 0; k < 2; k++) PetscCall(SamStateOffer(state, &depth[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a step wears opens the gap from the next step on, so that the tried generation has no part in it. */
+/*
+  The wear load that opens the gap: what a step wears does so from the next step on. The last solution had the committed
+  one when it is tried, else the one before, if it wore.
+*/
+static Vec LoadOf(SamState state, SamGeneration generation)
+{
+  const PetscInt id = SamStateFindField(state, SAM_WEAR_LOAD);
+
+  if (id < 0) return NULL;
+  if (generation == SAM_TRIED && !SamStateGetField(state, id, SAM_TRIED) &&
+      *SamStateReadNumbers(state, SamStateFindNumber(state, WEARS)) > 0)
+    return SamStateGetField(state, id, SAM_BEFORE);
+  return SamStateGetField(state, id, SAM_COMMITTED);
+}
+
 static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
 {
   const SamWear *w    = (const SamWear *)law->data;
   const double   k    = w->coefficient[0] + w->coefficient[1];
-  const PetscInt id   = SamStateFindField(state, SAM_WEAR_LOAD);
-  const Vec      load = id < 0 ? NULL : SamStateGetField(state, id, SAM_COMMITTED);
+  const Vec      load = LoadOf(state, generation);
   const double  *worn;
   double        *to;
 
   PetscFunctionBegin;
-  (void)generation;
   if (!load) PetscFunctionReturn(PETSC_SUCCESS);
   *adds = PETSC_TRUE;
   if (!h) PetscFunctionReturn(PETSC_SUCCESS);
@@ -163,6 +178,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   load    = SamStateReadField(step->state, SamStateFindField(step->state, SAM_WEAR_LOAD));
   numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "wear_volume1"), SAM_TRIED);
   PetscCall(SamWearGetVolumes(law, load, numbers, depth));
+  numbers[3] = w->jumps ? 0 : 1;
   if (w->jumps) PetscFunctionReturn(PETSC_SUCCESS);
   step->moves = PETSC_TRUE;
   PetscCall(SamWearGetExcess(law, step, &numbers[2]));
@@ -195,7 +211,7 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   law->data               = w;
   law->option             = by_energy ? "wear_energy" : "wear_coefficient";
   law->needs_friction     = PETSC_TRUE;
-  law->bytes              = 48;
+  law->bytes              = 56;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;

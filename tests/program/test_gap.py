@@ -63,6 +63,20 @@ def test_file_alone_is_enough(solve, tmp_path, tells):
     assert_same(solve(alone), solve(case), 0)
 
 
+def test_file_alone_tells_where_it_lies(solve, tmp_path):
+    """By x and y: the loads are about x = y = 0, not about the centre of the file."""
+    center = (1e-4, -6e-5)
+    x, y = cells(center)
+    gap = write(tmp_path / "gap.h5", (x**2 + y**2) / 2 / BASE["gap_radius1"])
+    with h5py.File(gap, "a") as f:
+        f["x"], f["y"] = x[0], y[:, 0]
+        f["x"].attrs["units"] = f["y"].attrs["units"] = "m"
+    case = dict(FILE, gap_file=gap, load_tx=5.0)
+    alone, given = solve(dict(case, gap_type=None, grid_n=None, grid_size=None)), solve(dict(case, grid_center=center))
+    assert_same(alone, given, 0)
+    assert abs(alone["rot_y"]) < 1e-3 * abs(solve(dict(case, grid_center=(0.0, 0.0)))["rot_y"])
+
+
 @pytest.mark.parametrize("shape", [(0, 0), (1, 5), (5, 1), (6, 0)])
 def test_file_of_less_than_two_rows_or_columns_is_refused(petsam, tmp_path, shape):
     with h5py.File(tmp_path / "gap.h5", "w") as f:

@@ -147,3 +147,23 @@ def test_embedded_contact_keeps_sums_by_an_option():
             before = slip
         with pytest.raises(petsam.ContactError, match="friction_energy"):
             contact.field("friction_energy")
+
+
+def test_load_takes_what_the_contact_accumulates(tmp_path):
+    """A sum that only the file has is left out: the contact stays one of its options, for files and copies after that."""
+    import petsam
+
+    options = {name: value for name, value in ball(24).items() if name not in ("load_n", "output_fields")}
+    with petsam.Contact(**options, sum_slip_path=True) as summing, petsam.Contact(**options) as plain:
+        for contact, file in ((summing, tmp_path / "sums.h5"), (plain, tmp_path / "plain.h5")):
+            contact.try_step(load_n=180.0, load_tx=20.0)
+            contact.commit()
+            contact.save(str(file))
+        plain.load(str(tmp_path / "sums.h5"))
+        with pytest.raises(petsam.ContactError, match="slip_path"):
+            plain.field("slip_path")
+        with plain.copy() as other:
+            assert np.array_equal(other["shear_x"], summing["shear_x"])
+        plain.load(str(tmp_path / "plain.h5"))
+        with pytest.raises(petsam.ContactError, match="it lacks slip_path"):
+            summing.load(str(tmp_path / "plain.h5"))

@@ -85,6 +85,41 @@ def test_the_gap_follows_at_the_end_of_a_step(petsam, tmp_path):
     assert r["wear_depth1"].max() > 0.01 * D
 
 
+def test_gap_is_that_of_the_solution(petsam, tmp_path):
+    """Without what the step wears: tried, committed, after a failed step, in files, and in a life."""
+    import petsam as package
+
+    def gap_of(contact):
+        contact.save(str(tmp_path / "state.h5"))
+        with contact.copy() as copy, package.Contact(**options) as loaded:
+            loaded.load(str(tmp_path / "state.h5"))
+            assert np.array_equal(copy["gap"], contact["gap"]) and np.array_equal(loaded["gap"], contact["gap"])
+        return contact["gap"]
+
+    options = {name: value for name, value in BALL.items() if name not in ("load_n", "output_fields")}
+    options["wear_coefficient1"] = 1e-12
+    with package.Contact(**options) as contact:
+        for load_tx in (20.0, -20.0):
+            contact.try_step(load_n=180.0, load_tx=load_tx)
+            tried = contact["gap"]
+            contact.commit()
+            assert contact["wear_depth1"].max() > 0 and np.array_equal(gap_of(contact), tried)
+        with pytest.raises(package.NoEquilibrium):
+            contact.try_step(load_n=180.0, load_tx=1e4)
+        contact.reject()
+        assert np.array_equal(gap_of(contact), tried)
+        to_and_fro = dict(time=[1.0, 2, 3, 4, 5], load_n=[180.0] * 5, load_tx=[-20.0, 20, -20, 20, -20])
+        contact.live(1e3, to_and_fro)
+        touching, depth = contact["pressure"] > 0, contact["wear_depth1"]
+        assert np.abs(contact["gap"][touching]).max() < 1e-3 * depth.max() < 1e-3 * D
+    rows = [f"{k + 1},180,{load_tx}" for k, load_tx in enumerate((0, 20, -20, 1e4))]
+    (tmp_path / "h.csv").write_text("\n".join(["time,load_n,load_tx", *rows]) + "\n")
+    for every in (1, 10):
+        petsam(BALL, dict(history="h.csv", wear_coefficient1=1e-12, output=f"{every}.h5", output_every=every), check=11)
+    with h5py.File(tmp_path / "1.h5") as one, h5py.File(tmp_path / "10.h5") as ten:
+        assert one["time"][-1] == ten["time"][-1] == 3 and np.array_equal(one["gap"][-1], ten["gap"][-1])
+
+
 def test_steps_that_wear_too_much_are_told_once(petsam, tmp_path):
     case = dict(BALL, wear_coefficient1=1e-9, steps=4)
     told = petsam(case, cycle(tmp_path / "h.csv", amplitude=20 * MU * D)).stderr

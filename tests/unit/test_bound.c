@@ -271,6 +271,32 @@ static void test_step_that_jumps_fails_by_the_name_of_the_law(void **state)
   DestroyCase(&c);
 }
 
+/* Loads that one step does not reach: what the friction bears by its slip is no limit, as smaller steps reach more. */
+static void test_load_that_slip_leaves_unbalanced_names_no_limit(void **state)
+{
+  Case       plain = NewCase(Steel(), 41, 1.6, MU, ""), c = NewFading(Steel(), 0.1 * TypicalSlip(&plain), "");
+  double     borne = 0, reached = 0;
+  SamControl control;
+  SamStep    step;
+
+  (void)state;
+  control = Loads(&c, 1, 0.75, 0, 0);
+  step    = Try(&c, &control);
+  sam_assert(step.status == SAM_STATUS_NO_EQUILIBRIUM);
+  sam_assert(!strstr(step.message, "limit") && strstr(step.message, "use smaller load steps"));
+  sam_assert(sscanf(strchr(step.message, '('), "(%lf at the slip of the last iteration)", &borne) == 1);
+  for (int k = 1; k <= 75; k++) {
+    control = Loads(&c, 1, 0.01 * k, 0, 0);
+    step    = Try(&c, &control);
+    if (step.status != SAM_STATUS_CONVERGED) break;
+    sam_call(SamContactCommit(c.contact));
+    reached = control.value[SAM_COMPONENT_TX];
+  }
+  sam_assert(reached > borne);
+  DestroyCase(&plain);
+  DestroyCase(&c);
+}
+
 static void test_derivatives_of_the_bound(void **state)
 {
   const double     eps = 1e-4, length = 1e-6;
@@ -373,6 +399,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_shear_is_at_the_bound_of_the_slip_that_it_has),
     cmocka_unit_test(test_law_that_does_not_fade_changes_nothing),
     cmocka_unit_test(test_step_that_jumps_fails_by_the_name_of_the_law),
+    cmocka_unit_test(test_load_that_slip_leaves_unbalanced_names_no_limit),
     cmocka_unit_test(test_derivatives_of_the_bound),
     cmocka_unit_test(test_stiffness_is_the_derivative_of_trials),
     cmocka_unit_test(test_stiffness_has_the_same_bits_on_any_number_of_ranks),

@@ -54,7 +54,7 @@ static void test_contact_that_is_read_goes_on_as_the_one_that_was_written(void *
     for (int k = 0; k < solved; k++) SolveStep(&one, k, &a);
     SolveStep(&other, 3, &b); /* is forgotten */
     Write(&one, &parameters, 2, to);
-    sam_call(SamCheckpointRead(filename, other.contact, &parameters, 2, from));
+    sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 2, from));
     sam_assert(!memcmp(read, written, sizeof(read)));
     if (solved) AssertSameFields(&one, &other);
     for (int k = solved; k < 5; k++) {
@@ -136,7 +136,7 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   (void)Solve(&one, &second);
   (void)Try(&one, &control);
   Write(&one, &parameters, 0, NULL);
-  sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL));
   sam_call(SamContactReject(one.contact));
   AssertSameFields(&one, &other);
   sam_assert(AssertSameStates(&one, &other) == 8);
@@ -173,7 +173,7 @@ static void test_gap_that_has_changed_is_told(void **state)
     sam_call(SamProblemGetGap(changed->problem, &gap));
     if (which) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
     Write(&one, &parameters, 0, NULL);
-    sam_call(SamCheckpointRead(filename, other.contact, &parameters, 0, NULL));
+    sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL));
     sam_assert(IsGapCurrent(&other) == (which ? 0 : 1));
     DestroyCase(&one);
     DestroyCase(&other);
@@ -210,7 +210,7 @@ static PetscErrorCode Read(const Case *c)
   PetscErrorCode      ierr;
 
   BeginCatching();
-  ierr = SamCheckpointRead(filename, c->contact, &parameters, 0, NULL);
+  ierr = SamCheckpointRead(filename, c->contact, PETSC_TRUE, &parameters, 0, NULL);
   EndCatching();
   return ierr;
 }
@@ -288,11 +288,14 @@ static void test_number_that_the_file_lacks_is_named(void **state)
   Remove();
 }
 
-/* The contact that goes on accumulates it too, to the last bit, though nobody asked it to; not what the file lacks. */
+/*
+  The contact that goes on accumulates it too, to the last bit, though nobody asked it to; not what the file lacks. One
+  that is refused the file stays as it was.
+*/
 static void test_sum_in_the_file_goes_on(void **state)
 {
   const SamParameters parameters = NewParameters(friction);
-  Case                one = NewBody(), other = NewBody();
+  Case                one = NewBody(), other = NewBody(), refused = NewBody();
   SamStep             a, b;
   SamLaw              law;
 
@@ -300,6 +303,11 @@ static void test_sum_in_the_file_goes_on(void **state)
   sam_call(SamProblemAddLawOfType(one.problem, SAM_LAW_SLIP_PATH, NULL));
   for (int k = 0; k < 2; k++) SolveStep(&one, k, &a);
   Write(&one, &parameters, 0, NULL);
+  DeclareOther(&refused, 0);
+  sam_assert(Read(&refused) == SAM_ERR_USER && strstr(CaughtMessage(), "lacks other_field"));
+  sam_call(SamProblemGetLaw(refused.problem, SAM_LAW_SLIP_PATH, &law));
+  sam_assert(!law);
+  DestroyCase(&refused);
   sam_assert(!Read(&other));
   sam_call(SamProblemGetLaw(other.problem, SAM_LAW_FRICTION_ENERGY, &law));
   sam_assert(!law);

@@ -203,8 +203,11 @@ static void test_correction_belongs_to_the_state(void **state)
   sam_call(SamContactGetState(c.contact, &now));
   area = NumberOf(&c, "contact_area");
   sam_call(SamContactSetState(other.contact, now, PETSC_TRUE));
-  (void)Try(&other, &more);
-  sam_call(SamContactReject(other.contact));
+  for (int k = 0; k < 3; k++) { /* with other passes, with too few cells for them, without contact */
+    (void)Try(&other, &(SamControl[]){more, Loads(&c, 1e-3, 0, 0, 0), Loads(&c, 0, 0, 0, 0)}[k]);
+    sam_assert(NumberOf(&other, "edge_passes") == (k ? 0 : 2));
+    sam_call(SamContactReject(other.contact));
+  }
   step[1] = Solve(&c, &next);
   step[2] = Solve(&other, &next);
   AssertGood(&step[1]);
@@ -243,7 +246,7 @@ static void test_correction_does_not_depend_on_the_ranks(void **state)
 
 /* ---- what is refused, and what the check sees ---- */
 
-/* Spots of a few cells: the plain solution stays, to the last bit, and the step says so. */
+/* Spots of a few cells: the plain solution stays, to the last bit, and each step says so, also if nothing changes. */
 static void test_edges_that_are_not_smooth_are_left(void **state)
 {
   Case c[2];
@@ -258,11 +261,12 @@ static void test_edges_that_are_not_smooth_are_left(void **state)
     sam_call(SamProblemGetGap(c[k].problem, &h));
     sam_call(VecAXPY(h, 0.1 * c[k].s.a * c[k].s.a / c[k].s.R, rough));
     sam_call(VecDestroy(&rough));
-    step = Try(&c[k], &(SamControl[]){Loads(&c[k], 0.2, 0, 0, 0)}[0]);
+    step = Solve(&c[k], &(SamControl[]){Loads(&c[k], 0.2, 0, 0, 0)}[0]);
     sam_assert(step.status == SAM_STATUS_CONVERGED && (!k || NumberOf(&c[k], "edge_passes") == 0));
     sam_assert(!k || (strstr(step.message, "not corrected: 0 % of it is smooth") && !strcmp(step.setting, "edges")));
   }
   sam_assert(SameBitsOf(&c[0], &c[1], PressureOf));
+  sam_assert(strstr(Try(&c[1], &(SamControl[]){Loads(&c[1], 0.2, 0, 0, 0)}[0]).message, "not corrected"));
   for (int k = 0; k < 2; k++) DestroyCase(&c[k]);
 }
 

@@ -137,9 +137,9 @@ static PetscErrorCode FromOptions(SamGrid *grid)
 {
   const SamOptions from     = {PETSC_COMM_WORLD, NULL};
   PetscInt         n[2]     = {0, 0};
-  PetscReal        width[2] = {0, 0};
+  PetscReal        width[2] = {0, 0}, center[2] = {0, 0};
 
-  return SamGridCreateFromOptions(&from, n, width, grid);
+  return SamGridCreateFromOptions(&from, n, width, center, grid);
 }
 
 static void test_grid_from_options(void **state)

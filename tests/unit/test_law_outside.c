@@ -217,7 +217,7 @@ static PetscErrorCode Restart(const Case *c)
   PetscErrorCode      ierr;
 
   BeginCatching();
-  ierr = SamCheckpointRead(checkpoint_name, c->contact, &parameters, 0, NULL);
+  ierr = SamCheckpointRead(checkpoint_name, c->contact, PETSC_TRUE, &parameters, 0, NULL);
   EndCatching();
   return ierr;
 }

@@ -231,8 +231,9 @@ static void test_axes_without_units_say_nothing(void **state)
 
 /* ---- the grid of a file ---- */
 
-/* The error, cells and widths that options, or setters if there are none, give for a file. */
-static PetscErrorCode GetGrid(const Words *words, const char *options, PetscInt n[2], PetscReal size[2])
+/* The error, cells, widths and centre that options, or setters if there are none, give for a file. */
+static PetscErrorCode GetGrid(const Words *words, const char *options, PetscInt n[2], PetscReal size[2],
+                              PetscReal center[2])
 {
   SamGap         gap;
   PetscErrorCode ierr;
@@ -243,7 +244,7 @@ static PetscErrorCode GetGrid(const Words *words, const char *options, PetscInt 
   sam_call(SamGapCreate(PETSC_COMM_WORLD, &gap));
   if (!options[0]) sam_call(SamGapSetFile(gap, PETSC_TRUE, "test_lengths.h5", "/s/z"));
   BeginCatching();
-  ierr = SamGapGetFileGrid(gap, n, size);
+  ierr = SamGapGetFileGrid(gap, n, size, center);
   EndCatching();
   sam_call(SamGapDestroy(&gap));
   sam_call(PetscOptionsClear(NULL));
@@ -257,13 +258,15 @@ static void test_file_tells_its_grid(void **state)
                                       "-gap_type flat -gap_rough_file test_lengths.h5 -gap_rough_dataset /s/z"};
   const Words              known[] = {{.size = {2.5e-3, 0.9e-3}}, {.axis = {0.5, 0.3}, .axis_units = "mm"}};
   PetscInt                 n[2];
-  PetscReal                size[2];
+  PetscReal                size[2], center[2];
 
   (void)state;
   for (size_t k = 0; k < sizeof(asked) / sizeof(asked[0]); k++)
     for (size_t w = 0; w < 2; w++) {
-      sam_assert(!GetGrid(&known[w], asked[k], n, size));
+      sam_assert(!GetGrid(&known[w], asked[k], n, size, center));
       sam_assert(n[0] == NX && n[1] == NY && size[0] == width[0] && size[1] == width[1]);
+      /* the axes begin at 7 mm */
+      sam_assert(center[0] == (w ? 8e-3 : 0) && center[1] == (w ? 7.3e-3 : 0));
     }
 }
 
@@ -272,18 +275,20 @@ static void test_file_that_does_not_tell_its_grid_is_named(void **state)
   static const char asks[] = "-gap_file test_lengths.h5 -gap_dataset /s/z";
   const Words       half   = {.axis = {0.5}, .axis_units = "mm"};
   PetscInt          n[2];
-  PetscReal         size[2];
+  PetscReal         size[2], center[2];
   char              more[128];
 
   (void)state;
-  sam_assert(GetGrid(&(Words){0}, asks, n, size) == SAM_ERR_USER);
+  sam_assert(GetGrid(&(Words){0}, asks, n, size, center) == SAM_ERR_USER);
   sam_assert(strstr(CaughtMessage(), "-grid_size is missing") && strstr(CaughtMessage(), "records no size of /s/z"));
-  sam_assert(GetGrid(&half, asks, n, size) == SAM_ERR_USER);
+  sam_assert(GetGrid(&half, asks, n, size, center) == SAM_ERR_USER);
   (void)snprintf(more, sizeof(more), "%s -grid_size 1", asks);
-  sam_assert(!GetGrid(&half, more, n, size) && n[0] == NX && n[1] == NY);
-  sam_assert(GetGrid(&(Words){.units = "ell"}, asks, n, size) == SAM_ERR_FILE);
-  sam_assert(!GetGrid(&half, "-gap_type sphere -gap_radius1 1 -gap_radius2 1", n, size) && n[0] == 0 && size[1] == 0);
-  sam_assert(!GetGrid(&half, "-gap_file none.h5 -grid_n 4 -grid_size 1", n, size) && n[0] == 0); /* is not asked for */
+  sam_assert(!GetGrid(&half, more, n, size, center) && n[0] == NX && n[1] == NY);
+  sam_assert(GetGrid(&(Words){.units = "ell"}, asks, n, size, center) == SAM_ERR_FILE);
+  sam_assert(!GetGrid(&half, "-gap_type sphere -gap_radius1 1 -gap_radius2 1", n, size, center) && n[0] == 0 &&
+             size[1] == 0);
+  sam_assert(!GetGrid(&half, "-gap_file none.h5 -grid_n 4 -grid_size 1", n, size, center) &&
+             n[0] == 0); /* is not asked for */
 }
 
 int main(int argc, char **argv)

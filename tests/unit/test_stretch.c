@@ -254,7 +254,7 @@ static void test_restart_keeps_the_stretch(void **state)
   sam_call(SamCheckpointCreate(one.s.grid, filename, &files));
   sam_call(SamCheckpointWrite(files, one.contact, &none, 0, NULL));
   sam_call(SamCheckpointDestroy(&files));
-  sam_call(SamCheckpointRead(filename, other.contact, &none, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &none, 0, NULL));
   AssertSameFields(&one, &other);
   a = Solve(&one, &next);
   b = Solve(&other, &next);

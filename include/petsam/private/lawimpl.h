@@ -104,8 +104,9 @@ struct _n_SamLaw {
     /* declares fields and numbers */
     PetscErrorCode (*declare)(SamLaw law, SamState state);
     /*
-      Adds to a separation (m, one component) what the law has put between the bodies by the committed state, or by the
-      tried one; h NULL: only sets `adds`, whether there is any.
+      Adds to a separation (m, one component) what the law has put between the bodies: SAM_COMMITTED: from which the
+      next step starts; SAM_TRIED: with which the last solution has its gap, the tried one, or else the committed one.
+      h NULL: only sets `adds`, whether there is any.
     */
     PetscErrorCode (*separation)(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds);
     /* the largest pressure that the surfaces bear, Pa */

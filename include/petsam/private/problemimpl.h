@@ -8,8 +8,9 @@
 /* SamProblemDeclare - the laws declare what they remember, unless the state has it already. Collective. */
 PETSC_INTERN PetscErrorCode SamProblemDeclare(SamProblem problem, SamState state);
 /*
-  SamProblemAddSeparation - adds to a separation (m, one component) what the laws have put between the bodies by a
-  generation of the state (NULL: nothing). h NULL: only `adds`, whether there is any, which may be NULL. Collective.
+  SamProblemAddSeparation - adds to a separation (m, one component) what the laws have put between the bodies, for the
+  next step or in the last solution of a state (lawimpl.h; NULL: nothing). h NULL: only `adds`, whether there is any,
+  which may be NULL. Collective.
 */
 PETSC_INTERN PetscErrorCode SamProblemAddSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec h,
                                                     PetscBool *adds);

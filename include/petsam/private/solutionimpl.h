@@ -42,8 +42,8 @@ PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const 
                                double value[]);
 /*
   SamSolutionCreateSeparation - the separation (m) of the bodies: the gap of the problem and what its laws put between
-  them by a generation of the state (NULL: nothing). Borrowed from the problem where no law adds to it, else made, which
-  SamSolutionDestroySeparation() frees. Collective.
+  them, for the next step or in the last solution of a state (lawimpl.h; NULL: nothing). Borrowed from the problem
+  where no law adds to it, else made, which SamSolutionDestroySeparation() frees. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation,
                                                         Vec *separation);

@@ -230,7 +230,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2])
+PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], PetscReal center[2])
 {
   const SamOptions from = {gap->comm, gap->prefix};
   SamFieldFile     sources[2];
@@ -238,7 +238,7 @@ PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2])
   PetscBool        has_n, has_size, help;
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < 2; d++) n[d] = 0, width[d] = 0;
+  for (PetscInt d = 0; d < 2; d++) n[d] = 0, width[d] = center[d] = 0;
   PetscCall(SamPrintHelp(&help));
   PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-grid_n", &has_n));
   PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-grid_size", &has_size));
@@ -252,7 +252,7 @@ PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2])
 
     PetscCall(SamFieldFileSetFromOptions(source, &from, ""));
     if (!source->file[0]) continue;
-    PetscCall(SamFieldFileGetGrid(source, gap->comm, n, width));
+    PetscCall(SamFieldFileGetGrid(source, gap->comm, n, width, center));
     PetscCheck(
       has_size || (width[0] > 0 && width[1] > 0), gap->comm, SAM_ERR_USER,
       "-%sgrid_size is missing: -%s%s %s records no size of %s, neither as its attribute size nor by x and y with "
