@@ -72,7 +72,8 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
   is at the edge of the grid, with that code; the step is then tried and not committed.
   petsam_live - so many cycles of wear; the rows are one closed cycle. Options -wear_rtol and the like count.
   The monitor is called after each step (`cycle` 0) and after each computed cycle (1), whose numbers are
-  "wear/depth_max1" and so on; it may ask for fields and numbers, and ends the run where it returns anything but 0.
+  "wear/depth_max1" and so on; it may ask for fields and numbers, and ends the run where it returns anything but 0; what
+  would change the contact, or free it, is refused.
   NULL: none.
 */
 typedef int (*petsam_monitor)(void *context, petsam_contact *c, int cycle);

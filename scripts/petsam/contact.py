@@ -522,6 +522,8 @@ class Contact:
         if self._contact:
             with _lock:
                 self._c.petsam_destroy(ctypes.byref(self._contact))
+                if self._contact:  # in the function of a run
+                    raise ContactError(2, self._message())
 
     def __copy__(self):
         raise TypeError("a contact is copied by its copy(), and cannot be pickled; save() and load() pass its state on")

@@ -169,6 +169,10 @@ static PetscErrorCode Destroy(petsam_contact *c)
 void petsam_destroy(petsam_contact **c)
 {
   if (!c || !*c) return;
+  if ((*c)->depth) {
+    (void)SamEmbedRefuse(*c, "petsam_destroy: call it after the monitor returns");
+    return;
+  }
   if (SamEmbedEnter(*c, __func__, PETSC_TRUE)) {
     (void)SamEmbedLeave(*c, Destroy(*c));
     (void)PetscOptionsDestroy(&(*c)->options);
@@ -243,9 +247,7 @@ PetscErrorCode SamEmbedForget(petsam_contact *c)
   PetscFunctionBegin;
   PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "a monitor may query fields and numbers only");
   PetscCall(SamContactReject(c->setup->contact));
-  c->last      = c->committed;
-  c->has_last  = c->has_committed;
-  c->has_tried = PETSC_FALSE;
+  PetscCall(PetscMemzero(&c->last, sizeof(c->last)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -291,9 +293,10 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 
 static PetscErrorCode Try(petsam_contact *c, double time, const int force[], const double value[])
 {
-  SamControl   control = c->control;
-  SamLoadsMost most    = {.open = c->has_gap};
-  PetscBool    moves;
+  SamControl     control = c->control;
+  SamLoadsMost   most    = {.open = c->has_gap};
+  PetscBool      moves;
+  PetscErrorCode code;
 
   PetscFunctionBegin;
   PetscCheck(isfinite(time), c->comm, SAM_ERR_USER, "petsam_try: time is not a finite number");
@@ -303,9 +306,9 @@ static PetscErrorCode Try(petsam_contact *c, double time, const int force[], con
     control.value[k] = value[k];
   }
   PetscCall(SamEmbedForget(c));
-  PetscCall(SamContactTry(c->setup->contact, &control, &c->last));
-  c->has_last  = PETSC_TRUE;
-  c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM;
+  code = SamContactTry(c->setup->contact, &control, &c->last);
+  if (code) PetscCall(SamEmbedForget(c));
+  PetscCall(code);
   PetscCall(SamProblemMoves(c->setup->problem, &moves));
   if (moves) most.open = PETSC_TRUE;
   SamLoadsMostAdd(&most, &control);
@@ -331,21 +334,20 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
 
 static PetscErrorCode Commit(petsam_contact *c)
 {
-  PetscInt law = 0;
+  PetscInt  law = 0;
+  PetscBool tried, committed;
 
   PetscFunctionBegin;
   PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor returns");
-  PetscCheck(!c->has_last || c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
+  PetscCheck(c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
              "the last try has no solution, and cannot be committed: %s", c->last.message);
-  PetscCheck(c->has_tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  PetscCheck(tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
   PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and cannot be committed: %s", c->last.message);
   PetscCall(SamContactAdvise(c->setup->contact, &law, c->message, sizeof(c->message)));
   PetscCall(SamContactCommit(c->setup->contact));
-  c->has_tried     = PETSC_FALSE;
-  c->has_committed = PETSC_TRUE;
-  c->committed     = c->last;
-  PetscCall(SamEmbedRecord(c, &c->committed));
+  PetscCall(SamEmbedRecord(c, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,9 +365,11 @@ static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[
 {
   SamStiffness s;
   char         text[SAM_MESSAGE];
+  PetscBool    tried, committed;
 
   PetscFunctionBegin;
-  PetscCheck(!c->has_tried || SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  PetscCheck(!tried || SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and has no stiffness: %s", c->last.message);
   PetscCall(SamStiffnessCompute(c->setup->contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, &s));
   for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
@@ -396,10 +400,11 @@ PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double va
 
 static PetscErrorCode GetField(petsam_contact *c, const char name[], double values[])
 {
-  PetscBool found;
+  PetscBool found, tried, committed;
 
   PetscFunctionBegin;
-  PetscCheck(c->has_tried || c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been solved yet", name);
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  PetscCheck(tried || committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been solved yet", name);
   PetscCall(SamContactHasField(c->setup->contact, name, &found));
   PetscCheck(found, c->comm, SAM_ERR_USER, "%s: there is no field of this name", name);
   PetscCall(SamEmbedCopyField(c, name, values));
@@ -453,10 +458,13 @@ static PetscErrorCode GetNumber(petsam_contact *c, const char name[], double *va
   const char  *found;
   SamState     state;
   PetscInt     id;
+  PetscBool    tried, committed;
 
   PetscFunctionBegin;
-  PetscCheck(c->has_last, c->comm, PETSC_ERR_ORDER, "%s: no step has been tried yet", name);
-  PetscCall(skip ? SamSimulationGetSeries(c->simulation, &state) : SamContactGetState(c->setup->contact, &state));
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  PetscCall(SamContactGetState(c->setup->contact, &state)); /* one without a solution has numbers, too */
+  PetscCheck(committed || SamStateHasTried(state), c->comm, PETSC_ERR_ORDER, "%s: no step has been tried yet", name);
+  if (skip) PetscCall(SamSimulationGetSeries(c->simulation, &state));
   PetscCheck(state, c->comm, PETSC_ERR_ORDER, "%s: no cycles have been computed", name);
   id = FindNumber(state, 0, name + skip, &found);
   PetscCheck(id >= 0, c->comm, SAM_ERR_USER, "%s: there is no number of this name", name);

@@ -21,9 +21,7 @@ struct petsam_contact {
   const SamSetup *setup;      /* its own */
   SamControl      control;    /* bulk stresses */
   PetscInt        increments; /* of each row of a history */
-  SamStep         committed, last;
-  PetscBool       has_committed, has_last; /* whether these hold numbers */
-  PetscBool       has_tried;               /* a tried step */
+  SamStep         last;       /* that was tried; after its rejection none, and no failure */
   Vec             work;
   PetscBool       has_gap; /* a gap has been given, */
   uint64_t        gap;     /* of this checksum */
@@ -50,16 +48,18 @@ PETSC_INTERN int       SamEmbedLeave(petsam_contact *c, PetscErrorCode code);
 PETSC_INTERN int       SamEmbedRefuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 /* SamEmbedCopyField - copies this rank's rows of a field of the results. Collective. */
 PETSC_INTERN PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double values[]);
-/* SamEmbedForget - forgets the tried step. Collective. */
+/* SamEmbedForget - forgets the tried step, before anything changes. Collective. Errors: PETSC_ERR_ORDER in a monitor. */
 PETSC_INTERN PetscErrorCode SamEmbedForget(petsam_contact *c);
 /* SamEmbedInsertOptions - puts options, rank 0's, into a database. Collective. Errors: those of the text. */
 PETSC_INTERN PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[]);
 /*
   SamEmbedRecord - keeps the tried step, else the committed one, if steps are recorded. SamEmbedForgetSteps - forgets
-  those that are. SamEmbedDestroyStress - with all of stress.c. Collective.
+  those that are. SamEmbedRecordAnew - the same on a state that has been replaced. SamEmbedDestroyStress - with all of
+  stress.c. Collective.
 */
 PETSC_INTERN PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step);
 PETSC_INTERN void           SamEmbedForgetSteps(petsam_contact *c);
+PETSC_INTERN PetscErrorCode SamEmbedRecordAnew(petsam_contact *c);
 PETSC_INTERN PetscErrorCode SamEmbedDestroyStress(petsam_contact *c);
 
 #endif

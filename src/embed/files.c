@@ -32,9 +32,11 @@ static PetscErrorCode Save(petsam_contact *c, const char file[])
   SamCheckpoint  checkpoint;
   SamParameters  parameters;
   PetscErrorCode code;
+  PetscBool      tried, committed;
 
   PetscFunctionBegin;
-  PetscCheck(c->has_committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been committed yet", file);
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  PetscCheck(committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been committed yet", file);
   PetscCall(CollectParameters(c, &parameters));
   PetscCall(SamCheckpointCreate(c->setup->grid, file, &checkpoint));
   code = SamCheckpointWrite(checkpoint, c->setup->contact, &parameters, 0, NULL);
@@ -48,33 +50,15 @@ int petsam_save(petsam_contact *c, const char *file)
   return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Save(c, file)) : SAM_EMBED_USAGE;
 }
 
-/* Takes loads, displacements and time of the committed step from the restored state. */
-static PetscErrorCode KnowState(petsam_contact *c)
-{
-  const SamSolution *s;
-  SamStep           *step = &c->committed;
-  PetscInt           steps;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetSolution(c->setup->contact, &s));
-  PetscCall(SamContactGetSteps(c->setup->contact, &steps));
-  *step       = (SamStep){.control = s->control};
-  step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
-  PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
-  PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
-  c->has_committed = steps > 0;
-  PetscCall(SamEmbedForget(c));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Load(petsam_contact *c, const char file[])
 {
   SamParameters parameters;
 
   PetscFunctionBegin;
+  PetscCall(SamEmbedForget(c));
   PetscCall(CollectParameters(c, &parameters));
   PetscCall(SamCheckpointRead(file, c->setup->contact, PETSC_FALSE, &parameters, 0, NULL));
-  PetscCall(KnowState(c));
+  PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

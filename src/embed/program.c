@@ -38,9 +38,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
   switch (news->kind) {
   case SAM_NEWS_STEP:
   case SAM_NEWS_CYCLE_STEP:
-    c->last      = *news->result;
-    c->has_last  = PETSC_TRUE;
-    c->has_tried = c->last.status != SAM_STATUS_NO_EQUILIBRIUM;
+    c->last = *news->result;
     if (news->result->status == SAM_STATUS_CONVERGED) PetscCall(SamEmbedRecord(c, news->result));
     if (news->kind == SAM_NEWS_STEP) PetscCall(AskHost(run, 0));
     break;
@@ -65,18 +63,18 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets what is tried and committed after a run. */
-static PetscErrorCode KnowEnd(petsam_contact *c)
+/* The control of the committed step, from which a history goes on; its time in a life is that of the whole life. */
+static PetscErrorCode GetCommitted(petsam_contact *c, SamControl *control, PetscBool *committed)
 {
-  PetscBool tried, committed;
+  const SamSolution *s;
+  PetscBool          tried;
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
-  c->has_tried = tried;
-  if (!tried && committed) {
-    c->committed     = c->last;
-    c->has_committed = PETSC_TRUE;
-  }
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, committed));
+  if (!*committed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetSolution(c->setup->contact, &s));
+  *control = s->control;
+  PetscCall(SamContactGetNumber(c->setup->contact, "time", &control->time));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -84,19 +82,22 @@ static PetscErrorCode RunProgram(Run *run, double cycles, const char columns[], 
 {
   petsam_contact *const c = run->c;
   SamHistory            history;
+  SamControl            last;
+  PetscBool             committed;
   PetscErrorCode        code;
 
   PetscFunctionBegin;
   PetscCall(SamEmbedForget(c));
-  PetscCall(SamHistoryCreate(c->comm, &c->control, c->has_committed ? &c->committed.control : NULL, columns, rows,
-                             values, c->increments, &history));
+  PetscCall(GetCommitted(c, &last, &committed));
+  PetscCall(
+    SamHistoryCreate(c->comm, &c->control, committed ? &last : NULL, columns, rows, values, c->increments, &history));
   PetscCall(SamSimulationSetProgram(c->simulation, &history, cycles));
   PetscCall(SamSimulationSetMonitor(c->simulation, Tell, run));
   c->advice[0] = '\0';
   code         = SamSimulationRun(c->simulation);
   PetscCall(SamSimulationSetMonitor(c->simulation, NULL, NULL));
+  if (code) PetscCall(SamEmbedForget(c));
   PetscCall(code);
-  PetscCall(KnowEnd(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -136,15 +137,14 @@ static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
   PetscBool current;
 
   PetscFunctionBegin;
+  PetscCall(SamEmbedForget(c));
   PetscCheck(c->setup->grid->nx == from->setup->grid->nx && c->setup->grid->ny == from->setup->grid->ny &&
                c->setup->grid->cells == from->setup->grid->cells,
              c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different grids");
   PetscCall(SamContactGetState(from->setup->contact, &state));
   PetscCall(SamContactIsGapCurrent(from->setup->contact, &current));
   PetscCall(SamContactSetState(c->setup->contact, state, current));
-  c->committed     = from->committed;
-  c->has_committed = from->has_committed;
-  PetscCall(SamEmbedForget(c));
+  PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -156,9 +156,9 @@ int petsam_copy(petsam_contact *c, petsam_contact *from)
 static PetscErrorCode Reset(petsam_contact *c)
 {
   PetscFunctionBegin;
-  PetscCall(SamContactReset(c->setup->contact));
-  c->has_committed = PETSC_FALSE;
   PetscCall(SamEmbedForget(c));
+  PetscCall(SamContactReset(c->setup->contact));
+  PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

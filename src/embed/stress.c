@@ -249,9 +249,11 @@ static PetscErrorCode StressOfStep(petsam_contact *c, const char options[], int 
 {
   Step           step = {.fields = NULL};
   PetscErrorCode code;
+  PetscBool      tried, committed;
 
   PetscFunctionBegin;
-  PetscCheck(c->has_tried || c->has_committed, c->comm, PETSC_ERR_ORDER, "no step has been solved yet");
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  PetscCheck(tried || committed, c->comm, PETSC_ERR_ORDER, "no step has been solved yet");
   if (!c->stress) PetscCall(PetscNew(&c->stress));
   PetscCall(TakeStep(c, &step));
   code = Evaluate(c, options, 1, &step, shape);
@@ -266,13 +268,23 @@ int petsam_stress(petsam_contact *c, const char *options, int shape[4])
                                                       : SAM_EMBED_USAGE;
 }
 
+PetscErrorCode SamEmbedRecordAnew(petsam_contact *c)
+{
+  PetscBool tried, committed;
+
+  PetscFunctionBegin;
+  SamEmbedForgetSteps(c);
+  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
+  if (c->stress && c->stress->recording && committed && !tried) PetscCall(TakeStep(c, &c->stress->before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Record(petsam_contact *c, PetscBool on)
 {
   PetscFunctionBegin;
   if (!c->stress) PetscCall(PetscNew(&c->stress));
-  SamEmbedForgetSteps(c);
   c->stress->recording = on;
-  if (on && c->has_committed && !c->has_tried) PetscCall(TakeStep(c, &c->stress->before));
+  PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

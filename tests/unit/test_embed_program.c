@@ -98,6 +98,69 @@ static void test_monitor_stops_after_a_step(void **state)
   petsam_destroy(&other);
 }
 
+/* A run that fails keeps what it has committed: all that is asked for, and the next run, follow from there. */
+static void test_run_that_fails_keeps_what_it_committed(void **state)
+{
+  const double    rows[] = {1, 500, 0, 2, 500, 100, 3, 500, 1e4}, next[] = {10, 700, 50};
+  petsam_contact *c = NewContact(World()), *d = NewContact(World());
+  Log             a = {.most = 0}, b = {.most = 0};
+  double          time, load[6], same[6], *field = (double *)malloc(sizeof(double) * 37 * 29);
+
+  (void)state;
+  sam_assert(petsam_history(c, "time,load_n,load_tx", 3, rows, NULL, NULL) == 11); /* at 2.5, after 1, 1.5 and 2 */
+  sam_assert(petsam_get_number(c, "time", &time) == 0 && time == 2.5 && petsam_commit(c) == 2);
+  sam_assert(petsam_reject(c) == 0 && petsam_get_number(c, "time", &time) == 0 && time == 2);
+  sam_assert(petsam_get_field(c, "pressure", field) == 0 && petsam_save(c, "failed.h5") == 0);
+  sam_assert(petsam_history(d, "time,load_n,load_tx", 2, rows, NULL, NULL) == 0);
+  sam_assert(petsam_history(c, "time,load_n,load_tx", 1, next, Note, &a) == 0 && a.count == 2);
+  sam_assert(petsam_history(d, "time,load_n,load_tx", 1, next, Note, &b) == 0);
+  AssertSameLogs(&a, &b);
+  sam_assert(petsam_try(c, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, load, NULL) == 0);
+  sam_assert(petsam_try(d, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, same, NULL) == 0);
+  sam_assert(!memcmp(load, same, sizeof(load)));
+  free(field);
+  petsam_destroy(&c);
+  petsam_destroy(&d);
+}
+
+/* What a monitor may not do changes nothing; a copy and a file have the step that was committed before. */
+typedef struct {
+  Log             log;
+  petsam_contact *other;
+  int             refused, copied;
+} Meddler;
+
+static int Meddle(void *context, petsam_contact *c, int cycle)
+{
+  Meddler *const  m    = (Meddler *)context;
+  petsam_contact *self = c;
+  double          time;
+
+  m->refused += petsam_reset(c) == 2 && petsam_load(c, "failed.h5") == 2 && petsam_copy(c, m->other) == 2;
+  petsam_destroy(&self);
+  m->refused += self == c && strstr(petsam_message(c), "after the monitor");
+  if (m->log.count == 2)
+    m->copied = petsam_copy(m->other, c) == 0 && petsam_get_number(m->other, "time", &time) == 0 && time == 0 &&
+                petsam_save(c, "between.h5") == 0;
+  return Note(&m->log, c, cycle);
+}
+
+static void test_monitor_cannot_change_its_contact(void **state)
+{
+  petsam_contact *c = NewContact(World()), *d = NewContact(World());
+  Log             b = {.most = 0};
+  Meddler         m = {.other = NewContact(World())};
+
+  (void)state;
+  sam_assert(petsam_history(c, columns, ROWS, values, Meddle, &m) == 0 && m.refused == 2 * (STEPS + 1) && m.copied);
+  sam_assert(petsam_history(d, columns, ROWS, values, Note, &b) == 0);
+  AssertSameLogs(&m.log, &b);
+  petsam_destroy(&c);
+  petsam_destroy(&d);
+  petsam_destroy(&m.other);
+  sam_assert(!c && !d);
+}
+
 static void test_copy_goes_on_and_reset_begins_anew(void **state)
 {
   petsam_contact *c = NewContact(World()), *copy = NewContact(World());
@@ -141,6 +204,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_history_has_the_same_bits_on_any_ranks),
     cmocka_unit_test(test_life_has_the_same_bits_on_any_ranks),
     cmocka_unit_test(test_monitor_stops_after_a_step),
+    cmocka_unit_test(test_run_that_fails_keeps_what_it_committed),
+    cmocka_unit_test(test_monitor_cannot_change_its_contact),
     cmocka_unit_test(test_copy_goes_on_and_reset_begins_anew),
     cmocka_unit_test(test_mistakes_are_named),
   };
