@@ -239,10 +239,9 @@ static PetscErrorCode SolveSteps(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationRun(SamSimulation s)
+static PetscErrorCode RunAll(SamSimulation s)
 {
   PetscFunctionBegin;
-  PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load history");
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
   PetscCall(Begin(s));
   if (s->life)
@@ -250,6 +249,18 @@ PetscErrorCode SamSimulationRun(SamSimulation s)
   else
     PetscCall(SolveSteps(s));
   PetscCall(Finish(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationRun(SamSimulation s)
+{
+  PetscErrorCode code;
+
+  PetscFunctionBegin;
+  PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load history");
+  code = RunAll(s);
+  if (s->life) SamLifeEnd(s->life); /* the contact may be used on */
+  PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -75,8 +75,6 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->grid    = grid;
   l->problem = problem;
   l->law     = law;
-
-  ((SamWear *)law->data)->jumps = PETSC_TRUE;
   PetscCall(SamContactGetState(contact, &l->memory));
   PetscCall(SamLifeDeclare(l));
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(SamGridCreateVec(grid, 1, *field));
@@ -89,8 +87,15 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   l->coupled = traits.coupled;
   PetscCall(SamLifeFindTurns(l));
+  ((SamWear *)law->data)->jumps = PETSC_TRUE;
+
   *life = l;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamLifeEnd(SamLife l)
+{
+  ((SamWear *)l->law->data)->jumps = PETSC_FALSE;
 }
 
 PetscErrorCode SamLifeDestroy(SamLife *life)
@@ -100,7 +105,7 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   PetscFunctionBegin;
   *life = NULL;
   if (!l) PetscFunctionReturn(PETSC_SUCCESS);
-  ((SamWear *)l->law->data)->jumps = PETSC_FALSE;
+  SamLifeEnd(l);
   PetscCall(SamStateDestroy(&l->series));
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
   PetscCall(VecDestroy(&l->shear));

@@ -180,6 +180,27 @@ static void test_copy_goes_on_and_reset_begins_anew(void **state)
   petsam_destroy(&copy);
 }
 
+/* Steps after a life wear, as do those of a new contact that has loaded its state. */
+static void test_steps_after_a_life_wear(void **state)
+{
+  petsam_contact *c = NewContact(World()), *d = NewContact(World());
+  Log             a = {.most = 0}, b = {.most = 0};
+  double          worn, before;
+
+  (void)state;
+  sam_assert(petsam_history(c, columns, ROWS, values, NULL, NULL) == 0 && petsam_save(c, "new.h5") == 0);
+  sam_assert(petsam_live(c, 100, columns, ROWS, values, NULL, NULL) == 0 && petsam_save(c, "worn.h5") == 0);
+  sam_assert(petsam_get_number(c, "wear_volume2", &before) == 0 && petsam_load(d, "worn.h5") == 0);
+  sam_assert(petsam_history(d, columns, ROWS, values, Note, &a) == 0);
+  sam_assert(petsam_try(c, 9, (int[6]){0}, (double[6]){7e-6, 5e-7}, NULL, NULL) == 0);
+  sam_assert(petsam_get_number(c, "wear_volume2", &worn) == 0 && worn > before);
+  sam_assert(petsam_load(c, "worn.h5") == 0 && petsam_history(c, columns, ROWS, values, Note, &b) == 0);
+  AssertSameLogs(&a, &b);
+  sam_assert(petsam_load(c, "new.h5") == 0);
+  petsam_destroy(&c);
+  petsam_destroy(&d);
+}
+
 static void test_mistakes_are_named(void **state)
 {
   petsam_contact *c      = NewContact(World());
@@ -207,6 +228,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_run_that_fails_keeps_what_it_committed),
     cmocka_unit_test(test_monitor_cannot_change_its_contact),
     cmocka_unit_test(test_copy_goes_on_and_reset_begins_anew),
+    cmocka_unit_test(test_steps_after_a_life_wear),
     cmocka_unit_test(test_mistakes_are_named),
   };
 
