@@ -131,6 +131,32 @@ int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows,
   return RunAll(c, __func__, cycles, columns, rows, values, monitor, context);
 }
 
+/* Refuses a contact of other ranks, of another grid or gap; all ranks find the same. */
+static PetscErrorCode CheckCopy(petsam_contact *c, petsam_contact *from)
+{
+  const petsam_contact *const both[] = {c, from};
+  const SamGrid               to = c->setup->grid, of = from->setup->grid;
+  uint64_t                    gap[2];
+  int                         ranks;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_compare(c->comm, from->comm, &ranks));
+  PetscCheck(ranks == MPI_IDENT || ranks == MPI_CONGRUENT, c->comm, SAM_ERR_USER,
+             "petsam_copy: the contacts belong to different ranks, or to the same in another order: use petsam_save() "
+             "and petsam_load()");
+  PetscCheck(to->nx == of->nx && to->ny == of->ny && !memcmp(to->width, of->width, sizeof(to->width)) &&
+               !memcmp(to->center, of->center, sizeof(to->center)),
+             c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different grids");
+  for (int k = 0; k < 2; k++) {
+    Vec values;
+
+    PetscCall(SamProblemGetGap(both[k]->setup->problem, &values));
+    PetscCall(SamGridChecksum(both[k]->setup->grid, values, &gap[k]));
+  }
+  PetscCheck(gap[0] == gap[1], c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different gaps");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
 {
   SamState  state;
@@ -138,9 +164,7 @@ static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
 
   PetscFunctionBegin;
   PetscCall(SamEmbedForget(c));
-  PetscCheck(c->setup->grid->nx == from->setup->grid->nx && c->setup->grid->ny == from->setup->grid->ny &&
-               c->setup->grid->cells == from->setup->grid->cells,
-             c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different grids");
+  PetscCall(CheckCopy(c, from));
   PetscCall(SamContactGetState(from->setup->contact, &state));
   PetscCall(SamContactIsGapCurrent(from->setup->contact, &current));
   PetscCall(SamContactSetState(c->setup->contact, state, current));

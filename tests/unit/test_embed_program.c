@@ -201,6 +201,32 @@ static void test_steps_after_a_life_wear(void **state)
   petsam_destroy(&d);
 }
 
+/* All ranks refuse what a copy cannot be of, also where the rows of only some of them differ. */
+static void test_copy_of_another_contact_is_refused(void **state)
+{
+  petsam_contact *c = NewContact(World()), *other = NULL;
+  int             rank, size;
+  MPI_Comm        reversed;
+
+  (void)state;
+  (void)MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  (void)MPI_Comm_split(PETSC_COMM_WORLD, 0, -rank, &reversed);
+  sam_assert(petsam_history(c, columns, ROWS, values, NULL, NULL) == 0);
+  other = NewContact((int)MPI_Comm_c2f(reversed));
+  sam_assert(petsam_copy(other, c) == (size > 1 ? 2 : 0));
+  sam_assert(size == 1 || strstr(petsam_message(other), "different ranks"));
+  petsam_destroy(&other);
+  sam_assert(petsam_create(World(), OPTIONS " -grid_center 1e-4,0", &other) == 0 && petsam_copy(other, c) == 2);
+  sam_assert(strstr(petsam_message(other), "different grids") != NULL);
+  petsam_destroy(&other);
+  sam_assert(petsam_create(World(), OPTIONS " -gap_radius1 0.2", &other) == 0 && petsam_copy(other, c) == 2);
+  sam_assert(strstr(petsam_message(other), "different gaps") != NULL);
+  petsam_destroy(&other);
+  petsam_destroy(&c);
+  (void)MPI_Comm_free(&reversed);
+}
+
 static void test_mistakes_are_named(void **state)
 {
   petsam_contact *c      = NewContact(World());
@@ -229,6 +255,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_monitor_cannot_change_its_contact),
     cmocka_unit_test(test_copy_goes_on_and_reset_begins_anew),
     cmocka_unit_test(test_steps_after_a_life_wear),
+    cmocka_unit_test(test_copy_of_another_contact_is_refused),
     cmocka_unit_test(test_mistakes_are_named),
   };
 
