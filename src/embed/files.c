@@ -14,7 +14,7 @@ static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parameters)
 {
   PetscFunctionBegin;
-  *parameters = (SamParameters){.count = 0};
+  *parameters = (SamParameters){.in_process = PETSC_TRUE};
   PetscCall(SamSetupAddParameters(c->setup, parameters));
   if (c->has_gap)
     PetscCall(SamParametersAddChecksum(parameters, "given_gap", c->gap));

@@ -176,6 +176,36 @@ refused("-wear_cycles: ", lambda: petsam.Contact(wear_cycles=10, wear_coefficien
     )
 
 
+def test_files_of_other_contacts_are_refused_and_leave_the_contact_alone(petsam, tmp_path):
+    """Files of programs' runs. The sum of another contact is left out, and is not accumulated either."""
+    petsam(dict(CASE, load_n=500.0), dict(checkpoint="run.h5", checkpoint_every=1))
+    run_python(
+        BEGIN
+        + """
+def refused(says, file):
+    try:
+        one.load(file)
+    except petsam.ContactError as error:
+        assert says in str(error), str(error)
+    else:
+        raise SystemExit("not refused")
+
+with petsam.Contact(sum_slip_path=True, **case) as sums, petsam.Contact(**case) as one:
+    for contact, file in (sums, "sum.h5"), (one, "one.h5"):
+        contact.run(history)
+        contact.save(file)
+    one.load("sum.h5")  # without its sum
+    refused("program", "run.h5")
+    one.load("one.h5")
+    assert np.array_equal(one.copy()["pressure"], one["pressure"])
+    sums.load("sum.h5")
+""",
+        tmp_path,
+    )
+    done = petsam(dict(CASE, load_n=500.0), dict(restart="one.h5"), check=2)
+    assert "a contact in process has saved it" in done.complaint[0]
+
+
 def test_examples_run(tmp_path):
     for name, says in ("history", "81 steps"), ("life", "  100000 cycles"), ("fatigue", "(33, 1, 96)"):
         assert says in run_python((ROOT / f"examples/embed/python/{name}.py").read_text(), tmp_path)
