@@ -105,6 +105,7 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 static PetscErrorCode Begin(SamSimulation s)
 {
   SamSimulationStart *const start = &s->start;
+  PetscInt                  committed;
 
   PetscFunctionBegin;
   s->last_time = PETSC_NINFINITY;
@@ -116,7 +117,8 @@ static PetscErrorCode Begin(SamSimulation s)
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (!control.force[c] || control.value[c] != 0) start->loads[c] = PETSC_TRUE;
   }
-  if (s->checkpoints.restart[0]) {
+  PetscCall(SamContactGetSteps(s->setup.contact, &committed));
+  if (s->checkpoints.restart[0] && !(committed > 0)) { /* else the state is that of a later step */
     start->restart = s->checkpoints.restart;
     PetscCall(SamSimulationRestart(s));
     PetscCall(SamSimulationDescribePlace(s, PETSC_FALSE, start->after, sizeof(start->after)));
@@ -241,9 +243,13 @@ static PetscErrorCode SolveSteps(SamSimulation s)
 
 static PetscErrorCode RunAll(SamSimulation s)
 {
+  PetscErrorCode code;
+
   PetscFunctionBegin;
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
-  PetscCall(Begin(s));
+  code = Begin(s);
+  if (code && s->start.restart) PetscCall(SamContactReset(s->setup.contact)); /* as before: without any step */
+  PetscCall(code);
   if (s->life)
     PetscCall(SamSimulationLive(s));
   else

@@ -206,6 +206,35 @@ with petsam.Contact(sum_slip_path=True, **case) as sums, petsam.Contact(**case) 
     assert "a contact in process has saved it" in done.complaint[0]
 
 
+def test_restart_is_of_the_first_run_only(tmp_path):
+    """One that is refused leaves a contact without steps; later runs go on from the committed state."""
+    run_python(
+        BEGIN
+        + """
+more = dict(time=[10, 11], load_n=[600, 600], disp_x=[1e-7, 0])
+with petsam.Contact(checkpoint="c.h5", checkpoint_every=1, **case) as contact:
+    contact.run(history, lambda _, step: step.time == 2)
+with petsam.Contact(restart="c.h5", **case) as contact, petsam.Contact(**case) as whole:
+    try:
+        contact.run(dict(history, load_n=[1, 2, 3, 4]))
+    except petsam.ContactError as error:
+        assert "does not fit: -load_n" in str(error), str(error)
+    else:
+        raise SystemExit("not refused")
+    try:
+        contact.save("none.h5")
+    except petsam.ContactError as error:
+        assert "no step has been committed" in str(error), str(error)
+    else:
+        raise SystemExit("not refused")
+    for steps, program in (2, history), (2, more):
+        a, b = contact.run(program), whole.run(program)
+        assert len(a) == steps and [s.numbers for s in a] == [s.numbers for s in b[-steps:]]
+""",
+        tmp_path,
+    )
+
+
 def test_examples_run(tmp_path):
     for name, says in ("history", "81 steps"), ("life", "  100000 cycles"), ("fatigue", "(33, 1, 96)"):
         assert says in run_python((ROOT / f"examples/embed/python/{name}.py").read_text(), tmp_path)
