@@ -22,6 +22,7 @@ typedef struct {
   PetscInt    chunk[2];                               /* most cells of an HDF5 chunk in x, y */
   PetscBool   xdmf;                                   /* write an XDMF file beside the results */
   PetscBool   single;                                 /* fields of cells in single precision */
+  PetscBool   sums;        /* sums over the steps begin where they are named: SamOutputSettingsAddLaws() */
   PetscReal   flush;       /* s that steps without fields may wait to be written together; 0: they do not */
   SamContact  contact;     /* whose state gives the fields and /history; borrowed */
   SamState    cycles;      /* whose numbers give a second series, */
@@ -36,7 +37,7 @@ typedef struct {
   does not offer.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
-PETSC_EXTERN PetscErrorCode SamOutputSettingsAddLaws(const SamOutputSettings *settings, SamProblem problem);
+PETSC_EXTERN PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *settings, SamProblem problem);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings, SamContact contact,
                                                      const SamOptions *from);
 

@@ -10,8 +10,9 @@
 
 /* For the help, which is printed before there is a contact to ask. */
 #define WORDS \
-  "all,none,pressure,shear_x,shear_y,slip_x,slip_y,gap,displacement_x,displacement_y,displacement_z,state," \
-  "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge"
+  "all,none,pressure,shear_x,shear_y,displacement_z,displacement_x,displacement_y,slip_x,slip_y,gap,state," \
+  "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge," SAM_LAW_SLIP_PATH \
+  "," SAM_LAW_FRICTION_ENERGY
 
 /* -output_fields: names between commas, and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
@@ -62,28 +63,34 @@ static PetscBool Names(const SamOutputSettings *set, const char name[])
   return PETSC_FALSE;
 }
 
-PetscErrorCode SamOutputSettingsAddLaws(const SamOutputSettings *set, SamProblem problem)
+PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *set, SamProblem problem)
 {
   const SamLawType *types;
   PetscInt          count;
 
   PetscFunctionBegin;
+  set->sums = PETSC_TRUE;
   PetscCall(SamLawGetTypes(&count, &types));
   for (PetscInt k = 0; k < count; k++)
     if (Names(set, types[k]) || Names(set, "all")) PetscCall(SamProblemAddSum(problem, types[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The names that there are, as a sentence has them. */
-static void ListFields(SamState state, char names[], size_t size)
+/* The names that there are, also of sums (`sum`) that begin where they are named, with commas between them. */
+static void ListFields(SamState state, PetscBool sum, char names[], size_t size)
 {
+  static const char *const sums[] = {SAM_LAW_SLIP_PATH, SAM_LAW_FRICTION_ENERGY};
+
   const PetscInt count = SamStateCountResults(state);
   size_t         used  = 0;
 
   names[0] = '\0';
-  for (PetscInt f = 0; f < count && used < size; f++)
-    used += (size_t)snprintf(names + used, size - used, "%s%s", f ? f + 1 < count ? ", " : " or " : "",
-                             SamStateResultOf(state, f)->name);
+  for (PetscInt f = 0; f < count + (sum ? 2 : 0) && used < size; f++) {
+    const char *name = f < count ? SamStateResultOf(state, f)->name : sums[f - count];
+
+    if (f < count || SamStateFindResult(state, name) < 0)
+      used += (size_t)snprintf(names + used, size - used, "%s%s", f ? ", " : "", name);
+  }
 }
 
 PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact contact, const SamOptions *from)
@@ -94,7 +101,7 @@ PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact conta
   PetscFunctionBegin;
   set->contact = contact;
   PetscCall(SamContactGetState(contact, &state));
-  ListFields(state, names, sizeof(names));
+  ListFields(state, set->sums, names, sizeof(names));
   for (PetscInt k = 0; k < set->count; k++)
     PetscCheck(SamStateFindResult(state, set->names[k]) >= 0 || !strcmp(set->names[k], "all"), from->comm, SAM_ERR_USER,
                "-%soutput_fields: unknown field %s; one or more of %s, separated by commas, or all, or none",

@@ -80,6 +80,13 @@ static void test_unknown_field_is_named(void **state)
       sam_assert(strstr(CaughtMessage(), "unknown field slip_path") && strstr(CaughtMessage(), ", displacement_z,") &&
                  !strstr(CaughtMessage(), ", slip_path"));
   }
+  SetOptions("-output_fields slip_pth");
+  sam_call(SamOutputSettingsSetFromOptions(&set, &from));
+  sam_call(SamOutputSettingsAddLaws(&set, s.problem));
+  BeginCatching();
+  ierr = SamOutputSettingsPrepare(&set, s.contact, &from);
+  EndCatching();
+  sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), ", slip_path, friction_energy, separated"));
   SetOptions("-output_fields pressure,slip_path");
   sam_call(SamOutputSettingsSetFromOptions(&set, &from));
   SetOptions("");
