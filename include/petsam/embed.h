@@ -68,9 +68,9 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
   petsam_history - solves the steps of a history and commits each: `values` (rows, columns), and `columns` their names
   with commas between them, as in the first line of the program's file: "time,load_n,load_tx". The first row's change
   begins from the committed loads and displacements, or from none; -steps divides each row's change. Options -output,
-  -checkpoint and the like write files as the program does; with -restart a contact without a committed step goes on from
-  that file, in the same history. Ends early where a step has no solution, did not converge or
-  is at the edge of the grid, with that code; the step is then tried and not committed.
+  -checkpoint and the like write files as the program does; with -restart a contact without a committed step goes on
+  from that file, in the same history. Ends early where a step has no solution, did not converge or is at the edge of
+  the grid, with that code; the step is then tried and not committed.
   petsam_live - so many cycles of wear; the rows are one closed cycle. Options -wear_rtol and the like count.
   The monitor is called after each step (`cycle` 0) and after each computed cycle (1), whose numbers are
   "wear/depth_max1" and so on; it may ask for fields and numbers, and ends the run where it returns anything but 0; what

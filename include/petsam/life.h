@@ -62,13 +62,16 @@ typedef struct _n_SamLife *SamLife;
 /*
   SamLifeCreate - begins where the contact is: at the end of the cycle's last step, on loads and displacements of which
   a first cycle, which does not wear, makes a closed loop. Borrows the contact, whose steps do not wear until
-  SamLifeEnd() or SamLifeDestroy(). Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a tolerance that is not positive, or a jump below 0;
-  PETSC_ERR_ARG_INCOMP for a contact without a law of wear, or with a law that cycle jumps do not support.
+  SamLifeEnd() or SamLifeDestroy(). Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a tolerance that is not positive,
+  or a jump below 0; PETSC_ERR_ARG_INCOMP for a contact without a law of wear, or with a law that cycle jumps do not
+  support.
 */
 PETSC_EXTERN PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle,
                                           const SamLifeSettings *settings, SamLife *life);
 PETSC_EXTERN PetscErrorCode SamLifeDestroy(SamLife *life);
-/* SamLifeEnd - the contact's steps wear again, one by one; what the life has found can still be read. Not collective. */
+/*
+  SamLifeEnd - the contact's steps wear again, one by one; what the life has found can still be read. Not collective.
+*/
 PETSC_EXTERN void SamLifeEnd(SamLife life);
 /*
   SamLifeGetSeries - the numbers of computed cycles, as a state that results may offer as a series beside /history, and

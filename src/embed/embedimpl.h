@@ -48,7 +48,9 @@ PETSC_INTERN int       SamEmbedLeave(petsam_contact *c, PetscErrorCode code);
 PETSC_INTERN int       SamEmbedRefuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 /* SamEmbedCopyField - copies this rank's rows of a field of the results. Collective. */
 PETSC_INTERN PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double values[]);
-/* SamEmbedForget - forgets the tried step, before anything changes. Collective. Errors: PETSC_ERR_ORDER in a monitor. */
+/*
+  SamEmbedForget - forgets the tried step, before anything changes. Collective. Errors: PETSC_ERR_ORDER in a monitor.
+*/
 PETSC_INTERN PetscErrorCode SamEmbedForget(petsam_contact *c);
 /* SamEmbedInsertOptions - puts options, rank 0's, into a database. Collective. Errors: those of the text. */
 PETSC_INTERN PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[]);

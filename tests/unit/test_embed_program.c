@@ -115,6 +115,7 @@ static void test_run_that_fails_keeps_what_it_committed(void **state)
   sam_assert(petsam_history(c, "time,load_n,load_tx", 1, next, Note, &a) == 0 && a.count == 2);
   sam_assert(petsam_history(d, "time,load_n,load_tx", 1, next, Note, &b) == 0);
   AssertSameLogs(&a, &b);
+  sam_assert_close(a.number[0][0], 75, 1e-6); /* half-way from the committed 100 N */
   sam_assert(petsam_try(c, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, load, NULL) == 0);
   sam_assert(petsam_try(d, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, same, NULL) == 0);
   sam_assert(!memcmp(load, same, sizeof(load)));
