@@ -383,7 +383,7 @@ static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, C
   if (strcmp(version, PETSAM_VERSION))
     (void)snprintf(message, sizeof(message), "it was written by petsam %s, this is %s", version, PETSAM_VERSION);
   else if (rest->parameters->in_process && SamFileHasAttribute(f, "load_program"))
-    (void)snprintf(message, sizeof(message), "it is the checkpoint of a program's run: go on from it by that program");
+    (void)snprintf(message, sizeof(message), "it is the checkpoint of a program's run: continue that with -restart");
   else if (!rest->parameters->in_process && SamFileHasAttribute(f, "given_gap"))
     (void)snprintf(message, sizeof(message), "a contact in process has saved it: load it in such a contact");
   else if (!SamParametersDiffer(f, rest->parameters, message, sizeof(message)) && !f->failed) {

@@ -166,6 +166,7 @@ static void test_copy_goes_on_and_reset_begins_anew(void **state)
 {
   petsam_contact *c = NewContact(World()), *copy = NewContact(World());
   Log             first = {.most = 0}, again = {.most = 0};
+  int             shape[4];
   double          load[6], same[6];
   const int       force[6] = {0, 0, 1, 1, 1, 1};
   const double    given[6] = {7e-6, 2e-7, 0, 0, 0, 0};
@@ -177,6 +178,9 @@ static void test_copy_goes_on_and_reset_begins_anew(void **state)
   sam_assert(!memcmp(load, same, sizeof(load)));
   sam_assert(petsam_reset(copy) == 0 && petsam_history(copy, columns, ROWS, values, Note, &again) == 0);
   AssertSameLogs(&first, &again);
+  sam_assert(petsam_record(c, 1) == 0 && petsam_history(c, columns, ROWS, values, NULL, NULL) == 0);
+  sam_assert(petsam_fatigue(c, "-fatigue swt", shape) == 0);
+  sam_assert(petsam_reset(c) == 0 && petsam_fatigue(c, "-fatigue swt", shape) == 2); /* nothing is recorded */
   petsam_destroy(&c);
   petsam_destroy(&copy);
 }
