@@ -34,7 +34,7 @@ PETSC_EXTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, con
 PETSC_EXTERN PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec field);
 /*
   SamFieldFileGetGrid - the grid on which a dataset of lengths is given: cells, full widths and centre (m) in x and y;
-  a width of 0 is one that the file does not tell. Collective. Errors: SAM_ERR_FILE, as for SamFieldFileRead().
+  a width of 0 is one that the file does not give. Collective. Errors: SAM_ERR_FILE, as for SamFieldFileRead().
 */
 PETSC_EXTERN PetscErrorCode SamFieldFileGetGrid(const SamFieldFile *source, MPI_Comm comm, PetscInt n[2],
                                                 PetscReal width[2], PetscReal center[2]);
