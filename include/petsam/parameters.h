@@ -20,8 +20,8 @@ typedef struct {
 typedef struct {
   PetscInt     count;
   SamParameter list[SAM_PARAMETERS];
-  const char  *free;    /* parameters whose names begin like this may differ after all; NULL: none */
-  PetscBool in_process; /* of a contact in process, whose files no program continues */
+  const char  *free;       /* parameters whose names begin like this may differ after all; NULL: none */
+  PetscBool    in_process; /* of a contact in process, whose files no program continues */
 } SamParameters;
 
 /*

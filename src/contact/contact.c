@@ -97,8 +97,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
                            &s.coupling_monitor, NULL));
   PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
                            &s.warm_start, NULL));
-  PetscCall(SamOptionsReal(&from, "cycle_memory",
-                           "bytes to keep steps of a repeated load cycle, from which the next cycle starts; 0: none",
+  PetscCall(SamOptionsReal(&from, "cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts",
                            SAM_RANGE_NONNEGATIVE, &s.cycle_memory, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
                            &s.allow_edge, NULL));

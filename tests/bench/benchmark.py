@@ -54,7 +54,7 @@ ENOUGH = 30.0  # seconds of repeats after which one median is good enough
 START = time.monotonic()
 # what measures and is measured: rows belong together when none of it has changed
 MEASURING = [BENCH / name for name in ("benchmark.py", "problem.py", "peer.py")]
-PARTS = ("influence coefficients", "products", "preconditioner")  # of petsam's time, none within another
+PARTS = ("influence coefficients", "operator applications", "preconditioner")  # of petsam's time, none within another
 MEASURED = ("bin/petsam", "bench/bandwidth", "bench/convolution")
 
 

@@ -274,7 +274,7 @@ def test_summary_tells_loads_and_counts(petsam, solve):
     for name in LOADS + RIGID:
         shown = float(re.search(rf"\b{name} +(\S+)", done.stdout).group(1))
         assert shown == pytest.approx(s[name], rel=1e-6, abs=1e-12), name
-    assert f"normal {s['normal_iterations']} ({s['normal_applies']} products)" in done.stdout
+    assert f"normal {s['normal_iterations']} ({s['normal_applies']} applications)" in done.stdout
 
 
 @pytest.mark.parametrize("solver", ["normal", "tangential"])

@@ -88,7 +88,7 @@ def test_corners_do_not_connect_and_sides_do(petsam, tmp_path):
 
 def test_numbers_are_on_request_and_printed(petsam, tmp_path, case):
     done = petsam(case, dict(output="plain.h5"))
-    assert "spots" not in done.stdout and "contact_spots" not in read(tmp_path / "plain.h5")
+    assert "  spots " not in done.stdout and "contact_spots" not in read(tmp_path / "plain.h5")
     done = petsam(case, SPOTS)
     values = read(tmp_path / "out.h5")
     found = re.search(r"^  spots +(\d+), contact on (\S+) % of the grid, mean gap (\S+) m$", done.stdout, re.M)

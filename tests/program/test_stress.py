@@ -100,7 +100,7 @@ def test_edge_that_is_not_resolved_has_no_stress(launcher, tmp_path):
         assert 0 < file["history/edge_accepted"][-1] < 0.9
     words = dict(input="c.h5", output="s.h5", depths=0.0)
     told = conftest.execute(launcher, tmp_path, [words], 1, 0, program=PROGRAM).stderr
-    assert "the edge of contact is not found in 1 of 1 steps" in told
+    assert "the contact edge is not found in 1 of 1 steps" in told
     assert np.isnan(read(tmp_path / "s.h5")["history/edge_stress_xx_max"][0])
 
 
