@@ -150,7 +150,7 @@ def test_embedded_contact_keeps_sums_by_an_option():
 
 
 def test_load_takes_what_the_contact_accumulates(tmp_path):
-    """A sum that only the file has is left out: the contact stays one of its options, for files and copies after that."""
+    """A sum that only the file has is left out: files and copies after that are those of the contact's options."""
     import petsam
 
     options = {name: value for name, value in ball(24).items() if name not in ("load_n", "output_fields")}
