@@ -64,6 +64,7 @@ MISTAKES = [
     mistake("misspelled", {}, "-frictoin", "0.3", says=["-frictoin 0.3", "is -friction meant?"]),
     mistake("one modulus for both", {}, "-young", "210e9", says=["-young 210e9", "is -body1_young meant?"]),
     mistake("another program's name", {}, "-mu", "0.3", says=["-mu 0.3", "is -friction meant?"]),
+    mistake("an underscore too many", {}, "-gap_radius_1", "0.2", says=["-gap_radius_1 0.2", "is -gap_radius1 meant?"]),
     mistake("dash for an underscore", {}, "-load-tx", "6", says=["-load-tx 6", "is -load_tx meant?"]),
     mistake("another letter", {}, "-load_x", "60", says=["-load_x", "is -load_tx meant?"]),
     mistake(
@@ -241,7 +242,7 @@ MISTAKES = [
         says=["-gap_radius1 0.2", "check the units, N, m, Pa"],
     ),
     mistake(
-        "radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["edge of the grid", "-grid_size 0.02"]
+        "radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["edge of the grid", "-grid_size 0.02", "of -gap_radius1 200 (in m)"]
     ),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),
@@ -252,7 +253,7 @@ MISTAKES = [
         says=["lies at x = 0", "grid's cells from 0.0007"],
     ),
     mistake(
-        "two planes", FLAT, code=12, says=["straight along x and y", "-elasticity periodic", "-allow_edge_contact"]
+        "two planes", FLAT, code=12, says=["axis along x and y", "-elasticity periodic, which", "both x and y periodic; to continue anyway: -allow"]
     ),
 ]
 
