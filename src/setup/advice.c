@@ -207,7 +207,7 @@ static void AdviseTouch(Receiver *to, const SamControl *control)
   Advise(to, force ? "load_n" : "disp_z",
          "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
          force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N], force ? "N" : "m",
-         force ? "0" : "0, or than the smallest separation");
+         force ? "0" : "0, or the smallest separation");
 }
 
 /* A contact that is few cells across; grids on which it is not. */
