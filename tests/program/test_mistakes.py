@@ -116,6 +116,14 @@ MISTAKES = [
     # ---- files
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
     mistake(
+        "option of a file without effect",
+        {},
+        "-options_file",
+        "s.opts",
+        files={"s.opts": "# punch\n-gap_flat_radius 3\n"},
+        says=["-options_file s.opts, line 2: -gap_flat_radius 3: has no effect without -gap_type punch: remove it"],
+    ),
+    mistake(
         "options file without dashes",
         {},
         "-options_file",
@@ -208,6 +216,9 @@ MISTAKES = [
     history("empty", "", ["-history loads.csv", "has no row", "time,load_n"]),
     history("only names", "time,load_n\n", ["-history loads.csv", "has no row", "a line of numbers"]),
     history("no names", "0,0\n1,1000\n", ["loads.csv, line 1", "first line must name the columns", "time,load_n"]),
+    history(
+        "two separators", "time,load_n\n1,2\n1;5\n", ["line 3: column time", '"1;5"', "separate columns as in the"]
+    ),
     history("units", "time [s],load_n [N]\n1,x\n", ["loads.csv, line 1", "time [s]", "no unit", "is time meant?"]),
     history("unit of a load", "time,load_n (N)\n1,x\n", ["loads.csv, line 1", "load_n (N)", "is load_n meant?"]),
     history("misspelled", "time,laod_n\n1,x\n", ["line 1", "unknown column laod_n", "is load_n meant?", "load_tx"]),
