@@ -170,7 +170,7 @@ def test_parts_of_the_time_make_up_the_whole(petsam):
     assert {"set-up", "normal problem", "tangential problem", "edges", "check", "results", "other"} <= parts.keys()
     assert sum(parts.values()) == pytest.approx(total, abs=0.005 * (len(parts) + 1)) and total > 0
     assert parts["normal problem"] > 0 and parts["tangential problem"] > 0
-    for name in ("influence coefficients", "products", "preconditioner", "Fourier transforms"):
+    for name in ("influence coefficients", "operator applications", "preconditioner", "Fourier transforms"):
         assert 0 < seconds(text, name) <= total
 
 
