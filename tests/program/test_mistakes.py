@@ -52,8 +52,8 @@ MISTAKES = [
     mistake("thousands", dict(grid_n="1e3"), says=["-grid_n 1e3", "an integer"]),
     mistake("cells with an x", dict(grid_n="64x64"), says=["-grid_n 64x64", "separated by a comma"]),
     mistake("cells as two words", {}, "-grid_n", "64", "64", says=["64:", "-grid_n are joined by a comma: 64,64"]),
-    mistake("one cell", dict(grid_n=1), says=["-grid_n 1", "an integer >= 2"]),
-    mistake("no steps", {}, "-steps", "0", says=["-steps 0", "an integer >= 1"]),
+    mistake("one cell", dict(grid_n=1), says=["-grid_n 1", ">= 2"]),
+    mistake("no steps", {}, "-steps", "0", says=["-steps 0", ">= 1"]),
     mistake("half a step", {}, "-steps", "2.5", says=["-steps 2.5", "an integer"]),
     # ---- the command line
     mistake("equals sign", dict(load_n=None), "-load_n=1000", says=["-load_n=1000", "expected -load_n 1000"]),
@@ -253,10 +253,7 @@ MISTAKES = [
         says=["-gap_radius1 0.2", "check the units, N, m, Pa"],
     ),
     mistake(
-        "radii in mm",
-        dict(gap_radius1=200.0, gap_radius2=200.0),
-        code=12,
-        says=["edge of the grid", "-grid_size 0.02", "of -gap_radius1 200 (in m)"],
+        "radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["-grid_size 0.02", "radius1 200 (in m)"]
     ),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),
@@ -266,12 +263,7 @@ MISTAKES = [
         code=11,
         says=["lies at x = 0", "grid's cells from 0.0007"],
     ),
-    mistake(
-        "two planes",
-        FLAT,
-        code=12,
-        says=["axis along x and y", "-elasticity periodic, which", "both x and y periodic; to continue anyway: -allow"],
-    ),
+    mistake("two planes", FLAT, code=12, says=["axis along x and y", "-elasticity periodic", "-allow_edge_contact"]),
 ]
 
 WARNINGS = [
@@ -282,21 +274,16 @@ WARNINGS = [
     mistake("few cells", dict(grid_n=16), code=0, says=["cells across", "fewer than 20", "-grid_n "]),
     mistake("friction in percent", dict(friction=30.0), code=0, says=["friction is 30", "0.3 for 30 percent"]),
     mistake(
-        "angle in degrees",
-        dict(load_n=1000.0, rot_z=1.0),
-        code=0,
-        says=["a rotation of 1 is", "about 0.1 rad", "0.0175"],
+        "angle in degrees", dict(load_n=1000.0, rot_z=1.0), code=0, says=["a rotation of 1 is", "0.1 rad", "0.0175"]
     ),
-    mistake(
-        "displacement in um", dict(disp_x=5.0), code=0, says=["displacement, 5 m", "width of the contact", "unit, m"]
-    ),
+    mistake("displacement in um", dict(disp_x=5.0), code=0, says=["5 m", "width of the contact", "unit, m"]),
     mistake("no force", dict(load_n=0.0), code=0, says=["do not touch", "normal force is 0 N", "-load_n"]),
     mistake("displacement that pulls", dict(load_n=None, disp_z=-1e-6), code=0, says=["do not touch", "must exceed 0"]),
     mistake(
         "ball that sinks in",
         dict(load_n=4e8, grid_size=0.2),
         code=0,
-        says=["too large for half-space", "-gap_radius1 0.2", "0.1"],
+        says=["too large for half-space theory", "-gap_radius1 0.2", "0.1"],
     ),
     mistake(
         "value of an options file in the history too",
