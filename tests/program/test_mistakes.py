@@ -253,7 +253,16 @@ MISTAKES = [
         says=["-gap_radius1 0.2", "check the units, N, m, Pa"],
     ),
     mistake(
-        "radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["-grid_size 0.02", "radius1 200 (in m)"]
+        "radii in mm",
+        dict(gap_radius1=200.0, gap_radius2=200.0),
+        code=12,
+        says=["-grid_size 0.02", "radius1 200 (in m)"],
+    ),
+    mistake(
+        "cylinder",
+        dict(FLAT, gap_type="ellipsoid", gap_radius_x=0.1, gap_radius_y="inf"),
+        code=12,
+        says=["axis along y", "both x and y periodic; to continue anyway: -allow_edge_contact"],
     ),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),
