@@ -32,6 +32,7 @@ typedef enum {
 /* SamSimulationStart - from where, and into which files. */
 typedef struct {
   PetscInt    steps;                          /* of the load history, or of one cycle with those that lead to it */
+  PetscBool   cyclic;                         /* a wear simulation over cycles */
   PetscBool   loads[SAM_COMPONENTS];          /* those that are not 0 in all steps: given so, or found */
   const char *results;                        /* file; NULL: none */
   PetscBool   replaced;                       /* an older file of that name */

@@ -273,7 +273,10 @@ class Contact:
             k = (LOADS + RIGIDS).index(name) % 6
             if LOADS[k] in given and RIGIDS[k] in given:
                 raise TypeError(f"try_step: {LOADS[k]} and {RIGIDS[k]} are conjugate: give one of them")
-            force[k], value[k] = name in LOADS, number
+            try:
+                force[k], value[k] = name in LOADS, number
+            except TypeError as error:
+                raise TypeError(f"try_step: {name}: {error}") from None
         if "load_n" not in given and "disp_z" not in given:
             raise TypeError("try_step: load_n or disp_z is missing")
         load, rigid = np.full(6, np.nan), np.full(6, np.nan)

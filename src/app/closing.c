@@ -121,9 +121,9 @@ static PetscErrorCode PrintEdges(SamReport r)
                           r->uncorrected, r->touching));
   if (!r->edges.step || r->edges.residual >= FOUND) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->steps > 1)
-    PetscCall(PetscSNPrintf(where, sizeof(where), " (step %" PetscInt_FMT ", the least)", r->edges.step));
+    PetscCall(PetscSNPrintf(where, sizeof(where), " in step %" PetscInt_FMT " (the worst)", r->edges.step));
   PetscCall(PetscPrintf(r->comm,
-                        "  %-10s  %.0f %% of them smooth and resolved%s: other areas are estimated from cells\n",
+                        "  %-10s  reconstructed on %.0f %% of their length%s: the other areas are counted from cells\n",
                         r->uncorrected ? "" : "edges", 100 * (double)r->edges.residual, where));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -245,7 +245,7 @@ static PetscErrorCode WriteEdge(SamStressRun *run, SamLargest *largest[2], const
   fprintf(stderr,
           "petsam-stress: warning: the contact edge is not found in %ld of %ld steps, and "
           "/history/edge_stress_xx_max is NaN there: less than 95 %% of it is smooth and resolved, or petsam has "
-          "corrected it (-edges deferred): use results of -edges reconstruct on a finer grid\n",
+          "corrected it (-edges deferred): use results of -edges reconstruct; a finer grid helps only similar bodies\n",
           (long)missing, (long)run->steps);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -371,6 +371,10 @@ static PetscErrorCode Compute(void *context)
   if (cycle) PetscCall(SamCycleCheckClosed(run));
   PetscCall(SamEvaluationSetMonitor(run->evaluation, Tell, run));
   PetscCall(SamEvaluationCompute(run->evaluation, Write, run));
+  if (run->told > run->start) { /* lines that have begun end with the whole */
+    run->told = -INFINITY;
+    PetscCall(Tell(run, "all", 1, 0));
+  }
   PetscCall(WriteStepNumbers(run));
   PetscCall(WriteAllLargest(run));
   PetscCall(SamStressFileFinish(run->file));

@@ -141,7 +141,7 @@ static PetscErrorCode Run(const SamArguments *arguments)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(program->setup(program->context, arguments));
-  PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, PETSC_TRUE));
+  PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, arguments));
   PetscCall(program->run(program->context));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -125,7 +125,8 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
                         grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
   SamDescribeBytes(bytes, memory, sizeof(memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %s per rank\n", "memory", memory));
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT ", results %s%s%s\n", "steps", start->steps,
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT "%s, results %s%s%s\n", "steps", start->steps,
+                        start->cyclic ? " to the end of the first cycle" : "",
                         start->results ? "in " : "not kept (no -output)", start->results ? start->results : "",
                         start->replaced ? ", replacing those there" : ""));
   if (start->results) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", start->size));
@@ -295,11 +296,11 @@ static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cy
   if (c->jump <= 0 && c->cycles < cycles) /* no estimate yet: what is left in cycles */
     (void)snprintf(duration, sizeof(duration), "%.0e c", (double)(cycles - c->cycles));
   if (r->cycles == 1)
-    PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %9s %8s %7s %6s %8s\n", "cycles", "jump", "error",
-                          "vol.1/m3", "vol.2/m3", "depth1/m", "depth2/m", "energy/J", "area/m2", "p max/Pa", "solved",
+    PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %8s %8s %8s %6s %8s\n", "cycles", "jump", "error",
+                          "vol.1/m3", "vol.2/m3", "depth1/m", "depth2/m", "energy/J", "area/m2", "p max/Pa", "computed",
                           "s", "left"));
   PetscCall(PetscPrintf(r->comm,
-                        "%10.9g %8.6g %7.1e %9.3g %9.3g %9.3g %9.3g %9.3g %9.3g %8.3g %7" PetscInt_FMT " %6.2f %8s\n",
+                        "%10.9g %8.6g %7.1e %9.3g %9.3g %9.3g %9.3g %9.3g %8.3g %8.3g %8" PetscInt_FMT " %6.2f %8s\n",
                         (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0],
                         (double)c->volume[1], (double)c->depth[0], (double)c->depth[1], (double)c->dissipated_energy,
                         (double)c->contact_area, (double)c->pressure, c->computed, seconds, duration));

@@ -2,6 +2,7 @@
 #include "report.h"
 
 #define ROUNDING 1e-11 /* a part of the size of a number's kind that is rounding, and is printed as 0 */
+#define REST     1e-9  /* the same of loads and displacements: solvers' tolerances leave more where symmetry has 0 */
 #define WIDTH    120   /* of a line of the table */
 
 /* A number of the contact's last step; NaN where there is none of that name. */
@@ -38,31 +39,22 @@ static Sizes GetSizes(const SamStep *s, SamContact contact)
   return sizes;
 }
 
-static double Clean(double value, double size)
+static double Clean(double value, double least)
 {
-  return fabs(value) <= ROUNDING * size ? 0 : value;
+  return fabs(value) <= least ? 0 : value;
 }
 
-/* A load and a displacement as they are printed: as they are where they are given. */
-static double LoadOf(const SamStep *s, const Sizes *sizes, PetscInt c)
+/* A load or displacement as it is printed: with its rounding if one of the two is given, and not as 0. */
+static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], const double size[2])
 {
-  const PetscBool given = s->control.force[c] && s->control.value[c] != 0;
-
-  return given ? (double)s->load[c] : Clean((double)s->load[c], sizes->load[c >= SAM_COMPONENT_MX]);
-}
-
-static double RigidOf(const SamStep *s, const Sizes *sizes, PetscInt c)
-{
-  const PetscBool given = !s->control.force[c] && s->control.value[c] != 0;
-
-  return given ? (double)s->rigid[c] : Clean((double)s->rigid[c], sizes->rigid[c >= SAM_COMPONENT_MX]);
+  return Clean((double)values[c], s->control.value[c] != 0 ? 0 : REST * size[c >= SAM_COMPONENT_MX]);
 }
 
 /* ---- in full ---- */
 
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
-  const double passes = Get(c, "coupling_iterations"), move = sizes->rigid[0], work = sizes->load[0] * move;
+  const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g J\n", "areas",
@@ -101,8 +93,8 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                      k == 0   ? "normal"
                                      : k == 3 ? "tangential"
                                               : "",
-                                     name->load, LoadOf(s, &sizes, c), name->load_unit, name->rigid,
-                                     RigidOf(s, &sizes, c), name->rigid_unit,
+                                     name->load, Rounded(s, c, s->load, sizes.load), name->load_unit, name->rigid,
+                                     Rounded(s, c, s->rigid, sizes.rigid), name->rigid_unit,
                                      s->control.force[c] ? "load" : "displacement"));
   }
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
@@ -177,8 +169,8 @@ static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k
   else
     (void)snprintf(text, size, "%.*g", columns[k].digits,
                    k == TIME     ? (double)s->control.time
-                   : k < CONTACT ? LoadOf(s, &sizes, k - LOADS)
-                   : k == SLIP   ? Clean(number, sizes.rigid[0])
+                   : k < CONTACT ? Rounded(s, k - LOADS, s->load, sizes.load)
+                   : k == SLIP   ? Clean(number, ROUNDING * sizes.rigid[0])
                                  : number);
 }
 

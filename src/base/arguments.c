@@ -158,14 +158,14 @@ static void RefuseWord(SamArguments *a, const char where[], const char word[], c
     Complain(a, SAM_ERR_USER, "%s%s: %s", where, word, text);
 }
 
-/* Keeps the name of an option that is given for this run. */
-static void Keep(SamArguments *a, const char option[])
+/* Keeps a text at the end of a list. */
+static void Keep(char ***list, int *count, const char text[])
 {
-  char **more = (char **)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more));
+  char **more = (char **)realloc(*list, (size_t)(*count + 1) * sizeof(*more));
 
   if (!more) return;
-  a->given              = more;
-  a->given[a->givens++] = strdup(option + 1);
+  *list            = more;
+  more[(*count)++] = strdup(text);
 }
 
 static void ExamineWords(SamArguments *a, const char where[], int count, char **words)
@@ -181,7 +181,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
       Complain(a, SAM_ERR_USER, "%s%s: options begin with one dash", where, words[k]);
     before = words[k];
     value  = valued ? words[k + 1] : NULL;
-    Keep(a, before);
+    Keep(&a->given, &a->givens, before + 1);
     ExamineOption(a, where, before, value, 0);
     k += valued;
   }
@@ -192,7 +192,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
 /* A line of an options file: an option and its value, a comment, or an alias. */
 static void ExamineLine(SamArguments *a, const char where[], char line[], int depth)
 {
-  char     *words[3];
+  char     *words[3], placed[800];
   const int quoted = strpbrk(line, "\"'") != NULL;
   int       count  = Split(line, words, 3);
 
@@ -205,6 +205,8 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
   else if (count > 2 && !quoted)
     Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line: %s is too much, unless after a #", where,
              words[2]);
+  (void)snprintf(placed, sizeof(placed), "%s %s", words[0] + 1, where);
+  Keep(&a->placed, &a->places, placed);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
@@ -402,12 +404,27 @@ void SamArgumentsFree(SamArguments *a)
 {
   for (int k = 0; k < a->count; k++) free(a->files[k]);
   for (int k = 0; k < a->givens; k++) free(a->given[k]);
+  for (int k = 0; k < a->places; k++) free(a->placed[k]);
   free(a->given);
-  a->given = NULL;
-  a->count = a->givens = 0;
+  free(a->placed);
+  a->given = a->placed = NULL;
+  a->count = a->givens = a->places = 0;
 }
 
-PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
+/* The file and line of an option's value, "" on the command line and on other ranks than 0. */
+static const char *FindPlace(const SamArguments *a, const char name[])
+{
+  const size_t length = strlen(name);
+  const char  *place  = "";
+
+  for (int k = 0; a && k < a->places; k++)
+    if (!strncasecmp(a->placed[k], name, length) && a->placed[k][length] == ' ') place = a->placed[k] + length + 1;
+  for (int k = 0; a && k < a->givens; k++)
+    if (!strcasecmp(a->given[k], name)) place = "";
+  return place;
+}
+
+PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *arguments)
 {
   /* options that PETSc itself reads only in PetscFinalize() */
   static const char *const late[] = {"-malloc_dump",
@@ -426,10 +443,10 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
   PetscInt                 count;
   char                   **names, **values;
   char                     first[128] = "", name[64] = "";
-  const char              *nearest, *with;
+  const char              *nearest, *with, *place;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; program && late[k]; k++) {
+  for (PetscInt k = 0; arguments && late[k]; k++) {
     PetscBool ignored;
 
     PetscCall(PetscOptionsHasName(NULL, NULL, late[k], &ignored));
@@ -443,8 +460,9 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program)
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   if (!first[0]) PetscFunctionReturn(PETSC_SUCCESS);
   nearest = SamOptionsNearest(name);
-  PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s: has no effect %s%s: remove it", first,
+  place   = FindPlace(arguments, name);
+  PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s%s: has no effect %s%s: remove it", place, first,
              with ? "without " : "with the other options given", with ? with : "");
-  PetscCheck(!nearest, comm, SAM_ERR_USER, "%s: unknown option: is -%s meant?", first, nearest);
-  SETERRQ(comm, SAM_ERR_USER, "%s: unknown option, or one that has no effect with the others given", first);
+  PetscCheck(!nearest, comm, SAM_ERR_USER, "%s%s: unknown option: is -%s meant?", place, first, nearest);
+  SETERRQ(comm, SAM_ERR_USER, "%s%s: unknown option, or one that has no effect with the others given", place, first);
 }

@@ -60,26 +60,26 @@ static const char *FindHabit(const char name[])
 }
 
 /*
-  The number of slips between two names: letters left out, put in, changed, or swapped with the next (optimal string
-  alignment distance).
+  Twice the number of slips between two names: letters left out, put in, changed, or swapped with the next (optimal
+  string alignment distance). An underscore left out or put in is half a slip.
 */
 static size_t CountSlips(const char a[], const char b[])
 {
   const size_t n = strnlen(a, LENGTH), m = strnlen(b, LENGTH);
   size_t       slips[LENGTH + 1][LENGTH + 1];
 
-  for (size_t i = 0; i <= n; i++) slips[i][0] = i;
-  for (size_t j = 0; j <= m; j++) slips[0][j] = j;
+  for (size_t i = 0; i <= n; i++) slips[i][0] = 2 * i;
+  for (size_t j = 0; j <= m; j++) slips[0][j] = 2 * j;
   for (size_t i = 1; i <= n; i++)
     for (size_t j = 1; j <= m; j++) {
       const char   c = Plain(a[i - 1]), d = Plain(b[j - 1]);
-      const size_t change = slips[i - 1][j - 1] + (c == d ? 0 : 1), less = slips[i - 1][j] + 1,
-                   more = slips[i][j - 1] + 1;
+      const size_t change = slips[i - 1][j - 1] + (c == d ? 0 : 2), less = slips[i - 1][j] + (c == '_' ? 1 : 2),
+                   more = slips[i][j - 1] + (d == '_' ? 1 : 2);
 
       slips[i][j] = change < less ? change : less;
       if (more < slips[i][j]) slips[i][j] = more;
-      if (i > 1 && j > 1 && c == Plain(b[j - 2]) && d == Plain(a[i - 2]) && slips[i - 2][j - 2] + 1 < slips[i][j])
-        slips[i][j] = slips[i - 2][j - 2] + 1;
+      if (i > 1 && j > 1 && c == Plain(b[j - 2]) && d == Plain(a[i - 2]) && slips[i - 2][j - 2] + 2 < slips[i][j])
+        slips[i][j] = slips[i - 2][j - 2] + 2;
     }
   return slips[n][m];
 }
@@ -89,13 +89,13 @@ static PetscBool IsNear(const char tried[], const char name[])
 {
   const size_t length = strlen(tried);
 
-  return CountSlips(tried, name) <= (length < 4 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3);
+  return CountSlips(tried, name) <= (length < 4 ? 0 : length < 6 ? 2 : length < 10 ? 4 : 6);
 }
 
 const char *SamNearestName(const char tried[], size_t count, const char *const names[])
 {
   const char *nearest = NULL;
-  size_t      least   = LENGTH;
+  size_t      least   = 2 * LENGTH;
 
   for (size_t k = 0; k < count; k++) {
     const size_t slips = CountSlips(tried, names[k]);

@@ -152,7 +152,7 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscCall(SamHistoryReadIncrements(&from, &c->increments));
   PetscCall(ReadBulkStress(c, &from));
   PetscCall(SamSimulationSetUp(c->simulation, &from));
-  PetscCall(SamArgumentsRefuseUnknown(c->comm, PETSC_FALSE));
+  PetscCall(SamArgumentsRefuseUnknown(c->comm, NULL));
   PetscCall(SamGridCreateVec(c->setup->grid, 1, &c->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -182,7 +182,7 @@ static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEv
   PetscCall(PetscOptionsPush(database));
   code = SamEmbedInsertOptions(c, database, options);
   if (!code) code = SamEvaluationSetFromOptions(e, &from);
-  if (!code) code = SamArgumentsRefuseUnknown(c->comm, PETSC_FALSE);
+  if (!code) code = SamArgumentsRefuseUnknown(c->comm, NULL);
   PetscCall(PetscOptionsPop());
   PetscCall(PetscOptionsDestroy(&database));
   PetscCall(code);

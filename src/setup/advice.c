@@ -141,8 +141,8 @@ static PetscErrorCode GetWidths(const SamSetup *s, const SamStep *step, const Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Says by how much a contact is too large for half-spaces; empty: it is not. */
-static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char text[], size_t size)
+/* Compares a contact with its radius, with the unit; `large`: it is too large for half-spaces. Empty: no radius. */
+static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char text[], size_t size, PetscBool *large)
 {
   const char *option, *const *names;
   const PetscReal *values;
@@ -152,12 +152,15 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   PetscFunctionBegin;
   text[0] = '\0';
   PetscCall(SamGapGetSteepness(s->gap, half, &ratio, &option));
-  if (!(ratio > STEEPEST)) PetscFunctionReturn(PETSC_SUCCESS);
+  *large = ratio > STEEPEST ? PETSC_TRUE : PETSC_FALSE;
+  if (!(ratio > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
   for (PetscInt k = 0; k < count; k++)
     if (!strcmp(names[k], option)) radius = values[k];
-  (void)snprintf(text, size, "is %.2g of -%s %g, the limit is about %g: check the units, N, m, Pa", (double)ratio,
-                 option, (double)radius, STEEPEST);
+  (void)snprintf(text, size, "is %.2g of -%s %g (in m)", (double)ratio, option, (double)radius);
+  if (*large)
+    (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa",
+                   STEEPEST);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -204,7 +207,7 @@ static void AdviseTouch(Receiver *to, const SamControl *control)
   Advise(to, force ? "load_n" : "disp_z",
          "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
          force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N], force ? "N" : "m",
-         force ? "0" : "0, or than the smallest separation");
+         force ? "0" : "0, or the smallest separation");
 }
 
 /* A contact that is few cells across; grids on which it is not. */
@@ -235,6 +238,7 @@ PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamEx
 {
   Receiver  to = {.receive = receive, .context = context};
   PetscReal half[2], across = extent->across;
+  PetscBool large;
   char      ratio[192];
 
   PetscFunctionBegin;
@@ -244,8 +248,8 @@ PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamEx
   if (extent->zones && step->check.edge <= 0) {
     PetscCall(GetWidths(s, step, extent, half, &across));
     AdviseCells(&to, s, extent, half, across);
-    PetscCall(Compare(s, half, ratio, sizeof(ratio)));
-    if (ratio[0]) Advise(&to, "", "contact too large for half-space theory: its half width %s", ratio);
+    PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));
+    if (large) Advise(&to, "", "contact too large for half-space theory: its half width %s", ratio);
   }
   PetscCall(to.error);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -295,7 +299,7 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamSte
   const size_t used = strlen(step->message), size = sizeof(step->message) - used;
   char *const  text = step->message + used;
   PetscReal    half[2];
-  PetscBool    known;
+  PetscBool    known, large;
   char         grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
@@ -305,8 +309,8 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamSte
   if (isinf(half[0]) || isinf(half[1])) {
     (void)snprintf(
       text, size,
-      "; the bodies are cylindrical, axis along %s, and touch up to the edge of any grid: use periodic bodies "
-      "(-elasticity periodic), which have no edge, or -allow_edge_contact",
+      "; the bodies are cylindrical, axis along %s, and touch up to the edge of any grid: use -elasticity periodic, "
+      "which has no edge, and makes both x and y periodic",
       isinf(half[0]) && isinf(half[1]) ? "x and y"
       : isinf(half[0])                 ? "x"
                                        : "y");
@@ -317,7 +321,7 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamSte
     known = known && !most->open;
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
-    if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio)));
+    if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));
     (void)snprintf(text, size, "; it needs %s%s%s%s", known ? "" : "about ", grid, ratio[0] ? "; its half width " : "",
                    ratio);
   }

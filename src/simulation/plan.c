@@ -213,7 +213,7 @@ PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, const Sam
   for (PetscInt c = 0; c < SAM_CONTROL_PARTS; c++)
     PetscCheck(fabs(SamControlPart(&last, c) - SamControlPart(&first, c)) <= ROUNDING * range[c], from->comm,
                SAM_ERR_USER,
-               "-wear_cycles: -history is not a closed cycle: %s is %g in the last row and %g in the first",
+               "-wear_cycles: -history is not a closed cycle: %s is %.6g in the last row and %.6g in the first",
                SamControlPartName(&first, c), (double)SamControlPart(&last, c), (double)SamControlPart(&first, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

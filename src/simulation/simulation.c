@@ -108,8 +108,9 @@ static PetscErrorCode Begin(SamSimulation s)
   PetscInt                  committed;
 
   PetscFunctionBegin;
-  s->last_time = PETSC_NINFINITY;
-  start->steps = s->needs.steps;
+  s->last_time  = PETSC_NINFINITY;
+  start->steps  = s->needs.steps;
+  start->cyclic = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt k = 0; k < s->needs.steps; k++) {
     SamControl control;
 

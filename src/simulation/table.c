@@ -153,7 +153,7 @@ static PetscErrorCode ReadRow(Reader *r, char *text)
     if (fields >= t->columns) continue;
     PetscCheck(end != field && !*end && isfinite(value), r->comm, SAM_ERR_USER,
                "%s, line %d: column %s: \"%s\" is not a finite number%s", r->file, (int)r->line, t->name[fields], field,
-               SamExplainNumber(field));
+               strchr(field, ';') ? "; separate columns as in the line of their names" : SamExplainNumber(field));
     t->value[t->rows * t->columns + fields] = value;
   }
   PetscCheck(fields == t->columns, r->comm, SAM_ERR_USER, "%s, line %d: %d fields, expected %d as in line %d%s",

@@ -237,6 +237,7 @@ told(petsam.ContactError, contact.field, "pressure")
 told(TypeError, contact.try_step, load_m=1)
 told(TypeError, contact.try_step, load_n=1, disp_z=1)
 told(TypeError, contact.try_step, load_tx=1)
+told(TypeError, contact.try_step, load_n="abc")
 told(petsam.NoEquilibrium, contact.try_step, load_n=1000, load_tx=500)
 told(ValueError, contact.set_field, "gap", np.zeros((3, 4)))
 told(petsam.ContactError, contact.set_field, "gap", np.full((40, 45), np.nan))
@@ -269,6 +270,7 @@ print("alive")
     ):
         assert word in line
     assert lines[-1] == "alive" and "gross slip" in text
+    assert "TypeError try_step: load_n: must be real number, not str" in text
     assert "presure: there is no field of this name: is pressure meant? There are pressure, shear_x, " in text
     assert "area: there is no number of this name: is contact_area or stick_area meant? There are time, " in text
     assert "qqq: there is no number of this name; there are time, " in text

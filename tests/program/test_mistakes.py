@@ -64,6 +64,7 @@ MISTAKES = [
     mistake("misspelled", {}, "-frictoin", "0.3", says=["-frictoin 0.3", "is -friction meant?"]),
     mistake("one modulus for both", {}, "-young", "210e9", says=["-young 210e9", "is -body1_young meant?"]),
     mistake("another program's name", {}, "-mu", "0.3", says=["-mu 0.3", "is -friction meant?"]),
+    mistake("an underscore too many", {}, "-gap_radius_1", "0.2", says=["-gap_radius_1 0.2", "is -gap_radius1 meant?"]),
     mistake("dash for an underscore", {}, "-load-tx", "6", says=["-load-tx 6", "is -load_tx meant?"]),
     mistake("another letter", {}, "-load_x", "60", says=["-load_x", "is -load_tx meant?"]),
     mistake(
@@ -114,6 +115,14 @@ MISTAKES = [
     ),
     # ---- files
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
+    mistake(
+        "option of a file without effect",
+        {},
+        "-options_file",
+        "s.opts",
+        files={"s.opts": "# punch\n-gap_flat_radius 3\n"},
+        says=["-options_file s.opts, line 2: -gap_flat_radius 3: has no effect without -gap_type punch: remove it"],
+    ),
     mistake(
         "options file without dashes",
         {},
@@ -207,6 +216,9 @@ MISTAKES = [
     history("empty", "", ["-history loads.csv", "has no row", "time,load_n"]),
     history("only names", "time,load_n\n", ["-history loads.csv", "has no row", "a line of numbers"]),
     history("no names", "0,0\n1,1000\n", ["loads.csv, line 1", "first line must name the columns", "time,load_n"]),
+    history(
+        "two separators", "time,load_n\n1,2\n1;5\n", ["line 3: column time", '"1;5"', "separate columns as in the"]
+    ),
     history("units", "time [s],load_n [N]\n1,x\n", ["loads.csv, line 1", "time [s]", "no unit", "is time meant?"]),
     history("unit of a load", "time,load_n (N)\n1,x\n", ["loads.csv, line 1", "load_n (N)", "is load_n meant?"]),
     history("misspelled", "time,laod_n\n1,x\n", ["line 1", "unknown column laod_n", "is load_n meant?", "load_tx"]),
@@ -241,7 +253,16 @@ MISTAKES = [
         says=["-gap_radius1 0.2", "check the units, N, m, Pa"],
     ),
     mistake(
-        "radii in mm", dict(gap_radius1=200.0, gap_radius2=200.0), code=12, says=["edge of the grid", "-grid_size 0.02"]
+        "radii in mm",
+        dict(gap_radius1=200.0, gap_radius2=200.0),
+        code=12,
+        says=["-grid_size 0.02", "radius1 200 (in m)"],
+    ),
+    mistake(
+        "cylinder",
+        dict(FLAT, gap_type="ellipsoid", gap_radius_x=0.1, gap_radius_y="inf"),
+        code=12,
+        says=["axis along y", "both x and y periodic; to continue anyway: -allow_edge_contact"],
     ),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),

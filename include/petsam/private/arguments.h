@@ -15,6 +15,8 @@ typedef struct _n_SamArguments {
   int            count; /* of the options files, which must not be overwritten; known to rank 0 */
   char         **given; /* names of the options in no file: on the command line or in PETSC_OPTIONS; known to rank 0 */
   int            givens;
+  char         **placed; /* the options in files: name, a space, and "file, line n: "; known to rank 0 */
+  int            places;
 } SamArguments;
 
 /*
@@ -40,9 +42,10 @@ PETSC_EXTERN PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *a
 PETSC_EXTERN void           SamArgumentsFree(SamArguments *arguments);
 /*
   SamArgumentsRefuseUnknown - refuses options that the set-up has not read: they are misspelled, or have no effect.
-  `program`: those that PETSc reads at its end are not among them.
+  `arguments`: of a program, whose options for the end of PETSc are not among them; they tell an option's file and
+  line. NULL: none.
   Collective. Errors: SAM_ERR_USER, raised on `comm`.
 */
-PETSC_EXTERN PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, PetscBool program);
+PETSC_EXTERN PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *arguments);
 
 #endif
