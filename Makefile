@@ -145,7 +145,7 @@ check-sanitize: ## unit tests under the address and undefined-behaviour sanitize
 	ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=halt_on_error=1 $(PYTHON) tests/run.py --build build/sanitize --units-only
 
 SANITIZE := B=build/sanitize OPT="-O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer" LDFLAGS="-fsanitize=address,undefined"
-check-fuzz: all $(B)/venv/tests-done ## an adversary for ten minutes, without and with sanitizers: spoiled input, kills, full disks, signals; ARGS="--seconds 60 --seed 7 --only gap,kill"
+check-fuzz: all $(B)/venv/tests-done ## fuzzing for ten minutes, without and with sanitizers: malformed input, kills, full disks, signals; ARGS="--seconds 60 --seed 7 --only gap,kill"
 	$(B)/venv/bin/python tests/fuzz/fuzz.py --build $(B) $(ARGS)
 	$(MAKE) $(SANITIZE) all
 	$(B)/venv/bin/python tests/fuzz/fuzz.py --build build/sanitize --patience 180 $(ARGS)

@@ -125,6 +125,12 @@ def main():
     build = (ROOT / args.build).resolve()
     programs = [p for p in sorted((build / "tests").glob("test_*")) if os.access(p, os.X_OK) and p.is_file()]
     programs = [p for p in programs if not args.names or any(n in p.name for n in args.names)]
+    if not args.names:
+        print(
+            f"{len(programs)} unit test programs on {args.ranks} ranks (3 to 8 minutes on two cores)"
+            + ("" if args.units_only else ", then the program tests (in all about half an hour)"),
+            flush=True,
+        )
     passed, failed = run_units(programs, [int(n) for n in args.ranks.split(",")])
     if not args.units_only:
         p, f = run_pytest(build, args.names)

@@ -14,7 +14,7 @@ import petsam
 from petsam import comparison, cycles
 from petsam.plot.loops import cycle_energy
 from petsam.plot.maps import STATES
-from petsam.plot.style import bar, extent, field, frame, plt, save, tint
+from petsam.plot.style import bar, cross, extent, field, frame, plt, save, tint
 
 WINDOW = (-0.9, 0.9, -1.5, 1.5)  # of the maps, mm
 
@@ -78,8 +78,8 @@ class Comparison:
         rows = cycles.find(self.cycle).numbered(-1).rows
         panel.plot(way[rows], load[rows], color=tint(0, 3), linewidth=1.5)
         panel.fill(way[rows], load[rows], color=tint(0, 3), alpha=0.12)
-        energy = 1e6 * self.numbers["loop"]
-        frame(panel, f"fretting loop of $T_x$: {energy:.0f} µJ per cycle", "$d_x$, µm", "$T_x$, N")
+        part, whole = 1e6 * self.numbers["loop"], 1e6 * self.numbers["energy"]
+        frame(panel, f"fretting loop: $T_x$'s part, {part:.0f} of {whole:.0f} µJ per cycle", "$d_x$, µm", "$T_x$, N")
 
     def _scar(self, panel):
         depth = 1e6 * (self.worn["wear_depth1"] + self.worn["wear_depth2"])
@@ -92,8 +92,7 @@ class Comparison:
         panel.grid(False)
         values, x, z = 1e-6 * self.swt, 1e3 * self.fatigue.x, 1e3 * self.fatigue.z
         image = panel.contourf(x, z, values, levels=30, cmap="inferno")
-        panel.plot(1e3 * self.place[0], 1e3 * self.place[1], "+", color="white", markersize=10, markeredgewidth=2,
-                   clip_on=False, zorder=5)  # fmt: skip
+        cross(panel, 1e3 * self.place[0], 1e3 * self.place[1])
         bar(panel, image, "SWT, MPa", ticks=np.arange(0.0, values.max(), 0.2).round(1))
         frame(
             panel,

@@ -12,7 +12,7 @@ import numpy as np
 import petsam
 from petsam import comparison
 from petsam.closed import HERTZ_MISES, HERTZ_MISES_DEPTH, Spheres, hertz_axis, hertz_surface, sliding_surface
-from petsam.plot.style import CLOSED, bar, extent, field, frame, note, plt, points, save, thinned, tint
+from petsam.plot.style import CLOSED, bar, cross, extent, field, frame, note, plt, points, save, thinned, tint
 
 FRICTIONS = ("0.1", "0.5")
 STATES = ("partial", "sliding")
@@ -132,7 +132,7 @@ def draw_section(axes, case, title):
     lines = axes.contour(case.x, case.z, mises, levels=LINES, colors="0.15", linewidths=0.6)
     axes.clabel(lines, fmt="%.1f", fontsize=7)
     z, x = np.unravel_index(np.argmax(mises), mises.shape)
-    axes.plot(case.x[x], case.z[z], "+", color="white", markersize=10, markeredgewidth=2, clip_on=False, zorder=5)
+    cross(axes, case.x[x], case.z[z])
     frame(axes, f"{title}: maximum {mises[z, x]:.3f} $p_0$", "$x/a$", "$z/a$")
     axes.set_ylim(case.z[-1], case.z[0])
 
@@ -143,7 +143,7 @@ def draw_fatigue(axes, surface):
     image = field(axes, values, extent(surface.x, surface.y), color_map="inferno")
     bar(axes, image, "SWT, MPa")
     y, x = np.unravel_index(np.argmax(values), values.shape)
-    axes.plot(surface.x[x], surface.y[y], "+", color="white", markersize=10, markeredgewidth=2)
+    cross(axes, surface.x[x], surface.y[y])
     circle = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(np.cos(circle), np.sin(circle), ":", color="white", linewidth=0.8)
     frame(axes, f"cycle, surface: maximum {values.max():.3f} MPa", "$x/a$", "$y/a$")

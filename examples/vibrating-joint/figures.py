@@ -120,7 +120,7 @@ class Comparison:
             middle.plot(np.append(x, x[0]), np.append(t, t[0]), color=color)
         frame(left, "amplitude relative to the excitation", "frequency, Hz", "amplitude/force, nm/N")
         left.legend(title="excitation")
-        frame(middle, "loops at the peaks", "$d_x - T_x/k$, µm", "$T_x/(\\mu N)$")
+        frame(middle, "loops at the peaks", "$d_x - T_x/k_c$, µm", "$T_x/(\\mu N)$")
         self._draw_slip(figure, right, self.fresh[-1], f"{FORCES[-1] / 1e3:g} kN")
         save(figure, directory, "response.png")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An adversary: runs petsam with spoiled options, histories, HDF5 files and checkpoints, and with faults meanwhile.
+"""Fuzzing: runs petsam with malformed options, histories, HDF5 files and checkpoints, and with faults meanwhile.
 
     python3 tests/fuzz/fuzz.py [--build build] [--seconds 600] [--seed 1] [--ranks 1,2] [--only kind,...]
 

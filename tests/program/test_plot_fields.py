@@ -124,12 +124,13 @@ def test_a_few_peaks_do_not_darken_the_map_and_the_label_says_so():
     cells = np.concatenate([np.zeros(1000), chance.uniform(1e6, 2e6, 9850), np.full(150, 5e7)])
     found = colours.choose("pressure", [cells], "Pa")
     assert found.norm.vmax == pytest.approx(1e-6 * np.percentile(cells[1000:], 98.0), rel=1e-12)
-    assert found.text("$p$") == "$p$, MPa\n98 % of non-zero cells below, maximum 50" and found.extend == "max"
+    assert found.text("$p$") == "$p$, MPa" and found.extend == "max"
+    assert found.remark == "colours hold 98 % of non-zero cells; maximum 50 MPa"
     share = np.mean(found.factor * cells[1000:] <= found.norm.vmax)
     assert 0.979 < share < 0.981
     signed = colours.choose("shear_x", [-cells], "Pa")
     assert signed.norm.vmin == -signed.norm.vmax and signed.extend == "min"
-    assert signed.text("q").endswith("98 % of non-zero cells within, maximum 50")
+    assert signed.remark == found.remark
 
 
 @pytest.mark.parametrize("count, share", [(0, 100.0), (5, 99.8), (90, 99.0), (150, 98.0), (400, 95.0), (600, 100.0)])
@@ -142,7 +143,8 @@ def test_the_percentile_leaves_out_as_little_as_it_takes(count, share):
 def test_a_smooth_field_is_drawn_to_its_largest_value(results):
     for name in ("pressure", "shear", "slip"):
         drawn, bar = image(maps.maps([(results, results.of_last())], names=[name]))
-        assert drawn.get_clim()[1] == pytest.approx(np.nanmax(drawn.get_array())) and "%" not in bar.get_ylabel()
+        assert drawn.get_clim()[1] == pytest.approx(np.nanmax(drawn.get_array())) and bar.get_ylabel()
+        assert "%" not in drawn.axes.get_xlabel()
 
 
 def test_the_percentile_is_that_which_is_given(results):
@@ -150,7 +152,10 @@ def test_the_percentile_is_that_which_is_given(results):
     drawn, bar = image(maps.maps([(results, 0)], whole=True, names=["pressure"], choice=choice))
     inside = np.asarray(drawn.get_array())
     assert drawn.get_clim()[1] == pytest.approx(np.median(inside[inside > 0]), rel=1e-12)
-    assert f"50 % of non-zero cells below, maximum {inside.max():.3g}" in bar.get_ylabel()
+    lines = drawn.axes.get_xlabel().split("\n")
+    assert lines[0].startswith("$x$, ") and bar.get_ylabel().startswith("$p$, ")
+    unit = bar.get_ylabel().split(", ")[1]
+    assert " ".join(lines[1:]) == f"colours hold 50 % of non-zero cells; maximum {inside.max():.3g} {unit}"
 
 
 def test_logarithmic_colours_span_some_decades_or_the_limits():

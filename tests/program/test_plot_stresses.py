@@ -137,7 +137,7 @@ def test_numbers_of_contours_lie_neither_on_one_another_nor_on_the_mark(folder):
 def test_numbers_on_one_another_are_taken_away():
     figure, axes = bodies.plt.subplots()
     axes.set(xlim=(0, 1), ylim=(0, 1))
-    bodies._mark(axes, 0.2, 0.2)
+    bodies.cross(axes, 0.2, 0.2, bodies.MARK)
     for x, y, text in (
         (0.5, 0.5, "kept"),
         (0.505, 0.505, "on it"),

@@ -10,7 +10,7 @@ from matplotlib.transforms import Bbox
 
 from ..errors import Error
 from .maps import PIXELS, Layout
-from .style import bar, colors, extent, field, need_few, plt
+from .style import bar, colors, cross, extent, field, need_few, plt
 from .units import label, largest, plain, scale
 
 SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
@@ -119,11 +119,6 @@ def _limits(name, component, top, limits):
     return (-top if _is_signed(name) else 0.0), top
 
 
-def _mark(axes, x, y):
-    axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6, clip_on=False, zorder=5, gid=MARK)
-    axes.plot(x, y, "+", color="black", markersize=9, markeredgewidth=1.2, clip_on=False, zorder=6)
-
-
 def _ring(axes, x, y):
     """A mark around the top of a curve, which it does not hide."""
     axes.plot(x, y, "o", color="black", markersize=9, markerfacecolor="none", markeredgewidth=1.0, clip_on=False)
@@ -180,7 +175,7 @@ def sections(steps, component=None, at=(0.0, 0.0), limits=None):
                 panel, length * along, length * file.z, factor * values, factor * low, factor * high, colours
             )
             k, i = np.unravel_index(np.argmax(np.abs(values)), values.shape)
-            _mark(panel, length * along[i], length * file.z[k])
+            cross(panel, length * along[i], length * file.z[k], MARK)
             panel.set(
                 xlabel=label(f"${axis}$", unit) + _at(where, length, unit),
                 ylabel=label("depth $z$", unit) if column == 0 else "",
@@ -302,7 +297,7 @@ def _fatigue_panel(figure, panel, file, name, at):
         _ring(panel, length * along[i], factor * high)
         panel.set(ylabel=label(FATIGUE[name], prefixed))
     else:
-        _mark(panel, length * along[i], length * down[k])
+        cross(panel, length * along[i], length * down[k], MARK)
         panel.set(ylabel=label("depth $z$" if other == "z" else "$y$", unit))
         bar(panel, image, label(SHORT[name], prefixed))
     place = f"${axis}$ = {length * along[i]:.4g} {unit}, ${other}$ = {length * down[k]:.4g} {unit}"

@@ -25,7 +25,7 @@ class Choice(NamedTuple):
 
 
 class Colours(NamedTuple):
-    """How a quantity is drawn: norm and color_map of its values times factor, unit, and what the label says more."""
+    """How a quantity is drawn: norm and color_map of its values times factor, unit, and a remark on the limits."""
 
     norm: object
     color_map: str
@@ -36,7 +36,7 @@ class Colours(NamedTuple):
 
     def text(self, symbol):
         """The colour bar's label."""
-        return "\n".join(part for part in (label(symbol, self.unit), self.remark) if part)
+        return label(symbol, self.unit)
 
 
 def is_signed(name, values):
@@ -69,11 +69,9 @@ def top(magnitudes, percentile=None, automatic=True):
     return whole, 100.0
 
 
-def _remark(share, signed, whole):
-    """What the label says of a limit that is a percentile; whole is the largest value, in the label's unit."""
-    if share >= 100.0:
-        return ""
-    return f"{share:g} % of non-zero cells {'within' if signed else 'below'}, maximum {whole:.3g}"
+def _remark(share, whole, unit):
+    """What a map says of a limit that is a percentile; whole is the largest value, in the label's unit."""
+    return "" if share >= 100.0 else f"colours hold {share:g} % of non-zero cells; maximum {whole:.3g} {unit}".rstrip()
 
 
 def _log_limits(magnitudes, high, limits):
@@ -124,6 +122,5 @@ def choose(name, arrays, unit, choice=None):
     above = bool(magnitudes.size) and factor * np.max(values) > high * (1.0 + 1e-9)
     below = bool(magnitudes.size) and factor * np.min(values) < low - 1e-9 * abs(high) and not choice.log
     extend = {(True, True): "both", (True, False): "max", (False, True): "min"}.get((above, below), "neither")
-    return Colours(
-        norm, SIGNED if signed else UNSIGNED, factor, prefixed, _remark(share, signed, factor * whole), extend
-    )
+    remark = _remark(share, factor * whole, prefixed)
+    return Colours(norm, SIGNED if signed else UNSIGNED, factor, prefixed, remark, extend)

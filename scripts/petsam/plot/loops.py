@@ -158,7 +158,7 @@ def energy(found, logs=()):
     figure, axes = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
     for one, (numbers, energies), color in zip(found, data, colors(len(found))):
         computed = " computed" if one.results.has_life else ""
-        text = f"{plain(one.results.label)}: {numbers.size}{computed} cycles"
+        text = f"{plain(one.results.label)}: {numbers.size}{computed} cycle{'s' * (numbers.size != 1)}"
         if not one.results.has_life:
             factor, total = scale("J", float(np.sum(energies)))
             text += f", {factor * np.sum(energies):.4g} {total}"
@@ -166,7 +166,9 @@ def energy(found, logs=()):
     axes.set(xlabel=words, ylabel=label("dissipated energy of a cycle", unit))
     logarithmic(axes, logs)
     if many == 1.0 and "x" not in logs:
-        axes.xaxis.set_major_locator(MaxNLocator(8, integer=True))
+        axes.xaxis.set_major_locator(MaxNLocator(8, integer=True, min_n_ticks=1))
+        if axes.dataLim.width == 0.0:
+            axes.set_xlim(axes.dataLim.x0 - 0.5, axes.dataLim.x1 + 0.5)
     if "y" not in logs:
         top, low = joules * largest(energies for _, energies in data), joules * min(np.min(one) for _, one in data)
         axes.set_ylim(min(0.0, low), HEADROOM * top if top > 0.0 else None)

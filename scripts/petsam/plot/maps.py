@@ -100,6 +100,10 @@ class Layout:
         """Width and height of the figure, inches."""
         return self.columns * self.pitch[0] + 0.2, self.rows * self.pitch[1] + 0.2
 
+    def wrapped(self, text):
+        """A text in lines that a map has room for."""
+        return "\n".join(textwrap.wrap(text, max(12, int(11 * self.pitch[0])), break_long_words=False))
+
     def number(self, panel):
         """Numbers on the axes of a map, no more than there is room for; and its shape."""
         panel.set_aspect(self.stretch)
@@ -151,7 +155,7 @@ def _draw(panel, one, name, shown, layout, length):
         image = field(panel, shown.factor * one[name], edges, color_map=shown.color_map, norm=shown.norm)
         image.cmap = image.cmap.with_extremes(bad="white", under=image.cmap(0.0))
         drawn = bar(panel, image, shown.text(one["symbols"][name]), layout.height, extend=shown.extend)
-        drawn.ax.yaxis.label.set_fontsize(8 if shown.remark or layout.height < 1.2 else 9)
+        drawn.ax.yaxis.label.set_fontsize(8 if layout.height < 1.2 else 9)
         if type(shown.norm) is not Normalize:
             places = colours.log_ticks(shown.norm, np.clip(layout.height / 0.3, 3, 9))
             drawn.set_ticks(places, labels=[f"{value:g}" for value in places])
@@ -170,7 +174,7 @@ def _draw(panel, one, name, shown, layout, length):
 
 def _titles(panel, layout, title, heading):
     """The field's title above a map, and above that of the first field what the snapshot is."""
-    wrapped = "\n".join(textwrap.wrap(title, max(12, int(11 * layout.pitch[0])), break_long_words=False))
+    wrapped = layout.wrapped(title)
     if layout.stacked:
         panel.set_title(title, loc="left", fontsize=10)
         panel.set_title(heading, loc="right", fontsize=8.5, color="0.35")
@@ -205,7 +209,9 @@ def maps(snapshots, whole=False, names=None, choice=None):
             one.setdefault("symbols", {})[name] = symbol
             _draw(panel, one, name, shown, layout, length)
             _titles(panel, layout, title, plain(results.title(index)) + layout.remark if column == 0 else "")
-            panel.set(xlabel=label("$x$", unit), ylabel=label("$y$", unit) if layout.is_left(column) else "")
+            remark = layout.wrapped(getattr(shown, "remark", ""))
+            panel.set(xlabel="\n".join(part for part in (label("$x$", unit), remark) if part))
+            panel.set(ylabel=label("$y$", unit) if layout.is_left(column) else "")
     for panel in axes.flat:
         if not panel.images:  # behind the last field
             panel.set_axis_off()

@@ -123,7 +123,8 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
     axes[-1, 0].set_xlabel("{}  at $y$ = {:.4g} {}".format(label("$x$", unit), length * at[1], unit))
     axes[-1, 1].set_xlabel("{}  at $x$ = {:.4g} {}".format(label("$y$", unit), length * at[0], unit))
     if len(snapshots) > 1:
-        axes[0, 0].legend(loc="best")
+        names, marks = axes[0, 0].get_legend_handles_labels()[::-1]
+        figure.legend(marks, names, loc="outside upper center", ncols=2)  # above the panels: curves are anywhere within
     else:
         figure.suptitle(plain(snapshots[0][0].title(snapshots[0][1])), fontsize=9, color="0.35")
     return figure

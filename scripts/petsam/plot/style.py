@@ -46,6 +46,12 @@ def joined(axes, x, y, color, mark, **style):
     points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
 
 
+def cross(axes, x, y, gid=None):
+    """A black cross with a white edge at a point, whole on the edge of a panel too."""
+    axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6, clip_on=False, zorder=5, gid=gid)
+    axes.plot(x, y, "+", color="black", markersize=9, markeredgewidth=1.2, clip_on=False, zorder=6)
+
+
 def need_few(count, what):
     """Error where a picture would have too many panels."""
     if count > PANELS:

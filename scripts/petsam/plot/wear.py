@@ -10,7 +10,7 @@ from ..errors import Error
 from ..results import BLOCK
 from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
 from .profiles import crossing
-from .style import colors, curve, need_few, plt, tint
+from .style import colors, curve, need_few, note, plt, tint
 from .symbols import SYMBOLS
 from .units import counted, label, largest, plain, scale
 
@@ -232,14 +232,17 @@ def _life_panel(panel, files, names, title):
 
 
 def _life_legend(panel, files):
-    """What the lines of all panels are, in one of its own."""
+    """What the lines of all panels are, in one of its own; a single line has the file's name above all panels."""
     panel.set_axis_off()
     for one, color in zip(files, colors(len(files))):
         panel.plot([], [], color=color, label=plain(one.label))
     if len(_worn_bodies(files)) > 1:
         for body, style in zip("12", BODIES):
             panel.plot([], [], style, color="0.35", label=f"body {body}", **LOOK)
-    panel.legend(loc="center")
+    if len(panel.lines) > 1:
+        panel.legend(loc="center")
+    else:
+        note(panel.figure, plain(files[0].label))
 
 
 def life(files):
