@@ -137,7 +137,7 @@ $(B)/venv/tests-done: tests/requirements.txt tests/requirements-optional.txt $(B
 	done < tests/requirements-optional.txt
 	touch $@
 
-test: all units bench-programs $(B)/venv/tests-done ## run all tests
+test: all units bench-programs $(B)/venv/tests-done ## run all tests (about half an hour on two cores)
 	$(PYTHON) tests/run.py --build $(B)
 
 check-sanitize: ## unit tests under the address and undefined-behaviour sanitizers
