@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -123,15 +124,20 @@ static off_t SizeOf(int file)
 
 /*
   Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer, else it is as before, at
-  every moment: a checkpoint that is longer when a run is killed would count as damaged.
+  every moment: a checkpoint that is longer when a run is killed would count as damaged. The limit of file sizes is
+  checked here, as the system only does where a file becomes longer.
 */
 static int Reserve(int file, off_t bytes, PetscBool keep)
 {
   struct stat    status;
   struct statvfs space;
+  struct rlimit  limit;
   int            error = EOPNOTSUPP;
 
   if (fstat(file, &status)) return errno;
+  if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur != RLIM_INFINITY &&
+      (rlim_t)(status.st_size + bytes) > limit.rlim_cur)
+    return EFBIG;
 #if defined(__linux__)
   error = fallocate(file, keep ? 0 : FALLOC_FL_KEEP_SIZE, status.st_size, bytes) ? errno : 0;
   if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* after an error, a part may be allocated */
