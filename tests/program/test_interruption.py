@@ -97,9 +97,7 @@ def test_file_that_may_not_grow_ends_the_run(launcher, folder, ranks, options):
 def test_file_that_may_not_even_begin_ends_the_run(launcher, folder):
     """HDF5 does not survive this: it must be found before."""
     limit = 13 << 10
-    run = start(
-        launcher, folder, 1, {}, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-    )
+    run = start(launcher, folder, 1, {}, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     code, steps, complaint = ended(run)
     assert code == 3 and steps == 0 and len(complaint) == 1 and "File too large" in complaint[0]
 
