@@ -66,7 +66,7 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
   PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "cycle memory = %g: expected a number >= 0", (double)settings->cycle_memory);
   c->set = *settings;
-  SamRecallSetMemory(c->recall, settings->cycle_memory);
+  PetscCall(SamRecallSetMemory(c->recall, settings->cycle_memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -119,18 +119,6 @@ SAM_VECTORIZED static void ExtrapolateShear(const Tractions *t, double alpha, pt
   }
 }
 
-/* The columns first ... last - 1 of row j where there is or was pressure. */
-static void FindRange(const Tractions *t, PetscInt nx, PetscInt j, PetscInt *first, PetscInt *last)
-{
-  const ptrdiff_t k = (ptrdiff_t)j * nx;
-  PetscInt        a[2], b[2];
-
-  SamBoundRange(nx, t->before[P] + k, &a[0], &b[0]);
-  SamBoundRange(nx, t->now[P] + k, &a[1], &b[1]);
-  *first = PetscMin(a[0], a[1]); /* nx where there is none */
-  *last  = PetscMax(*first, PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0));
-}
-
 /* Extrapolates the pressure (P), or the shear (X), and zeroes the rest. Returns the largest pressure. */
 static double ExtrapolateRows(const Tractions *t, SamGrid grid, double alpha, PetscInt field)
 {
@@ -141,7 +129,7 @@ static double ExtrapolateRows(const Tractions *t, SamGrid grid, double alpha, Pe
     const ptrdiff_t k = (ptrdiff_t)j * nx;
     PetscInt        first, last;
 
-    FindRange(t, nx, j, &first, &last);
+    SamBoundRangeOfBoth(nx, t->before[P] + k, t->now[P] + k, &first, &last);
     if (field == P)
       ExtrapolatePressure(t, alpha, k + first, last - first);
     else

@@ -55,7 +55,7 @@ struct _n_SamRecall {
   SamGrid  grid;
   double   limit, bytes; /* on all ranks */
   PetscInt count, newest, found;
-  Entry    entry[STEPS]; /* a ring */
+  Entry   *entry; /* a ring of STEPS; NULL until there is memory for it */
   double   largest[SAM_CONTROL_NUMBERS];
 };
 
@@ -93,19 +93,23 @@ void SamRecallDestroy(SamRecall *recall)
 {
   if (!*recall) return;
   SamRecallForget(*recall);
+  SamFree((*recall)->entry);
   SamFree(*recall);
   *recall = NULL;
 }
 
-void SamRecallSetMemory(SamRecall r, PetscReal bytes)
+PetscErrorCode SamRecallSetMemory(SamRecall r, PetscReal bytes)
 {
+  PetscFunctionBegin;
   r->limit = (double)bytes;
   if (r->bytes > r->limit) SamRecallForget(r);
+  if (bytes > 0 && !r->entry) PetscCall(SamAllocateZeros(STEPS * sizeof(*r->entry), &r->entry));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- which step this is ---- */
 
-/* The numbers of a control but its time; `size`: those that are prescribed. */
+/* The numbers of a control but its time. */
 static void Numbers(const SamControl *control, double numbers[SAM_CONTROL_NUMBERS])
 {
   SamControl timeless = *control;
@@ -147,19 +151,6 @@ void SamRecallFind(SamRecall r, const SamControl *next, SamKept *kept)
 }
 
 /* ---- keeping ---- */
-
-/* The part of row j that is kept: where there is or was a bound. */
-static void FindPart(PetscInt nx, const double before[], const double now[], PetscInt *first, PetscInt *last)
-{
-  PetscInt a[2], b[2];
-
-  SamBoundRange(nx, before, &a[0], &b[0]);
-  SamBoundRange(nx, now, &a[1], &b[1]);
-  *first = *last = 0;
-  if (PetscMax(b[0], b[1]) <= PetscMin(a[0], a[1])) return;
-  *first = PetscMax(PetscMin(a[0], a[1]) - MARGIN, 0);
-  *last  = PetscMin(PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0) + MARGIN, nx);
-}
 
 /* Stores the changes of both components of a field from `before` to `now`, in units of their largest. */
 static PetscErrorCode KeepChange(SamRecall r, SamKept k, Vec before, Vec now, double *unit, int32_t *const to[2])
@@ -213,7 +204,13 @@ static PetscErrorCode CreateKept(SamRecall r, Vec bound_before, Vec bound, Petsc
   PetscCall(VecGetArrayRead(bound_before, &a));
   PetscCall(VecGetArrayRead(bound, &b));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    FindPart(grid->nx, a + (ptrdiff_t)j * grid->nx, b + (ptrdiff_t)j * grid->nx, &k->first[j], &k->last[j]);
+    const ptrdiff_t row = (ptrdiff_t)j * grid->nx;
+    PetscInt        first, last;
+
+    SamBoundRangeOfBoth(grid->nx, a + row, b + row, &first, &last);
+    if (first == last) continue;
+    k->first[j] = PetscMax(first - MARGIN, 0);
+    k->last[j]  = PetscMin(last + MARGIN, grid->nx);
     cells += (size_t)(k->last[j] - k->first[j]);
   }
   PetscCall(VecRestoreArrayRead(bound, &b));

@@ -13,7 +13,7 @@ typedef struct _n_SamKept   *SamKept;
 PETSC_INTERN PetscErrorCode SamRecallCreate(SamGrid grid, SamRecall *recall);
 PETSC_INTERN void           SamRecallDestroy(SamRecall *recall);
 /* SamRecallSetMemory - the bytes on all ranks that kept steps may take; 0: none are kept. Not collective. */
-PETSC_INTERN void SamRecallSetMemory(SamRecall recall, PetscReal bytes);
+PETSC_INTERN PetscErrorCode SamRecallSetMemory(SamRecall recall, PetscReal bytes);
 /* SamRecallForget - forgets all steps. Not collective. */
 PETSC_INTERN void SamRecallForget(SamRecall recall);
 /*

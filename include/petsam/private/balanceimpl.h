@@ -98,6 +98,17 @@ static inline void SamBoundRange(PetscInt n, const double bound[], PetscInt *fir
   *first = i;
   *last  = j;
 }
+/* SamBoundRangeOfBoth - the columns between which either of two bounds has values; n to n where neither has. */
+static inline void SamBoundRangeOfBoth(PetscInt n, const double one[], const double other[], PetscInt *first,
+                                       PetscInt *last)
+{
+  PetscInt a[2], b[2];
+
+  SamBoundRange(n, one, &a[0], &b[0]);
+  SamBoundRange(n, other, &a[1], &b[1]);
+  *first = PetscMin(a[0], a[1]);
+  *last  = PetscMax(*first, PetscMax(a[0] < b[0] ? b[0] : 0, a[1] < b[1] ? b[1] : 0));
+}
 
 /* Cells of a row that are taken together: where all of them lie within their discs, no root or division is needed. */
 #define SAM_CHUNK 256

@@ -59,8 +59,9 @@ typedef enum {
 
 /*
   SamEffort - what the next solves are for, when the problem is part of another one: all of it; a solution that need not
-  be checked outside of its window by a product, as later ones will be; what a few iterations bring; or only the error
-  of the start. The last two may end with SAM_SOLVER_DIVERGED_ITS, which is no error then.
+  be checked outside of its window by a product, as later ones will be; what a few iterations bring; only the error of
+  the start; or all of it if the start is NEAR. The last three may end with SAM_SOLVER_DIVERGED_ITS, which is no error
+  then.
 */
 typedef enum { SAM_EFFORT_FULL, SAM_EFFORT_GLANCE, SAM_EFFORT_BRIEF, SAM_EFFORT_MEASURE, SAM_EFFORT_NEAR } SamEffort;
 #define SAM_NEAR 5e-3 /* the largest error of a start that is near */
