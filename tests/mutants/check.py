@@ -24,6 +24,7 @@ import shutil
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
@@ -169,15 +170,19 @@ def work(tree, waiting, report):
         report(mutant, try_mutant(tree, mutant))
 
 
-def check_originals(tree, mutants):
-    """The tests must pass without a change."""
+def check_originals(trees, mutants):
+    """The tests must pass without a change: each of them in one of the trees, which are equal."""
     tests = sorted({test for mutant in mutants for test in mutant.tests})
-    complaint = build(tree, ["-j2", *targets_of(tests)])
-    if complaint:
-        sys.exit("mutants: the sources do not build:\n" + complaint)
-    for test in tests:
-        if not passes(tree, test):
-            sys.exit(f"mutants: {test} fails without a change")
+    for tree in trees:
+        complaint = build(tree, ["-j2", *targets_of(tests)])
+        if complaint:
+            sys.exit("mutants: the sources do not build:\n" + complaint)
+    with ThreadPoolExecutor(len(trees)) as pool:
+        shares = [tests[k :: len(trees)] for k in range(len(trees))]
+        failed = list(pool.map(lambda tree, share: [t for t in share if not passes(tree, t)], trees, shares))
+    failed = [test for share in failed for test in share]
+    if failed:
+        sys.exit(f"mutants: without a change, too, fail: {' '.join(failed)}")
 
 
 def main():
@@ -188,8 +193,7 @@ def main():
     mutants = [m for path in sorted(LISTS.glob("*.txt")) for m in read_list(path)]
     mutants = [m for m in mutants if not args.words or any(word in m.file or word in m.old for word in args.words)]
     trees = [make_tree(ROOT / "build" / "mutants" / str(k)) for k in range(args.trees)]
-    for tree in trees:
-        check_originals(tree, mutants)
+    check_originals(trees, mutants)
     waiting, lock, results = queue.Queue(), threading.Lock(), []
     for mutant in mutants:
         waiting.put(mutant)
