@@ -34,12 +34,6 @@ PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
 /* The components of a bulk stress, in the order used everywhere. */
 typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamBulkComponent;
 
-/* SamBulkName - the name of a component of a body's bulk stress in options, histories and results; its description. */
-typedef struct {
-  const char *name, *text;
-} SamBulkName;
-PETSC_EXTERN const SamBulkName SamBulkNames[2][SAM_BULK_COMPONENTS];
-
 /*
   SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest.
   A bulk stress stretches the surface of its body about x = y = 0 by Hooke's law, without stress normal to the surface;
@@ -54,27 +48,51 @@ typedef struct {
 } SamControl;
 
 /*
-  What a control prescribes, in one row: the loads or displacements of the six components, then the bulk stresses.
-  SamControlPart - the k-th of them. SamControlPartName - its name as an option (without dash), of load or displacement.
-  Not collective.
+  SamCondition - what a step prescribes besides the six components: options, columns of histories, checkpoints, restarts
+  and results follow from the list of them, SamConditions. To add one: a member of SamControl, and an entry there.
 */
-#define SAM_CONTROL_PARTS (SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS)
+typedef struct {
+  const char *name, *unit, *text;
+  size_t      place; /* of its value in SamControl */
+  PetscReal   usual; /* its value when none is given */
+  SamRange    range;
+  PetscBool   option; /* may be an option, and changes from `usual` to its first value; else it has that at once */
+  int         group;  /* those of a group are in results and parameters together, if one of them is given */
+} SamCondition;
+enum { SAM_CONDITION_FRICTION, SAM_CONDITION_BULK, SAM_CONDITIONS = SAM_CONDITION_BULK + 2 * SAM_BULK_COMPONENTS };
+PETSC_EXTERN const SamCondition SamConditions[SAM_CONDITIONS];
+/* The entry of a component of the bulk stress of body 0 or 1. */
+#define SAM_BULK_CONDITION(body, k) (&SamConditions[SAM_CONDITION_BULK + (body)*SAM_BULK_COMPONENTS + (k)])
+
+/*
+  What a control prescribes, in one row: the loads or displacements of the six components, then the conditions.
+  SamControlPart - the k-th of them. SamControlPlace - where it is. SamControlPartName - its name as an option (without
+  dash) or column, of load or displacement. Not collective.
+*/
+#define SAM_CONTROL_PARTS (SAM_COMPONENTS + SAM_CONDITIONS)
 PETSC_EXTERN PetscReal   SamControlPart(const SamControl *control, PetscInt k);
+PETSC_EXTERN PetscReal  *SamControlPlace(SamControl *control, PetscInt k);
 PETSC_EXTERN const char *SamControlPartName(const SamControl *control, PetscInt k);
 
 /*
   SamControlPack, SamControlUnpack - a control as SAM_CONTROL_NUMBERS numbers, and back. Not collective.
 */
-#define SAM_CONTROL_NUMBERS (2 * SAM_COMPONENTS + 2 + 2 * SAM_BULK_COMPONENTS)
+#define SAM_CONTROL_NUMBERS (SAM_COMPONENTS + 1 + SAM_CONTROL_PARTS)
 PETSC_EXTERN void SamControlPack(const SamControl *control, double numbers[]);
 PETSC_EXTERN void SamControlUnpack(const double numbers[], SamControl *control);
 
-/* SamControlInitialize - all loads given and 0, friction scale 1, no bulk stress, time 0. Not collective. */
+/* SamControlInitialize - all loads given and 0, time 0, all conditions as usual. Not collective. */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
 /*
   SamControlSet - prescribes a component by the name of its load or of its displacement ("load_tx", "disp_x"; N, N m, m
   or rad). Not collective. Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for any other name.
 */
 PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value);
+/*
+  SamControlReadCondition - reads the k-th condition from its option, if it may be one; `set`: it was given. Collective.
+  Errors: SAM_ERR_USER.
+*/
+PETSC_EXTERN PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamControl *control,
+                                                    PetscBool *set);
 
 #endif

@@ -11,9 +11,9 @@
   load; if there is none in it either, it is the start itself, and one step.
 
   The file is text. Fields are separated by commas, semicolons or white space, # begins a comment, empty lines are
-  ignored. The first line names the columns: `time`, any of the names of loads and displacements (load_n ... rot_z),
-  friction_scale, and bulk stresses (bulk1_stress_xx ... bulk2_stress_xy). The rows follow, with increasing times (s). A
-  component or bulk stress without a column has the value of its option, or 0, in all rows.
+  ignored. The first line names the columns: `time`, any of the names of loads and displacements (load_n ... rot_z) and
+  of SamConditions. The rows follow, with increasing times (s). What has no column has the value of its option, or its
+  usual one, in all rows.
 */
 typedef struct _n_SamHistory *SamHistory;
 
@@ -52,13 +52,17 @@ PETSC_EXTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *ste
 PETSC_EXTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments);
 /* SamHistoryGetStart - the number of load steps up to the first row: the increments, or 1. Not collective. */
 PETSC_EXTERN PetscErrorCode SamHistoryGetStart(SamHistory history, PetscInt *steps);
-/* SamHistoryHas - whether the file has a column friction_scale, and whether there is a bulk stress. Not collective. */
-PETSC_EXTERN PetscErrorCode SamHistoryHas(SamHistory history, PetscBool *friction_scale, PetscBool *bulk_stress);
+/*
+  SamHistoryGives - whether it gives a condition of that one's group: has a column of it, or another value than usual.
+  Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamCondition *condition,
+                                            PetscBool *gives);
 /*
   SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads,
-  displacements and bulk stresses at time 0; if the first row's time is not positive, they start before it by the time
-  between the first two rows (1 s for a single row). The friction scale is that of the first row from the start. Not
-  collective.
+  displacements and usual conditions at time 0; if the first row's time is not positive, they start before it by the
+  time between the first two rows (1 s for a single row). A condition that is no option is that of the first row from the
+  start. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
 

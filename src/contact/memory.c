@@ -51,11 +51,12 @@ static PetscErrorCode DeclareControl(SamContact c)
                       load ? name->load_text : name->rigid_text, SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
                       n ? NULL : &c->solution));
   }
-  PetscCall(Declare(c, "friction_scale", "1", "factor on the coefficient of friction", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-                    PETSC_FALSE, &c->given));
-  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
-    PetscCall(Declare(c, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name, "Pa",
-                      "bulk stress of the body, tension positive", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, NULL));
+  for (PetscInt n = 0; n < SAM_CONDITIONS; n++) {
+    const SamCondition *condition = &SamConditions[n];
+
+    PetscCall(Declare(c, condition->name, condition->unit, condition->text, SAM_NUMBER_REAL, 1, PETSC_FALSE,
+                      PETSC_FALSE, n ? NULL : &c->given));
+  }
   PetscCall(Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, SAM_CONTROL_NUMBERS, PETSC_TRUE,
                     PETSC_FALSE, &c->control));
   PetscCall(Declare(c, "window", "1", "part of the grid that was solved on", SAM_NUMBER_INT, 4, PETSC_TRUE, PETSC_FALSE,
@@ -216,8 +217,7 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   n[c->time] = step->control.time;
   PetscCall(PetscArraycpy(n + c->solution, step->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(n + c->solution + SAM_COMPONENTS, step->rigid, SAM_COMPONENTS));
-  n[c->given] = step->control.friction_scale;
-  PetscCall(PetscArraycpy(n + c->given + 1, &step->control.bulk_stress[0][0], 2 * SAM_BULK_COMPONENTS));
+  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) n[c->given + k] = SamControlPart(&step->control, SAM_COMPONENTS + k);
   SamControlPack(&c->generation[SAM_TRIED].control, n + c->control);
   n[c->residuals]     = step->check.normal;
   n[c->residuals + 1] = step->check.tangential;

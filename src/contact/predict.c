@@ -57,11 +57,9 @@ static double Continuation(const SamControl *before, const SamControl *now, cons
     if (next->force[k] != now->force[k] || now->force[k] != before->force[k]) return 0;
     AddChange(before->value[k], now->value[k], next->value[k], &c);
   }
-  for (PetscInt n = 0; n < 2 * SAM_BULK_COMPONENTS; n++) {
-    const PetscInt body = n / SAM_BULK_COMPONENTS, k = n % SAM_BULK_COMPONENTS;
-
-    AddChange(before->bulk_stress[body][k], now->bulk_stress[body][k], next->bulk_stress[body][k], &c);
-  }
+  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) /* the next bound is computed with the next friction */
+    if (k != SAM_COMPONENTS + SAM_CONDITION_FRICTION)
+      AddChange(SamControlPart(before, k), SamControlPart(now, k), SamControlPart(next, k), &c);
   if (c.old_old == 0 || c.old_new <= 0) return 0;
   alpha  = c.old_new / c.old_old;
   across = c.new_new - alpha * c.old_new; /* square of the part across the last change */

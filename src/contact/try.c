@@ -44,7 +44,7 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
   PetscCall(SamElasticityGetType(c->elasticity, &type));
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const char  *name   = SamBulkNames[body][k].name;
+      const char  *name   = SAM_BULK_CONDITION(body, k)->name;
       const double stress = (double)control->bulk_stress[body][k];
 
       PetscCheck(stress == 0 || !isinf(pair->young[body]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,

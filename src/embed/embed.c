@@ -98,14 +98,13 @@ static PetscErrorCode RefuseOthers(const petsam_contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadBulkStress(petsam_contact *c, const SamOptions *from)
+static PetscErrorCode ReadConditions(petsam_contact *c, const SamOptions *from)
 {
+  PetscBool set;
+
   PetscFunctionBegin;
   PetscCall(SamControlInitialize(&c->control));
-  for (PetscInt body = 0; body < 2; body++)
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
-      PetscCall(SamOptionsReal(from, SamBulkNames[body][k].name, SamBulkNames[body][k].text, SAM_RANGE_ANY,
-                               &c->control.bulk_stress[body][k], NULL));
+  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) PetscCall(SamControlReadCondition(from, k, &c->control, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -150,7 +149,7 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscCall(SamSimulationGetSetup(c->simulation, &c->setup));
   PetscCall(SamSimulationSetContactFromOptions(c->simulation, &from));
   PetscCall(SamHistoryReadIncrements(&from, &c->increments));
-  PetscCall(ReadBulkStress(c, &from));
+  PetscCall(ReadConditions(c, &from));
   PetscCall(SamSimulationSetUp(c->simulation, &from));
   PetscCall(SamArgumentsRefuseUnknown(c->comm, NULL));
   PetscCall(SamGridCreateVec(c->setup->grid, 1, &c->work));

@@ -20,10 +20,10 @@ static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parame
     PetscCall(SamParametersAddChecksum(parameters, "given_gap", c->gap));
   else
     PetscCall(SamParametersAddText(parameters, "given_gap", PETSC_TRUE, "none"));
-  for (PetscInt body = 0; body < 2; body++)
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++)
-      PetscCall(
-        SamParametersAddReals(parameters, SamBulkNames[body][k].name, PETSC_TRUE, 1, &c->control.bulk_stress[body][k]));
+  for (PetscInt k = 0; k < SAM_CONDITIONS; k++)
+    if (SamConditions[k].option)
+      PetscCall(SamParametersAddReals(parameters, SamConditions[k].name, PETSC_TRUE, 1,
+                                      SamControlPlace(&c->control, SAM_COMPONENTS + k)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -158,7 +158,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   CHECK(f, IsPlausible(facts), "its parameters are not those of a run of petsam");
   PetscCall(ExamineFields(f, facts));
   for (int n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
-    PetscCall(ExamineColumn(f, facts, SamBulkNames[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS].name,
+    PetscCall(ExamineColumn(f, facts, SAM_BULK_CONDITION(0, n)->name,
                             &facts->bulk[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS]));
   PetscCall(ExamineColumn(f, facts, "cycle", &facts->cycle));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -328,7 +328,7 @@ PetscErrorCode SamResultsReadBulkStress(SamResults r, PetscInt step, PetscInt bo
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
     stress[k] = 0;
-    if (r->facts.bulk[body][k]) PetscCall(ReadNumber(r, SamBulkNames[body][k].name, step, &stress[k]));
+    if (r->facts.bulk[body][k]) PetscCall(ReadNumber(r, SAM_BULK_CONDITION(body, k)->name, step, &stress[k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

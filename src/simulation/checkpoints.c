@@ -118,7 +118,7 @@ static PetscBool TimeIsUp(const SamCheckpoints *cp, double now)
 
 /* ---- the position in the load history, and the history up to there ---- */
 
-#define COLUMNS (2 + SAM_CONTROL_PARTS) /* of the load history: time, friction, components, bulk stresses */
+#define COLUMNS (1 + SAM_CONTROL_PARTS) /* of the load history: time, and the parts of the control */
 #define RESULTS (sizeof(((SamSimulationPoint *)NULL)->results) / sizeof(uint64_t)) /* a file's name, as its bytes */
 #define NOTES   4
 
@@ -156,10 +156,9 @@ static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64
 
     PetscCall(SamHistoryGetStep(history, s, &control));
     columns[0] = SamHashMix(columns[0] + SamHashBits(control.time));
-    columns[1] = SamHashMix(columns[1] + SamHashBits(control.friction_scale));
     for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) {
-      columns[2 + k] = SamHashMix(columns[2 + k] + SamHashBits(SamControlPart(&control, k) + 0.0));
-      if (k < SAM_COMPONENTS) columns[2 + k] = SamHashMix(columns[2 + k] + (control.force[k] ? 1 : 2));
+      columns[1 + k] = SamHashMix(columns[1 + k] + SamHashBits(SamControlPart(&control, k) + 0.0));
+      if (k < SAM_COMPONENTS) columns[1 + k] = SamHashMix(columns[1 + k] + (control.force[k] ? 1 : 2));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -212,16 +211,16 @@ static PetscErrorCode CompareLoads(SamSimulation s, const uint64_t there[COLUMNS
   PetscCall(ChecksumColumns(s->history, solved, here));
   PetscCall(SamHistoryGetStep(s->history, 0, &first));
   for (PetscInt k = 0; k < COLUMNS; k++) {
-    char        option[48];
-    const char *name = k == 0 ? "history: the times" : "history: the values of friction_scale";
+    const PetscBool column = k > SAM_COMPONENTS && !SamConditions[k - 1 - SAM_COMPONENTS].option; /* only */
+    const char     *name   = k ? SamControlPartName(&first, k - 1) : "times";
+    char            what[96];
 
-    if (k >= 2) {
-      (void)snprintf(option, sizeof(option), "%s, or its column in -history: the values",
-                     SamControlPartName(&first, k - 2));
-      name = option;
-    }
+    if (!k || column)
+      (void)snprintf(what, sizeof(what), "history: the %s%s", column ? "values of " : "", name);
+    else
+      (void)snprintf(what, sizeof(what), "%s, or its column in -history: the values", name);
     PetscCheck(here[k] == there[k], s->comm, SAM_ERR_USER, "-restart %s: does not fit: -%s up to step %ld differ", file,
-               name, (long)solved);
+               what, (long)solved);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,30 +8,15 @@
 /* Times nearer than this part of their size are refused: they may be the same number. */
 #define TIME_ROUNDING (4 * DBL_EPSILON)
 
-#define FRICTION "friction_scale"
-
 struct _n_SamHistory {
   SamControl constant; /* the kind of control of each component, and the values of those without a column */
   SamControl before;   /* what the first row's change begins from */
   PetscInt   rows, increments;
   PetscInt   start;                     /* steps up to the first row */
   SamTable   table;                     /* empty without a file */
-  PetscInt   time, friction;            /* columns; -1: none */
-  PetscInt   column[SAM_CONTROL_PARTS]; /* of each component and bulk stress, -1: constant */
+  PetscInt   time;                      /* column; -1: none */
+  PetscInt   column[SAM_CONTROL_PARTS]; /* of each part of the control, -1: constant */
 };
-
-static const SamBulkName *BulkName(PetscInt part)
-{
-  const PetscInt k = part - SAM_COMPONENTS;
-
-  return &SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS];
-}
-
-/* Where a control has its k-th part, a component or a bulk stress. */
-static PetscReal *PartOf(SamControl *control, PetscInt k)
-{
-  return k < SAM_COMPONENTS ? &control->value[k] : &control->bulk_stress[0][0] + (k - SAM_COMPONENTS);
-}
 
 PetscErrorCode SamHistoryClaimOption(void)
 {
@@ -120,29 +105,33 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads one bulk stress, from an option or a column. */
-static PetscErrorCode ReadBulkStress(SamHistory h, const Reader *r, PetscInt k)
+/* Reads a condition, from an option or a column. */
+static PetscErrorCode ReadCondition(SamHistory h, const Reader *r, PetscInt k)
 {
-  const SamBulkName *name     = BulkName(k);
-  PetscReal *const   constant = PartOf(&h->constant, k);
-  char               text[96];
-  PetscBool          set;
+  const SamCondition *condition = &SamConditions[k - SAM_COMPONENTS];
+  PetscReal *const    constant  = SamControlPlace(&h->constant, k);
+  PetscBool           set       = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (Pa), parallel to the surface", name->text));
-  PetscCall(SamOptionsReal(r->from, name->name, text, SAM_RANGE_ANY, constant, &set));
-  h->column[k] = SamTableFind(&h->table, name->name);
+  PetscCall(SamControlReadCondition(r->from, k - SAM_COMPONENTS, &h->constant, &set));
+  h->column[k] = SamTableFind(&h->table, condition->name);
   if (h->column[k] < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Override(r, name->name, name->name, &set));
-  *constant = 0;
+  PetscCall(Override(r, condition->name, condition->name, &set));
+  *constant = condition->usual;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that times increase, and that normal force and friction are >= 0. */
+/* Whether part k of the control may not be negative. */
+static PetscBool IsNonnegative(SamHistory h, PetscInt k)
+{
+  if (k >= SAM_COMPONENTS) return SamConditions[k - SAM_COMPONENTS].range == SAM_RANGE_NONNEGATIVE;
+  return k == SAM_COMPONENT_N && h->constant.force[k];
+}
+
+/* Checks that times increase, and that what may not be negative is not. */
 static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
 {
-  const SamTable *t        = &h->table;
-  const PetscInt  least[2] = {SamTableFind(t, SamComponentNames[SAM_COMPONENT_N].load), h->friction};
+  const SamTable *t = &h->table;
 
   PetscFunctionBegin;
   for (PetscInt r = 0; r < t->rows; r++) {
@@ -151,10 +140,10 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
     PetscCheck(r == 0 || row[h->time] > before[h->time], comm, SAM_ERR_USER,
                "%s, line %" PetscInt_FMT ": time %g: expected more than %g, that of the row before", file, t->line[r],
                row[h->time], before[h->time]);
-    for (PetscInt k = 0; k < 2; k++)
-      PetscCheck(least[k] < 0 || row[least[k]] >= 0, comm, SAM_ERR_USER,
-                 "%s, line %" PetscInt_FMT ": %s %g: expected a number >= 0", file, t->line[r], t->name[least[k]],
-                 row[least[k]]);
+    for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++)
+      PetscCheck(h->column[k] < 0 || !IsNonnegative(h, k) || row[h->column[k]] >= 0, comm, SAM_ERR_USER,
+                 "%s, line %" PetscInt_FMT ": %s %g: expected a number >= 0", file, t->line[r], t->name[h->column[k]],
+                 row[h->column[k]]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -211,13 +200,16 @@ PetscErrorCode SamHistoryGetStart(SamHistory h, PetscInt *steps)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryHas(SamHistory h, PetscBool *friction_scale, PetscBool *bulk_stress)
+PetscErrorCode SamHistoryGives(SamHistory h, const SamCondition *condition, PetscBool *gives)
 {
   PetscFunctionBegin;
-  *friction_scale = h->friction >= 0;
-  *bulk_stress    = PETSC_FALSE;
-  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++)
-    if (h->column[k] >= 0 || SamControlPart(&h->constant, k) != 0) *bulk_stress = PETSC_TRUE;
+  *gives = PETSC_FALSE;
+  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) {
+    const SamCondition *one = &SamConditions[k - SAM_COMPONENTS];
+
+    if (one->group != condition->group) continue;
+    if (h->column[k] >= 0 || SamControlPart(&h->constant, k) != one->usual) *gives = PETSC_TRUE;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -264,8 +256,10 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
 /* Part k of the control (SamControlPart()), which has a column, or is constant. */
 static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
 {
-  if (r < 0) return (double)SamControlPart(&h->before, k);
-  return h->column[k] >= 0 ? Entry(h, h->column[k], r) : (double)SamControlPart(&h->constant, k);
+  const PetscBool at_once = k >= SAM_COMPONENTS && !SamConditions[k - SAM_COMPONENTS].option;
+
+  if (r < 0 && !at_once) return (double)SamControlPart(&h->before, k);
+  return h->column[k] >= 0 ? Entry(h, h->column[k], PetscMax(r, 0)) : (double)SamControlPart(&h->constant, k);
 }
 
 /* Whether nothing is prescribed in the first row that differs from the start. */
@@ -276,8 +270,8 @@ static PetscBool IsAtRest(SamHistory h)
   return PETSC_TRUE;
 }
 
-/* The names of columns that there may be, NULL at the end: those of options, but for time and friction. */
-#define NAMES (2 + 2 * SAM_COMPONENTS + 2 * SAM_BULK_COMPONENTS + 1)
+/* The names of columns that there may be, NULL at the end. */
+#define NAMES (1 + 2 * SAM_COMPONENTS + SAM_CONDITIONS + 1)
 static void ListNames(const char *names[NAMES])
 {
   PetscInt n = 0;
@@ -285,16 +279,14 @@ static void ListNames(const char *names[NAMES])
   names[n++] = "time";
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].load;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].rigid;
-  names[n++] = FRICTION;
-  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) names[n++] = BulkName(k)->name;
+  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) names[n++] = SamConditions[k].name;
   names[n] = NULL;
 }
 
 static void TakeTable(SamHistory h)
 {
-  h->rows     = h->table.rows;
-  h->time     = SamTableFind(&h->table, "time");
-  h->friction = SamTableFind(&h->table, FRICTION);
+  h->rows = h->table.rows;
+  h->time = SamTableFind(&h->table, "time");
 }
 
 static PetscErrorCode Create(SamHistory *history)
@@ -306,7 +298,7 @@ static PetscErrorCode Create(SamHistory *history)
   *history      = h;
   h->rows       = 1;
   h->increments = 1;
-  h->time = h->friction = -1;
+  h->time       = -1;
   PetscCall(SamControlInitialize(&h->constant));
   PetscCall(SamControlInitialize(&h->before));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -345,7 +337,7 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
              what, increments, rows);
   PetscCheck(h->column[SAM_COMPONENT_N] >= 0, comm, SAM_ERR_USER, "%s: expected the column load_n or disp_z", what);
   for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++)
-    h->column[k] = SamTableFind(&h->table, BulkName(k)->name);
+    h->column[k] = SamTableFind(&h->table, SamConditions[k - SAM_COMPONENTS].name);
   if (before) h->before = *before;
   for (PetscInt c = 0; c < SAM_COMPONENTS && before; c++) /* a load and a displacement have nothing between them */
     if (before->force[c] != h->constant.force[c]) h->before.value[c] = ValueOfRow(h, c, 0);
@@ -378,14 +370,9 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
   for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) /* so that none is taken for another one misspelled */
     SamOptionsKnow(from, k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load, NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
-  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) PetscCall(ReadBulkStress(h, &reader, k));
+  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) PetscCall(ReadCondition(h, &reader, k));
   PetscCall(SetIncrements(h, increments, from->comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static double FrictionOfRow(SamHistory h, PetscInt r)
-{
-  return h->friction >= 0 ? Entry(h, h->friction, PetscMax(r, 0)) : 1;
 }
 
 PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
@@ -398,10 +385,9 @@ PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
   *control = h->constant;
 /* linear between the rows; at a row exactly its own value */
 #define BETWEEN(before, after) (i == steps ? (after) : (before) + part * ((after) - (before)))
-  control->time           = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
-  control->friction_scale = BETWEEN(FrictionOfRow(h, r - 1), FrictionOfRow(h, r));
+  control->time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   for (PetscInt p = 0; p < SAM_CONTROL_PARTS; p++)
-    *PartOf(control, p) = BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r));
+    *SamControlPlace(control, p) = BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r));
 #undef BETWEEN
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -20,15 +20,15 @@ static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control
 
       PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %g exceeds Young's modulus, %g: check the unit, Pa", prefix,
-                 SamBulkNames[body][k].name, stress, young);
+                 SAM_BULK_CONDITION(body, k)->name, stress, young);
 
       PetscCheck(stress == 0 || !isinf(s->setup.pair.young[body]), from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %g: -%sbody%" PetscInt_FMT
                  "_young is inf: a rigid body does not stretch",
-                 prefix, SamBulkNames[body][k].name, stress, prefix, body + 1);
+                 prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, body + 1);
       PetscCheck(stress == 0 || traits.stretch, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %g: has no meaning with -%selasticity %s, whose bodies bear none",
-                 prefix, SamBulkNames[body][k].name, stress, prefix, type);
+                 prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, type);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

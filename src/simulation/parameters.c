@@ -2,7 +2,7 @@
 #include "simulationimpl.h"
 
 /*
-  The loads and bulk stresses of the last step. The steps of a history are in /history of the results, and checkpoints
+  What the last step prescribes. The steps of a history are in /history of the results, and checkpoints
   compare them themselves (checkpoints.c).
 */
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
@@ -10,7 +10,6 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
   SamControl control;
   PetscInt   count, increments;
   PetscReal  steps;
-  PetscBool  friction, bulk;
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetCount(history, &count));
@@ -18,10 +17,13 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
   steps = (PetscReal)increments;
   PetscCall(SamParametersAddReals(p, "steps", PETSC_TRUE, 1, &steps));
   PetscCall(SamHistoryGetStep(history, count - 1, &control));
-  PetscCall(SamHistoryHas(history, &friction, &bulk));
-  for (PetscInt k = 0; k < (bulk ? SAM_CONTROL_PARTS : SAM_COMPONENTS); k++) {
-    const PetscReal value = SamControlPart(&control, k);
+  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) {
+    const SamCondition *condition = k < SAM_COMPONENTS ? NULL : &SamConditions[k - SAM_COMPONENTS];
+    const PetscReal     value     = SamControlPart(&control, k);
+    PetscBool           given     = PETSC_TRUE;
 
+    if (condition) PetscCall(SamHistoryGives(history, condition, &given));
+    if (!given || (condition && !condition->option)) continue;
     PetscCall(SamParametersAddReals(p, SamControlPartName(&control, k), PETSC_FALSE, 1, &value));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

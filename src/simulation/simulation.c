@@ -63,15 +63,18 @@ PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char
 /* Makes numbers of each step what varies. */
 static PetscErrorCode Offer(SamSimulation s)
 {
-  SamState  state;
-  PetscBool friction, bulk;
+  SamState state;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryHas(s->history, &friction, &bulk));
   PetscCall(SamContactGetState(s->setup.contact, &state));
-  if (friction || s->plan.points) PetscCall(SamStateOfferNumber(state, "friction_scale", 1));
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS && bulk; k++)
-    PetscCall(SamStateOfferNumber(state, SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name, 0));
+  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) {
+    const SamCondition *condition = &SamConditions[k];
+    PetscBool           given;
+
+    PetscCall(SamHistoryGives(s->history, condition, &given));
+    if (given || (k == SAM_CONDITION_FRICTION && s->plan.points))
+      PetscCall(SamStateOfferNumber(state, condition->name, condition->usual));
+  }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,6 +1,7 @@
 /* What a load step prescribes, and its names. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/control.h>
+#include <stddef.h>
 #include <string.h>
 
 const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
@@ -11,59 +12,64 @@ const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
   {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y"},
   {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z"}};
 
-const SamBulkName SamBulkNames[2][SAM_BULK_COMPONENTS] = {{{"bulk1_stress_xx", "bulk stress xx of body 1"},
-                                                           {"bulk1_stress_yy", "bulk stress yy of body 1"},
-                                                           {"bulk1_stress_xy", "bulk stress xy of body 1"}},
-                                                          {{"bulk2_stress_xx", "bulk stress xx of body 2"},
-                                                           {"bulk2_stress_yy", "bulk stress yy of body 2"},
-                                                           {"bulk2_stress_xy", "bulk stress xy of body 2"}}};
+#define BULK(body, k, component) \
+  { \
+    "bulk" #body "_stress_" #component, "Pa", "bulk stress " #component " of body " #body ", tension positive", \
+      offsetof(SamControl, bulk_stress[body - 1][k]), 0, SAM_RANGE_ANY, PETSC_TRUE, 1 \
+  }
+const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "factor on the coefficient of friction",
+                                                     offsetof(SamControl, friction_scale), 1, SAM_RANGE_NONNEGATIVE,
+                                                     PETSC_FALSE, 0},
+                                                    BULK(1, SAM_BULK_XX, xx),
+                                                    BULK(1, SAM_BULK_YY, yy),
+                                                    BULK(1, SAM_BULK_XY, xy),
+                                                    BULK(2, SAM_BULK_XX, xx),
+                                                    BULK(2, SAM_BULK_YY, yy),
+                                                    BULK(2, SAM_BULK_XY, xy)};
 
 PetscErrorCode SamControlInitialize(SamControl *control)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(control, sizeof(*control)));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) control->force[k] = PETSC_TRUE;
-  control->friction_scale = 1;
+  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) *SamControlPlace(control, SAM_COMPONENTS + k) = SamConditions[k].usual;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static size_t OffsetOf(PetscInt k)
+{
+  return k < SAM_COMPONENTS ? offsetof(SamControl, value) + (size_t)k * sizeof(PetscReal)
+                            : SamConditions[k - SAM_COMPONENTS].place;
+}
+
+PetscReal *SamControlPlace(SamControl *control, PetscInt k)
+{
+  return (PetscReal *)((char *)control + OffsetOf(k));
 }
 
 PetscReal SamControlPart(const SamControl *control, PetscInt k)
 {
-  const PetscInt b = k - SAM_COMPONENTS;
-
-  return b < 0 ? control->value[k] : control->bulk_stress[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS];
+  return *(const PetscReal *)((const char *)control + OffsetOf(k));
 }
 
 const char *SamControlPartName(const SamControl *control, PetscInt k)
 {
-  const PetscInt b = k - SAM_COMPONENTS;
-
-  if (b >= 0) return SamBulkNames[b / SAM_BULK_COMPONENTS][b % SAM_BULK_COMPONENTS].name;
+  if (k >= SAM_COMPONENTS) return SamConditions[k - SAM_COMPONENTS].name;
   return control->force[k] ? SamComponentNames[k].load : SamComponentNames[k].rigid;
 }
 
 void SamControlPack(const SamControl *control, double n[])
 {
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    *n++ = control->force[k];
-    *n++ = control->value[k];
-  }
   *n++ = control->time;
-  *n++ = control->friction_scale;
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
-    *n++ = control->bulk_stress[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS];
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) *n++ = control->force[k];
+  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) *n++ = SamControlPart(control, k);
 }
 
 void SamControlUnpack(const double n[], SamControl *control)
 {
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    control->force[k] = *n++ != 0;
-    control->value[k] = *n++;
-  }
-  control->time           = *n++;
-  control->friction_scale = *n++;
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
-    control->bulk_stress[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS] = *n++;
+  control->time = *n++;
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) control->force[k] = *n++ != 0;
+  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) *SamControlPlace(control, k) = *n++;
 }
 
 PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value)
@@ -78,4 +84,18 @@ PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal v
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "%s is not the name of a load or displacement", name);
+}
+
+PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamControl *control, PetscBool *set)
+{
+  const SamCondition *condition = &SamConditions[k];
+  char                text[96];
+
+  PetscFunctionBegin;
+  *set = PETSC_FALSE;
+  if (!condition->option) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", condition->text, condition->unit));
+  PetscCall(
+    SamOptionsReal(from, condition->name, text, condition->range, SamControlPlace(control, SAM_COMPONENTS + k), set));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

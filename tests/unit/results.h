@@ -164,7 +164,7 @@ static inline void PutNumbers(const Shown *s, int step)
   for (int c = 0; c < NUM_COLUMNS; c++) PutNumber(s, columns[c].name, columns[c].first + step);
   PutNumber(s, "status", statuses[step]);
   PutNumber(s, "friction_scale", 10 + step);
-  for (int n = 0; n < 6; n++) PutNumber(s, SamBulkNames[n / 3][n % 3].name, 100 * (n + 1) + step);
+  for (int n = 0; n < 6; n++) PutNumber(s, SAM_BULK_CONDITION(0, n)->name, 100 * (n + 1) + step);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     PutNumber(s, SamComponentNames[k].load, 1000 + 10 * (double)k + step);
     PutNumber(s, SamComponentNames[k].rigid, 2000 + 10 * (double)k + step);

@@ -259,12 +259,12 @@ static void test_first_row_has_a_start(void **state)
 
 /* ---- friction ---- */
 
-static PetscBool HasFrictionScale(SamHistory h)
+static PetscBool Gives(SamHistory h, PetscInt condition)
 {
-  PetscBool has, bulk;
+  PetscBool gives;
 
-  sam_call(SamHistoryHas(h, &has, &bulk));
-  return has;
+  sam_call(SamHistoryGives(h, &SamConditions[condition], &gives));
+  return gives;
 }
 
 static void test_friction_scale_is_one_without_its_column(void **state)
@@ -272,7 +272,7 @@ static void test_friction_scale_is_one_without_its_column(void **state)
   SamHistory h = Read("-load_n 1 -steps 3");
 
   (void)state;
-  sam_assert(!HasFrictionScale(h));
+  sam_assert(!Gives(h, SAM_CONDITION_FRICTION));
   for (PetscInt k = 0; k < 3; k++) sam_assert(StepOf(h, k).friction_scale == 1);
   sam_call(SamHistoryDestroy(&h));
 }
@@ -286,7 +286,7 @@ static void test_friction_scale_is_interpolated_between_rows(void **state)
   (void)state;
   Write("time,friction_scale,load_n\n1,0.5,1\n2,2,1\n3,0,1\n");
   h = Read("-history test_history.csv -steps 4");
-  sam_assert(HasFrictionScale(h));
+  sam_assert(Gives(h, SAM_CONDITION_FRICTION));
   for (PetscInt k = 0; k < 12; k++) {
     const double t = (double)(k % 4 + 1) / 4;
 
@@ -298,14 +298,6 @@ static void test_friction_scale_is_interpolated_between_rows(void **state)
 
 /* ---- bulk stress ---- */
 
-static PetscBool HasBulkStress(SamHistory h)
-{
-  PetscBool friction, has;
-
-  sam_call(SamHistoryHas(h, &friction, &has));
-  return has;
-}
-
 /* It grows from zero, as loads do; one that is an option then stays. */
 static void test_bulk_stress_goes_from_row_to_row(void **state)
 {
@@ -315,7 +307,7 @@ static void test_bulk_stress_goes_from_row_to_row(void **state)
   (void)state;
   Write("time,bulk1_stress_xy\n1,1e6\n2,-3e6\n3,0\n");
   h = Read("-history test_history.csv -steps 4 -load_n 1 -bulk2_stress_yy 8e6");
-  sam_assert(HasBulkStress(h));
+  sam_assert(Gives(h, SAM_CONDITION_BULK));
   for (PetscInt k = 0; k < 12; k++) {
     const SamControl step = StepOf(h, k);
     const double     t    = (double)(k % 4 + 1) / 4;
@@ -326,10 +318,10 @@ static void test_bulk_stress_goes_from_row_to_row(void **state)
   }
   sam_call(SamHistoryDestroy(&h));
   h = Read("-history test_history.csv -load_n 1");
-  sam_assert(HasBulkStress(h));
+  sam_assert(Gives(h, SAM_CONDITION_BULK));
   sam_call(SamHistoryDestroy(&h));
   h = Read("-load_n 1 -bulk2_stress_yy 0");
-  sam_assert(!HasBulkStress(h));
+  sam_assert(!Gives(h, SAM_CONDITION_BULK));
   sam_call(SamHistoryDestroy(&h));
 }
 
