@@ -56,7 +56,7 @@ PETSC_EXTERN PetscErrorCode SamHistoryGetStart(SamHistory history, PetscInt *ste
   SamHistoryGives - whether it gives a condition of that one's group: has a column of it, or another value than usual.
   Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamCondition *condition, PetscBool *gives);
+PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamCondition *one, PetscBool *gives);
 /*
   SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads,
   displacements and usual conditions at time 0; if the first row's time is not positive, they start before it by the
