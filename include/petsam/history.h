@@ -60,8 +60,8 @@ PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamConditi
 /*
   SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads,
   displacements and usual conditions at time 0; if the first row's time is not positive, they start before it by the
-  time between the first two rows (1 s for a single row). A condition that is no option is that of the first row from the
-  start. Not collective.
+  time between the first two rows (1 s for a single row). A condition that is no option is that of the first row from
+  the start. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
 
