@@ -61,6 +61,7 @@ static void test_check_finds_tension(void **state)
 
   (void)state;
   sam_assert(check.normal > 0.9e-3);
+  sam_assert(check.cone < 1e-13); /* a cell in tension has the bound 0, which its shear of 0 does not exceed */
 }
 
 static void AddPressureOutside(const Case *c, SamSolution *s)

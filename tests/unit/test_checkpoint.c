@@ -91,6 +91,12 @@ static double KeptOf(const Case *c, const char *name)
   return *SamStateNumbers(StateOf(c), SamStateFindNumber(StateOf(c), name), SAM_COMMITTED);
 }
 
+/* The part of the grid that the committed step was solved on: first cell and size. */
+static const double *PlaceOf(const Case *c)
+{
+  return SamStateNumbers(StateOf(c), SamStateFindNumber(StateOf(c), "window"), SAM_COMMITTED);
+}
+
 /* All that is kept, of both generations, to the last bit; returns how many fields that are. */
 static int AssertSameStates(const Case *one, const Case *other)
 {
@@ -140,6 +146,7 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   sam_call(SamContactReject(one.contact));
   AssertSameFields(&one, &other);
   sam_assert(AssertSameStates(&one, &other) == 8);
+  sam_assert(PlaceOf(&one)[2] > 0 && SameNumbers(4, PlaceOf(&one), PlaceOf(&other)));
   sam_assert(KeptOf(&other, "steps") == 2 && IsGapCurrent(&one) && IsGapCurrent(&other));
   read = &SolutionOf(&other)->control;
   SamControlUnpack(SamStateNumbers(StateOf(&other), SamStateFindNumber(StateOf(&other), "control"), SAM_BEFORE),
@@ -157,21 +164,22 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   Remove();
 }
 
-/* In the problem that is given the state, or in the one that wrote it, after its last step. */
+/* In the problem that wrote the state after its last step, in the one that is given it, or in both alike. */
 static void test_gap_that_has_changed_is_told(void **state)
 {
   const SamParameters parameters = NewParameters(friction);
 
   (void)state;
-  for (int which = 0; which < 3; which++) {
-    Case        one = NewBody(), other = NewBody();
-    Case *const changed = which == 1 ? &one : &other;
-    SamStep     step;
-    Vec         gap;
+  for (int which = 0; which < 4; which++) {
+    Case    one = NewBody(), other = NewBody();
+    SamStep step;
+    Vec     gap;
 
     SolveStep(&one, 3, &step);
-    sam_call(SamProblemGetGap(changed->problem, &gap));
-    if (which) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
+    sam_call(SamProblemGetGap(one.problem, &gap));
+    if (which & 1) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
+    sam_call(SamProblemGetGap(other.problem, &gap));
+    if (which & 2) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
     Write(&one, &parameters, 0, NULL);
     sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL));
     sam_assert(IsGapCurrent(&other) == (which ? 0 : 1));

@@ -106,6 +106,35 @@ static void test_check_knows_the_depth_before(void **state)
   DestroyCase(&c);
 }
 
+static Vec NewDepth(const Case *c)
+{
+  return NewFieldOf(c, "plastic_depth");
+}
+
+/* In a second step the surfaces yield by the overlap that is left after the first: N in two steps is N in one. */
+static void test_depth_grows_by_the_overlap_that_is_left(void **state)
+{
+  Case             one = NewYielding(Steel(), PART, ""), two = NewYielding(Steel(), PART, "");
+  const SamControl half = Loads(&one, 0.6, 0, 0, 0), all = Loads(&one, 1, 0, 0, 0);
+  PetscReal        most, difference;
+  Vec              a, b;
+
+  (void)state;
+  (void)Solve(&one, &all);
+  (void)Solve(&two, &half);
+  (void)Solve(&two, &all);
+  a = NewDepth(&one);
+  b = NewDepth(&two);
+  sam_call(VecNorm(a, NORM_INFINITY, &most));
+  sam_call(VecAXPY(b, -1, a));
+  sam_call(VecNorm(b, NORM_INFINITY, &difference));
+  sam_assert(most > 0 && difference < 1e-5 * most);
+  sam_call(VecDestroy(&a));
+  sam_call(VecDestroy(&b));
+  DestroyCase(&one);
+  DestroyCase(&two);
+}
+
 /* ---- a solver that does not know the limit, and says that it does ---- */
 
 static PetscErrorCode (*solve)(SamSolver, SamLevel *);
@@ -147,11 +176,6 @@ static void test_verdict_refuses_a_pressure_beyond_the_limit(void **state)
 }
 
 /* ---- states ---- */
-
-static Vec NewDepth(const Case *c)
-{
-  return NewFieldOf(c, "plastic_depth");
-}
 
 static void AssertSameDepths(const Case *one, const SamStep *a, const Case *other, const SamStep *b)
 {
@@ -352,6 +376,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_check_finds_an_overlap_below_the_limit),
     cmocka_unit_test(test_check_finds_a_gap_at_the_limit),
     cmocka_unit_test(test_check_knows_the_depth_before),
+    cmocka_unit_test(test_depth_grows_by_the_overlap_that_is_left),
     cmocka_unit_test(test_verdict_refuses_a_pressure_beyond_the_limit),
     cmocka_unit_test(test_overlap_of_a_rejected_try_is_forgotten),
     cmocka_unit_test(test_contact_with_the_state_of_a_yielded_one_goes_on_as_it_would),
