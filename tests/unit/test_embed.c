@@ -189,6 +189,7 @@ static void test_mistakes_leave_a_contact_that_goes_on(void **state)
   sam_assert(TryLoads(c, 1000, 400, NULL, rigid) == 11 && Says(c, "gross slip"));
   sam_assert(isnan(rigid[1]) && petsam_get_number(c, "status", &number) == 0 && number == 11);
   sam_assert(petsam_commit(c) == 2 && Says(c, "gross slip"));
+  sam_assert(!petsam_reject(c) && petsam_commit(c) == 2 && Says(c, "no tried step")); /* that try is forgotten */
   sam_assert(petsam_try(c, NAN, force, away, NULL, NULL) == 2 && Says(c, "time"));
   sam_assert(petsam_try(c, 0, displaced, away, NULL, NULL) == 0); /* bodies apart */
   sam_assert(petsam_commit(c) == 0);
