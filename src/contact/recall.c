@@ -11,11 +11,11 @@
   For bodies whose pressure does not depend on the shear, the pressure of step k is that of this step, if what is
   prescribed of it and the gap are the same to the bit.
 
-  A step is recognised by what it prescribes and what the step before did, not by its number. Only steps that were met
-  before are kept: histories that do not repeat themselves cost nothing, and the second cycle is the first one that is
-  kept. A kept step replaces that of the cycle before. Changes are stored on the contact's part of each row, as integers
-  in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All decisions are those
-  of global numbers: the same on any number of ranks.
+  A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the one that it
+  repeats. Where the memory is full, steps that repeat none replace the oldest ones, and those that do are not kept: of
+  a cycle that does not fit, the part that does is used again and again. Changes are stored on the contact's part of
+  each row, as integers in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All
+  decisions are those of global numbers: the same on any number of ranks.
 */
 #include "recall.h"
 #include <math.h>
@@ -187,7 +187,7 @@ static PetscErrorCode KeepChange(SamRecall r, SamKept k, Vec before, Vec now, do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the parts of the rows, and makes room for them if the limit allows it. */
+/* Finds the parts of the rows, and makes room for them if the limit allows it, or older steps need not stay. */
 static PetscErrorCode CreateKept(SamRecall r, Vec bound_before, Vec bound, PetscBool pressure, SamKept *kept)
 {
   const SamGrid grid = r->grid;
@@ -220,6 +220,8 @@ static PetscErrorCode CreateKept(SamRecall r, Vec bound_before, Vec bound, Petsc
   k->cells = total;
   k->bytes = total * (double)(CHANGES * sizeof(int32_t) + (pressure ? sizeof(double) : 0));
   r->bytes += k->bytes;
+  for (PetscInt n = r->count - 1; r->found < 0 && n > 0 && r->bytes > r->limit; n--)
+    DestroyKept(r, &r->entry[Before(r, n)].kept);
   if (r->bytes > r->limit) {
     DestroyKept(r, &k);
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -265,7 +267,7 @@ PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSo
   e         = &r->entry[r->newest];
   DestroyKept(r, &e->kept);
   e->control = now->control;
-  if (r->found < 0 || !before || !before->displacement_t) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!before || !before->displacement_t) PetscFunctionReturn(PETSC_SUCCESS);
   pressure = SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL) ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(CreateKept(r, before->bound, now->bound, pressure, &e->kept));
   r->found = -1;

@@ -85,6 +85,37 @@ static void test_without_room_nothing_is_kept(void **state)
   sam_assert(with.normal == without.normal && with.tangential == without.tangential);
 }
 
+static void test_part_of_a_cycle_that_fits_is_used(void **state)
+{
+  Work with, without;
+
+  (void)state;
+  Compare(0, "-cycle_memory 4e4", &with, &without); /* a cycle takes about 7e4 */
+  sam_assert(with.tangential < 0.9 * without.tangential && with.tangential > 0.6 * without.tangential);
+}
+
+/* Steps that repeat none fill the memory twice before the cycles. */
+static void test_steps_that_repeat_none_make_room(void **state)
+{
+  Case c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e5"), d = NewCase(Steel(), 31, 1.5, MU, "");
+  Work with, without;
+
+  (void)state;
+  for (PetscInt k = 0; k < 30; k++) {
+    const SamControl control = Loads(&c, 1, 0.5 * Random(1, 0, k, 0), 0.5 * Random(1, 1, k, 0), 0);
+    SamStep          step    = Solve(&c, &control);
+
+    AssertGood(&step);
+    step = Solve(&d, &control);
+    AssertGood(&step);
+  }
+  with    = RunCycles(&c, 4, 0);
+  without = RunCycles(&d, 4, 0);
+  sam_assert(with.tangential < 0.6 * without.tangential);
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
 /* A load that was never met is followed by the cycle again, from another state than in the cycle before. */
 static void test_cycle_after_another_load_has_the_same_solution(void **state)
 {
@@ -142,6 +173,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_repeated_cycle_takes_half_the_products_under_constant_normal_load),
     cmocka_unit_test(test_repeated_pressure_is_not_solved_again),
     cmocka_unit_test(test_without_room_nothing_is_kept),
+    cmocka_unit_test(test_part_of_a_cycle_that_fits_is_used),
+    cmocka_unit_test(test_steps_that_repeat_none_make_room),
     cmocka_unit_test(test_cycle_after_another_load_has_the_same_solution),
     cmocka_unit_test(test_another_gap_needs_another_pressure),
     cmocka_unit_test(test_reset_forgets_the_cycles),
