@@ -11,9 +11,9 @@
   For bodies whose pressure does not depend on the shear, the pressure of step k is that of this step, if what is
   prescribed of it and the gap are the same to the bit.
 
-  A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the one that it
-  repeats. Where the memory is full, steps that repeat none replace the oldest ones, and those that do are not kept: of
-  a cycle that does not fit, the part that does is used again and again. Changes are stored on the contact's part of
+  A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the one that
+  it repeats. Where the memory is full, steps that repeat none replace the oldest ones, and those that do are not kept:
+  of a cycle that does not fit, the part that does is used again and again. Changes are stored on the contact's part of
   each row, as integers in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All
   decisions are those of global numbers: the same on any number of ranks.
 */
