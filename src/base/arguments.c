@@ -54,6 +54,7 @@ static const struct {
                {"-prefix_push -prefix_pop", "petsam's options have no prefix"},
                {"-fp_trap", "petsam computes with infinite numbers, for rigid bodies and flat surfaces"},
                {"-log_trace -log_mpe*", "not supported: it writes a file for each rank"},
+               {"-help -h -version", "give it on the command line of a program"},
                {"-citations", "not supported: petsam's sources are in src/README.md"},
                {"-options_file_yaml -options_string_yaml", "not supported: use -options_file"}};
 
@@ -198,7 +199,11 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
 
   for (int k = count; k-- > 0;)
     if (words[k][0] == '#') count = k; /* the rest is a comment */
-  if (!count || strchr("!%", words[0][0]) || !strcmp(words[0], "alias")) return;
+  if (!count || strchr("!%", words[0][0])) return;
+  if (!strcmp(words[0], "alias")) {
+    if (count > 2) ExamineName(a, where, words[2]);
+    return;
+  }
   if (!IsOption(words[0]))
     Complain(a, SAM_ERR_USER, "%sexpected an option: it begins with a dash, as in -%s", where,
              words[0] + (IsTypographic(words[0]) ? 3 : 0));

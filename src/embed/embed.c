@@ -111,8 +111,6 @@ static PetscErrorCode ReadBulkStress(petsam_contact *c, const SamOptions *from)
 
 PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[])
 {
-  static const char *const asks[] = {"-help", "-h", "-version"};
-
   SamArguments arguments;
   int          length = (int)strlen(options) + 1, rank;
   char        *copy;
@@ -129,12 +127,6 @@ PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, c
   if (!arguments.code) PetscCall(PetscOptionsInsertString(database, copy));
   PetscCall(PetscFree(copy));
   PetscCheck(!arguments.code, c->comm, arguments.code, "%s", arguments.message);
-  for (PetscInt k = 0; k < 3; k++) {
-    PetscBool set;
-
-    PetscCall(PetscOptionsHasName(database, NULL, asks[k], &set));
-    PetscCheck(!set, c->comm, SAM_ERR_USER, "%s is for the programs", asks[k]);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

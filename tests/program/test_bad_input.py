@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
+from conftest import PROGRAM, execute
 from support import SPHERE
 
 NAN, INF = float("nan"), float("inf")
@@ -432,11 +433,19 @@ def test_mistakes_in_an_options_file_are_found(petsam, folder):
         ("-python", "PETSC_OPTIONS: -python"),
         ("-load_tx 3 \n-lood_ty 3", "-lood_ty"),
         ("-load_ty 3 -options_file python.opts", "python.opts, line 1: -python"),
+        ("-load_ty 3 -h", "PETSC_OPTIONS: -h: give it on the command line of a program"),
     ],
 )
 def test_mistakes_in_the_environment_are_found(petsam, folder, text, says):
     done = petsam(dict(SPHERE, grid_n=8), environment=dict(PETSC_OPTIONS=text), check=2)
     assert says in done.complaint[0] and len(done.stderr.splitlines()) <= 2
+
+
+@pytest.mark.parametrize("text, named", [("-help\n", "1: -help"), ("\nalias -ask -version\n", "2: -version")])
+def test_help_in_an_options_file_is_refused_by_petsam_stress(launcher, tmp_path, text, named):
+    (tmp_path / "ask.opts").write_text(text)
+    done = execute(launcher, tmp_path, ["-options_file", "ask.opts"], 1, 2, program=PROGRAM.parent / "petsam-stress")
+    assert f"ask.opts, line {named}: give it on the command line" in done.stderr and not done.stdout
 
 
 @pytest.mark.parametrize(
