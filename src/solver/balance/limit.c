@@ -301,13 +301,16 @@ static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const 
 
 PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, Vec shear)
 {
+  SamBalance    scaled = *balance; /* by a power of two, else the squares of the largest loads would overflow */
   SamFrame      f, across;
-  double        F[3] = {0, 0, 0}, norm = 0, a[3];
+  double        F[3] = {0, 0, 0}, norm = 0, most = 0, a[3];
   const double *b;
   Power         exact;
 
   PetscFunctionBegin;
-  PetscCall(SamFrameSet(&f, grid, balance));
+  for (PetscInt k = 0; k < 3; k++) most = PetscMax(most, PetscAbsReal(balance->force[k] ? balance->load[k] : 0));
+  for (PetscInt k = 0; k < 3; k++) scaled.load[k] = ldexp(balance->load[k], -ilogb(most > 0 ? most : 1));
+  PetscCall(SamFrameSet(&f, grid, &scaled));
   for (PetscInt k = 0; k < f.count; k++)
     for (PetscInt i = 0; i < 3; i++) F[i] += f.target[k] * f.basis[k][i];
   for (PetscInt i = 0; i < 3; i++) norm += F[i] * F[i];
@@ -326,6 +329,6 @@ PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec
   }
   PetscCall(EvaluatePower(&f, b, a, 1e-300, &exact));
   PetscCall(VecRestoreArrayRead(bound, &b));
-  *factor = exact.value;
+  *factor = ldexp(exact.value, -ilogb(most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
