@@ -31,6 +31,7 @@ static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
       const PetscInt k = j * grid->nx + i;
 
       p[k] = stiffness * (SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) - (h[k] - least));
+      p[k] = PetscMax(p[k], -PETSC_MAX_REAL); /* where a hole is given by a separation without bounds */
     }
   PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscCall(VecRestoreArrayWrite(level->traction, &p));
