@@ -336,6 +336,7 @@ static PetscErrorCode Fatigue(petsam_contact *c, const char options[], int shape
   code = Evaluate(c, all, c->stress->steps, c->stress->step, shape);
   PetscCall(PetscFree(all));
   PetscCall(code);
+  PetscCheck(c->stress->steps, c->comm, PETSC_ERR_ORDER, "petsam_fatigue: no step has been recorded");
   PetscCall(AdviseClosed(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,7 +14,16 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-enum { IN_USE = -1, FOREIGN = -2, REPLACED = -3, RESIZED = -4, IS_LINK = -5, NOT_A_FILE = -6, NO_FOLDER = -7 };
+enum {
+  IN_USE     = -1,
+  FOREIGN    = -2,
+  REPLACED   = -3,
+  RESIZED    = -4,
+  IS_LINK    = -5,
+  NOT_A_FILE = -6,
+  NO_FOLDER  = -7,
+  NOT_XML    = -8
+};
 
 static const struct {
   int         error;
@@ -27,6 +36,7 @@ static const struct {
                {IS_LINK, "it is a symbolic link"},
                {NOT_A_FILE, "it is not a file"},
                {NO_FOLDER, "its folder does not exist"},
+               {NOT_XML, "XML cannot hold its name: use another one, in UTF-8 without control characters"},
                {EISDIR, "it is a folder, expected the name of a file"}};
 
 static const char *Reason(int error)
@@ -288,13 +298,30 @@ static int CheckFolderOf(const char filename[])
   return access(folder, W_OK | X_OK) ? errno : 0;
 }
 
+/* Whether XML can hold the name of a file: it has to be UTF-8, without control characters. */
+static PetscBool IsXml(const char filename[])
+{
+  const char *slash = strrchr(filename, '/');
+
+  for (const unsigned char *c = (const unsigned char *)(slash ? slash + 1 : filename); *c; c++) {
+    int more = *c < 0xc2 ? 0 : *c < 0xe0 ? 1 : *c < 0xf0 ? 2 : *c < 0xf5 ? 3 : 0; /* bytes of this character */
+
+    if (*c < ' ' || *c == 0x7f || (*c >= 0x80 && !more)) return PETSC_FALSE;
+    for (; more; more--)
+      if ((*++c & 0xc0) != 0x80) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)
 {
   SamHold hold  = {.file = -1};
   int     error = 0;
 
   PetscFunctionBegin;
-  if (IsFirst(grid)) {
+  if (use == SAM_FILE_XDMF && !IsXml(filename)) {
+    error = NOT_XML;
+  } else if (IsFirst(grid)) {
     error = access(filename, F_OK) ? CheckFolderOf(filename) : Take(filename, use, &hold);
     SamHoldRelease(filename, &hold);
   }

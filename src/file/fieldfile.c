@@ -132,7 +132,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscFunctionBegin;
   found->factor = 1;
   if (dataset < 0) ListNames(f->id, names, sizeof(names));
-  PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s (-%s%s); it has %s", f->option,
+  PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %.160s (-%s%s); it has %s", f->option,
              f->filename, name, w->source->prefix, w->source->dataset_option, names);
   kind = H5Tget_class(H5Dget_type(dataset));
   PetscCheck(kind == H5T_FLOAT || kind == H5T_INTEGER, f->comm, SAM_ERR_FILE,

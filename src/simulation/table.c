@@ -184,18 +184,28 @@ static PetscErrorCode ReadLine(Reader *r, char *line)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode CheckText(const Reader *r, const char text[], size_t length)
+{
+  PetscFunctionBegin;
+  PetscCheck(!memchr(text, '\0', length), r->comm, SAM_ERR_USER,
+             "%s, line %d: contains a zero byte: expected text in UTF-8, as spreadsheets export it as CSV", r->file,
+             (int)r->line + 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Lines end with LF, CR LF or, from old Macintosh programs, CR. `buffer` is for getline(). */
 static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
 {
   size_t  size = 0;
   ssize_t length;
+  char    begin[4096];
 
   PetscFunctionBegin;
   errno = 0;
+  PetscCall(CheckText(r, begin, fread(begin, 1, sizeof(begin), stream))); /* its first line may have no end */
+  rewind(stream);
   while ((length = getline(buffer, &size, stream)) >= 0) {
-    PetscCheck(strlen(*buffer) == (size_t)length, r->comm, SAM_ERR_USER,
-               "%s, line %d: contains a zero byte: expected text in UTF-8, as spreadsheets export it as CSV", r->file,
-               (int)r->line + 1);
+    PetscCall(CheckText(r, *buffer, (size_t)length));
     if (length && (*buffer)[length - 1] == '\n') (*buffer)[--length] = '\0';
     if (length && (*buffer)[length - 1] == '\r') (*buffer)[--length] = '\0';
     for (char *text = *buffer, *end; text; text = end) {

@@ -233,6 +233,11 @@ CASES = [
     case("output in no directory", {}, "-output", "nowhere/out.h5", says=["-output", "nowhere/out.h5"], code=3),
     case("output in a file", {}, "-output", "text.h5/out.h5", says="-output", code=3),
     case("output is a directory", {}, "-output", "folder", says=["-output", "folder"], code=3),
+    case("output in no XML", {}, "-output", "a\x01b.h5", says=["-output a\x01b.xdmf", "without control"], code=3),
+    case("options file of zeros", {}, "-options_file", "zeros", says=["zeros: is not an options file"], code=3),
+    case("number of 2000 digits", dict(load_n="1" * 2000 + "N"), says=["-load_n 1111", "1...: expected", "unit"]),
+    case("keyword of 2000 letters", dict(coupling="x" * 2000), says=["-coupling xxxx", "x...: expected none or full"]),
+    case("word of 2000 letters", {}, "x" * 2000, says=["xxxx: expected an option"]),
     case(
         "output is the gap",
         dict(FILE, grid_n=8),
@@ -366,6 +371,7 @@ def folder(tmp_path):
     (tmp_path / "python.opts").write_text("-python\n")
     (tmp_path / "wrong.yaml").write_text("grid_n: [1\n - x")
     os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "zeros").write_bytes(bytes(2 << 20))
     return tmp_path
 
 
