@@ -21,7 +21,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(c->tangential), &limits.tangential, NULL));
-  limits.normal *= CHECK_MARGIN;
+  limits.normal = CHECK_MARGIN * PetscMax(limits.normal, check->rounding);
   limits.tangential *= CHECK_MARGIN;
   if (SamProblemFollowsSlip(c->problem)) limits.cone = limits.tangential;
   if (c->set.print_check)

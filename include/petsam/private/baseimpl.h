@@ -157,6 +157,18 @@ static inline uint64_t SamHashBits(double value)
   return bits;
 }
 
+/* ---- rounding ---- */
+
+/*
+  SamGapRounding - the error of a gap (m) by rounding: that of tractions up to `traction` (Pa) on so many cells, each of
+  which displaces itself by `self` (m/Pa), and of heights of the size of `approach` (m). Uniform tractions of periodic
+  bodies displace nothing; what their rounding displaces need not be less than the displacement.
+*/
+static inline double SamGapRounding(double traction, double self, double cells, double approach)
+{
+  return PETSC_MACHINE_EPSILON * (16 * self * sqrt(cells) * traction + fabs(approach));
+}
+
 /* ---- sums and maxima over the ranks ---- */
 /* SamSum, SamMax - of each of n doubles, in place on all ranks. Collective. */
 PETSC_EXTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
