@@ -88,7 +88,7 @@ static PetscErrorCode RunProgram(Run *run, const double *cycles, const char colu
   PetscErrorCode        code;
 
   PetscFunctionBegin;
-  PetscCheck(!cycles || *cycles > 0, c->comm, SAM_ERR_USER, "petsam_live: cycles is %g: use a number > 0", *cycles);
+  PetscCheck(!cycles || *cycles > 0, c->comm, SAM_ERR_USER, "petsam_live: cycles is %.6g: use a number > 0", *cycles);
   PetscCall(SamEmbedForget(c));
   PetscCall(GetCommitted(c, &last, &committed));
   PetscCall(

@@ -185,7 +185,7 @@ static PetscErrorCode CheckValues(const Wanted *w, const double array[])
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_LONG_LONG, MPI_MIN, grid->comm));
   PetscCheck(bad[0] == none, grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is not a finite number", w->option,
              source->file, source->dataset, bad[0] / grid->nx, bad[0] % grid->nx);
-  PetscCheck(bad[1] == none, grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is less than %g", w->option,
+  PetscCheck(bad[1] == none, grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is less than %.6g", w->option,
              source->file, source->dataset, bad[1] / grid->nx, bad[1] % grid->nx, (double)source->least);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -196,13 +196,14 @@ static PetscErrorCode CheckText(const Reader *r, const char text[], size_t lengt
 /* Lines end with LF, CR LF or, from old Macintosh programs, CR. `buffer` is for getline(). */
 static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
 {
-  size_t  size = 0;
+  size_t  size = 0, n;
   ssize_t length;
   char    begin[4096];
 
   PetscFunctionBegin;
   errno = 0;
-  PetscCall(CheckText(r, begin, fread(begin, 1, sizeof(begin), stream))); /* its first line may have no end */
+  n     = fread(begin, 1, sizeof(begin), stream);
+  if (!memchr(begin, '\n', n)) PetscCall(CheckText(r, begin, n)); /* what is no text may have no end of its first line */
   rewind(stream);
   while ((length = getline(buffer, &size, stream)) >= 0) {
     PetscCall(CheckText(r, *buffer, (size_t)length));
@@ -289,7 +290,7 @@ PetscErrorCode SamTableCreate(MPI_Comm comm, const char what[], const char heade
   PetscCall(ReadHeader(&r, Trim(text)));
   PetscCheck(rows > 0, comm, SAM_ERR_USER, "%s: has no row: expected one for each step", what);
   for (PetscInt k = 0; k < rows * t->columns; k++)
-    PetscCheck(isfinite(values[k]), comm, SAM_ERR_USER, "%s, line %d: column %s: %g is not a finite number", what,
+    PetscCheck(isfinite(values[k]), comm, SAM_ERR_USER, "%s, line %d: column %s: %.6g is not a finite number", what,
                (int)(k / t->columns) + 1, t->name[k % t->columns], values[k]);
   t->rows = rows;
   PetscCall(PetscMalloc(sizeof(double) * (size_t)(rows * t->columns), &t->value));

@@ -239,7 +239,7 @@ MISTAKES = [
     mistake("force without friction", dict(friction=None, load_tx=60.0), code=11, says=["load_tx = 60 N", "friction"]),
     mistake("force beyond friction", dict(load_tx=600.0), code=11, says=["gross slip", "load_tx = 600 N (limit 100"]),
     mistake("force without bounds", dict(load_tx=-1e308), code=11, says=["load_tx = -1e+308 N (limit -100"]),
-    mistake("moment in N mm", dict(load_my=200.0), code=11, says=["load_my", "limits"]),
+    mistake("moment in N mm", dict(load_my=200.0), code=11, says=["load_my = 200 N m under load_n = 1000 N", "limits"]),
     # ---- grids and units that only the solution shows
     mistake(
         "modulus in GPa",

@@ -88,19 +88,20 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
     if (balance->load[0] == 0) {
       *possible = balance->load[k] == 0;
       if (!*possible)
-        PetscCall(PetscSNPrintf(message, size, "%s = %g N m needs a normal force to balance it, and load_n is 0", name,
-                                (double)balance->load[k]));
+        PetscCall(PetscSNPrintf(message, size, "%s = %.6g N m needs a normal force to balance it, and load_n is 0",
+                                name, (double)balance->load[k]));
       continue;
     }
     lever = sign[k] * balance->load[k] / balance->load[0];
     if (lever > first && lever < last) continue;
     *possible = PETSC_FALSE;
-    PetscCall(PetscSNPrintf(message, size,
-                            "%s = %g N m under load_n = %g N: the resultant lies at %s = %g m, the grid's cells from "
-                            "%g to %g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)",
-                            name, (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever,
-                            (double)first, (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
-                            (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
+    PetscCall(
+      PetscSNPrintf(message, size,
+                    "%s = %.6g N m under load_n = %.6g N: the resultant lies at %s = %.6g m, the grid's cells from "
+                    "%.6g to %.6g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)",
+                    name, (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever, (double)first,
+                    (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
+                    (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -140,8 +141,8 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   if (!*possible)
     PetscCall(PetscSNPrintf(
       message, size,
-      "load_n = %.8g N exceeds the load that the whole grid carries under pressure_limit = %g Pa (limit %.8g N)", load,
-      (double)limit, most));
+      "load_n = %.8g N exceeds the load that the whole grid carries under pressure_limit = %.6g Pa (limit %.8g N)",
+      load, (double)limit, most));
   for (PetscInt k = 1; k < 3 && *possible; k++) {
     const double sign  = k == 1 ? -1 : 1, /* lever of Mx along -y, of My along x */
       place            = sign * (double)balance->load[k] / load,
@@ -151,11 +152,12 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
 
     if (!balance->force[k] || (place >= first - room && place <= last + room)) continue;
     *possible = PETSC_FALSE;
-    PetscCall(PetscSNPrintf(message, size,
-                            "%s = %g N m under load_n = %g N: pressures up to pressure_limit = %g Pa on this grid do "
-                            "not balance it (limits %.6g and %.6g N m)",
-                            SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load, (double)balance->load[k],
-                            load, (double)limit, (k == 1 ? -last : first) * load, (k == 1 ? -first : last) * load));
+    PetscCall(
+      PetscSNPrintf(message, size,
+                    "%s = %.6g N m under load_n = %.6g N: pressures up to pressure_limit = %.6g Pa on this grid do "
+                    "not balance it (limits %.6g and %.6g N m)",
+                    SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load, (double)balance->load[k], load,
+                    (double)limit, (k == 1 ? -last : first) * load, (k == 1 ? -first : last) * load));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -15,7 +15,7 @@
 #define DOUBT 0.03
 /* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
 #define PROJECTION_ROUNDING 1e-9
-/* Where rounding of p in double precision leaves more than this part of the displacement, single precision is useless. */
+/* Where rounding in double precision leaves more than this part of the displacement, single precision is useless. */
 #define FLAT 1e-10
 /* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3

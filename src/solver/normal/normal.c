@@ -321,7 +321,7 @@ PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit)
 {
   PetscFunctionBegin;
   PetscCheck(limit > 0, SamNormalAsSolver(normal)->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "pressure limit %g: expected a number > 0, or inf", (double)limit);
+             "pressure limit %.6g: expected a number > 0, or inf", (double)limit);
   SamNormalAsSolver(normal)->pressure_limit = limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -343,7 +343,7 @@ static PetscErrorCode SolveProblem(SamNormal normal, Vec h, Vec diagonal, SamBal
                              .product  = product};
 
   PetscFunctionBegin;
-  PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0",
+  PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %.6g: expected a number >= 0",
              (double)balance->load[0]);
   PetscCheck(isinf(s->pressure_limit) || s->limits_pressure, s->comm, PETSC_ERR_SUP,
              "The method %s does not support a pressure limit", s->type);
