@@ -81,7 +81,10 @@ PETSC_EXTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
 PETSC_EXTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
 PETSC_EXTERN void           SamFree(void *pointer);
 
-/* SamZero - sets n doubles to zero; does not write where they are zero, so that untouched pages take no memory. */
+/*
+  SamZero - sets n doubles to zero; does not write where they are zero, so that untouched pages take no memory. It reads
+  them: not for memory that malloc() has given and nobody has written.
+*/
 PETSC_EXTERN void SamZero(PetscInt n, double x[]);
 
 /*
