@@ -110,7 +110,18 @@ static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
   return Contains(head, size, "petsam_version");
 }
 
-static int CheckContent(int file, SamFileUse use)
+/*
+  Whether a run that was killed in its first flush may have left a temporary file: HDF5 as petsam creates it, by the
+  version in its first block, that nobody can open.
+*/
+static PetscBool IsUnfinished(const char filename[], const char head[], size_t size)
+{
+  static const char begin[9] = "\211HDF\r\n\032\n"; /* and version 0 */
+
+  return size > sizeof(begin) && !memcmp(head, begin, sizeof(begin)) && !SamFileCanBeOpened(filename);
+}
+
+static int CheckContent(const char filename[], int file, SamFileUse use)
 {
   char   *head;
   ssize_t n;
@@ -119,6 +130,7 @@ static int CheckContent(int file, SamFileUse use)
   if (PetscMalloc1(HEAD, &head)) return ENOMEM;
   n     = pread(file, head, HEAD, 0);
   error = n < 0 ? errno : IsOwn(use, head, (size_t)n) ? 0 : FOREIGN;
+  if (error == FOREIGN && use == SAM_FILE_TEMPORARY && IsUnfinished(filename, head, (size_t)n)) error = 0;
   (void)PetscFree(head);
   return error;
 }
@@ -271,7 +283,7 @@ static int Take(const char filename[], SamFileUse use, SamHold *hold)
     return error;
   }
   hold->before = SizeOf(hold->file);
-  error        = CheckContent(hold->file, use);
+  error        = CheckContent(filename, hold->file, use);
   if (error) hold->use = SAM_FILE_RESULTS; /* somebody's file: not removed */
   if (!error) error = Reserve(hold->file, SAM_FILE_METADATA, PETSC_FALSE);
   if (error) SamHoldRelease(filename, hold);
