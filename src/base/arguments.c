@@ -431,16 +431,15 @@ void SamArgumentsFree(SamArguments *a)
   a->count = a->givens = a->places = 0;
 }
 
-/* The file and line of an option's value, "" on the command line and on other ranks than 0. */
-static const char *FindPlace(const SamArguments *a, const char name[])
+const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
 {
-  const size_t length = strlen(name);
+  const size_t length = strcspn(name, " :,");
   const char  *place  = "";
 
   for (int k = 0; a && k < a->places; k++)
     if (!strncasecmp(a->placed[k], name, length) && a->placed[k][length] == ' ') place = a->placed[k] + length + 1;
   for (int k = 0; a && k < a->givens; k++)
-    if (!strcasecmp(a->given[k], name)) place = "";
+    if (!strncasecmp(a->given[k], name, length) && !a->given[k][length]) place = "";
   return place;
 }
 
@@ -480,7 +479,7 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *argu
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   if (!first[0]) PetscFunctionReturn(PETSC_SUCCESS);
   nearest = SamOptionsNearest(name);
-  place   = FindPlace(arguments, name);
+  place   = SamArgumentsFindPlace(arguments, name);
   PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s%s: has no effect %s%s: remove it", place, first,
              with ? "without " : "with the other options given", with ? with : "");
   PetscCheck(!nearest, comm, SAM_ERR_USER, "%s%s: unknown option: is -%s meant?", place, first, nearest);

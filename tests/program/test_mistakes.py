@@ -116,6 +116,14 @@ MISTAKES = [
     # ---- files
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
     mistake(
+        "value in a file",
+        dict(load_n=None),
+        "-options_file",
+        "s.opts",
+        files={"s.opts": "# N\n-load_n 1000N\n"},
+        says=["-options_file s.opts, line 2: -load_n 1000N: expected a number", "without a unit"],
+    ),
+    mistake(
         "option of a file without effect",
         {},
         "-options_file",
