@@ -26,8 +26,9 @@
   program that uses PETSc itself starts it before.
   Threads: only one thread at a time may be in a function of this header.
   Ranks: a contact belongs to a communicator. All functions but petsam_message() are collective over it, with the same
-  arguments on all ranks; results are the same on all of them. Contacts on different communicators do not wait for each
-  other. Fields are spread by rows: each rank has those that petsam_grid() tells, as an array of (rows, nx).
+  arguments on all ranks (else they return 2); results are the same on all of them. Contacts on different communicators
+  do not wait for each other. Fields are spread by rows: each rank has those that petsam_grid() tells, as an array of
+  (rows, nx).
 */
 #ifndef PETSAM_EMBED_H
 #define PETSAM_EMBED_H

@@ -21,6 +21,7 @@ there by its name, petsam.cycles or petsam.closed.plane, without an import of it
 """
 
 import importlib
+import os
 
 from .errors import Error, Missing
 
@@ -83,4 +84,4 @@ def open(path, label=None):
     """
     from .stresses import open_any
 
-    return open_any(path, label)
+    return open_any(path if isinstance(path, os.PathLike) else os.fsdecode(path), label)

@@ -180,9 +180,9 @@ def _words(options):
         elif np.ndim(value) > 1 and name in ("gap", "friction"):
             raise TypeError(f"{name}: a field is given afterwards, contact.{name} = ...")
         elif isinstance(value, (list, tuple, np.ndarray)):
-            value = ",".join(_number(one) for one in np.atleast_1d(value))
+            value = ",".join(_number(one, name) for one in np.atleast_1d(value))
         elif not isinstance(value, (str, os.PathLike)):
-            value = _number(value)
+            value = _number(value, name)
         value = os.fspath(value)
         if '"' in value:
             raise ValueError(f"{name}={value!r}: a value cannot hold a quotation mark")
@@ -190,8 +190,16 @@ def _words(options):
     return " ".join(words)
 
 
-def _number(value):
-    return str(value) if isinstance(value, (str, int, np.integer)) else repr(float(value))
+def _number(value, name):
+    return str(value) if isinstance(value, (str, int, np.integer)) else repr(_real(value, name).value)
+
+
+def _real(value, name):
+    """A double of C; TypeError names what was to be one."""
+    try:
+        return ctypes.c_double(value)
+    except TypeError as error:
+        raise TypeError(f"{name}: {error}") from None
 
 
 # ---------------------------------------------------------------- contacts
@@ -211,6 +219,8 @@ class Contact:
 
     def __init__(self, *, comm=None, **options):
         self._contact = ctypes.c_void_p()
+        if comm is not None and not hasattr(comm, "py2f"):
+            raise TypeError(f"comm: expected a communicator of mpi4py, and not {type(comm).__name__}")
         self._made, self._given = dict(comm=comm, **options), {}
         self._c = _load()
         with _lock:
@@ -273,16 +283,13 @@ class Contact:
             k = (LOADS + RIGIDS).index(name) % 6
             if LOADS[k] in given and RIGIDS[k] in given:
                 raise TypeError(f"try_step: {LOADS[k]} and {RIGIDS[k]} are conjugate: give one of them")
-            try:
-                force[k], value[k] = name in LOADS, number
-            except TypeError as error:
-                raise TypeError(f"try_step: {name}: {error}") from None
+            force[k], value[k] = name in LOADS, _real(number, f"try_step: {name}")
         if "load_n" not in given and "disp_z" not in given:
             raise TypeError("try_step: load_n or disp_z is missing")
         load, rigid = np.full(6, np.nan), np.full(6, np.nan)
         code = 0
         try:
-            code = self._call("try", ctypes.c_double(time), force, value, _pointer(load), _pointer(rigid))
+            code = self._call("try", _real(time, "try_step: time"), force, value, _pointer(load), _pointer(rigid))
         except (NotConverged, NoEquilibrium) as error:
             error.step = Step(time, load, rigid, error.code, str(error), self._numbers())
             raise
@@ -343,11 +350,13 @@ class Contact:
 
         The options wear_rtol, wear_type, wear_jump of the contact count. each(contact, cycle) as in run().
         """
-        return self._run("live", (ctypes.c_double(cycles),), history, each)
+        return self._run("live", (_real(cycles, "live: cycles"),), history, each)
 
     def _run(self, name, first, history, each):
         columns, values = _table(history)
         found, failed = [], []
+        if each is not None and not callable(each):
+            raise TypeError(f"each: expected a function, and not {type(each).__name__}")
 
         def tell(_context, _contact, cycle):
             try:
@@ -395,6 +404,8 @@ class Contact:
         shape = (self.rows, self.n[0])
         if out is None:
             out = np.empty(shape)
+        elif not isinstance(out, np.ndarray):
+            raise TypeError(f"out: expected an array, and not {type(out).__name__}")
         elif out.shape != shape or out.dtype != np.float64 or not out.flags.carray:
             raise ValueError(f"out is not a contiguous array of doubles of shape {shape} that can be written to")
         if not isinstance(name, str):
@@ -429,6 +440,9 @@ class Contact:
 
     def set_field(self, name, values):
         """Give the gap (separation of the undeformed, unworn bodies, m) or the friction: (rows, n[0]) or a number."""
+        values = np.asarray(values)
+        if not isinstance(name, str) or values.dtype.kind not in "biufO":
+            raise TypeError(f"{name}: expected real numbers, and not {values.dtype}")
         values = np.array(np.broadcast_to(values, (self.rows, self.n[0])), dtype=float, order="C")
         self._call("set_field", name.encode(), _pointer(values))
         self._given[name] = values
@@ -556,6 +570,8 @@ def _table(history):
         if any(len(row) != len(columns) for row in rows):
             raise ValueError(f"{history}: not all rows have {len(columns)} fields")
         return columns, np.array(rows, dtype=float)
+    if not hasattr(history, "keys") or not all(isinstance(name, str) for name in history):
+        raise TypeError("history: expected the name of a file, or {column: values}")
     columns = list(history)
     return columns, np.ascontiguousarray(np.column_stack([np.asarray(history[name], dtype=float) for name in columns]))
 

@@ -16,8 +16,9 @@
 
 enum { EXIT_USAGE = 2, EXIT_FILE = 3 };
 
-/* The program that runs. */
+/* The program that runs, and its words. */
 static const SamProgram *program;
+static SamArguments      arguments;
 
 /* ---- errors ---- */
 
@@ -47,8 +48,9 @@ static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function,
   if (ranks < all) alone = PETSC_TRUE;
   if (code == PETSC_ERR_MEM)
     fprintf(stderr, "%s: rank %d has not enough memory: %s\n", program->name, rank, message);
-  else if (rank == 0 || ranks < all)
-    fprintf(stderr, "%s: %s\n", program->name, message);
+  else if (rank == 0 || ranks < all) /* of an option in a file, with that */
+    fprintf(stderr, "%s: %s%s\n", program->name,
+            code == SAM_ERR_USER && message[0] == '-' ? SamArgumentsFindPlace(&arguments, message + 1) : "", message);
   if (code == SAM_ERR_USER && rank == 0)
     fprintf(stderr, "%s: see %s -help for the options\n", program->name, program->name);
   return code;
@@ -124,24 +126,24 @@ static PetscErrorCode StartPetsc(int *argc, char ***argv)
 
 /* ---- the program ---- */
 
-static PetscErrorCode Run(const SamArguments *arguments)
+static PetscErrorCode Run(void)
 {
   PetscFunctionBegin;
   PetscCall(SamInitialize());
-  PetscCheck(!arguments->code, PETSC_COMM_WORLD, arguments->code, "%s", arguments->message);
-  if (arguments->version) {
+  PetscCheck(!arguments.code, PETSC_COMM_WORLD, arguments.code, "%s", arguments.message);
+  if (arguments.version) {
     char petsc[256];
 
     PetscCall(PetscGetVersion(petsc, sizeof(petsc)));
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s %s\n%s\n", program->name, PETSAM_VERSION, petsc));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (arguments->help) {
-    PetscCall(SamProgramHelp(program, arguments));
+  if (arguments.help) {
+    PetscCall(SamProgramHelp(program, &arguments));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(program->setup(program->context, arguments));
-  PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, arguments));
+  PetscCall(program->setup(program->context, &arguments));
+  PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, &arguments));
   PetscCall(program->run(program->context));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -161,7 +163,6 @@ static void AbandonAfter(PetscErrorCode code, int status)
 
 int SamProgramMain(const SamProgram *given, int argc, char **argv)
 {
-  SamArguments   arguments;
   PetscErrorCode code;
   int            status;
 
@@ -174,7 +175,7 @@ int SamProgramMain(const SamProgram *given, int argc, char **argv)
   code = StartPetsc(&argc, &argv);
   if (code) return GiveUpStarting();
   PetscCall(PetscPushErrorHandler(HandleError, NULL));
-  code   = Run(&arguments);
+  code   = Run();
   status = code ? ExitCode(code) : program->status(program->context);
   AbandonAfter(code, status);
   PetscCall(program->teardown(program->context));

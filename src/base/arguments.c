@@ -14,7 +14,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-#define DEEPEST 8 /* options files that name options files */
+#define DEEPEST 8         /* options files that name options files */
+#define LONGEST (1 << 20) /* bytes of one */
 
 /* ---- words ---- */
 
@@ -54,6 +55,7 @@ static const struct {
                {"-prefix_push -prefix_pop", "petsam's options have no prefix"},
                {"-fp_trap", "petsam computes with infinite numbers, for rigid bodies and flat surfaces"},
                {"-log_trace -log_mpe*", "not supported: it writes a file for each rank"},
+               {"-help -h -version", "give it on the command line of a program"},
                {"-citations", "not supported: petsam's sources are in src/README.md"},
                {"-options_file_yaml -options_string_yaml", "not supported: use -options_file"}};
 
@@ -83,11 +85,11 @@ static void RefuseEquals(SamArguments *a, const char where[], const char option[
   const char *sign = strchr(option, '=');
 
   if (sign && sign[1])
-    Complain(a, SAM_ERR_USER, "%s%s: a space separates an option from its value: expected %.*s %s", where, option,
-             (int)(sign - option), option, sign + 1);
+    Complain(a, SAM_ERR_USER, "%s%.160s: a space separates an option from its value: expected %.*s %.40s", where,
+             option, (int)PetscMin(sign - option, 40), option, sign + 1);
   else if (sign)
-    Complain(a, SAM_ERR_USER, "%s%s: a space separates an option from its value: expected %.*s and a value", where,
-             option, (int)(sign - option), option);
+    Complain(a, SAM_ERR_USER, "%s%.160s: a space separates an option from its value: expected %.*s and a value", where,
+             option, (int)PetscMin(sign - option, 40), option);
 }
 
 /* An option, and the word after it if that is its value, else NULL. */
@@ -144,18 +146,19 @@ static void RefuseWord(SamArguments *a, const char where[], const char word[], c
 
   (void)strtod(word, &end);
   if (IsTypographic(word))
-    Complain(a, SAM_ERR_USER, "%s%s: begins with a typographic dash: expected the minus of the keyboard, as in -%s",
-             where, word, word + 3);
+    Complain(a, SAM_ERR_USER,
+             "%s%.160s: begins with a typographic dash: expected the minus of the keyboard, as in -%.40s", where, word,
+             word + 3);
   else if (strstr(word, ".opts"))
-    Complain(a, SAM_ERR_USER, "%s%s: %s: -options_file %s", where, word, text, word);
+    Complain(a, SAM_ERR_USER, "%s%.160s: %s: -options_file %.160s", where, word, text, word);
   else if (before && value && end != word && !*end)
-    Complain(a, SAM_ERR_USER, "%s%s: %s; two values of %s are joined by a comma: %s,%s", where, word, text, before,
-             value, word);
+    Complain(a, SAM_ERR_USER, "%s%.160s: %s; two values of %s are joined by a comma: %.40s,%.40s", where, word, text,
+             before, value, word);
   else if (before && value)
-    Complain(a, SAM_ERR_USER, "%s%s: %s; %s %s already has its value; write it without a unit", where, word, text,
-             before, value);
+    Complain(a, SAM_ERR_USER, "%s%.160s: %s; %s %.40s already has its value; write it without a unit", where, word,
+             text, before, value);
   else
-    Complain(a, SAM_ERR_USER, "%s%s: %s", where, word, text);
+    Complain(a, SAM_ERR_USER, "%s%.160s: %s", where, word, text);
 }
 
 /* Keeps a text at the end of a list. */
@@ -198,7 +201,11 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
 
   for (int k = count; k-- > 0;)
     if (words[k][0] == '#') count = k; /* the rest is a comment */
-  if (!count || strchr("!%", words[0][0]) || !strcmp(words[0], "alias")) return;
+  if (!count || strchr("!%", words[0][0])) return;
+  if (!strcmp(words[0], "alias")) {
+    if (count > 2) ExamineName(a, where, words[2]);
+    return;
+  }
   if (!IsOption(words[0]))
     Complain(a, SAM_ERR_USER, "%sexpected an option: it begins with a dash, as in -%s", where,
              words[0] + (IsTypographic(words[0]) ? 3 : 0));
@@ -237,6 +244,17 @@ static void ExamineLines(SamArguments *a, const char where[], const char name[],
   free(line);
 }
 
+/* Whether a file has more bytes than an options file may have. */
+static PetscBool IsTooLong(FILE *file)
+{
+  char   block[4096];
+  size_t all = 0, n;
+
+  while (all <= LONGEST && (n = fread(block, 1, sizeof(block), file)) > 0) all += n;
+  rewind(file);
+  return all > LONGEST;
+}
+
 static void ExamineFile(SamArguments *a, const char where[], const char name[], int depth)
 {
   struct stat status;
@@ -250,6 +268,8 @@ static void ExamineFile(SamArguments *a, const char where[], const char name[], 
              stat(name, &status) || S_ISREG(status.st_mode) ? strerror(errno) : "it is not a file");
   } else {
     a->files[a->count++] = strdup(name);
+    if (IsTooLong(file))
+      Complain(a, SAM_ERR_FILE, "%s%s: is not an options file: it has more than %d bytes", where, name, LONGEST);
     ExamineLines(a, where, name, file, depth);
     (void)fclose(file);
   }
@@ -411,16 +431,15 @@ void SamArgumentsFree(SamArguments *a)
   a->count = a->givens = a->places = 0;
 }
 
-/* The file and line of an option's value, "" on the command line and on other ranks than 0. */
-static const char *FindPlace(const SamArguments *a, const char name[])
+const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
 {
-  const size_t length = strlen(name);
+  const size_t length = strcspn(name, " :,");
   const char  *place  = "";
 
   for (int k = 0; a && k < a->places; k++)
     if (!strncasecmp(a->placed[k], name, length) && a->placed[k][length] == ' ') place = a->placed[k] + length + 1;
   for (int k = 0; a && k < a->givens; k++)
-    if (!strcasecmp(a->given[k], name)) place = "";
+    if (!strncasecmp(a->given[k], name, length) && !a->given[k][length]) place = "";
   return place;
 }
 
@@ -460,7 +479,7 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *argu
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   if (!first[0]) PetscFunctionReturn(PETSC_SUCCESS);
   nearest = SamOptionsNearest(name);
-  place   = FindPlace(arguments, name);
+  place   = SamArgumentsFindPlace(arguments, name);
   PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s%s: has no effect %s%s: remove it", place, first,
              with ? "without " : "with the other options given", with ? with : "");
   PetscCheck(!nearest, comm, SAM_ERR_USER, "%s%s: unknown option: is -%s meant?", place, first, nearest);

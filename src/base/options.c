@@ -40,6 +40,16 @@ static PetscErrorCode Describe(const SamOptions *from, const char name[], const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The most characters of a wrong value that a message quotes. */
+#define QUOTED 60
+
+/* A wrong value as a message quotes it. */
+static const char *Quote(char text[])
+{
+  if (strlen(text) > QUOTED) (void)strcpy(text + QUOTED, "...");
+  return text;
+}
+
 /* Gets the text of an option; an option without a value is an error. */
 static PetscErrorCode GetText(const SamOptions *from, const char name[], const char expected[], char text[],
                               size_t size, PetscBool *set)
@@ -149,8 +159,12 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const char name[], con
   if (set) *set = found;
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
   while (good && *rest && n < 1 + (PetscInt)kind->pair) good = ReadNumber(kind, &rest, &v[n++]);
-  PetscCheck(good && n > 0 && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name,
-             text, expected, SamExplainNumber(text));
+  if (!good || n == 0 || *rest) {
+    const char *why = SamExplainNumber(text);
+
+    SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name, Quote(text), expected,
+            why);
+  }
   if (n == 2 && kind->range == SAM_RANGE_POSITIVE) PetscCall(RefuseDecimalComma(from, name, text, v));
   value[0] = v[0];
   if (kind->pair) value[1] = v[n - 1];
@@ -212,7 +226,8 @@ PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const c
     *value = !strcmp(text, yes[w]);
     good   = *value || !strcmp(text, no[w]);
   }
-  PetscCheck(good, from->comm, SAM_ERR_USER, "-%s%s %s: expected true or false", SamOptionsPrefix(from), name, text);
+  PetscCheck(good, from->comm, SAM_ERR_USER, "-%s%s %s: expected true or false", SamOptionsPrefix(from), name,
+             Quote(text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -286,7 +301,8 @@ PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const c
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt w = 0; w < count; w++)
     if (!strcmp(text, words[w])) chosen = w;
-  PetscCheck(chosen >= 0, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name, text, list);
+  PetscCheck(chosen >= 0, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name, Quote(text),
+             list);
   *value = chosen;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -300,6 +316,6 @@ PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], co
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
   PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), set));
   PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', from->comm, SAM_ERR_USER,
-             "-%s%s %s: expected nothing, ascii or ascii:file", SamOptionsPrefix(from), name, text);
+             "-%s%s %s: expected nothing, ascii or ascii:file", SamOptionsPrefix(from), name, Quote(text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -109,6 +109,25 @@ static void SetNormal(const double max[COUNT], double limit, SamCheck *check)
   }
 }
 
+/* By the largest pressure and shear. */
+static PetscErrorCode SetRounding(SamProblem problem, const SamSolution *s, const double max[COUNT], SamCheck *check)
+{
+  SamElasticity elasticity;
+  SamGrid       grid;
+  PetscReal     self, shear;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamElasticityGetSelfInfluence(elasticity, &self, NULL));
+  PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
+  if (max[DISPLACEMENT] > 0)
+    check->rounding = SamGapRounding(PetscMax(max[PRESSURE], (double)shear), (double)self,
+                                     (double)grid->nx * (double)grid->ny, (double)s->rigid[SAM_COMPONENT_N]) /
+                      max[DISPLACEMENT];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The gap is that of the surfaces as they were before the step. */
 static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamSolution *s, SamCheck *check)
 {
@@ -147,6 +166,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   PetscCall(SamSolutionDestroySeparation(problem, &separation));
   PetscCall(SamMax(grid->comm, COUNT, max));
   SetNormal(max, (double)limit, check);
+  PetscCall(SetRounding(problem, s, max, check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,12 +25,12 @@ PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)
 
   PetscFunctionBegin;
   if (!Agrees(check, limits)) {
-    PetscCall(PetscSNPrintf(message, sizeof(message),
-                            "the check disagrees: normal residual %g (limit %g), tangential %g (%g), equilibrium %g "
-                            "(%g), cone %g (%g)",
-                            (double)check->normal, (double)limits->normal, (double)check->tangential,
-                            (double)limits->tangential, (double)check->equilibrium, (double)limits->equilibrium,
-                            (double)check->cone, (double)limits->cone));
+    PetscCall(PetscSNPrintf(
+      message, sizeof(message),
+      "the check disagrees: normal residual %.6g (limit %.6g), tangential %.6g (%.6g), equilibrium %.6g "
+      "(%.6g), cone %.6g (%.6g)",
+      (double)check->normal, (double)limits->normal, (double)check->tangential, (double)limits->tangential,
+      (double)check->equilibrium, (double)limits->equilibrium, (double)check->cone, (double)limits->cone));
     PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, message));
   }
   if (check->edge == 0 || step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);

@@ -60,11 +60,11 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
 {
   PetscFunctionBegin;
   PetscCheck(settings->coupling_rtol > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "coupling tolerance rtol = %g: expected a number > 0", (double)settings->coupling_rtol);
+             "coupling tolerance rtol = %.6g: expected a number > 0", (double)settings->coupling_rtol);
   PetscCheck(settings->coupling_max_it > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "coupling iterations max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
   PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "cycle memory = %g: expected a number >= 0", (double)settings->cycle_memory);
+             "cycle memory = %.6g: expected a number >= 0", (double)settings->cycle_memory);
   c->set = *settings;
   PetscCall(SamRecallSetMemory(c->recall, settings->cycle_memory));
   PetscFunctionReturn(PETSC_SUCCESS);

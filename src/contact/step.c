@@ -7,6 +7,7 @@
   step. Dissimilar materials: see coupling.c.
 */
 #include "stepimpl.h"
+#include <math.h>
 
 static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step,
                             SamSolve *w)
@@ -176,6 +177,30 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Residuals up to this, where a solver stagnates, are rounding: less tolerance than that cannot be had. */
+#define ROUNDING 1e-9
+
+/* The message for a solver that has not converged; what is rounding names the tolerance that can be had. */
+static PetscErrorCode DescribeFailure(SamSolve *w, const char name[], SamSolver solver, SamSolverReason reason)
+{
+  PetscReal left, rtol;
+  char      message[sizeof(w->step->message)], more[128] = "";
+
+  PetscFunctionBegin;
+  PetscCall(SamSolverGetStatistics(solver, &left, NULL, NULL, NULL));
+  PetscCall(SamSolverGetTolerances(solver, &rtol, NULL));
+  if (reason == SAM_SOLVER_DIVERGED_STAGNATED && left > 0 && left <= ROUNDING) {
+    (void)snprintf(more, sizeof(more), ": rounding leaves no less: use a tolerance of %.1g",
+                   pow(10, ceil(log10((double)left))));
+    PetscCall(PetscSNPrintf(w->step->setting, sizeof(w->step->setting), "%s_rtol", name));
+  }
+  PetscCall(PetscSNPrintf(message, sizeof(message),
+                          "the %s problem did not converge: %s, residual %.2g, tolerance %.2g%s", name,
+                          SamSolverReasonName(reason), (double)left, (double)rtol, more));
+  PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
 {
   const PetscBool normal = kind == SAM_BALANCE_NORMAL;
@@ -189,9 +214,7 @@ PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
     PetscCall((normal ? DescribeImpossible : DescribeSliding)(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
-    PetscCall(PetscSNPrintf(message, sizeof(message), "the %s problem did not converge: %s",
-                            normal ? "normal" : "tangential", SamSolverReasonName(reason)));
-    PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
+    PetscCall(DescribeFailure(w, normal ? "normal" : "tangential", solver, reason));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

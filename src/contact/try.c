@@ -21,7 +21,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(c->tangential), &limits.tangential, NULL));
-  limits.normal *= CHECK_MARGIN;
+  limits.normal = CHECK_MARGIN * PetscMax(limits.normal, check->rounding);
   limits.tangential *= CHECK_MARGIN;
   if (SamProblemFollowsSlip(c->problem)) limits.cone = limits.tangential;
   if (c->set.print_check)
@@ -48,11 +48,11 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
       const double stress = (double)control->bulk_stress[body][k];
 
       PetscCheck(stress == 0 || !isinf(pair->young[body]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %g: expected 0: a rigid body does not stretch", name, stress);
+                 "%s = %.6g: expected 0: a rigid body does not stretch", name, stress);
       PetscCheck(fabs(stress) <= pair->young[body], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %g: expected at most Young's modulus, %g", name, stress, (double)pair->young[body]);
+                 "%s = %.6g: expected at most Young's modulus, %.6g", name, stress, (double)pair->young[body]);
       PetscCheck(stress == 0 || c->traits.stretch, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %g: expected 0: bodies of type %s bear no bulk stress", name, stress, type);
+                 "%s = %.6g: expected 0: bodies of type %s bear no bulk stress", name, stress, type);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -70,14 +70,15 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
     PetscCheck(isfinite(control->value[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
     if (k < SAM_COMPONENT_MX || c->traits.rotations[k - SAM_COMPONENT_MX]) continue;
     PetscCheck(control->value[k] == 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-               "%s = %g: expected 0: bodies of type %s have no such moment or rotation", name,
+               "%s = %.6g: expected 0: bodies of type %s have no such moment or rotation", name,
                (double)control->value[k], type);
     control->force[k] = PETSC_FALSE;
   }
   PetscCheck(!control->force[SAM_COMPONENT_N] || control->value[SAM_COMPONENT_N] >= 0, c->grid->comm,
-             PETSC_ERR_ARG_OUTOFRANGE, "load_n = %g: expected a number >= 0", (double)control->value[SAM_COMPONENT_N]);
+             PETSC_ERR_ARG_OUTOFRANGE, "load_n = %.6g: expected a number >= 0",
+             (double)control->value[SAM_COMPONENT_N]);
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "friction_scale = %g: expected a number >= 0", (double)control->friction_scale);
+             "friction_scale = %.6g: expected a number >= 0", (double)control->friction_scale);
   PetscCall(CheckBulkStress(c, control));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

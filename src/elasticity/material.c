@@ -13,13 +13,13 @@ static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisso
     const PetscReal inverse_shear = isinf(young[b]) ? 0 : 2 * (1 + poisson[b]) / young[b];
 
     if (!(young[b] > 0))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: expected a number > 0 or inf", prefix, b + 1,
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %.6g: expected a number > 0 or inf", prefix, b + 1,
                               (double)young[b]));
     else if (!(poisson[b] > -1 && poisson[b] <= 0.5))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_poisson %g: expected a number above -1 and at most 0.5%s",
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_poisson %.6g: expected a number above -1 and at most 0.5%s",
                               prefix, b + 1, (double)poisson[b], poisson[b] > 1 ? ": 0.3, not 30 percent" : ""));
     else if (!isfinite(inverse_shear) || (inverse_shear == 0 && !isinf(young[b])))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %g: its compliance is out of range in double precision",
+      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %.6g: its compliance is out of range in double precision",
                               prefix, b + 1, (double)young[b]));
   }
   if (!message[0] && isinf(young[0]) && isinf(young[1]))

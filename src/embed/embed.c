@@ -24,6 +24,7 @@ static PetscBool IsAlive(void)
 
 PetscBool SamEmbedEnter(petsam_contact *c, const char function[], PetscBool given)
 {
+  if (!c) (void)snprintf(created, sizeof(created), "%s: the contact is NULL", function);
   if (!c) return PETSC_FALSE;
   c->message[0] = '\0';
   if (!given) (void)SamEmbedRefuse(c, "%s: a pointer is NULL", function);
@@ -32,6 +33,20 @@ PetscBool SamEmbedEnter(petsam_contact *c, const char function[], PetscBool give
   (void)PetscPushErrorHandler(SamKeepMessage, c->message);
   if (!c->depth++) (void)PetscOptionsPush(c->options); /* a database must not be pushed twice */
   return PETSC_TRUE;
+}
+
+PetscBool SamEmbedEnterTogether(petsam_contact *c, const char function[], PetscBool given, uint64_t arguments)
+{
+  const uint64_t sum    = SamEmbedAddText(arguments + given, function);
+  uint64_t       both[] = {sum, ~sum};
+
+  if (c && IsAlive()) (void)MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_UINT64_T, MPI_MAX, c->comm);
+  if (both[0] == ~both[1]) return SamEmbedEnter(c, function, given);
+  (void)SamEmbedRefuse(c,
+                       "%s: the ranks of the contact call different functions, or with different arguments: call the "
+                       "same with the same on all of them",
+                       function);
+  return PETSC_FALSE;
 }
 
 /* The code of a program for an error; wrong arguments are mistakes of usage here. */
@@ -110,8 +125,6 @@ static PetscErrorCode ReadConditions(petsam_contact *c, const SamOptions *from)
 
 PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[])
 {
-  static const char *const asks[] = {"-help", "-h", "-version"};
-
   SamArguments arguments;
   int          length = (int)strlen(options) + 1, rank;
   char        *copy;
@@ -128,12 +141,6 @@ PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, c
   if (!arguments.code) PetscCall(PetscOptionsInsertString(database, copy));
   PetscCall(PetscFree(copy));
   PetscCheck(!arguments.code, c->comm, arguments.code, "%s", arguments.message);
-  for (PetscInt k = 0; k < 3; k++) {
-    PetscBool set;
-
-    PetscCall(PetscOptionsHasName(database, NULL, asks[k], &set));
-    PetscCheck(!set, c->comm, SAM_ERR_USER, "%s is for the programs", asks[k]);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -197,12 +204,8 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
   int             code;
 
   created[0] = '\0';
-  if (!contact || !options) {
-    (void)snprintf(created, sizeof(created), "petsam_create: contact or options is NULL");
-    return SAM_EMBED_USAGE;
-  }
-  *contact = NULL;
-  code     = SamEmbedStart(created, sizeof(created));
+  if (contact) *contact = NULL;
+  code = SamEmbedStart(created, sizeof(created));
   if (code) return code;
   c = (petsam_contact *)calloc(1, sizeof(*c));
   if (!c || PetscOptionsCreate(&c->options)) {
@@ -214,7 +217,8 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
   if (c->comm == MPI_COMM_NULL || IsNothing(c->comm))
     code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or this rank does not belong to it");
   else
-    code = SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Create(c, options)) : SAM_EMBED_USAGE;
+    code = SamEmbedEnterTogether(c, __func__, contact && options, 0) ? SamEmbedLeave(c, Create(c, options))
+                                                                     : SAM_EMBED_USAGE;
   (void)snprintf(created, sizeof(created), "%s", c->message);
   if (code)
     petsam_destroy(&c);
@@ -229,8 +233,7 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
 {
   const SamGrid grid = c ? c->setup->grid : NULL;
 
-  if (!c) return SAM_EMBED_USAGE;
-  c->message[0] = '\0';
+  if (!SamEmbedEnter(c, __func__, PETSC_TRUE)) return SAM_EMBED_USAGE;
   for (int k = 0; k < 2; k++) {
     if (n) n[k] = (int)(k ? grid->ny : grid->nx);
     if (size) size[k] = (double)grid->width[k];
@@ -238,7 +241,7 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
   }
   if (first_row) *first_row = (int)grid->row_start;
   if (rows) *rows = (int)grid->rows;
-  return 0;
+  return SamEmbedLeave(c, PETSC_SUCCESS);
 }
 
 PetscErrorCode SamEmbedForget(petsam_contact *c)
@@ -283,7 +286,7 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
 
 int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 {
-  return SamEmbedEnter(c, __func__, c && name && (values || !c->setup->grid->cells))
+  return SamEmbedEnterTogether(c, __func__, c && name && (values || !c->setup->grid->cells), SamEmbedAddText(0, name))
            ? SamEmbedLeave(c, SetField(c, name, values))
            : SAM_EMBED_USAGE;
 }
@@ -318,9 +321,11 @@ static PetscErrorCode Try(petsam_contact *c, double time, const int force[], con
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6])
 {
-  int code;
+  const uint64_t kinds = SamEmbedAdd(SamHashBits(time), force, SAM_COMPONENTS * sizeof(*force));
+  int            code;
 
-  if (!SamEmbedEnter(c, __func__, force && value)) return SAM_EMBED_USAGE;
+  if (!SamEmbedEnterTogether(c, __func__, force && value, SamEmbedAdd(kinds, value, SAM_COMPONENTS * sizeof(*value))))
+    return SAM_EMBED_USAGE;
   code = SamEmbedLeave(c, Try(c, time, force, value));
   if (code) return code;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
@@ -352,12 +357,12 @@ static PetscErrorCode Commit(petsam_contact *c)
 
 int petsam_commit(petsam_contact *c)
 {
-  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Commit(c)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, PETSC_TRUE, 0) ? SamEmbedLeave(c, Commit(c)) : SAM_EMBED_USAGE;
 }
 
 int petsam_reject(petsam_contact *c)
 {
-  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, SamEmbedForget(c)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, PETSC_TRUE, 0) ? SamEmbedLeave(c, SamEmbedForget(c)) : SAM_EMBED_USAGE;
 }
 
 static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[])
@@ -380,7 +385,8 @@ static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[
 
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36])
 {
-  return SamEmbedEnter(c, __func__, k != NULL) ? SamEmbedLeave(c, Stiffness(c, reversal != 0, k)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, k != NULL, reversal != 0) ? SamEmbedLeave(c, Stiffness(c, reversal != 0, k))
+                                                                      : SAM_EMBED_USAGE;
 }
 
 /* ---- what is found ---- */
@@ -412,7 +418,7 @@ static PetscErrorCode GetField(petsam_contact *c, const char name[], double valu
 
 int petsam_get_field(petsam_contact *c, const char *name, double *values)
 {
-  return SamEmbedEnter(c, __func__, c && name && (values || !c->setup->grid->cells))
+  return SamEmbedEnterTogether(c, __func__, c && name && (values || !c->setup->grid->cells), SamEmbedAddText(0, name))
            ? SamEmbedLeave(c, GetField(c, name, values))
            : SAM_EMBED_USAGE;
 }

@@ -36,14 +36,29 @@ struct petsam_contact {
 */
 PETSC_INTERN int SamEmbedStart(char message[], size_t size);
 
+/* SamEmbedAdd, SamEmbedAddText - add an argument to a checksum of a call's arguments; NULL: it was not given. */
+static inline uint64_t SamEmbedAdd(uint64_t sum, const void *bytes, size_t size)
+{
+  return SamHashMix(bytes ? SamHashBytes(sum + 1, (const unsigned char *)bytes, size) : sum);
+}
+
+static inline uint64_t SamEmbedAddText(uint64_t sum, const char text[])
+{
+  return SamEmbedAdd(sum, text, text ? strlen(text) + 1 : 0);
+}
+
 /*
   SamEmbedEnter - begins a call of a function: options are those of the contact, errors become messages. False, with a
-  message: not all pointers were `given` to the function, or MPI or PETSc has been finalized; without one: c is NULL.
+  message: not all pointers were `given` to the function, c is NULL, or MPI or PETSc has been finalized.
+  SamEmbedEnterTogether - the same for a function in which ranks wait for each other: false, with a message, if they do
+  not all call it, or not with the same `arguments`, a checksum. Collective.
   SamEmbedLeave - ends it; returns the exit code for an error.
   SamEmbedRefuse - sets the message, and returns 2; for mistakes that need no PETSc to be found, the same on all ranks.
-  None is collective.
+  The others are not collective.
 */
 PETSC_INTERN PetscBool SamEmbedEnter(petsam_contact *c, const char function[], PetscBool given);
+PETSC_INTERN PetscBool SamEmbedEnterTogether(petsam_contact *c, const char function[], PetscBool given,
+                                             uint64_t arguments);
 PETSC_INTERN int       SamEmbedLeave(petsam_contact *c, PetscErrorCode code);
 PETSC_INTERN int       SamEmbedRefuse(petsam_contact *c, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 /* SamEmbedCopyField - copies this rank's rows of a field of the results. Collective. */

@@ -47,7 +47,8 @@ static PetscErrorCode Save(petsam_contact *c, const char file[])
 
 int petsam_save(petsam_contact *c, const char *file)
 {
-  return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Save(c, file)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, file != NULL, SamEmbedAddText(0, file)) ? LeaveFile(c, Save(c, file))
+                                                                                    : SAM_EMBED_USAGE;
 }
 
 static PetscErrorCode Load(petsam_contact *c, const char file[])
@@ -64,5 +65,6 @@ static PetscErrorCode Load(petsam_contact *c, const char file[])
 
 int petsam_load(petsam_contact *c, const char *file)
 {
-  return SamEmbedEnter(c, __func__, file != NULL) ? LeaveFile(c, Load(c, file)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, file != NULL, SamEmbedAddText(0, file)) ? LeaveFile(c, Load(c, file))
+                                                                                    : SAM_EMBED_USAGE;
 }

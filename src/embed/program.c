@@ -78,7 +78,8 @@ static PetscErrorCode GetCommitted(petsam_contact *c, SamControl *control, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode RunProgram(Run *run, double cycles, const char columns[], int rows, const double values[])
+/* cycles: of a life; NULL: a history. */
+static PetscErrorCode RunProgram(Run *run, const double *cycles, const char columns[], int rows, const double values[])
 {
   petsam_contact *const c = run->c;
   SamHistory            history;
@@ -87,11 +88,12 @@ static PetscErrorCode RunProgram(Run *run, double cycles, const char columns[], 
   PetscErrorCode        code;
 
   PetscFunctionBegin;
+  PetscCheck(!cycles || *cycles > 0, c->comm, SAM_ERR_USER, "petsam_live: cycles is %.6g: use a number > 0", *cycles);
   PetscCall(SamEmbedForget(c));
   PetscCall(GetCommitted(c, &last, &committed));
   PetscCall(
     SamHistoryCreate(c->comm, &c->control, committed ? &last : NULL, columns, rows, values, c->increments, &history));
-  PetscCall(SamSimulationSetProgram(c->simulation, &history, cycles));
+  PetscCall(SamSimulationSetProgram(c->simulation, &history, cycles ? *cycles : 0));
   PetscCall(SamSimulationSetMonitor(c->simulation, Tell, run));
   c->advice[0] = '\0';
   code         = SamSimulationRun(c->simulation);
@@ -101,15 +103,21 @@ static PetscErrorCode RunProgram(Run *run, double cycles, const char columns[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static int RunAll(petsam_contact *c, const char function[], double cycles, const char columns[], int rows,
+static int RunAll(petsam_contact *c, const char function[], const double *cycles, const char columns[], int rows,
                   const double values[], petsam_monitor monitor, void *context)
 {
   Run       run = {c, monitor, context};
+  size_t    row = 1; /* numbers */
+  uint64_t  sum;
   SamStatus worst;
   PetscBool stopped;
   int       code;
 
-  if (!SamEmbedEnter(c, function, columns && values)) return SAM_EMBED_USAGE;
+  for (const char *comma = columns; comma && (comma = strchr(comma, ',')); comma++) row++;
+  sum = SamEmbedAdd((uint64_t)rows + (monitor != NULL), cycles, sizeof(*cycles));
+  sum =
+    SamEmbedAdd(SamEmbedAddText(sum, columns), values, columns && rows > 0 ? row * (size_t)rows * sizeof(*values) : 0);
+  if (!SamEmbedEnterTogether(c, function, columns && values, sum)) return SAM_EMBED_USAGE;
   code = SamEmbedLeave(c, RunProgram(&run, cycles, columns, rows, values));
   if (code) return code;
   (void)SamSimulationGetStatus(c->simulation, &worst, &stopped);
@@ -120,15 +128,13 @@ static int RunAll(petsam_contact *c, const char function[], double cycles, const
 int petsam_history(petsam_contact *c, const char *columns, int rows, const double *values, petsam_monitor monitor,
                    void *context)
 {
-  return RunAll(c, __func__, 0, columns, rows, values, monitor, context);
+  return RunAll(c, __func__, NULL, columns, rows, values, monitor, context);
 }
 
 int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows, const double *values,
                 petsam_monitor monitor, void *context)
 {
-  if (!c) return SAM_EMBED_USAGE;
-  if (!(cycles > 0)) return SamEmbedRefuse(c, "petsam_live: cycles is %g: use a number > 0", cycles);
-  return RunAll(c, __func__, cycles, columns, rows, values, monitor, context);
+  return RunAll(c, __func__, &cycles, columns, rows, values, monitor, context);
 }
 
 /* Refuses a contact of other ranks, of another grid or gap; all ranks find the same. */
@@ -174,7 +180,7 @@ static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
 
 int petsam_copy(petsam_contact *c, petsam_contact *from)
 {
-  return SamEmbedEnter(c, __func__, from != NULL) ? SamEmbedLeave(c, Copy(c, from)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, from != NULL, 0) ? SamEmbedLeave(c, Copy(c, from)) : SAM_EMBED_USAGE;
 }
 
 static PetscErrorCode Reset(petsam_contact *c)
@@ -188,5 +194,5 @@ static PetscErrorCode Reset(petsam_contact *c)
 
 int petsam_reset(petsam_contact *c)
 {
-  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Reset(c)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, PETSC_TRUE, 0) ? SamEmbedLeave(c, Reset(c)) : SAM_EMBED_USAGE;
 }

@@ -264,8 +264,8 @@ static PetscErrorCode StressOfStep(petsam_contact *c, const char options[], int 
 
 int petsam_stress(petsam_contact *c, const char *options, int shape[4])
 {
-  return SamEmbedEnter(c, __func__, options && shape) ? SamEmbedLeave(c, StressOfStep(c, options, shape))
-                                                      : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, options && shape, 0) ? SamEmbedLeave(c, StressOfStep(c, options, shape))
+                                                                 : SAM_EMBED_USAGE;
 }
 
 PetscErrorCode SamEmbedRecordAnew(petsam_contact *c)
@@ -290,7 +290,8 @@ static PetscErrorCode Record(petsam_contact *c, PetscBool on)
 
 int petsam_record(petsam_contact *c, int on)
 {
-  return SamEmbedEnter(c, __func__, PETSC_TRUE) ? SamEmbedLeave(c, Record(c, on != 0)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, PETSC_TRUE, on != 0) ? SamEmbedLeave(c, Record(c, on != 0))
+                                                                 : SAM_EMBED_USAGE;
 }
 
 /* The ends of a cycle may differ by this part of the maximum traction. */
@@ -335,13 +336,15 @@ static PetscErrorCode Fatigue(petsam_contact *c, const char options[], int shape
   code = Evaluate(c, all, c->stress->steps, c->stress->step, shape);
   PetscCall(PetscFree(all));
   PetscCall(code);
+  PetscCheck(c->stress->steps, c->comm, PETSC_ERR_ORDER, "petsam_fatigue: no step has been recorded");
   PetscCall(AdviseClosed(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 int petsam_fatigue(petsam_contact *c, const char *options, int shape[4])
 {
-  return SamEmbedEnter(c, __func__, options && shape) ? SamEmbedLeave(c, Fatigue(c, options, shape)) : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, options && shape, 0) ? SamEmbedLeave(c, Fatigue(c, options, shape))
+                                                                 : SAM_EMBED_USAGE;
 }
 
 /* ---- asking for results ---- */

@@ -61,9 +61,9 @@ PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], Petsc
   PetscCheck(n > 0, e->comm, SAM_ERR_USER, "%s: expected at least one depth", said);
   for (PetscInt k = 0; k < n; k++) {
     PetscCheck(depths[k] >= 0 && depths[k] < PETSC_INFINITY, e->comm, SAM_ERR_USER,
-               "%s: %g is above the surface: expected numbers >= 0", said, (double)depths[k]);
+               "%s: %.6g is above the surface: expected numbers >= 0", said, (double)depths[k]);
     PetscCheck(!k || depths[k] > depths[k - 1], e->comm, SAM_ERR_USER,
-               "%s: %g follows %g: expected depths that increase", said, (double)depths[k], (double)depths[k - 1]);
+               "%s: %.6g follows %.6g: expected depths that increase", said, (double)depths[k], (double)depths[k - 1]);
   }
   PetscCall(PetscFree(e->depth));
   PetscCall(PetscMalloc1(n, &e->depth));
@@ -142,7 +142,7 @@ static PetscErrorCode CheckDepths(SamEvaluation e)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < e->depths; k++)
     PetscCheck(e->depth[k] == 0 || e->depth[k] >= LEAST_DEPTH * side, e->comm, SAM_ERR_USER,
-               "%sdepths: %g m is less than a millionth of a cell (%g m): the surface is 0", e->dash,
+               "%sdepths: %.6g m is less than a millionth of a cell (%.6g m): the surface is 0", e->dash,
                (double)e->depth[k], (double)side);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -159,7 +159,7 @@ static PetscErrorCode FindLine(SamEvaluation e)
   PetscFunctionBegin;
   if (!e->section) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(at >= -0.5 - 1e-9 && at <= (PetscReal)n - 0.5 + 1e-9, e->comm, SAM_ERR_USER,
-             "%ssection %s=%g: outside of the grid, which reaches from %g to %g m", e->dash, row ? "y" : "x",
+             "%ssection %s=%.6g: outside of the grid, which reaches from %.6g to %.6g m", e->dash, row ? "y" : "x",
              (double)e->place, (double)(first - 0.5 * step), (double)(first + ((PetscReal)n - 0.5) * step));
   e->index = (PetscInt)PetscMin(PetscMax(PetscFloorReal(at + 0.5), 0), (PetscReal)n - 1);
   PetscFunctionReturn(PETSC_SUCCESS);

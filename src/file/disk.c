@@ -14,7 +14,16 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-enum { IN_USE = -1, FOREIGN = -2, REPLACED = -3, RESIZED = -4, IS_LINK = -5, NOT_A_FILE = -6, NO_FOLDER = -7 };
+enum {
+  IN_USE     = -1,
+  FOREIGN    = -2,
+  REPLACED   = -3,
+  RESIZED    = -4,
+  IS_LINK    = -5,
+  NOT_A_FILE = -6,
+  NO_FOLDER  = -7,
+  NOT_XML    = -8
+};
 
 static const struct {
   int         error;
@@ -27,6 +36,7 @@ static const struct {
                {IS_LINK, "it is a symbolic link"},
                {NOT_A_FILE, "it is not a file"},
                {NO_FOLDER, "its folder does not exist"},
+               {NOT_XML, "XML cannot hold its name: use another one, in UTF-8 without control characters"},
                {EISDIR, "it is a folder, expected the name of a file"}};
 
 static const char *Reason(int error)
@@ -100,7 +110,18 @@ static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
   return Contains(head, size, "petsam_version");
 }
 
-static int CheckContent(int file, SamFileUse use)
+/*
+  Whether a run that was killed in its first flush may have left a temporary file: HDF5 as petsam creates it, by the
+  version in its first block, that nobody can open.
+*/
+static PetscBool IsUnfinished(const char filename[], const char head[], size_t size)
+{
+  static const char begin[9] = "\211HDF\r\n\032\n"; /* and version 0 */
+
+  return size > sizeof(begin) && !memcmp(head, begin, sizeof(begin)) && !SamFileCanBeOpened(filename);
+}
+
+static int CheckContent(const char filename[], int file, SamFileUse use)
 {
   char   *head;
   ssize_t n;
@@ -109,6 +130,7 @@ static int CheckContent(int file, SamFileUse use)
   if (PetscMalloc1(HEAD, &head)) return ENOMEM;
   n     = pread(file, head, HEAD, 0);
   error = n < 0 ? errno : IsOwn(use, head, (size_t)n) ? 0 : FOREIGN;
+  if (error == FOREIGN && use == SAM_FILE_TEMPORARY && IsUnfinished(filename, head, (size_t)n)) error = 0;
   (void)PetscFree(head);
   return error;
 }
@@ -261,7 +283,7 @@ static int Take(const char filename[], SamFileUse use, SamHold *hold)
     return error;
   }
   hold->before = SizeOf(hold->file);
-  error        = CheckContent(hold->file, use);
+  error        = CheckContent(filename, hold->file, use);
   if (error) hold->use = SAM_FILE_RESULTS; /* somebody's file: not removed */
   if (!error) error = Reserve(hold->file, SAM_FILE_METADATA, PETSC_FALSE);
   if (error) SamHoldRelease(filename, hold);
@@ -288,13 +310,30 @@ static int CheckFolderOf(const char filename[])
   return access(folder, W_OK | X_OK) ? errno : 0;
 }
 
+/* Whether XML can hold the name of a file: it has to be UTF-8, without control characters. */
+static PetscBool IsXml(const char filename[])
+{
+  const char *slash = strrchr(filename, '/');
+
+  for (const unsigned char *c = (const unsigned char *)(slash ? slash + 1 : filename); *c; c++) {
+    int more = *c < 0xc2 ? 0 : *c < 0xe0 ? 1 : *c < 0xf0 ? 2 : *c < 0xf5 ? 3 : 0; /* bytes of this character */
+
+    if (*c < ' ' || *c == 0x7f || (*c >= 0x80 && !more)) return PETSC_FALSE;
+    for (; more; more--)
+      if ((*++c & 0xc0) != 0x80) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)
 {
   SamHold hold  = {.file = -1};
   int     error = 0;
 
   PetscFunctionBegin;
-  if (IsFirst(grid)) {
+  if (use == SAM_FILE_XDMF && !IsXml(filename)) {
+    error = NOT_XML;
+  } else if (IsFirst(grid)) {
     error = access(filename, F_OK) ? CheckFolderOf(filename) : Take(filename, use, &hold);
     SamHoldRelease(filename, &hold);
   }

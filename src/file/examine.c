@@ -14,7 +14,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define PATIENCE 20 /* seconds of CPU time; what is examined takes milliseconds */
+/* Seconds of CPU time, and one more for so many bytes: what is examined takes milliseconds. */
+#define PATIENCE   2
+#define BYTES_MORE (1 << 26)
 
 /* What is asked of a file. */
 typedef struct {
@@ -70,9 +72,11 @@ static void Examine(const Case *c, Outcome *outcome)
 }
 
 /* In the child: nothing is printed, a crash is a crash, and the system ends it after the time. */
-static void Prepare(void)
+static void Prepare(const char filename[])
 {
-  const struct rlimit time = {PATIENCE, PATIENCE}, core = {0, 0};
+  struct stat         status;
+  const rlim_t        more = stat(filename, &status) ? 0 : (rlim_t)status.st_size / BYTES_MORE;
+  const struct rlimit time = {PATIENCE + more, PATIENCE + more}, core = {0, 0};
   const int           nowhere = open("/dev/null", O_WRONLY);
 
   for (int k = 1; k < 32; k++) (void)signal(k, SIG_DFL);
@@ -90,7 +94,7 @@ static void ExamineInChild(const Case *c, Outcome *outcome, size_t size)
   int      status = 0;
 
   if (child == 0) {
-    Prepare();
+    Prepare(c->filename);
     Examine(c, shared);
     _exit(0);
   }
@@ -105,6 +109,23 @@ static void ExamineInChild(const Case *c, Outcome *outcome, size_t size)
     }
   }
   if (shared != MAP_FAILED) (void)munmap(shared, size);
+}
+
+static PetscErrorCode LookAtNothing(SamFile file, const void *question, void *answer)
+{
+  (void)file;
+  (void)question;
+  (void)answer;
+  return PETSC_SUCCESS;
+}
+
+PetscBool SamFileCanBeOpened(const char filename[])
+{
+  const Case c       = {"", filename, LookAtNothing, NULL};
+  Outcome    outcome = {.code = 0};
+
+  ExamineInChild(&c, &outcome, sizeof(outcome));
+  return outcome.code ? PETSC_FALSE : PETSC_TRUE;
 }
 
 PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], SamFileLook look,

@@ -132,7 +132,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscFunctionBegin;
   found->factor = 1;
   if (dataset < 0) ListNames(f->id, names, sizeof(names));
-  PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s (-%s%s); it has %s", f->option,
+  PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %.160s (-%s%s); it has %s", f->option,
              f->filename, name, w->source->prefix, w->source->dataset_option, names);
   kind = H5Tget_class(H5Dget_type(dataset));
   PetscCheck(kind == H5T_FLOAT || kind == H5T_INTEGER, f->comm, SAM_ERR_FILE,
@@ -185,7 +185,7 @@ static PetscErrorCode CheckValues(const Wanted *w, const double array[])
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_LONG_LONG, MPI_MIN, grid->comm));
   PetscCheck(bad[0] == none, grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is not a finite number", w->option,
              source->file, source->dataset, bad[0] / grid->nx, bad[0] % grid->nx);
-  PetscCheck(bad[1] == none, grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is less than %g", w->option,
+  PetscCheck(bad[1] == none, grid->comm, SAM_ERR_FILE, "-%s %s: %s[%lld, %lld] is less than %.6g", w->option,
              source->file, source->dataset, bad[1] / grid->nx, bad[1] % grid->nx, (double)source->least);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

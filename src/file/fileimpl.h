@@ -9,6 +9,9 @@
 /* SamFileOpenAlone - opens a file to read it on this rank, without MPI-IO. Not collective. Errors: SAM_ERR_FILE. */
 PETSC_INTERN PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file);
 
+/* SamFileCanBeOpened - whether HDF5, in a child process, can open a file. Not collective. */
+PETSC_INTERN PetscBool SamFileCanBeOpened(const char filename[]);
+
 /* SamFileRemoveLeftOvers - what MPI-IO has put beside an open file, and would leave after a kill. */
 PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
 

@@ -21,15 +21,15 @@ static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], c
       PetscCall(
         PetscSNPrintf(message, size, "%s: %" PetscInt_FMT " cells in %s, expected at least 2", names[0], n[k], axis));
     else if (!(width[k] > 0) || !isfinite(width[k]))
-      PetscCall(PetscSNPrintf(message, size, "%s: a width of %g m in %s, expected a number > 0", names[1],
+      PetscCall(PetscSNPrintf(message, size, "%s: a width of %.6g m in %s, expected a number > 0", names[1],
                               (double)width[k], axis));
     else if (!isfinite(center[k]))
       PetscCall(PetscSNPrintf(message, size, "%s: expected finite numbers", names[2]));
     /* the centres must be told apart in double precision, and areas must not underflow or overflow */
     else if (!(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100))
       PetscCall(PetscSNPrintf(message, size,
-                              "%s: a width of %g m in %s about %g m cannot be resolved in double precision", names[1],
-                              (double)width[k], axis, (double)center[k]));
+                              "%s: a width of %.6g m in %s about %.6g m cannot be resolved in double precision",
+                              names[1], (double)width[k], axis, (double)center[k]));
   }
   if (!message[0] && (double)n[0] * (double)n[1] * 2 >= (double)PETSC_MAX_INT)
     PetscCall(PetscSNPrintf(message, size,

@@ -113,7 +113,10 @@ PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char m
     if (f->failed || Same(now, &there)) continue;
     Print(&there, text[0], sizeof(text[0]));
     Print(now, text[1], sizeof(text[1]));
-    (void)snprintf(message, size, "-%s is %s there, not %s", now->name, text[0], text[1]);
+    if (!strcmp(now->name, "wear")) /* no option */
+      (void)snprintf(message, size, "the bodies wear by %s there, not by %s (-wear_cycles)", text[0], text[1]);
+    else
+      (void)snprintf(message, size, "-%s is %s there, not %s", now->name, text[0], text[1]);
     return PETSC_TRUE;
   }
   if (FindOther(f, parameters, message, size, &other)) (void)SamFileNote(f, -1);

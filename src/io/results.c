@@ -105,7 +105,7 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
     PetscCall(Open(f, fields[k], 3, shape, &dataset[k]));
     facts->saved = PetscMin(facts->saved, shape[0]);
     CHECK(f, (double)shape[1] == facts->n[1] && (double)shape[2] == facts->n[0],
-          "%s has %llu x %llu cells, not the %g x %g of -grid_n", fields[k], (unsigned long long)shape[2],
+          "%s has %llu x %llu cells, not the %.6g x %.6g of -grid_n", fields[k], (unsigned long long)shape[2],
           (unsigned long long)shape[1], facts->n[0], facts->n[1]);
   }
   shape[0] = facts->saved;

@@ -24,7 +24,7 @@ PetscErrorCode SamLawSetFriction(SamLaw law, PetscReal friction)
   PetscFunctionBegin;
   PetscCall(Get(law, &c));
   PetscCheck(friction >= 0 && isfinite(friction), law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "coefficient of friction %g: expected a finite number >= 0", (double)friction);
+             "coefficient of friction %.6g: expected a finite number >= 0", (double)friction);
   c->friction = friction;
   PetscCall(VecDestroy(&c->field));
   PetscFunctionReturn(PETSC_SUCCESS);

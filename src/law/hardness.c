@@ -25,7 +25,7 @@ PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal limit)
   PetscFunctionBegin;
   PetscCheck(!strcmp(law->type, SAM_LAW_HARDNESS), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no hardness",
              law->type);
-  PetscCheck(limit > 0, law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "hardness %g: expected a number > 0, or inf",
+  PetscCheck(limit > 0, law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "hardness %.6g: expected a number > 0, or inf",
              (double)limit);
   if (limit != h->limit) law->revision++;
   h->limit = limit;

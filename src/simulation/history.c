@@ -138,11 +138,11 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
     const double *row = t->value + r * t->columns, *before = row - t->columns;
 
     PetscCheck(r == 0 || row[h->time] > before[h->time], comm, SAM_ERR_USER,
-               "%s, line %" PetscInt_FMT ": time %g: expected more than %g, that of the row before", file, t->line[r],
-               row[h->time], before[h->time]);
+               "%s, line %" PetscInt_FMT ": time %.6g: expected more than %.6g, that of the row before", file,
+               t->line[r], row[h->time], before[h->time]);
     for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++)
       PetscCheck(h->column[k] < 0 || !IsNonnegative(h, k) || row[h->column[k]] >= 0, comm, SAM_ERR_USER,
-                 "%s, line %" PetscInt_FMT ": %s %g: expected a number >= 0", file, t->line[r], t->name[h->column[k]],
+                 "%s, line %" PetscInt_FMT ": %s %.6g: expected a number >= 0", file, t->line[r], t->name[h->column[k]],
                  row[h->column[k]]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -243,8 +243,9 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
       PetscCheck(isfinite(Entry(h, c, r) - (c == h->time ? before
                                             : r > 0      ? Entry(h, c, r - 1)
                                                          : 0)),
-                 comm, SAM_ERR_USER, "%s, line %" PetscInt_FMT ": %s %g: its change since the row before is too large",
-                 file, t->line[r], t->name[c], Entry(h, c, r));
+                 comm, SAM_ERR_USER,
+                 "%s, line %" PetscInt_FMT ": %s %.6g: its change since the row before is too large", file, t->line[r],
+                 t->name[c], Entry(h, c, r));
     PetscCheck(each >= TIME_ROUNDING * PetscMax(fabs(now), fabs(before)) && each > 0, comm, SAM_ERR_USER,
                "%s, line %" PetscInt_FMT ": time %.17g: too near to %.17g, that of the row before, for -steps "
                "%" PetscInt_FMT ": its steps would have the same time",

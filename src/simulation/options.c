@@ -19,15 +19,15 @@ static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control
       const double stress = (double)control->bulk_stress[body][k], young = (double)s->setup.pair.young[body];
 
       PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
-                 "-%s%s, or its column in -history: %g exceeds Young's modulus, %g: check the unit, Pa", prefix,
+                 "-%s%s, or its column in -history: %.6g exceeds Young's modulus, %.6g: check the unit, Pa", prefix,
                  SAM_BULK_CONDITION(body, k)->name, stress, young);
 
       PetscCheck(stress == 0 || !isinf(s->setup.pair.young[body]), from->comm, SAM_ERR_USER,
-                 "-%s%s, or its column in -history: %g: -%sbody%" PetscInt_FMT
+                 "-%s%s, or its column in -history: %.6g: -%sbody%" PetscInt_FMT
                  "_young is inf: a rigid body does not stretch",
                  prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, body + 1);
       PetscCheck(stress == 0 || traits.stretch, from->comm, SAM_ERR_USER,
-                 "-%s%s, or its column in -history: %g: has no meaning with -%selasticity %s, whose bodies bear none",
+                 "-%s%s, or its column in -history: %.6g: has no meaning with -%selasticity %s, whose bodies bear none",
                  prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, type);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -51,7 +51,7 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
     PetscCall(CheckBulkStress(s, &control, traits, from));
     for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
       PetscCheck(control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX], from->comm, SAM_ERR_USER,
-                 "-%s%s %g: has no meaning with -%selasticity %s, which has no such moment or rotation",
+                 "-%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation",
                  SamOptionsPrefix(from), control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid,
                  (double)control.value[c], SamOptionsPrefix(from), type);
   }

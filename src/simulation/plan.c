@@ -25,7 +25,7 @@ static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBoo
 {
   PetscFunctionBegin;
   PetscCheck(!set || (cycles == floor(cycles) && cycles <= MOST_CYCLES), from->comm, SAM_ERR_USER,
-             "-%s %g: expected an integer, at most %g", option, (double)cycles, MOST_CYCLES);
+             "-%s %.6g: expected an integer, at most %.6g", option, (double)cycles, MOST_CYCLES);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -98,10 +98,10 @@ static PetscErrorCode CheckTable(const SamTable *t, const char file[], PetscInt 
     const double *row = t->value + 2 * r;
 
     PetscCheck(row[friction] > 0, from->comm, SAM_ERR_USER,
-               "-wear_friction %s, line %" PetscInt_FMT ": friction %g: expected a number > 0", file, t->line[r],
+               "-wear_friction %s, line %" PetscInt_FMT ": friction %.6g: expected a number > 0", file, t->line[r],
                row[friction]);
     PetscCheck(r ? row[cycle] > row[cycle - 2] : row[cycle] == 0, from->comm, SAM_ERR_USER,
-               "-wear_friction %s, line %" PetscInt_FMT ": cycle %g: expected %s", file, t->line[r], row[cycle],
+               "-wear_friction %s, line %" PetscInt_FMT ": cycle %.6g: expected %s", file, t->line[r], row[cycle],
                r ? "more than in the row before" : "0 in the first row");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -178,7 +178,7 @@ PetscErrorCode SamPlanSetCycles(SamPlan *w, PetscReal cycles, SamProblem problem
              "-wear_cycles is given, but no wear: give one of -wear_coefficient1, -wear_coefficient2, -wear_energy1, "
              "-wear_energy2 a number > 0");
   PetscCheck(!w->outputs || cycles == 0 || w->output[w->outputs - 1] <= cycles, from->comm, SAM_ERR_USER,
-             "-wear_output: %g is more than -wear_cycles %g", (double)w->output[w->outputs - 1], (double)cycles);
+             "-wear_output: %.6g is more than -wear_cycles %.6g", (double)w->output[w->outputs - 1], (double)cycles);
   w->cycles = cycles;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -184,18 +184,30 @@ static PetscErrorCode ReadLine(Reader *r, char *line)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode CheckText(const Reader *r, const char text[], size_t length)
+{
+  PetscFunctionBegin;
+  PetscCheck(!memchr(text, '\0', length), r->comm, SAM_ERR_USER,
+             "%s, line %d: contains a zero byte: expected text in UTF-8, as spreadsheets export it as CSV", r->file,
+             (int)r->line + 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Lines end with LF, CR LF or, from old Macintosh programs, CR. `buffer` is for getline(). */
 static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
 {
-  size_t  size = 0;
+  size_t  size = 0, n;
   ssize_t length;
+  char    begin[4096];
 
   PetscFunctionBegin;
   errno = 0;
+  n     = fread(begin, 1, sizeof(begin), stream);
+  if (!memchr(begin, '\n', n))
+    PetscCall(CheckText(r, begin, n)); /* what is no text may have no end of its first line */
+  rewind(stream);
   while ((length = getline(buffer, &size, stream)) >= 0) {
-    PetscCheck(strlen(*buffer) == (size_t)length, r->comm, SAM_ERR_USER,
-               "%s, line %d: contains a zero byte: expected text in UTF-8, as spreadsheets export it as CSV", r->file,
-               (int)r->line + 1);
+    PetscCall(CheckText(r, *buffer, (size_t)length));
     if (length && (*buffer)[length - 1] == '\n') (*buffer)[--length] = '\0';
     if (length && (*buffer)[length - 1] == '\r') (*buffer)[--length] = '\0';
     for (char *text = *buffer, *end; text; text = end) {
@@ -279,7 +291,7 @@ PetscErrorCode SamTableCreate(MPI_Comm comm, const char what[], const char heade
   PetscCall(ReadHeader(&r, Trim(text)));
   PetscCheck(rows > 0, comm, SAM_ERR_USER, "%s: has no row: expected one for each step", what);
   for (PetscInt k = 0; k < rows * t->columns; k++)
-    PetscCheck(isfinite(values[k]), comm, SAM_ERR_USER, "%s, line %d: column %s: %g is not a finite number", what,
+    PetscCheck(isfinite(values[k]), comm, SAM_ERR_USER, "%s, line %d: column %s: %.6g is not a finite number", what,
                (int)(k / t->columns) + 1, t->name[k % t->columns], values[k]);
   t->rows = rows;
   PetscCall(PetscMalloc(sizeof(double) * (size_t)(rows * t->columns), &t->value));

@@ -173,7 +173,7 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
     if (s->u_before)
       SlipRow(&s->before, c, j, s->u_before + k, s->scratch);
     else
-      SamZero(s->grid->nx, s->scratch);
+      (void)memset(s->scratch, 0, sizeof(*s->scratch) * (size_t)s->grid->nx);
     for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] = s->slip[c][i] - s->scratch[i];
   }
 }

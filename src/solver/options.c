@@ -80,7 +80,7 @@ static PetscErrorCode View(SamSolver s, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Solver of the %s problem: type %s\n", s->kind->name, s->type));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  rtol %g, max_it %" PetscInt_FMT ", nested grids ", (double)s->rtol,
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  rtol %.6g, max_it %" PetscInt_FMT ", nested grids ", (double)s->rtol,
                                    SamSolverMaxIterations(s)));
   if (SamSolverLevels(s) == PETSC_MAX_INT)
     PetscCall(PetscViewerASCIIPrintf(viewer, "as many as the grid allows\n"));

@@ -129,7 +129,7 @@ PetscErrorCode SamSolverSetOptionsPrefix(SamSolver s, const char prefix[])
 PetscErrorCode SamSolverSetTolerances(SamSolver s, PetscReal rtol, PetscInt max_it)
 {
   PetscFunctionBegin;
-  PetscCheck(rtol == PETSC_DEFAULT || rtol > 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE, "rtol %g: expected a number > 0",
+  PetscCheck(rtol == PETSC_DEFAULT || rtol > 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE, "rtol %.6g: expected a number > 0",
              (double)rtol);
   PetscCheck(max_it == PETSC_DEFAULT || max_it >= 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "max_it %" PetscInt_FMT ": expected a number >= 0", max_it);

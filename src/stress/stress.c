@@ -112,7 +112,7 @@ PetscErrorCode SamStressUseDepth(SamStress s, PetscReal depth)
 {
   PetscFunctionBegin;
   PetscCheck(depth >= 0 && depth < PETSC_INFINITY, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Depth %g m: expected a number >= 0", (double)depth);
+             "Depth %.6g m: expected a number >= 0", (double)depth);
   if (s->ops.usedepth) PetscCall((*s->ops.usedepth)(s, depth));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -65,9 +65,9 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   PetscFunctionBegin;
   PetscCall(SamContactGetGrid(contact, &grid));
   PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "tolerance %g of cycle jumps: expected a finite number > 0", (double)settings->rtol);
+             "tolerance %.6g of cycle jumps: expected a finite number > 0", (double)settings->rtol);
   PetscCheck(settings->jump >= 0 && isfinite(settings->jump), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "first cycle jump of %g cycles: expected a finite number >= 0", (double)settings->jump);
+             "first cycle jump of %.6g cycles: expected a finite number >= 0", (double)settings->jump);
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(FindLaw(problem, grid, &law));
   PetscCall(PetscNew(&l));

@@ -17,7 +17,7 @@ PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
              law->type);
   for (int body = 0; body < 2; body++)
     PetscCheck(coefficient[body] >= 0 && isfinite(coefficient[body]), law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-               "wear coefficient %g of body %d: expected a finite number >= 0", (double)coefficient[body], body + 1);
+               "wear coefficient %.6g of body %d: expected a finite number >= 0", (double)coefficient[body], body + 1);
   PetscCall(PetscArraycpy(w->coefficient, coefficient, 2));
   law->revision++;
   PetscFunctionReturn(PETSC_SUCCESS);

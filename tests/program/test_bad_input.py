@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
+from conftest import PROGRAM, execute
 from support import SPHERE
 
 NAN, INF = float("nan"), float("inf")
@@ -232,6 +233,11 @@ CASES = [
     case("output in no directory", {}, "-output", "nowhere/out.h5", says=["-output", "nowhere/out.h5"], code=3),
     case("output in a file", {}, "-output", "text.h5/out.h5", says="-output", code=3),
     case("output is a directory", {}, "-output", "folder", says=["-output", "folder"], code=3),
+    case("output in no XML", {}, "-output", "a\x01b.h5", says=["-output a\x01b.xdmf", "without control"], code=3),
+    case("options file of zeros", {}, "-options_file", "zeros", says=["zeros: is not an options file"], code=3),
+    case("number of 2000 digits", dict(load_n="1" * 2000 + "N"), says=["-load_n 1111", "1...: expected", "unit"]),
+    case("keyword of 2000 letters", dict(coupling="x" * 2000), says=["-coupling xxxx", "x...: expected none or full"]),
+    case("word of 2000 letters", {}, "x" * 2000, says=["xxxx: expected an option"]),
     case(
         "output is the gap",
         dict(FILE, grid_n=8),
@@ -365,6 +371,7 @@ def folder(tmp_path):
     (tmp_path / "python.opts").write_text("-python\n")
     (tmp_path / "wrong.yaml").write_text("grid_n: [1\n - x")
     os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "zeros").write_bytes(bytes(2 << 20))
     return tmp_path
 
 
@@ -432,11 +439,19 @@ def test_mistakes_in_an_options_file_are_found(petsam, folder):
         ("-python", "PETSC_OPTIONS: -python"),
         ("-load_tx 3 \n-lood_ty 3", "-lood_ty"),
         ("-load_ty 3 -options_file python.opts", "python.opts, line 1: -python"),
+        ("-load_ty 3 -h", "PETSC_OPTIONS: -h: give it on the command line of a program"),
     ],
 )
 def test_mistakes_in_the_environment_are_found(petsam, folder, text, says):
     done = petsam(dict(SPHERE, grid_n=8), environment=dict(PETSC_OPTIONS=text), check=2)
     assert says in done.complaint[0] and len(done.stderr.splitlines()) <= 2
+
+
+@pytest.mark.parametrize("text, named", [("-help\n", "1: -help"), ("\nalias -ask -version\n", "2: -version")])
+def test_help_in_an_options_file_is_refused_by_petsam_stress(launcher, tmp_path, text, named):
+    (tmp_path / "ask.opts").write_text(text)
+    done = execute(launcher, tmp_path, ["-options_file", "ask.opts"], 1, 2, program=PROGRAM.parent / "petsam-stress")
+    assert f"ask.opts, line {named}: give it on the command line" in done.stderr and not done.stdout
 
 
 @pytest.mark.parametrize(

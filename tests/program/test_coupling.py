@@ -13,6 +13,32 @@ INF = float("inf")
 
 # ---------------------------------------------------------------- cases
 
+PERIODIC = dict(
+    body1_young=210e9,
+    body1_poisson=0.3,
+    body2_young=70e9,
+    body2_poisson=0.1,
+    elasticity="periodic",
+    gap_type="file",
+    gap_file="h.h5",
+    grid_n=32,
+    grid_size=1e-3,
+    friction=0.3,
+)
+
+
+def write_rough(path, size, lengths=32):
+    """Pseudo-random heights of that standard deviation (m) in `lengths` waves at most."""
+    waves = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(32, 1 / 32)])).clip(1)
+    heights = np.fft.fft2(np.random.default_rng(0).standard_normal((32, 32))) * (waves <= lengths)
+    heights *= 1 if lengths == 32 else waves**-1.8
+    heights[0, 0] = 0
+    heights = np.fft.ifft2(heights).real
+    heights *= size / heights.std()
+    with h5py.File(path, "w") as f:
+        f["height"] = heights - heights.min()
+    return (heights - heights.min()).mean()
+
 
 def dundurs(case):
     """Dundurs' second constant of a case's materials: the strength of the coupling, positive when body 1 is softer."""
@@ -369,3 +395,30 @@ def test_same_row_again_changes_nothing(petsam, tmp_path):
     assert_close(p[1], p[0], 1e-5, "p")  # ten times the tolerance of the coupling
     assert_close(q[1], q[0], 1e-5, "q")
     assert abs(d[1]) <= 1e-4 * d[0]
+
+
+# ---------------------------------------------------------------- where a displacement is nearly zero
+
+
+@pytest.mark.parametrize("size, limit", [(1e-10, 1.05e-8), (1e-14, 1e-6), (1e-16, 1e-4)])
+def test_nearly_flat_periodic_bodies_converge(petsam, tmp_path, size, limit):
+    """To the tolerance, or where the displacement is rounding of that by a uniform pressure, to that."""
+    write_rough(tmp_path / "h.h5", size)
+    done = petsam(PERIODIC, dict(load_n=100.0, load_tx=10.0, output="out.h5"))
+    assert not done.stderr
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert 0 < f["history/normal_residual"][0] <= limit and f["history/tangential_residual"][0] <= 1.05e-6
+        assert f["history/coupling_iterations"][0] <= 30
+
+
+def test_full_contact_of_yielding_periodic_bodies_converges(petsam, tmp_path):
+    mean = write_rough(tmp_path / "h.h5", 3e-7, 8)
+    petsam(PERIODIC, dict(disp_z=1.5 * mean, pressure_limit=1e9, disp_x=1e-7))
+
+
+def test_tight_tolerances_are_met_or_one_that_can_be_is_named(petsam):
+    case = pair("steel-aluminium", load_tx=20.0)
+    petsam(case, dict(normal_rtol=1e-13, tangential_rtol=1e-11, coupling_rtol=1e-12))
+    done = petsam(case, dict(tangential_rtol=1e-15), check=10)
+    named = re.search(r"rounding leaves no less: use a tolerance of (\S+) \(-tangential_rtol\)", done.stderr)
+    petsam(case, dict(tangential_rtol=named.group(1)))

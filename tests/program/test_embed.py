@@ -248,6 +248,24 @@ told(petsam.ContactError, contact.number, "area")
 told(petsam.ContactError, contact.number, "qqq")
 told(petsam.ContactError, contact.field, "contact_edge")
 told(TypeError, contact.number, 3)
+told(petsam.ContactError, contact.fatigue, None)
+for kind, function, words in (
+    ("time", contact.try_step, ("x",)),
+    ("cycles", contact.live, ("x", dict(time=[1]))),
+    ("history", contact.run, (3,)),
+    ("each", contact.run, (dict(time=[1], load_n=[1]), 3)),
+    ("out", contact.field, ("pressure", 3)),
+    ("gap", contact.set_field, ("gap", 1j)),
+    ("comm", lambda: petsam.Contact(comm=3, **case), ()),
+    ("friction", lambda: petsam.Contact(**dict(case, friction=1j)), ()),
+):
+    try:
+        function(*words, **(dict(load_n=1) if kind == "time" else dict()))
+    except TypeError as error:
+        assert kind in str(error), (kind, error)
+    else:
+        raise SystemExit(kind)
+told(TypeError, petsam.open, 3)
 for name in contact._names("field"):
     contact.field(name)
 with warnings.catch_warnings(record=True) as caught:
@@ -273,6 +291,7 @@ print("alive")
     assert "TypeError try_step: load_n: must be real number, not str" in text
     assert "presure: there is no field of this name: is pressure meant? There are pressure, shear_x, " in text
     assert "area: there is no number of this name: is contact_area or stick_area meant? There are time, " in text
+    assert "petsam_fatigue: no step has been recorded" in text
     assert "qqq: there is no number of this name; there are time, " in text
 
 

@@ -200,6 +200,18 @@ def test_files_of_others_are_not_replaced(petsam, tmp_path, ranks, name, write):
     assert path.read_bytes() == before and [entry.name for entry in tmp_path.iterdir()] == [name]
 
 
+def test_temporary_file_of_a_killed_run_is_replaced_and_a_readable_one_is_not(petsam, tmp_path):
+    """A run that is killed in its first flush leaves HDF5 without a word of petsam in it, which nobody can open."""
+    path = tmp_path / "state.h5.tmp"
+    write_hdf5(path)
+    whole = path.read_bytes()
+    done = petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=1), check=3)
+    assert "state.h5.tmp: cannot be written" in done.complaint[0] and path.read_bytes() == whole
+    path.write_bytes(whole[:600])
+    petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=1))
+    assert not path.exists()
+
+
 def test_checkpoint_is_not_replaced_by_results(petsam, tmp_path):
     petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=1))
     before = (tmp_path / "state.h5").read_bytes()

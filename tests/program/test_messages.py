@@ -35,3 +35,11 @@ def test_each_message_stands_once():
                 places[text].append(f"{path.relative_to(ROOT)}:{line}")
     twice = {text: where for text, where in places.items() if len(where) > 1}
     assert twice == {}, "\n".join(f"{text}: {', '.join(where)}" for text, where in twice.items())
+
+
+def test_whole_numbers_have_no_point():
+    """PETSc's functions write 40. for 40 by %g alone, and 40 by %.6g."""
+    calls = re.compile(r"\b(PetscCheck|PetscSNPrintf|SETERRQ|PetscPrintf|PetscViewerASCIIPrintf)\(")
+    for path in sorted((ROOT / "src").rglob("*.[ch]")):
+        for statement in path.read_text().split(";"):
+            assert "%g" not in statement or not calls.search(statement), f"{path}: {statement}"

@@ -116,6 +116,14 @@ MISTAKES = [
     # ---- files
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
     mistake(
+        "value in a file",
+        dict(load_n=None),
+        "-options_file",
+        "s.opts",
+        files={"s.opts": "# N\n-load_n 1000N\n"},
+        says=["-options_file s.opts, line 2: -load_n 1000N: expected a number", "without a unit"],
+    ),
+    mistake(
         "option of a file without effect",
         {},
         "-options_file",
@@ -238,7 +246,8 @@ MISTAKES = [
     # ---- loads that cannot be carried
     mistake("force without friction", dict(friction=None, load_tx=60.0), code=11, says=["load_tx = 60 N", "friction"]),
     mistake("force beyond friction", dict(load_tx=600.0), code=11, says=["gross slip", "load_tx = 600 N (limit 100"]),
-    mistake("moment in N mm", dict(load_my=200.0), code=11, says=["load_my", "limits"]),
+    mistake("force without bounds", dict(load_tx=-1e308), code=11, says=["load_tx = -1e+308 N (limit -100"]),
+    mistake("moment in N mm", dict(load_my=200.0), code=11, says=["load_my = 200 N m under load_n = 1000 N", "limits"]),
     # ---- grids and units that only the solution shows
     mistake(
         "modulus in GPa",

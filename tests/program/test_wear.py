@@ -267,7 +267,7 @@ def test_life_can_be_prolonged(life, petsam, tmp_path):
     for words, name in (
         (dict(wear_coefficient2=2e-14), "wear_coefficient2"),
         (dict(wear_coefficient2=None, wear_energy2=1e-14), "wear_"),
-        (dict(wear_cycles=None), "wear"),
+        (dict(wear_cycles=None), "continue from it: the bodies wear by cycles there, not by steps (-wear_cycles)"),
         (dict(friction=None, wear_friction="mu.csv"), "wear_friction"),
     ):
         before = (tmp_path / "kept.h5").read_bytes()
@@ -371,9 +371,9 @@ def test_open_cycle_is_refused(petsam, tmp_path):
     "text, message",
     [
         ("cycle,mu\n0,0.1\n", "line 1: unknown column mu; expected cycle, friction"),
-        ("cycle,friction\n5,0.1\n", "line 2: cycle 5.: expected 0"),
-        ("cycle,friction\n0,0.1\n9,0\n", "line 3: friction 0.: expected a number > 0"),
-        ("cycle,friction\n0,0.1\n0,0.2\n", "line 3: cycle 0.: expected more"),
+        ("cycle,friction\n5,0.1\n", "line 2: cycle 5: expected 0"),
+        ("cycle,friction\n0,0.1\n9,0\n", "line 3: friction 0: expected a number > 0"),
+        ("cycle,friction\n0,0.1\n0,0.2\n", "line 3: cycle 0: expected more"),
     ],
 )
 def test_bad_friction_table_is_refused_by_line(petsam, tmp_path, text, message):

@@ -232,6 +232,37 @@ static void test_copy_of_another_contact_is_refused(void **state)
   (void)MPI_Comm_free(&reversed);
 }
 
+/* Ranks that call different functions, or with different arguments, would wait for each other for ever. */
+static void test_ranks_that_differ_are_refused(void **state)
+{
+  const char      words[] = "call the same with the same on all of them";
+  petsam_contact *c = NewContact(World()), *other = NULL;
+  const int       none[6] = {0};
+  int             rank, size;
+
+  (void)state;
+  (void)MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  sam_assert(petsam_commit(NULL) == 2 && strstr(petsam_message(NULL), "petsam_commit: the contact is NULL"));
+  for (int k = 0; k < 9 && size > 1; k++) {
+    const int    odd      = rank == size - 1;
+    const double value[6] = {7e-6, odd && k == 0 ? 5e-7 : 0}, cycles = odd ? 0 : 10;
+    const int    code = k == 0   ? petsam_try(c, 1, none, value, NULL, NULL)
+                        : k == 1 ? petsam_try(c, odd, none, value, NULL, NULL)
+                        : k == 2 ? petsam_try(c, 1, odd ? NULL : none, value, NULL, NULL)
+                        : k == 3 ? (odd ? petsam_commit(c) : petsam_reject(c))
+                        : k == 4 ? petsam_get_field(c, odd ? "gap" : "slip_x", NULL)
+                        : k == 5 ? petsam_history(c, columns, ROWS - odd, values, NULL, NULL)
+                        : k == 6 ? petsam_live(c, cycles, columns, ROWS, values, NULL, NULL)
+                        : k == 7 ? petsam_save(c, odd ? "this.h5" : "that.h5")
+                                 : petsam_create(World(), odd ? NULL : OPTIONS, &other);
+
+    sam_assert(code == 2 && strstr(petsam_message(k < 8 ? c : NULL), words));
+  }
+  sam_assert(!other && petsam_history(c, columns, ROWS, values, NULL, NULL) == 0);
+  petsam_destroy(&c);
+}
+
 static void test_mistakes_are_named(void **state)
 {
   petsam_contact *c      = NewContact(World());
@@ -261,6 +292,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_copy_goes_on_and_reset_begins_anew),
     cmocka_unit_test(test_steps_after_a_life_wear),
     cmocka_unit_test(test_copy_of_another_contact_is_refused),
+    cmocka_unit_test(test_ranks_that_differ_are_refused),
     cmocka_unit_test(test_mistakes_are_named),
   };
 

@@ -43,6 +43,34 @@ static void test_overlapping_bodies_without_load_move_apart(void **state)
   DestroySphere(&s);
 }
 
+/* What marks a hole in a measured surface may be a height without bounds. */
+static double Hole(double x, double y, const void *context)
+{
+  const double *radius_depth = (const double *)context;
+
+  return hypot(x, y) < 0.2 * radius_depth[2] ? radius_depth[1] : Paraboloid(x, y, radius_depth);
+}
+
+static void test_hole_may_have_any_depth(void **state)
+{
+  Sphere     s       = NewSphere(33, 1.5, 0.3);
+  SamBalance balance = Forced(s.N, 0, 0);
+  Vec        p[2]    = {NewField(s.grid, 1), NewField(s.grid, 1)};
+  double     depth[] = {1, 1e30, 1e300};
+
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    Vec h = NewFrom(s.grid, Hole, (const double[]){s.R, depth[k], s.a});
+
+    SolveWell(s.elasticity, h, NULL, 0, &balance, p[k > 0]);
+    if (k) sam_assert_close(Difference(p[1], p[0], NORM_2), 0, 1e-6);
+    sam_call(VecDestroy(&h));
+  }
+  sam_call(VecDestroy(&p[0]));
+  sam_call(VecDestroy(&p[1]));
+  DestroySphere(&s);
+}
+
 static void test_moment_beyond_the_grid_has_no_equilibrium(void **state)
 {
   Sphere     s        = NewSphere(33, 1.5, 0.3);
@@ -176,6 +204,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_bodies_without_load_or_overlap_are_separated),
     cmocka_unit_test(test_overlapping_bodies_without_load_move_apart),
+    cmocka_unit_test(test_hole_may_have_any_depth),
     cmocka_unit_test(test_moment_beyond_the_grid_has_no_equilibrium),
     cmocka_unit_test(test_tension_is_refused),
     cmocka_unit_test(test_too_few_iterations_are_a_reason_not_an_error),

@@ -39,7 +39,12 @@ PETSC_EXTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamA
 */
 PETSC_EXTERN PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *arguments, const char name[],
                                             PetscBool *has);
-PETSC_EXTERN void           SamArgumentsFree(SamArguments *arguments);
+/*
+  SamArgumentsFindPlace - the file and line of an option's value, with a colon; "" for one that is in no file, and on
+  other ranks than 0. `name` ends at a space, colon or comma. Not collective.
+*/
+PETSC_EXTERN const char *SamArgumentsFindPlace(const SamArguments *arguments, const char name[]);
+PETSC_EXTERN void        SamArgumentsFree(SamArguments *arguments);
 /*
   SamArgumentsRefuseUnknown - refuses options that the set-up has not read: they are misspelled, or have no effect.
   `arguments`: of a program, whose options for the end of PETSc are not among them; they tell an option's file and

@@ -81,7 +81,10 @@ PETSC_EXTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
 PETSC_EXTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
 PETSC_EXTERN void           SamFree(void *pointer);
 
-/* SamZero - sets n doubles to zero; does not write where they are zero, so that untouched pages take no memory. */
+/*
+  SamZero - sets n doubles to zero; does not write where they are zero, so that untouched pages take no memory. It reads
+  them: not for memory that malloc() has given and nobody has written.
+*/
 PETSC_EXTERN void SamZero(PetscInt n, double x[]);
 
 /*
@@ -155,6 +158,18 @@ static inline uint64_t SamHashBits(double value)
 
   memcpy(&bits, &value, sizeof(bits));
   return bits;
+}
+
+/* ---- rounding ---- */
+
+/*
+  SamGapRounding - the error of a gap (m) by rounding: that of tractions up to `traction` (Pa) on so many cells, each of
+  which displaces itself by `self` (m/Pa), and of heights of the size of `approach` (m). Uniform tractions of periodic
+  bodies displace nothing; what their rounding displaces need not be less than the displacement.
+*/
+static inline double SamGapRounding(double traction, double self, double cells, double approach)
+{
+  return PETSC_MACHINE_EPSILON * (16 * self * sqrt(cells) * traction + fabs(approach));
 }
 
 /* ---- sums and maxima over the ranks ---- */

@@ -292,7 +292,7 @@ PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *
 
   PetscFunctionBegin;
   PetscCheck(poisson > -1 && poisson <= 0.5, grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Poisson's ratio %g: expected a number above -1, up to 0.5", (double)poisson);
+             "Poisson's ratio %.6g: expected a number above -1, up to 0.5", (double)poisson);
   PetscCall(SamStressCreate(grid, settings, body, stress));
   PetscCall(PetscNew(&c));
   *c              = (Constants){young, poisson};

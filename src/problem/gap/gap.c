@@ -107,7 +107,7 @@ PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value
   PetscCheck(k < gap->ops.count, gap->comm, PETSC_ERR_ARG_OUTOFRANGE, "Gap type %s has no parameter %s",
              gap->type[0] ? gap->type : "none", name);
   PetscCheck(SamRangeHas(gap->ops.parameters[k].range, value), gap->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Gap parameter %s is %g: expected %s", name, (double)value,
+             "Gap parameter %s is %.6g: expected %s", name, (double)value,
              SamRangeDescribe(gap->ops.parameters[k].range));
   gap->values[k] = value;
   PetscFunctionReturn(PETSC_SUCCESS);

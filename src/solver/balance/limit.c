@@ -88,19 +88,20 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
     if (balance->load[0] == 0) {
       *possible = balance->load[k] == 0;
       if (!*possible)
-        PetscCall(PetscSNPrintf(message, size, "%s = %g N m needs a normal force to balance it, and load_n is 0", name,
-                                (double)balance->load[k]));
+        PetscCall(PetscSNPrintf(message, size, "%s = %.6g N m needs a normal force to balance it, and load_n is 0",
+                                name, (double)balance->load[k]));
       continue;
     }
     lever = sign[k] * balance->load[k] / balance->load[0];
     if (lever > first && lever < last) continue;
     *possible = PETSC_FALSE;
-    PetscCall(PetscSNPrintf(message, size,
-                            "%s = %g N m under load_n = %g N: the resultant lies at %s = %g m, the grid's cells from "
-                            "%g to %g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)",
-                            name, (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever,
-                            (double)first, (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
-                            (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
+    PetscCall(
+      PetscSNPrintf(message, size,
+                    "%s = %.6g N m under load_n = %.6g N: the resultant lies at %s = %.6g m, the grid's cells from "
+                    "%.6g to %.6g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)",
+                    name, (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever, (double)first,
+                    (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
+                    (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -140,8 +141,8 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   if (!*possible)
     PetscCall(PetscSNPrintf(
       message, size,
-      "load_n = %.8g N exceeds the load that the whole grid carries under pressure_limit = %g Pa (limit %.8g N)", load,
-      (double)limit, most));
+      "load_n = %.8g N exceeds the load that the whole grid carries under pressure_limit = %.6g Pa (limit %.8g N)",
+      load, (double)limit, most));
   for (PetscInt k = 1; k < 3 && *possible; k++) {
     const double sign  = k == 1 ? -1 : 1, /* lever of Mx along -y, of My along x */
       place            = sign * (double)balance->load[k] / load,
@@ -151,11 +152,12 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
 
     if (!balance->force[k] || (place >= first - room && place <= last + room)) continue;
     *possible = PETSC_FALSE;
-    PetscCall(PetscSNPrintf(message, size,
-                            "%s = %g N m under load_n = %g N: pressures up to pressure_limit = %g Pa on this grid do "
-                            "not balance it (limits %.6g and %.6g N m)",
-                            SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load, (double)balance->load[k],
-                            load, (double)limit, (k == 1 ? -last : first) * load, (k == 1 ? -first : last) * load));
+    PetscCall(
+      PetscSNPrintf(message, size,
+                    "%s = %.6g N m under load_n = %.6g N: pressures up to pressure_limit = %.6g Pa on this grid do "
+                    "not balance it (limits %.6g and %.6g N m)",
+                    SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load, (double)balance->load[k], load,
+                    (double)limit, (k == 1 ? -last : first) * load, (k == 1 ? -first : last) * load));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -301,13 +303,16 @@ static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const 
 
 PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, Vec shear)
 {
+  SamBalance    scaled = *balance; /* by a power of two, else the squares of the largest loads would overflow */
   SamFrame      f, across;
-  double        F[3] = {0, 0, 0}, norm = 0, a[3];
+  double        F[3] = {0, 0, 0}, norm = 0, most = 0, a[3];
   const double *b;
   Power         exact;
 
   PetscFunctionBegin;
-  PetscCall(SamFrameSet(&f, grid, balance));
+  for (PetscInt k = 0; k < 3; k++) most = PetscMax(most, PetscAbsReal(balance->force[k] ? balance->load[k] : 0));
+  for (PetscInt k = 0; k < 3; k++) scaled.load[k] = ldexp(balance->load[k], -ilogb(most > 0 ? most : 1));
+  PetscCall(SamFrameSet(&f, grid, &scaled));
   for (PetscInt k = 0; k < f.count; k++)
     for (PetscInt i = 0; i < 3; i++) F[i] += f.target[k] * f.basis[k][i];
   for (PetscInt i = 0; i < 3; i++) norm += F[i] * F[i];
@@ -326,6 +331,6 @@ PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec
   }
   PetscCall(EvaluatePower(&f, b, a, 1e-300, &exact));
   PetscCall(VecRestoreArrayRead(bound, &b));
-  *factor = exact.value;
+  *factor = ldexp(exact.value, -ilogb(most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

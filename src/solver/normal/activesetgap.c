@@ -15,6 +15,8 @@
 #define DOUBT 0.03
 /* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
 #define PROJECTION_ROUNDING 1e-9
+/* Where rounding in double precision leaves more than this part of the displacement, single precision is useless. */
+#define FLAT 1e-10
 /* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3
 
@@ -24,7 +26,7 @@ typedef SamActiveSet Work;
 
 static double Tolerance(const Work *w)
 {
-  return w->level->rtol * w->displacement;
+  return PetscMax(w->level->rtol * w->displacement, w->floor);
 }
 
 /* Single precision of S p suffices for the tolerance. */
@@ -76,16 +78,19 @@ static PetscErrorCode Apply(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g, which holds S p, becomes S p + h - motion; and the maximum displacement. */
+/* g, which holds S p, becomes S p + h - motion; and the maximum displacement, and what rounding of p may leave. */
 static PetscErrorCode FinishGap(Work *w)
 {
-  double max = 0;
+  const SamGrid grid   = w->level->grid;
+  double        max[2] = {0, 0};
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < w->rows; j++) max = SamLarger(max, SamActiveSetGapRow(w, SamActiveSetRow(w, j)));
+  for (PetscInt k = 0; k < w->cells; k++) max[1] = w->p[k] > max[1] ? w->p[k] : max[1];
+  for (PetscInt j = 0; j < w->rows; j++) max[0] = SamLarger(max[0], SamActiveSetGapRow(w, SamActiveSetRow(w, j)));
   for (PetscInt k = 0; k < w->rows * w->stretches; k++) w->open[k] = -INFINITY;
-  PetscCall(SamMax(w->level->grid->comm, 1, &max));
-  w->displacement = max;
+  PetscCall(SamMax(grid->comm, 2, max));
+  w->displacement = max[0];
+  w->floor        = SamGapRounding(max[1], w->self, (double)grid->nx * (double)grid->ny, w->motion[0]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -179,18 +184,21 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
 
 PetscErrorCode SamActiveSetRefresh(Work *w)
 {
-  PetscBool found;
+  PetscBool single = IsSingleEnough(w), found;
 
   PetscFunctionBegin;
-  if (IsSingleEnough(w)) {
+  if (single) {
     PetscCall(ApplySingle(w));
-  } else {
+    PetscCall(FinishGap(w));
+    if (w->floor > FLAT * w->displacement) single = PETSC_FALSE;
+  }
+  if (!single) {
     /* the steps so far have kept equilibrium to the rounding of single precision only */
     PetscCall(SamFrameProjectNormalBetween(w->frame, w->p, &found));
     PetscCall(Apply(w));
+    PetscCall(FinishGap(w));
   }
-  PetscCall(FinishGap(w));
-  w->rounding = IsSingleEnough(w) ? SAM_SINGLE_ROUNDING * w->displacement : 0;
+  w->rounding = single ? SAM_SINGLE_ROUNDING * w->displacement : 0;
   PetscCall(SamActiveSetChoose(w, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

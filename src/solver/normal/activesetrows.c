@@ -106,7 +106,7 @@ SAM_VECTORIZED void SamActiveSetResidualRow(SamActiveSet *w, SamRow row)
   const double inverse         = 1 / w->unit;
 
 #pragma omp simd
-  for (int i = 0; i < row.count; i++) z[i] = active[i] * (float)(-inverse * g[i]);
+  for (int i = 0; i < row.count; i++) z[i] = active[i] > 0 ? (float)(-inverse * g[i]) : 0;
 }
 
 SAM_VECTORIZED void SamActiveSetPreconditionedRow(SamActiveSet *w, SamRow row, SamDirectionSums *sums)
@@ -121,7 +121,8 @@ SAM_VECTORIZED void SamActiveSetPreconditionedRow(SamActiveSet *w, SamRow row, S
 
 #pragma omp simd reduction(+ : z_sum, z_turn, u_sum, u_turn, zu, zr, sr)
   for (int i = 0; i < row.count; i++) {
-    const float r = active[i] * (float)(-inverse * g[i]), v = active[i] * (z[i] - loss[i] * r), d = active[i] * u[i];
+    const float r = active[i] > 0 ? (float)(-inverse * g[i]) : 0, v = active[i] * (z[i] - loss[i] * r),
+                d = active[i] * u[i];
 
     z[i] = v;
     z_sum += v;

@@ -31,6 +31,7 @@ static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
       const PetscInt k = j * grid->nx + i;
 
       p[k] = stiffness * (SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) - (h[k] - least));
+      p[k] = PetscMax(p[k], -PETSC_MAX_REAL); /* where a hole is given by a separation without bounds */
     }
   PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscCall(VecRestoreArrayWrite(level->traction, &p));
@@ -320,7 +321,7 @@ PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit)
 {
   PetscFunctionBegin;
   PetscCheck(limit > 0, SamNormalAsSolver(normal)->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "pressure limit %g: expected a number > 0, or inf", (double)limit);
+             "pressure limit %.6g: expected a number > 0, or inf", (double)limit);
   SamNormalAsSolver(normal)->pressure_limit = limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -342,7 +343,7 @@ static PetscErrorCode SolveProblem(SamNormal normal, Vec h, Vec diagonal, SamBal
                              .product  = product};
 
   PetscFunctionBegin;
-  PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %g: expected a number >= 0",
+  PetscCheck(!balance->force[0] || balance->load[0] >= 0, s->comm, SAM_ERR_USER, "load_n %.6g: expected a number >= 0",
              (double)balance->load[0]);
   PetscCheck(isinf(s->pressure_limit) || s->limits_pressure, s->comm, PETSC_ERR_SUP,
              "The method %s does not support a pressure limit", s->type);
