@@ -395,7 +395,7 @@ PUNCH = dict(
 )
 def test_advised_grid_holds_the_contact(petsam, change):
     done = petsam({**SPHERE, **change}, check=12)
-    petsam({**SPHERE, **change}, *advised(done.complaint[0], "grid_size", "grid_n"))
+    petsam({**SPHERE, **change}, *advised(done.complaint[-1], "grid_size", "grid_n"))
 
 
 def test_advised_grid_holds_the_whole_history(petsam, folder):
