@@ -127,7 +127,8 @@ def draw_section(axes, case, title):
     """Von Mises over a section."""
     axes.grid(False)
     mises = case.over_p0("mises")[:, 0]
-    image = axes.contourf(case.x, case.z, mises, levels=np.linspace(0.0, 1.0, 41), extend="max", cmap="viridis")
+    beyond = "max" if mises.max() > 1.0 else "neither"
+    image = axes.contourf(case.x, case.z, mises, levels=np.linspace(0.0, 1.0, 41), extend=beyond, cmap="viridis")
     bar(axes, image, "$\\sigma_M/p_0$", ticks=np.linspace(0.0, 1.0, 6))
     lines = axes.contour(case.x, case.z, mises, levels=LINES, colors="0.15", linewidths=0.6)
     axes.clabel(lines, fmt="%.1f", fontsize=7)

@@ -118,8 +118,9 @@ PETSC_EXTERN PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool
 /*
   SamGridMeasureZones - how many cells across the narrow ones of these zones are, without `wrap`. Zones in which no more
   than `part` of all these cells lie, the narrowest ones, do not count. A zone is as wide as the shorter side of its
-  bounding box, or as the ellipse of its second moments, if that is narrower; to a tenth of a cell. 0 without such
-  cells. The same on any number of ranks. Collective.
+  bounding box, or as the ellipse of its second moments, if that is narrower; to a tenth of a cell. One that extends
+  from border to border along one axis only has no width along it. 0 without such cells. The same on any number of
+  ranks. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across);
 

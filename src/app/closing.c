@@ -188,13 +188,12 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscFunctionBegin;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->logging) PetscCall(PrintTimes(r));
-  PetscCall(PetscPrintf(r->comm, "  %-10s ", "worst"));
-  for (PetscInt k = 0; k < 3; k++) {
-    PetscCall(PetscPrintf(r->comm, "%s %s %.2e", k ? "," : "", names[k], (double)r->worst[k].residual));
+  for (PetscInt k = 0; k < 3 && r->worst[0].step; k++) { /* of the steps with a solution */
+    PetscCall(PetscPrintf(r->comm, k ? ", %s %.2e" : "  worst       %s %.2e", names[k], (double)r->worst[k].residual));
     if (r->steps > 1 && r->worst[k].step)
       PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ")", r->worst[k].step));
+    if (k == 2) PetscCall(PetscPrintf(r->comm, "\n"));
   }
-  PetscCall(PetscPrintf(r->comm, "\n"));
   PetscCall(PrintExtent(r));
   PetscCall(PrintEdges(r));
   PetscCall(PrintFiles(r));

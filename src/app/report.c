@@ -293,8 +293,7 @@ static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cy
   left    = MeanTime(r, r->cycles, seconds) * JumpsLeft(c, r->jump, cycles - c->cycles);
   r->jump = c->jump;
   SamReportDuration(left, duration, sizeof(duration));
-  if (c->jump <= 0 && c->cycles < cycles) /* no estimate yet: what is left in cycles */
-    (void)snprintf(duration, sizeof(duration), "%.0e c", (double)(cycles - c->cycles));
+  if (c->jump <= 0 && c->cycles < cycles) (void)snprintf(duration, sizeof(duration), "unknown");
   if (r->cycles == 1)
     PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %8s %8s %8s %6s %8s\n", "cycles", "jump", "error",
                           "vol.1/m3", "vol.2/m3", "depth1/m", "depth2/m", "energy/J", "area/m2", "p max/Pa", "computed",

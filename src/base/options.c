@@ -149,6 +149,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const char name[], con
 
   PetscFunctionBegin;
   (void)snprintf(shown, sizeof(shown), kind->pair ? "%.*g,%.*g" : "%.*g", digits, value[0], digits, value[kind->pair]);
+  if (isnan(value[0])) shown[0] = '\0'; /* no default */
   PetscCall(Describe(from, name, help, argument[kind->whole][kind->pair], shown));
   if (kind->whole)
     (void)snprintf(expected, sizeof(expected), "an integer >= %lld", (long long)kind->least);

@@ -36,7 +36,7 @@ PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)
   if (check->edge == 0 || step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   if (!limits->edge) step->status = SAM_STATUS_EDGE_CONTACT;
   PetscCall(PetscSNPrintf(step->message, sizeof(step->message),
-                          "the contact reached the edge of the grid (pressure there up to %.2g of the largest): the "
+                          "the contact reached the edge of the grid (pressure there up to %.2g times the maximum): the "
                           "answer depends on the size of the grid",
                           (double)check->edge));
   PetscCall(PetscStrncpy(step->setting, "grid_size", sizeof(step->setting)));

@@ -155,6 +155,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
   PetscReal       factor;
   PetscInt        loaded = 0;
   PetscBool       friction;
+  char            instead[64] = "; for gross slip give ";
 
   PetscFunctionBegin;
   PetscCall(SamTangentialGetLimit(w->c->tangential, &factor));
@@ -169,11 +170,13 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
                             name->load_unit, follows ? "" : "limit ", (double)factor * load + 0.0, /* and not -0 */
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
+    if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
+    PetscCall(PetscStrlcat(instead, name->rigid, sizeof(instead)));
   }
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));
   PetscCall(PetscStrlcat(
     message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
-  if (follows) PetscCall(PetscStrlcat(message, ": use smaller load steps", size));
+  PetscCall(PetscStrlcat(message, follows ? ": use smaller load steps" : instead, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -94,17 +94,23 @@ static Piece PieceOf(int64_t first, int64_t last, int64_t y)
 
 /*
   Cells across a zone: the shorter side of its bounding box, or the shorter diameter of the ellipse with its second
-  moments, whichever is less: the ellipse tells the width of a zone that lies across the axes.
+  moments, whichever is less: the ellipse tells the width of a zone that lies across the axes. A zone that extends from
+  border to border along one axis only, as under a cylinder, has no width along it.
 */
-static double Across(const Piece *p)
+static double Across(const Piece *p, SamGrid grid)
 {
   const double n = (double)p->cells, x = (double)p->sum[0] / n, y = (double)p->sum[1] / n;
   /* 1/12 is that of a square cell about its centre */
-  const double xx = (double)p->square[0] / n - x * x + 1. / 12, yy = (double)p->square[1] / n - y * y + 1. / 12,
-               xy = (double)p->square[2] / n - x * y, least = 0.5 * (xx + yy) - hypot(0.5 * (xx - yy), xy);
-  const double side = (double)PetscMin(p->most[0] - p->least[0], p->most[1] - p->least[1]) + 1;
+  double       xx = (double)p->square[0] / n - x * x + 1. / 12, yy = (double)p->square[1] / n - y * y + 1. / 12;
+  const double xy      = (double)p->square[2] / n - x * y;
+  const double side[2] = {(double)(p->most[0] - p->least[0]) + 1, (double)(p->most[1] - p->least[1]) + 1};
+  const int    spans_x = side[0] >= (double)grid->nx, spans_y = side[1] >= (double)grid->ny;
+  double       least;
 
-  return PetscMin(side, 4 * sqrt(PetscMax(least, 0)));
+  if (spans_x && !spans_y) xx = PetscMax(xx, yy);
+  if (spans_y && !spans_x) yy = PetscMax(xx, yy);
+  least = 0.5 * (xx + yy) - hypot(0.5 * (xx - yy), xy);
+  return PetscMin(spans_x == spans_y ? PetscMin(side[0], side[1]) : side[spans_x], 4 * sqrt(PetscMax(least, 0)));
 }
 
 /* ---- rows ---- */
@@ -286,7 +292,8 @@ PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, Pets
   PetscCall(FindZones(grid, field, PETSC_FALSE, &f));
   for (PetscInt k = 0; k < f.count; k++)
     if (IsZone(&f, k))
-      cells[PetscMin(widths, PetscMax(1, (PetscInt)floor(10 * Across(&f.piece[k]) + 0.5)))] += (double)f.piece[k].cells;
+      cells[PetscMin(widths, PetscMax(1, (PetscInt)floor(10 * Across(&f.piece[k], grid) + 0.5)))] +=
+        (double)f.piece[k].cells;
   PetscCall(DestroyForest(&f));
   PetscCall(SamSum(grid->comm, widths + 1, cells)); /* of integers: exact */
   for (PetscInt k = 1; k <= widths; k++) sum += cells[k];

@@ -20,6 +20,7 @@
 #define BORDER    4     /* and so many cells more */
 #define SAME      2     /* cells by which two widths may differ that are counted or computed */
 #define LARGEST   16384 /* cells in a row of a grid that is advised */
+#define ABSURD    4096  /* cells in a row of a grid that wrong units may ask for */
 #define BLIND     0.98  /* pressure at the edge over the largest, above which the pressure does not tell the size */
 #define AT_A_TIME 64    /* characters of numbers */
 
@@ -102,7 +103,8 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
 /* ---- what would be better ---- */
 
 /* Grids that resolve a contact of these half widths: as large as now, and as many cells as now. Empty: none. */
-static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double factor, char cells[], char width[])
+static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
+                        char cells[], char width[])
 {
   const double n[2] = {(double)s->grid->nx, (double)s->grid->ny};
   double       more[2], size[2];
@@ -110,7 +112,7 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
 
   cells[0] = width[0] = '\0';
   for (int k = 0; k < 2; k++) {
-    more[k] = ceil(n[k] * factor);
+    more[k] = refine[k] ? ceil(n[k] * factor) : n[k];
     size[k] = PetscMin((double)s->grid->width[k], RoundUp(2 * ROOM * (double)half[k]));
     if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
   }
@@ -157,7 +159,7 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
   for (PetscInt k = 0; k < count; k++)
     if (!strcmp(names[k], option)) radius = values[k];
-  (void)snprintf(text, size, "is %.2g of -%s %g (in m)", (double)ratio, option, (double)radius);
+  (void)snprintf(text, size, "is %.2g times -%s %g (in m)", (double)ratio, option, (double)radius);
   if (*large)
     (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa",
                    STEEPEST);
@@ -214,12 +216,17 @@ static void AdviseTouch(Receiver *to, const SamControl *control)
 static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent, const PetscReal half[2],
                         PetscReal across)
 {
-  char cells[AT_A_TIME], width[AT_A_TIME], zones[AT_A_TIME] = "", better[3 * AT_A_TIME];
+  const PetscBool ends[2] = {2 * extent->half[0] < s->grid->width[0] - 0.5 * s->grid->dx,
+                             2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
+  const PetscBool strip = extent->zones == 1 && ends[0] != ends[1], refine[2] = {!strip || ends[0], !strip || ends[1]};
+  const double    factor = (FEW_CELLS + SAME) / (double)across;
+  const PetscBool absurd = factor * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
+  char            cells[AT_A_TIME], width[AT_A_TIME], zones[AT_A_TIME] = "", better[3 * AT_A_TIME];
 
   if (extent->across >= FEW_CELLS) return;
   /* of periodic bodies all cells may be in contact, and have no width */
-  if (extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) return;
-  AdviseGrids(s, half, (FEW_CELLS + SAME) / (double)across, cells, width);
+  if (!strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) return;
+  AdviseGrids(s, half, factor, refine, cells, width);
   if (extent->zones > 1)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   if (s->from_file[0] || s->from_file[1])
@@ -228,9 +235,10 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
   else
     (void)snprintf(better, sizeof(better), "%s%s%s%s%s", cells[0] || width[0] ? ": " : "", width,
                    width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
-  Advise(to, "", "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m), fewer than %d%s",
+  Advise(to, "",
+         "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m), fewer than %d%s%s",
          zones, (double)extent->across, 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0],
-         (double)s->grid->width[1], FEW_CELLS, better);
+         (double)s->grid->width[1], FEW_CELLS, better, absurd ? "; or check the units, N, m, Pa" : "");
 }
 
 PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,
@@ -322,8 +330,8 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamSte
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
     if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));
-    (void)snprintf(text, size, "; it needs %s%s%s%s", known ? "" : "about ", grid, ratio[0] ? "; its half width " : "",
-                   ratio);
+    (void)snprintf(text, size, "; it needs %s%s%s%s", known ? "" : "about ", grid,
+                   ratio[0] ? "; the contact's half width " : "", ratio);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

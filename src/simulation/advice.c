@@ -3,13 +3,16 @@
 
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
 static const PetscReal percent[2] = {5, 100};
+/* Dundurs' beta from which one step of the normal load is too coarse. */
+#define DISSIMILAR 0.05
 
 PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
 {
-  PetscReal friction;
-  PetscBool moves;
-  SamLaw    law;
-  char      text[160];
+  PetscReal          friction;
+  PetscBool          moves, rubs;
+  SamLaw             law;
+  SamContactSettings set;
+  char               text[160];
 
   PetscFunctionBegin;
   for (PetscInt k = first; k < s->needs.steps; k++) {
@@ -29,6 +32,14 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
                    (double)friction, (double)friction / 100, (double)friction);
     PetscCall(SamSimulationWarn(s, text, "friction"));
   }
+  PetscCall(SamProblemHasFriction(s->setup.problem, &rubs));
+  PetscCall(SamContactGetSettings(s->setup.contact, &set));
+  if (rubs && set.coupling && s->needs.steps == 1 && fabs(s->setup.pair.dundurs) > DISSIMILAR)
+    PetscCall(
+      SamSimulationWarn(s,
+                        "elastically dissimilar bodies with friction slip while the normal load grows, here in one "
+                        "step: use more steps until the stick area converges",
+                        "steps"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

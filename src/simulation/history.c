@@ -78,7 +78,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
   const SamOptions *const from   = r->from;
   const SamComponentName *name   = &SamComponentNames[c];
   const char             *prefix = SamOptionsPrefix(from), *column;
-  PetscReal               load = 0, rigid = 0;
+  PetscReal               load = c ? 0 : NAN, rigid = NAN; /* without one of the two the load is 0, but for N */
   PetscBool               has_load, has_rigid, help;
   char                    text[96];
 

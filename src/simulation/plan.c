@@ -59,7 +59,7 @@ static PetscErrorCode ReadLife(SamPlan *w, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamOptionsEnum(from, "wear_type", "how cycles are jumped: implicit, or explicit", types, &type, NULL));
   w->life = (SamLifeSettings){.type = (SamLifeType)type, .rtol = 1e-2};
-  PetscCall(SamOptionsReal(from, "wear_rtol", "relative error per cycle jump, of depth and pressure",
+  PetscCall(SamOptionsReal(from, "wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this",
                            SAM_RANGE_POSITIVE, &w->life.rtol, NULL));
   PetscCall(SamOptionsReal(from, "wear_jump", "fixed jump length in cycles", SAM_RANGE_POSITIVE, &w->life.jump,
                            &w->life.fixed));

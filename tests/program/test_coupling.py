@@ -323,7 +323,8 @@ def test_coupling_full_is_the_default(solve):
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_too_few_passes_are_told(petsam, tmp_path, load, ranks):
     done = petsam(STEEL, load, dict(coupling_max_it=1, output="out.h5"), check=10, ranks=ranks)
-    assert len(done.complaint) == 1 and "-coupling_max_it" in done.complaint[0]
+    advice, error = done.complaint
+    assert "warning: elastically dissimilar bodies" in advice and "-coupling_max_it" in error
     with h5py.File(tmp_path / "out.h5") as f:
         assert f["history/status"][:].tolist() == [10] and f["history/coupling_iterations"][:].tolist() == [1]
         assert f["pressure"].shape[0] == 1
@@ -333,6 +334,12 @@ def test_one_pass_is_enough_where_nothing_couples(petsam):
     petsam(similar(STEEL), dict(load_tx=20.0, coupling_max_it=1))
     petsam(STEEL, dict(friction=0, coupling_max_it=1))
     petsam(STEEL, dict(load_tx=20.0, coupling="none", coupling_max_it=1))
+
+
+def test_one_step_of_dissimilar_bodies_is_warned_of(petsam):
+    assert [line for line in petsam(STEEL).complaint if "(-steps)" in line]
+    for case in similar(STEEL), dict(STEEL, friction=0), dict(STEEL, coupling="none"), dict(STEEL, steps=2):
+        assert not petsam(case).complaint, case
 
 
 def changes(done):

@@ -29,11 +29,14 @@ def test_gross_slip_by_force_names_its_limit(petsam, name, factor):
     done = petsam(BALL, {name: factor * FORCE}, check=11)
     assert list(limits(done)) == [name]
     assert limits(done)[name] == pytest.approx(np.sign(factor) * FORCE, rel=1e-6)  # sum of mu p is mu N
+    assert done.complaint[0].endswith("; for gross slip give " + name.replace("load_t", "disp_"))
+    assert "worst" not in done.stdout  # no step has a solution
 
 
 def test_gross_slip_by_both_forces_names_both(petsam):
     done = petsam(BALL, dict(load_tx=0.8 * FORCE, load_ty=0.7 * FORCE), check=11)
     assert np.hypot(limits(done)["load_tx"], limits(done)["load_ty"]) == pytest.approx(FORCE, rel=1e-6)
+    assert "; for gross slip give disp_x, disp_y" in done.complaint[0]
 
 
 def test_gross_slip_by_torque_names_its_limit(petsam):

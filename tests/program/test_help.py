@@ -39,6 +39,13 @@ def test_help_tells_its_topics(ask):
     assert re.split(r",\s+", told) == [topic["name"] for topic in described(ask)["topics"]]
 
 
+def test_topics_are_those_of_the_manual(ask):
+    text = (ROOT / "examples" / "OPTIONS.md").read_text()
+    (listed,) = re.findall(rf"^- of {ask.name}: (.*?)[;.]$", text, re.M | re.S)
+    topics = [topic["name"].replace(" ", "_") for topic in described(ask)["topics"]]
+    assert re.findall(r"`(\w+)`", listed) == topics
+
+
 def test_every_option_is_in_one_topic(ask):
     whole = described(ask)
     every = options_in(ask("-help").stdout)

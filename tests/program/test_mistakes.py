@@ -404,7 +404,7 @@ PUNCH = dict(
 )
 def test_advised_grid_holds_the_contact(petsam, change):
     done = petsam({**SPHERE, **change}, check=12)
-    petsam({**SPHERE, **change}, *advised(done.complaint[0], "grid_size", "grid_n"))
+    petsam({**SPHERE, **change}, *advised(done.complaint[-1], "grid_size", "grid_n"))
 
 
 def test_advised_grid_holds_the_whole_history(petsam, folder):
@@ -516,6 +516,20 @@ def test_mistake_with_stresses_is_explained(launcher, petsam, folder, words, cod
     complaint = [line for line in done.stderr.splitlines() if line.startswith("petsam-stress: ")]
     assert all(text in complaint[0] for text in says), (says, complaint)
     assert not (folder / "new.h5").exists()
+
+
+@pytest.mark.parametrize("cells, across", [((128, 8), None), ((16, 8), 4), ((8, 128), None), ((8, 16), 4)])
+def test_a_cylinder_is_as_wide_as_it_touches(petsam, cells, across):
+    """Along its axis it ends nowhere: cells there are none too few, and more of them no help."""
+    axis = int(cells[0] < cells[1])
+    radii = {"gap_type": "ellipsoid", "gap_radius_" + "xy"[axis]: 0.1, "gap_radius_" + "yx"[axis]: "inf"}
+    size = (4e-3, 1e-4) if axis == 0 else (1e-4, 4e-3)
+    case = {**SPHERE, "gap_radius1": None, "gap_radius2": None, **radii, "elasticity": "periodic"}
+    done = petsam(case, dict(grid_n=cells, grid_size=size, load_n=20.0, load_tx=None))
+    assert len(done.complaint) == (across is not None)
+    if across:
+        more = [str(int(np.ceil(n * 22 / across))) if n == 16 else str(n) for n in cells]
+        assert "-grid_n " + ",".join(more) in done.complaint[0], done.complaint
 
 
 def test_full_contact_of_periodic_bodies_has_no_width(petsam):

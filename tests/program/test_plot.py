@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from petsam import cycles
+from petsam.errors import Error
 from petsam.plot import command, loops, maps, profiles, series
 from petsam.plot.units import scale
 from petsam.results import Results
@@ -405,6 +406,14 @@ def test_loop_is_force_over_displacement_of_every_step(strokes):
     energy = cycles.find(results).energies[-1]  # of the last cycle, not of all steps
     assert energy < 0.9 * history["dissipated_energy"].sum() and text.endswith(" in the last cycle")
     assert any(f": {factor * energy:.4g} " in text for factor in (1e9, 1e6))
+
+
+def test_a_load_that_does_not_vary_has_no_loop(strokes):
+    results = Results(str(strokes))
+    found = cycles.find(results)
+    for draw in (lambda: loops.loop([results], "ty"), lambda: loops.cycle_loops([found], "ty", [-1])):
+        with pytest.raises(Error, match="--load ty: load_ty or disp_y does not vary"):
+            draw()
 
 
 def test_energy_of_a_loop_is_that_of_its_load():

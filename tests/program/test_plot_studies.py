@@ -117,6 +117,18 @@ def test_by_itself_what_varies_is_drawn_over_the_input_with_the_most_values(stud
     assert figure.get_suptitle() == "omitted: 1 unfinished cases"
 
 
+def test_inputs_tell_curves_apart_also_where_no_cases_share_an_abscissa(tmp_path):
+    found = []
+    for number, (load, mu) in enumerate([(80, 0.65), (120, 0.65), (100, 0.5), (140, 0.5)]):
+        case = Case(number, f"case{number}", {"load_tx": str(load), "friction": str(mu)}, {}, {}, 1)
+        values = {"slip_max": (1e-9 * load / mu, "m")}
+        found.append((case, {"exit_code": 0, "seconds": 1.0, "message": ""}, values))
+    write_hdf5(str(tmp_path / "results.h5"), found, "pairs.csv")
+    drawn = curves(tables.study([Study(tmp_path / "results.h5")], ["slip_max"], "load_tx").axes[0])
+    expected = {"friction = 0.65": [80.0, 120.0], "friction = 0.5": [100.0, 140.0]}
+    assert {name: x.tolist() for name, (x, _, _, _) in drawn.items()} == expected
+
+
 @pytest.fixture
 def single(tmp_path):
     """Cases of one step each, of loads that are inputs: what is known twice stands in the table twice."""
@@ -186,7 +198,7 @@ def test_a_result_is_drawn_over_another_one(study):
 def test_one_picture_is_drawn(draw, path, tmp_path, words):
     assert draw(path, *words, "-o", "a.svg") == (0, [])
     assert (tmp_path / "a.svg").read_bytes().startswith(b"<?xml")
-    assert draw(path, *words) == (0, []) and (tmp_path / "results_study.png").exists()
+    assert draw(path, *words) == (0, []) and (tmp_path / "mine_study.png").exists()
 
 
 @pytest.mark.parametrize(

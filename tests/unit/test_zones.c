@@ -58,11 +58,15 @@ static PetscInt Fill(Pattern *p, PetscInt i, PetscInt j, PetscInt cells[][2])
   return count;
 }
 
-/* Its width: the least, over all directions, of the rms distance from the middle line, as of an ellipse; or its box. */
-static double WidthOf(PetscInt cells[][2], PetscInt count)
+/*
+  Its width: the least, over all directions, of the rms distance from the middle line, as of an ellipse; or its box. One
+  that spans the grid along one axis only counts as no shorter along that than across it.
+*/
+static double WidthOf(const Pattern *p, PetscInt cells[][2], PetscInt count)
 {
-  double   mean[2] = {0, 0}, least = 1e300;
-  PetscInt low[2] = {MOST, MOST}, high[2] = {0, 0};
+  double    mean[2] = {0, 0}, square[2] = {0, 0}, more[2], least = 1e300;
+  PetscInt  low[2] = {MOST, MOST}, high[2] = {0, 0};
+  PetscBool spans[2];
 
   for (PetscInt k = 0; k < count; k++)
     for (int d = 0; d < 2; d++) {
@@ -70,9 +74,13 @@ static double WidthOf(PetscInt cells[][2], PetscInt count)
       low[d]  = PetscMin(low[d], cells[k][d]);
       high[d] = PetscMax(high[d], cells[k][d]);
     }
+  for (PetscInt k = 0; k < count; k++)
+    for (int d = 0; d < 2; d++) square[d] += pow((double)cells[k][d] - mean[d], 2) / (double)count;
+  for (int d = 0; d < 2; d++) spans[d] = high[d] - low[d] + 1 == (d ? p->ny : p->nx);
+  for (int d = 0; d < 2; d++) more[d] = spans[d] && !spans[!d] ? PetscMax(0, square[!d] - square[d]) : 0;
   for (int t = 0; t < 3600; t++) {
     const double angle = t * PETSC_PI / 3600;
-    double       sum   = 0;
+    double       sum   = (double)count * (more[0] * pow(cos(angle), 2) + more[1] * pow(sin(angle), 2));
 
     for (PetscInt k = 0; k < count; k++) {
       const double x = ((double)cells[k][0] - mean[0]) * cos(angle) + ((double)cells[k][1] - mean[1]) * sin(angle);
@@ -81,6 +89,8 @@ static double WidthOf(PetscInt cells[][2], PetscInt count)
     }
     least = PetscMin(least, sum / (double)count);
   }
+  for (int d = 0; d < 2; d++)
+    if (spans[d] && !spans[!d]) high[d] = low[d] + MOST;
   return PetscMin(4 * sqrt(least + 1. / 12), (double)PetscMin(high[0] - low[0], high[1] - low[1]) + 1);
 }
 
@@ -98,7 +108,7 @@ static void Expect(const Pattern *pattern, double part, PetscInt *zones, double 
 
     if (!p.in[k]) continue;
     count         = Fill(&p, k % p.nx, k / p.nx, cells);
-    width[*zones] = WidthOf(cells, count);
+    width[*zones] = WidthOf(pattern, cells, count);
     size[*zones]  = (double)count;
     sum += size[(*zones)++];
   }

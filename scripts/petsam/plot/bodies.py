@@ -16,11 +16,11 @@ from .units import label, largest, plain, scale
 SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
 FATIGUE = {
     "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "Smith, Watson and Topper",
-    "fatemi_socie": "Fatemi and Socie", "ruiz_1": "Ruiz, first", "ruiz_2": "Ruiz, second",
+    "fatemi_socie": "Fatemi and Socie", "ruiz_1": "Ruiz 1", "ruiz_2": "Ruiz 2",
 }  # fmt: skip
 SHORT = {
     "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "SWT", "fatemi_socie": "FS",
-    "ruiz_1": "$\\kappa_1$", "ruiz_2": "$\\kappa_2$",
+    "ruiz_1": "Ruiz 1", "ruiz_2": "Ruiz 2",
 }  # fmt: skip
 LEVELS = 24  # of colours
 LINES = 8  # contours with a number

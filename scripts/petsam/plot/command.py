@@ -18,7 +18,8 @@ if friction works, and the history, of three cycles or more their loops and ener
 section or maps, the profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that
 vary, over the input with the most values. Constant scalars and fields that are zero to rounding are drawn only by name.
 An option that none of the pictures uses is rejected.
-Each picture is a file NAME_maps.png and so on; NAME is the first file's, in the current directory.
+Each picture is a file NAME_maps.png and so on in the current directory; NAME is the first file's, of results.h5 of a
+study its folder's. An older picture of this name is replaced.
 """
 
 import os
@@ -152,7 +153,10 @@ def of_cycle(options, one, number):
 
 def path(options, kind, alone):
     """The picture's file: exactly the name given when it is the only picture of one kind asked for."""
-    base, ending = os.path.splitext(options.output or os.path.basename(options.files[0]))
+    file = options.files[0]
+    if kind == STUDY and os.path.basename(file) == "results.h5":  # as all studies have
+        file = os.path.dirname(os.path.abspath(file))
+    base, ending = os.path.splitext(options.output or os.path.basename(file))
     if options.output and ending.lower() not in FORMATS:
         base, ending = options.output, ""
     if not options.output or not ending:

@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ..cycles import ENERGY, PAIRS, busiest, by_turns
 from ..errors import Error
-from . import symbols
+from . import noise, symbols
 from .style import colors, curve, logarithmic, need_few, plt, tint
 from .units import counted, label, largest, plain, scale
 
@@ -25,6 +25,9 @@ ALONE = 1e-3  # of a loop's area: smaller areas of the other loads' loops are ro
 
 def loop_axes(results, pair=None):
     """The load and the displacement of a loop, and of each the factor and the unit that suit all files."""
+    known = noise.scales(results)
+    if pair and not all(noise.varies(results, name, known) for name in PAIRS[pair]):
+        raise Error(f"{results[0].path}: --load {pair}: {' or '.join(PAIRS[pair])} does not vary")
     pair = pair or busiest(results[0])
     if pair is None:
         raise Error(f"{results[0].path}: no load varies, a loop needs several steps")

@@ -24,7 +24,7 @@ FLAT = 12.0  # width over height of a map at most: what is longer is stretched, 
 ABREAST = 4  # maps of a snapshot side by side at most; more are drawn in two rows
 SIDE, LONG = 2.4, 7.0  # inches of a map: its height side by side, its width one below the other
 ONE = 5.0  # inches of the longer side of a map that is alone
-NARROW = 1.0  # inches of a map's width below which the numbers of x stand upright
+NARROW = 1.7  # inches of a map's width below which the numbers of x stand upright
 HIDDEN = 0.02  # of a map's area at most that the points of an edge cover
 
 

@@ -141,18 +141,29 @@ def _ambiguous(curves, x, column):
     return False
 
 
+def _repeats(curves, x, column):
+    """Whether in some curve a column has several values, and one of them at several x."""
+    for rows_of_curve in curves.values():
+        values = {(x[k].item(), column[k].item()) for k in rows_of_curve}
+        if 1 < len({value for _, value in values}) < len(values):
+            return True
+    return False
+
+
 def groups(study, other, by, chosen):
     """Names of the parameters that tell curves apart, `by` first, and of every curve their values and its rows.
 
-    Besides `by` these are inputs in which cases with the same x differ; what changes along a curve tells none apart.
+    Besides `by` these are inputs in which cases with the same x differ, and then inputs with one value at several x;
+    an input that is different at every x of a curve follows from x, and tells none apart.
     """
     x = study.column(other)[0]
     names = [by] if by is not None else []
     columns = [study.column(by, "--by")[0]] if names else []
-    for name in reversed(swept(study)):  # those with few values first
-        if name not in (other, by) and _ambiguous(_split(columns, chosen), x, study.inputs[name]):
-            names.append(name)
-            columns.append(study.inputs[name])
+    for differ in _ambiguous, _repeats:
+        for name in reversed(swept(study)):  # those with few values first
+            if name not in (other, *names) and differ(_split(columns, chosen), x, study.inputs[name]):
+                names.append(name)
+                columns.append(study.inputs[name])
     found = _split(columns, chosen)
     curves = [(key, np.array(found[key])) for key in sorted(found)]
     if len(curves) > CURVES:
