@@ -19,8 +19,8 @@
                  larger width plus the distance of its centre from the origin
     cone         largest |q| - mu p over the largest mu p
     edge         largest pressure in the outermost cells over the largest pressure; 0 where the grid has no edge
-    rounding     the part of `normal` that the rounding of tractions and heights may be: far below any tolerance, unless
-                 the displacement is nearly zero, as under a uniform pressure on periodic bodies (SamGapRounding())
+    rounding     the part of `normal` that rounding may be where the displacement is nearly zero, as under a nearly
+                 uniform pressure on periodic bodies (SamGapRounding()); else 0
 */
 typedef struct {
   PetscReal normal, tangential, equilibrium, cone, edge, rounding;

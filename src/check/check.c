@@ -122,9 +122,10 @@ static PetscErrorCode SetRounding(SamProblem problem, const SamSolution *s, cons
   PetscCall(SamElasticityGetSelfInfluence(elasticity, &self, NULL));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (max[DISPLACEMENT] > 0)
-    check->rounding = SamGapRounding(PetscMax(max[PRESSURE], (double)shear), (double)self,
-                                     (double)grid->nx * (double)grid->ny, (double)s->rigid[SAM_COMPONENT_N]) /
-                      max[DISPLACEMENT];
+    check->rounding =
+      SamGapRounding(PetscMax(max[PRESSURE], (double)shear), (double)self, (double)grid->nx * (double)grid->ny,
+                     (double)s->rigid[SAM_COMPONENT_N], max[DISPLACEMENT]) /
+      max[DISPLACEMENT];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -194,7 +194,7 @@ static PetscErrorCode DescribeFailure(SamSolve *w, const char name[], SamSolver 
   PetscCall(SamSolverGetTolerances(solver, &rtol, NULL));
   if (reason == SAM_SOLVER_DIVERGED_STAGNATED && left > 0 && left <= ROUNDING) {
     (void)snprintf(more, sizeof(more), ": rounding leaves no less: use a tolerance of %.1g",
-                   pow(10, ceil(log10((double)left))));
+                   pow(10, ceil(log10(2 * (double)left)))); /* the residual omits some rounding */
     PetscCall(PetscSNPrintf(w->step->setting, sizeof(w->step->setting), "%s_rtol", name));
   }
   PetscCall(PetscSNPrintf(message, sizeof(message),

@@ -149,7 +149,8 @@ def test_no_convergence_is_told_and_written(petsam, tmp_path, option):
 
 def test_no_convergence_by_a_tolerance_out_of_reach(petsam):
     """Rounding does not allow it: an answer in finite time, and not 0."""
-    assert petsam(BALL, dict(load_tx=30.0, normal_rtol=1e-20), check=10).complaint
+    (line,) = petsam(BALL, dict(load_tx=30.0, normal_rtol=1e-20), check=10).complaint
+    assert "rounding leaves no less: use a tolerance of 1e-14 (-normal_rtol)" in line
 
 
 def test_loose_tolerance_converges_sooner(solve):

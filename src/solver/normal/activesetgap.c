@@ -15,8 +15,6 @@
 #define DOUBT 0.03
 /* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
 #define PROJECTION_ROUNDING 1e-9
-/* Where rounding in double precision leaves more than this part of the displacement, single precision is useless. */
-#define FLAT 1e-10
 /* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3
 
@@ -90,7 +88,7 @@ static PetscErrorCode FinishGap(Work *w)
   for (PetscInt k = 0; k < w->rows * w->stretches; k++) w->open[k] = -INFINITY;
   PetscCall(SamMax(grid->comm, 2, max));
   w->displacement = max[0];
-  w->floor        = SamGapRounding(max[1], w->self, (double)grid->nx * (double)grid->ny, w->motion[0]);
+  w->floor        = SamGapRounding(max[1], w->self, (double)grid->nx * (double)grid->ny, w->motion[0], max[0]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -190,7 +188,7 @@ PetscErrorCode SamActiveSetRefresh(Work *w)
   if (single) {
     PetscCall(ApplySingle(w));
     PetscCall(FinishGap(w));
-    if (w->floor > FLAT * w->displacement) single = PETSC_FALSE;
+    if (w->floor > 0) single = PETSC_FALSE; /* the displacement is rounding of single precision */
   }
   if (!single) {
     /* the steps so far have kept equilibrium to the rounding of single precision only */

@@ -24,7 +24,7 @@ typedef struct {
   double          gram[SAM_GRAM]; /* of A */
   double          motion[3];      /* rigid-body displacement in g, fixed part included */
   double          displacement;   /* maximum |S p|, m */
-  double          floor;          /* error that rounding of p may leave, m */
+  double          floor;          /* error that rounding leaves where the displacement is nearly zero, m */
   double          error;          /* maximum complementarity error, m */
   double          rounding;       /* bound of that of g, for the maximum error of a cell, m */
   double          slope;          /* of the energy along the step: s.g */
