@@ -56,10 +56,10 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
 enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
 
 /*
-  Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. Cells on the rim bear
-  pressure but need not touch at their centres. Cells at the limit of the pressure may overlap: they yield.
+  Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. Cells under a least
+  pressure need not touch at their centres. Cells at the limit of the pressure may overlap: they yield.
 */
-SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict rim,
+SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict least,
                                      const double *restrict g, const double *restrict u, double saturated,
                                      double max[COUNT])
 {
@@ -68,7 +68,7 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
 #pragma omp simd reduction(max : gap, tension, displacement, pressure, opening) reduction(+ : nan)
   for (PetscInt i = 0; i < n; i++) {
     const double size = fabs(u[i]), pressed = p[i] < saturated ? fabs(g[i]) : g[i],
-                 wrong = p[i] > rim[i] ? pressed : -g[i];
+                 wrong = p[i] > least[i] ? pressed : -g[i];
 
     gap          = wrong > gap ? wrong : gap;
     opening      = g[i] > opening ? g[i] : opening;
@@ -137,19 +137,19 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   PetscReal     limit;
   SamMotion     motion;
   SamGrid       grid;
-  Vec           separation, rim;
+  Vec           separation, lower;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
-  PetscCall(SamProblemGetLeast(problem, state, &rim));
+  PetscCall(SamProblemGetLeast(problem, state, &lower));
   PetscCall(SamMotionSet(&motion, problem, s));
   PetscCall(SamProblemGetPressureLimit(problem, &limit));
   PetscCall(PetscMalloc1(grid->nx, &gap));
   PetscCall(PetscCalloc1(grid->nx, &zeros));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
-  if (rim) PetscCall(VecGetArrayRead(rim, &least));
+  if (lower) PetscCall(VecGetArrayRead(lower, &least));
   PetscCall(VecGetArrayRead(separation, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
@@ -159,7 +159,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
     max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, j, p + k));
   }
   PetscCall(VecRestoreArrayRead(separation, &h));
-  if (rim) PetscCall(VecRestoreArrayRead(rim, &least));
+  if (lower) PetscCall(VecRestoreArrayRead(lower, &least));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
   PetscCall(PetscFree(zeros));

@@ -11,10 +11,10 @@
 enum { CONTACT, STICK, DISSIPATED, STORED, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
 
-/* The fields of the step's solution, and the bound before it; `rim`, NULL: none, of cells whose centres are outside. */
+/* The fields of the step's solution, the bound before it, and the pressure without contact at centres (NULL: none). */
 typedef struct {
   SamValues     v;
-  const double *b_before, *rim;
+  const double *b_before, *least;
 } Fields;
 
 static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first, double sums[SUMS],
@@ -30,7 +30,7 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
     if (state == SAM_CELL_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
     most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
-    if (!f->rim || p[k] > f->rim[k]) most[SLIP] = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
+    if (!f->least || p[k] > f->least[k]) most[SLIP] = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * f->v.u_z[k] + q[k] * f->v.u_t[k] + q[l] * f->v.u_t[l]);
@@ -91,17 +91,17 @@ static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolu
   double       sums[SUMS], most[MOSTS] = {0}, area;
   SamGrid      grid;
   SamIncrement increment;
-  Fields       f = {.rim = NULL};
-  Vec          rim;
+  Fields       f = {.least = NULL};
+  Vec          lower;
   const Vec    before = last ? last->bound : s->bound;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamProblemGetLeast(problem, state, &rim));
+  PetscCall(SamProblemGetLeast(problem, state, &lower));
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
   PetscCall(SamValuesGet(s, &f.v));
   PetscCall(VecGetArrayRead(before, &f.b_before));
-  if (rim) PetscCall(VecGetArrayRead(rim, &f.rim));
+  if (lower) PetscCall(VecGetArrayRead(lower, &f.least));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row[SUMS] = {0};
 
@@ -109,7 +109,7 @@ static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolu
     SumRow(&f, &increment, (ptrdiff_t)j * grid->nx, row, most);
     SamAddAll(SUMS, totals, row);
   }
-  if (rim) PetscCall(VecRestoreArrayRead(rim, &f.rim));
+  if (lower) PetscCall(VecRestoreArrayRead(lower, &f.least));
   PetscCall(VecRestoreArrayRead(before, &f.b_before));
   PetscCall(SamValuesRestore(s, &f.v));
   PetscCall(SamIncrementDestroy(&increment));
