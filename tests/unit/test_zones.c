@@ -247,6 +247,28 @@ static void test_widths_are_those_of_the_shapes(void **state)
   sam_assert_close(across, 15 / sqrt(2.) * 4 / sqrt(12.), 0.2); /* the ellipse of a strip is a little wider */
 }
 
+/* A strip from border to border is as wide as it is, however short its grid is. */
+static void test_strips_have_no_width_along_their_length(void **state)
+{
+  static Pattern p;
+  PetscInt       zones;
+  PetscReal      across;
+
+  (void)state;
+  for (int along = 0; along < 2; along++) {
+    p.nx = along ? 40 : 6;
+    p.ny = along ? 6 : 40;
+    for (PetscInt k = 0; k < 240; k++) {
+      const PetscInt n = along ? k % p.nx : k / p.nx;
+
+      p.in[k] = n >= 11 && n < 26;
+    }
+    Measure(&p, 0, &zones, &across);
+    sam_assert(zones == 1);
+    sam_assert_close(across, 15, 1e-12);
+  }
+}
+
 static void test_small_zones_do_not_count_up_to_their_part(void **state)
 {
   static Pattern p;
@@ -274,6 +296,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_zones_by_sides_are_those_of_neighbours_also_over_the_borders),
     cmocka_unit_test(test_zones_that_meet_late_are_one),
     cmocka_unit_test(test_widths_are_those_of_the_shapes),
+    cmocka_unit_test(test_strips_have_no_width_along_their_length),
     cmocka_unit_test(test_small_zones_do_not_count_up_to_their_part),
   };
 
