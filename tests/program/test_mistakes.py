@@ -31,6 +31,11 @@ def history(name, text, says, *words, code=2, **change):
     return mistake(f"history: {name}", dict(HISTORY, **change), *words, says=says, code=code, files={"loads.csv": text})
 
 
+def options_file(name, text, says, **change):
+    """An options file of that text."""
+    return mistake(name, change, "-options_file", "s.opts", says=says, files={"s.opts": text})
+
+
 MISTAKES = [
     # ---- numbers and units
     mistake("decimal comma", dict(grid_size="2,6e-3"), says=["-grid_size 2,6e-3", "2.6e-3, with a decimal point"]),
@@ -115,46 +120,20 @@ MISTAKES = [
     ),
     # ---- files
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
-    mistake(
+    options_file(
         "value in a file",
-        dict(load_n=None),
-        "-options_file",
-        "s.opts",
-        files={"s.opts": "# N\n-load_n 1000N\n"},
-        says=["-options_file s.opts, line 2: -load_n 1000N: expected a number", "without a unit"],
+        "# N\n-load_n 1000N\n",
+        ["-options_file s.opts, line 2: -load_n 1000N: expected a number", "without a unit"],
+        load_n=None,
     ),
-    mistake(
+    options_file(
         "option of a file without effect",
-        {},
-        "-options_file",
-        "s.opts",
-        files={"s.opts": "# punch\n-gap_flat_radius 3\n"},
-        says=["-options_file s.opts, line 2: -gap_flat_radius 3: has no effect without -gap_type punch: remove it"],
+        "# punch\n-gap_flat_radius 3\n",
+        ["-options_file s.opts, line 2: -gap_flat_radius 3: has no effect without -gap_type punch: remove it"],
     ),
-    mistake(
-        "options file without dashes",
-        {},
-        "-options_file",
-        "s.opts",
-        files={"s.opts": "load_tx 60\n"},
-        says=["s.opts, line 1", "as in -load_tx"],
-    ),
-    mistake(
-        "options file with equals signs",
-        {},
-        "-options_file",
-        "s.opts",
-        files={"s.opts": "\n-load_tx=60\n"},
-        says=["s.opts, line 2", "expected -load_tx 60"],
-    ),
-    mistake(
-        "options file with units",
-        {},
-        "-options_file",
-        "s.opts",
-        files={"s.opts": "-load_tx 60 N\n"},
-        says=["s.opts, line 1", "N is too much", "#"],
-    ),
+    options_file("options file without dashes", "load_tx 60\n", ["s.opts, line 1", "as in -load_tx"]),
+    options_file("options file with equals signs", "\n-load_tx=60\n", ["s.opts, line 2", "expected -load_tx 60"]),
+    options_file("options file with units", "-load_tx 60 N\n", ["s.opts, line 1", "N is too much", "#"]),
     mistake(
         "results into a folder that is not there",
         {},
