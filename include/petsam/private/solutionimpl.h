@@ -59,6 +59,10 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   SamIncrement - the slip of a step: the slip of a solution minus that of the previous one (NULL: no slip so far).
   ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
   start to slip[0] and slip[1]. Creation and destruction are collective.
+
+  SamIncrementTurnRow - after ComputeRow, for a step that slips in the direction at mid step: turns the slip of row j,
+  from the mean direction of the shear in the step to that at its end, into `to`, which may be row. The law of friction
+  then holds for it as for a step that slips in the direction at its end.
 */
 typedef struct {
   SamGrid       grid;
@@ -66,11 +70,26 @@ typedef struct {
   Vec           v_now, v_before;
   const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double       *slip[2], *row[2], *scratch;
+  /* of a step that slips in the direction at mid step, else NULL */
+  const SamSolution *turns[2]; /* the solutions before and after it */
+  SamValues          at_before, at_now;
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
 PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
 PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
+PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, PetscInt j, double *const to[2]);
+
+/*
+  SamCellSlid - whether a cell slid in a step in the direction at mid step, by its state after it, and its bound before:
+  where the contact was left, half of the bound before it is what was borne on the way, as where contact is made. Near
+  the contact edge p goes like the square root of the distance, and without those cells the work would lack a part of
+  the order of the step to 1.5. Not collective.
+*/
+static inline PetscBool SamCellSlid(SamCellState state, double bound_before)
+{
+  return (PetscBool)(state == SAM_CELL_SLIP || (state == SAM_CELL_OPEN && bound_before > 0));
+}
 
 /* SamSolutionComputeStates - the state of each cell, a SamCellState as a real number. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);
