@@ -6,25 +6,26 @@
 
 /* What of a step is needed, and where it goes, or is added to; NULL: not wanted. */
 typedef struct {
-  PetscBool mid_step; /* the slip is in the direction at mid step */
   SamValues v, before;
   double   *path, *pressed, *work;
 } Fields;
 
-static void FrictionRow(const Fields *f, ptrdiff_t first, PetscInt nx, const double sx[], const double sy[])
+static void FrictionRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first)
 {
   const double *p = f->v.p, *b = f->v.b, *q = f->v.q, *p_before = f->before.p, *b_before = f->before.b;
+  const double *sx = increment->row[0], *sy = increment->row[1];
 
-  for (PetscInt i = 0; i < nx; i++) {
-    const ptrdiff_t    k = first + i, l = k + f->v.cells;
-    const double       length = hypot(sx[i], sy[i]);
-    const SamCellState state  = SamCellStateOf(p[k], q[k], q[l], b[k]);
-    const PetscBool    slips  = f->mid_step ? SamCellSlid(state, b_before[k]) : state == SAM_CELL_SLIP;
+  for (PetscInt i = 0; i < increment->grid->nx; i++) {
+    const ptrdiff_t k = first + i, l = k + f->v.cells;
+    const double    length = hypot(sx[i], sy[i]);
+    PetscBool       slips  = SamCellStateOf(p[k], q[k], q[l], b[k]) == SAM_CELL_SLIP;
+    double          bound  = 0, start = 0.5;
 
+    if (increment->mid_step) slips = SamIncrementGetBound(increment, k, &bound, &start);
     if (f->path) f->path[k] = length;
-    if (f->pressed) f->pressed[k] = slips ? 0.5 * (p_before[k] + p[k]) * length : 0;
-    if (f->work && f->mid_step)
-      f->work[k] = slips ? 0.5 * (b_before[k] + b[k]) * length : 0;
+    if (f->pressed) f->pressed[k] = slips ? (start * p_before[k] + (1 - start) * p[k]) * length : 0;
+    if (f->work && increment->mid_step)
+      f->work[k] = slips ? bound * length : 0;
     else if (f->work)
       f->work[k] = slips && b[k] > 0 ? -(q[k] * sx[i] + q[l] * sy[i]) * 0.5 * (b_before[k] + b[k]) / b[k] : 0;
   }
@@ -56,7 +57,6 @@ PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
-  f.mid_step = increment.turns[0] != NULL;
   PetscCall(SamValuesGet(s, &f.v));
   PetscCall(SamValuesGet(before, &f.before));
   PetscCall(GetOptional(path, &f.path));
@@ -64,7 +64,7 @@ PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution 
   PetscCall(GetOptional(work, &f.work));
   for (PetscInt j = 0; j < grid->rows; j++) {
     SamIncrementComputeRow(&increment, j);
-    FrictionRow(&f, (ptrdiff_t)j * grid->nx, grid->nx, increment.row[0], increment.row[1]);
+    FrictionRow(&f, &increment, (ptrdiff_t)j * grid->nx);
   }
   PetscCall(RestoreOptional(work, &f.work));
   PetscCall(RestoreOptional(pressed, &f.pressed));

@@ -26,9 +26,10 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
   for (PetscInt i = 0; i < nx; i++) {
     const ptrdiff_t    k = first + i, l = k + cells;
     const SamCellState state = SamCellStateOf(p[k], q[k], q[l], b[k]);
+    double             bound, start;
 
-    if (increment->turns[0] && SamCellSlid(state, f->b_before[k]))
-      sums[DISSIPATED] += 0.5 * (f->b_before[k] + b[k]) * hypot(increment->row[0][i], increment->row[1][i]);
+    if (increment->mid_step && SamIncrementGetBound(increment, k, &bound, &start))
+      sums[DISSIPATED] += bound * hypot(increment->row[0][i], increment->row[1][i]);
     if (state == SAM_CELL_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
     most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
@@ -36,7 +37,7 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * f->v.u_z[k] + q[k] * f->v.u_t[k] + q[l] * f->v.u_t[l]);
-    if (increment->turns[0]) continue;
+    if (increment->mid_step) continue;
     sums[DISSIPATED] -= (q[k] * increment->row[0][i] + q[l] * increment->row[1][i]) *
                         (state == SAM_CELL_SLIP && b[k] > 0 ? 0.5 * (f->b_before[k] + b[k]) / b[k] : 1);
   }

@@ -60,9 +60,9 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
   start to slip[0] and slip[1]. Creation and destruction are collective.
 
-  SamIncrementTurnRow - after ComputeRow, for a step that slips in the direction at mid step: turns the slip of row j,
-  from the mean direction of the shear in the step to that at its end, into `to`, which may be row. The law of friction
-  then holds for it as for a step that slips in the direction at its end.
+  SamIncrementTurnRow - after ComputeRow, and only where there is a solution before: turns the slip of row j by the angle
+  from the mean direction of the shear in the step to that at its end, into `to`, which may be row. For a step that
+  slips in the direction at mid step the law of friction then holds as for one that slips in the direction at its end.
 */
 typedef struct {
   SamGrid       grid;
@@ -70,9 +70,9 @@ typedef struct {
   Vec           v_now, v_before;
   const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double       *slip[2], *row[2], *scratch;
-  /* of a step that slips in the direction at mid step, else NULL */
-  const SamSolution *turns[2]; /* the solutions before and after it */
-  SamValues          at_before, at_now;
+  const SamSolution *solutions[2];      /* before and after the step; both NULL: no slip so far */
+  SamValues          at_before, at_now; /* their values */
+  PetscBool          mid_step;          /* the slip is in the direction at mid step */
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
@@ -81,15 +81,11 @@ PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment
 PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, PetscInt j, double *const to[2]);
 
 /*
-  SamCellSlid - whether a cell slid in a step in the direction at mid step, by its state after it, and its bound before:
-  where the contact was left, half of the bound before it is what was borne on the way, as where contact is made. Near
-  the contact edge p goes like the square root of the distance, and without those cells the work would lack a part of
-  the order of the step to 1.5. Not collective.
+  SamIncrementGetBound - of a step that slips in the direction at mid step: the bound (Pa) that the slip of this rank's
+  cell k works against, and `start`, the share in it of the bound before the step; false where the cell has not slid.
+  Not collective.
 */
-static inline PetscBool SamCellSlid(SamCellState state, double bound_before)
-{
-  return (PetscBool)(state == SAM_CELL_SLIP || (state == SAM_CELL_OPEN && bound_before > 0));
-}
+PETSC_INTERN PetscBool SamIncrementGetBound(const SamIncrement *increment, ptrdiff_t k, double *bound, double *start);
 
 /* SamSolutionComputeStates - the state of each cell, a SamCellState as a real number. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);
