@@ -19,7 +19,7 @@ static void FrictionRow(const Fields *f, const SamIncrement *increment, ptrdiff_
     const ptrdiff_t k = first + i, l = k + f->v.cells;
     const double    length = hypot(sx[i], sy[i]);
     PetscBool       slips  = SamCellStateOf(p[k], q[k], q[l], b[k]) == SAM_CELL_SLIP;
-    double          bound  = 0, start = 0.5;
+    double          bound = 0, start = 0.5;
 
     if (increment->mid_step) slips = SamIncrementGetBound(increment, k, &bound, &start);
     if (f->path) f->path[k] = length;

@@ -65,11 +65,11 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   slips in the direction at mid step the law of friction then holds as for one that slips in the direction at its end.
 */
 typedef struct {
-  SamGrid       grid;
-  SamMotion     now, before;
-  Vec           v_now, v_before;
-  const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
-  double       *slip[2], *row[2], *scratch;
+  SamGrid            grid;
+  SamMotion          now, before;
+  Vec                v_now, v_before;
+  const double      *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
+  double            *slip[2], *row[2], *scratch;
   const SamSolution *solutions[2];      /* before and after the step; both NULL: no slip so far */
   SamValues          at_before, at_now; /* their values */
   PetscBool          mid_step;          /* the slip is in the direction at mid step */
