@@ -49,6 +49,7 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
 
     slip in the direction at the end of the step   ENDS b abs(2 sin a/2) ds    first order: ds is turned by a
     at mid step, of cells that slid before         TURNS b (2 sin a/2)^2 ds    second order: so far b and q are followed
+    of the first step                              all of it: loads in proportion need not slide at all
     of cells that begin to slide                   BEGINS abs(b - b_before) ds/2: they begin anywhere in the step
 
   The energy depends on the whole history of the slip, of which no single step knows: so these terms have the right
@@ -58,13 +59,13 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
 #define ENDS   0.4
 #define TURNS  0.5
 #define BEGINS 0.4
-static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double *const turned[2])
+static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissipated, double *const turned[2])
 {
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
                *sy = increment->row[1];
   double error     = 0;
 
-  if (!increment->solutions[0]) return 0;
+  if (!increment->solutions[0]) return fabs(dissipated);
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = 0; i < increment->grid->nx; i++) {
     const ptrdiff_t k      = (ptrdiff_t)j * increment->grid->nx + i;
@@ -152,7 +153,7 @@ static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolu
 
     SamIncrementComputeRow(&increment, j);
     SumRow(&f, &increment, (ptrdiff_t)j * grid->nx, row, most);
-    row[ERROR] = ErrorOfRow(&increment, j, turned);
+    row[ERROR] = ErrorOfRow(&increment, j, row[DISSIPATED], turned);
     SamAddAll(SUMS, totals, row);
   }
   PetscCall(PetscFree2(turned[0], turned[1]));
