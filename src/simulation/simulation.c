@@ -73,6 +73,7 @@ static PetscErrorCode Offer(SamSimulation s)
   for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS && bulk; k++)
     PetscCall(SamStateOfferNumber(state, SamBulkNames[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS].name, 0));
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
+  PetscCall(SamSimulationDeclarePieces(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -93,10 +93,11 @@ PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
 */
 PETSC_INTERN PetscErrorCode SamSimulationWriteLastFields(SamSimulation simulation);
 /*
-  SamSimulationReadPieces - reads -step_rtol. SamSimulationTry - tries step k of the history, in pieces if it asks for
+  SamSimulationReadPieces - reads -step_rtol. SamSimulationDeclarePieces - what it remembers. SamSimulationTry - tries step k of the history, in pieces if it asks for
   them, of which all but the last are committed (pieces.c). Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamSimulationReadPieces(SamSimulation simulation, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamSimulationDeclarePieces(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationTry(SamSimulation simulation, PetscInt k, SamStep *step);
 /* SamSimulationWriteStep - writes a step's numbers and, when they are due, its fields. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationWriteStep(SamSimulation simulation, const SamStep *step, PetscBool due);

@@ -206,7 +206,7 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 
 /*
   A cell that slid before, too, slides at a bound between those before and after. One that stuck begins within the step,
-  and slides most at its end. Where contact is made or left, the mean of the bounds is half of one: near the contact
+  and slides most at its end, where contact is left under next to no bound. Where contact is made, or left sliding, the mean of the bounds is half of one: near the contact
   edge p goes like the square root of the distance, and without the cells that are left the work would lack a part of
   the order of the step to 1.5.
 */
@@ -219,7 +219,7 @@ PetscBool SamIncrementGetBound(const SamIncrement *s, ptrdiff_t k, double *bound
 
   *start = now == SAM_CELL_SLIP && before == SAM_CELL_STICK ? 0 : 0.5;
   *bound = *start * a->b[k] + (1 - *start) * b->b[k];
-  return now == SAM_CELL_SLIP || (now == SAM_CELL_OPEN && before != SAM_CELL_OPEN) ? PETSC_TRUE : PETSC_FALSE;
+  return now == SAM_CELL_SLIP || (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec *h)
