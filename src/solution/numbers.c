@@ -73,10 +73,12 @@ static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissi
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = 0; i < increment->grid->nx; i++) {
     const ptrdiff_t k = (ptrdiff_t)j * increment->grid->nx + i, l = k + increment->grid->cells;
-    const double    length = hypot(sx[i], sy[i]), across = hypot(sx[i] - turned[0][i], sy[i] - turned[1][i]);
-    double          bound, start;
+    double          bound, start, length, across;
 
-    if (b0[k] == 0 && b1[k] > 0) error += ENTERS * hypot(q[k], q[l]) * hypot(u1[k] - u0[k], u1[l] - u0[l]);
+    if (b0[k] == 0 && b1[k] == 0) continue;
+    length = hypot(sx[i], sy[i]);
+    across = hypot(sx[i] - turned[0][i], sy[i] - turned[1][i]);
+    if (b0[k] == 0) error += ENTERS * hypot(q[k], q[l]) * hypot(u1[k] - u0[k], u1[l] - u0[l]);
     if (length == 0 || !SamIncrementGetBound(increment, k, &bound, &start)) continue;
     if (!increment->mid_step)
       error += ENDS * bound * across;
