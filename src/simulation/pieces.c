@@ -20,7 +20,7 @@
 /* Twice the length has four times the error, relative to its energy; with some reserve. */
 #define DOUBLE 0.2
 #define LEAST  (1.0 / 1024)
-/* The longest piece: in a longer one, cells may slide and stick again, of which its end, and so the estimate, has nothing. */
+/* The longest piece: in a longer one, cells may slide and stick again, which its end, and so the estimate, misses. */
 #define MOST (1.0 / 4)
 /* The part of the average energy so far from which on a piece counts by its own. */
 #define LITTLE 0.2
@@ -28,8 +28,7 @@
 PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "step_rtol",
-                           "divide load steps until the error of the energy is estimated below this; 0: never",
+  PetscCall(SamOptionsReal(from, "step_rtol", "divide load steps until the energy has this estimated error; 0: never",
                            SAM_RANGE_NONNEGATIVE, &s->step_rtol, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -93,8 +93,10 @@ PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
 */
 PETSC_INTERN PetscErrorCode SamSimulationWriteLastFields(SamSimulation simulation);
 /*
-  SamSimulationReadPieces - reads -step_rtol. SamSimulationDeclarePieces - what it remembers. SamSimulationTry - tries step k of the history, in pieces if it asks for
-  them, of which all but the last are committed (pieces.c). Collective. Errors: SAM_ERR_USER.
+  Load steps in pieces (pieces.c). Collective. Errors: SAM_ERR_USER.
+    ReadPieces     reads -step_rtol
+    DeclarePieces  declares what the state remembers of them
+    Try            tries step k of the history, in pieces if that is asked for, and commits all but the last
 */
 PETSC_INTERN PetscErrorCode SamSimulationReadPieces(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationDeclarePieces(SamSimulation simulation);

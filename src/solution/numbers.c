@@ -6,7 +6,8 @@
   Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of
   the tractions on the displacements, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
   while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
-  steps second order. Before the first step there is no bound; its pressure counts as there before its slip.
+  steps second order, if the slip is in the direction at mid step (contact/direction.c, which has the order of both).
+  Before the first step there is no bound; its pressure counts as there before its slip.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
@@ -55,8 +56,8 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
     of cells that begin to slide                   BEGINS abs(b - b_before) ds/2: they begin anywhere in the step
 
   The energy depends on the whole history of the slip, of which no single step knows: so these terms have the right
-  order and are in proportion to the error, and their factors were fitted to the errors of random histories (tests/
-  README.md has how well that holds). They estimate its size, not its sign.
+  order and are in proportion to the error, and their factors were fitted to the errors of random histories (examples/
+  LOADS.md has how well that holds). They estimate its size, not its sign.
 */
 #define ENDS    0.4
 #define TURNS   0.5

@@ -60,9 +60,9 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
   start to slip[0] and slip[1]. Creation and destruction are collective.
 
-  SamIncrementTurnRow - after ComputeRow, and only where there is a solution before: turns the slip of row j by the angle
-  from the mean direction of the shear in the step to that at its end, into `to`, which may be row. For a step that
-  slips in the direction at mid step the law of friction then holds as for one that slips in the direction at its end.
+  SamIncrementTurnRow - after ComputeRow, and only where there is a solution before: turns the slip of row j by the
+  angle from the mean direction of the shear in the step to that at its end, into `to`, which may be row. For a step
+  that slips in the direction at mid step the law of friction then holds as for one with the direction at its end.
 */
 typedef struct {
   SamGrid            grid;
