@@ -206,9 +206,9 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 
 /*
   A cell that slid before, too, slides at a bound between those before and after. One that stuck begins within the step,
-  and slides most at its end, where contact is left under next to no bound. Where contact is made, or left sliding, the mean of the bounds is half of one: near the contact
-  edge p goes like the square root of the distance, and without the cells that are left the work would lack a part of
-  the order of the step to 1.5.
+  and slides most at its end, where contact is left under next to no bound. Where contact is made, or left sliding, the
+  mean of the bounds is half of one: near the contact edge p goes like the square root of the distance, and without the
+  cells that are left the work would lack a part of the order of the step to 1.5.
 */
 PetscBool SamIncrementGetBound(const SamIncrement *s, ptrdiff_t k, double *bound, double *start)
 {

@@ -45,8 +45,8 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
 }
 
 /*
-  The error of the dissipated energy by the length of the step, estimated cell by cell; a is the angle by which the shear
-  turns from its mean direction in the step to its end, ds the slip, b the bound.
+  The error of the dissipated energy by the length of the step, estimated cell by cell; a is the angle by which the
+  shear turns from its mean direction in the step to its end, ds the slip, b the bound.
 
     slip in the direction at the end of the step   ENDS b abs(2 sin a/2) ds    first order: ds is turned by a
     at mid step, of cells that slid before         TURNS b (2 sin a/2)^2 ds    second order: so far b and q are followed
