@@ -16,16 +16,14 @@ ROWS = 8
 @pytest.fixture(scope="module")
 def loads(tmp_path_factory):
     """A cycle of N, T_x and T_y out of phase, after N alone."""
-    turns = [2 * math.pi * k / ROWS for k in range(ROWS + 1)]
-    rows = [
-        (1.0 + k, 180 * (1 + 0.3 * math.sin(t)), 0.45 * LIMIT * math.sin(t + 0.5), 0.4 * LIMIT * math.sin(t + 1.8))
-        for k, t in enumerate(turns)
-    ]
+    rows = [(0.0, 180.0, 0.0, 0.0)]
+    for k in range(ROWS + 1):
+        t = 2 * math.pi * k / ROWS
+        shear = [float(LIMIT) * part for part in (0.45 * math.sin(t + 0.5), 0.4 * math.sin(t + 1.8))]
+        rows.append((1.0 + k, 180 * (1 + 0.3 * math.sin(t)), *shear))
     path = tmp_path_factory.mktemp("history") / "h.csv"
-    return {
-        **{name: value for name, value in CASE.items() if name != "load_n"},
-        **history(path, "time,load_n,load_tx,load_ty", (0.0, 180.0, 0.0, 0.0), *map(tuple, map(lambda r: map(float, r), rows))),
-    }
+    case = {name: value for name, value in CASE.items() if name != "load_n"}
+    return {**case, **history(path, "time,load_n,load_tx,load_ty", *rows)}
 
 
 def energies(path):
