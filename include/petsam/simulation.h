@@ -98,6 +98,7 @@ PETSC_EXTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
 /* SamSimulationNeeds - what its memory depends on besides the grid. */
 typedef struct {
   PetscBool friction, coupled, life, stiffness;
+  PetscBool turns; /* steps may slip in the direction at mid step */
   PetscInt  steps;
   PetscInt  laws; /* bytes a cell that the laws take */
 } SamSimulationNeeds;

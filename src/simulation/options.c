@@ -2,6 +2,7 @@
 #include "simulationimpl.h"
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/solutionimpl.h>
 
 #define FLUSH 2.0 /* s that steps without fields wait to be written */
 
@@ -134,6 +135,22 @@ static PetscErrorCode ReadFiles(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether steps change what is prescribed of the normal problem, or are divided (SAM_SLIP_AUTO). */
+static PetscErrorCode FindTurns(SamSimulation s)
+{
+  SamControl before, control;
+
+  PetscFunctionBegin;
+  s->needs.turns = s->step_rtol > 0;
+  PetscCall(SamHistoryGetStep(s->history, 0, &before));
+  for (PetscInt k = 1; k < s->needs.steps && !s->needs.turns; k++) {
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    s->needs.turns = !SamControlIsSame(&before, &control, SAM_BALANCE_NORMAL);
+    before         = control;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Takes over a load program, and `cycles` of it (0: once). */
 static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal cycles, const SamOptions *from)
 {
@@ -144,6 +161,7 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
   s->history    = history;
   s->needs.life = cycles > 0;
   PetscCall(SamHistoryGetCount(history, &s->needs.steps));
+  PetscCall(FindTurns(s));
   PetscCall(SamPrintHelp(&help));
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,
