@@ -34,22 +34,27 @@ PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const
   p and one q solve both, each to its own tolerance, and neither has changed by more than coupling_rtol of its norm in
   the last pass. Contact spots are cells in contact connected by their sides, not by corners alone; over the edges of a
   grid that is one period, too.
+  The slip of a step is opposite to the mean direction of the shear in it (mid), or to that at its end (end), whose
+  error is of first order in the steps where the shear turns; auto: end, and mid where a simulation divides its steps.
+  End is used in the first step, where the friction follows the slip, and where mid does not converge.
 */
+typedef enum { SAM_SLIP_AUTO, SAM_SLIP_MID, SAM_SLIP_END } SamSlipDirection;
 typedef struct {
-  PetscBool coupling;         /* normal-tangential coupling is taken into account (true; -coupling full or none) */
-  PetscReal coupling_rtol;    /* (1e-6; -coupling_rtol) */
-  PetscInt  coupling_max_it;  /* most passes (100; -coupling_max_it) */
-  PetscBool coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
-  PetscBool warm_start;       /* start a step from the steps before, on the finest grid only (true; -warm_start) */
-  PetscReal cycle_memory;     /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
+  PetscBool        coupling;      /* normal-tangential coupling is taken into account (true; -coupling full or none) */
+  PetscReal        coupling_rtol; /* (1e-6; -coupling_rtol) */
+  PetscInt         coupling_max_it;  /* most passes (100; -coupling_max_it) */
+  PetscBool        coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
+  PetscBool        warm_start;     /* start a step from the steps before, on the finest grid only (true; -warm_start) */
+  SamSlipDirection slip_direction; /* (auto; -slip_direction) */
+  PetscReal cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
                                  starts from that, with the same solution within the tolerances; what is kept is in no
                                  state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */
-  PetscBool allow_edge;       /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
-  PetscBool edges;            /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
+  PetscBool allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
+  PetscBool edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges
                                  reconstruct or none; with deferred the law of that name corrects the pressure too) */
-  PetscBool spots;            /* count the contact spots and compute the mean gap (false; -contact_spots) */
-  PetscBool print_check;      /* print the errors of each step (false; -contact_check) */
+  PetscBool spots;        /* count the contact spots and compute the mean gap (false; -contact_spots) */
+  PetscBool print_check;  /* print the errors of each step (false; -contact_check) */
 } SamContactSettings;
 /*
   SamContactSetSettings, SamContactGetSettings - not collective, the same on all ranks. Errors:

@@ -62,7 +62,9 @@ PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamConditi
   displacements and usual conditions at time 0; if the first row's time is not positive, they start before it by the
   time between the first two rows (1 s for a single row). A condition that is no option is that of the first row from
   the start. Not collective.
+  SamHistoryGetPart - after a part of the step, more than 0, at most 1. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
+PETSC_EXTERN PetscErrorCode SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part, SamControl *control);
 
 #endif

@@ -21,8 +21,9 @@ static inline SamCellState SamCellStateOf(PetscReal p, PetscReal qx, PetscReal q
   shape and by the laws between them, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid.
 */
 typedef struct {
-  SamControl control;               /* what was prescribed */
-  PetscReal  load[SAM_COMPONENTS];  /* N, N m: given or found */
+  SamControl control;              /* what was prescribed */
+  PetscBool  mid_step;             /* slip follows the direction of the shear at mid step, not at the end of the step */
+  PetscReal  load[SAM_COMPONENTS]; /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS]; /* m, rad: given or found */
   Vec        pressure;              /* Pa */
   Vec        bound;                 /* Pa: the largest shear */

@@ -9,7 +9,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#define FOUND 0.5 /* share of the edges from which nothing is said of them */
+#define SMALL 0.01 /* error of the dissipated energy, relative to it, up to which nothing is said of it */
+#define FOUND 0.5  /* share of the edges from which nothing is said of them */
 
 /* A row of the table: the sum of the times of one or more events. */
 typedef struct {
@@ -128,6 +129,17 @@ static PetscErrorCode PrintEdges(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode PrintEnergy(SamReport r)
+{
+  PetscFunctionBegin;
+  if (r->steps < 2 || r->energy[1] <= SMALL * r->energy[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(r->comm,
+                        "  %-10s  %.4g J dissipated, wrong by about %.1g %% as load steps are long: use -step_rtol, or "
+                        "a larger -steps\n",
+                        "energy", (double)r->energy[0], 100 * (double)(r->energy[1] / r->energy[0])));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintFiles(SamReport r)
 {
   PetscFunctionBegin;
@@ -196,6 +208,7 @@ PetscErrorCode SamReportClosing(SamReport r)
   }
   PetscCall(PrintExtent(r));
   PetscCall(PrintEdges(r));
+  PetscCall(PrintEnergy(r));
   PetscCall(PrintFiles(r));
   PetscCall(PrintResources(r));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -174,6 +174,20 @@ static void KeepWorst(SamReport r, const SamStep *step)
   }
 }
 
+static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
+{
+  static const char *const names[] = {"dissipated_energy", "energy_error"};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscReal value;
+
+    PetscCall(SamContactGetNumber(contact, names[k], &value));
+    if (!isnan(value)) r->energy[k] += value;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode KeepEdges(SamReport r, SamContact contact, const SamStep *step)
 {
   PetscReal          area, accepted;
@@ -232,6 +246,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
   if (step->status != SAM_STATUS_NO_EQUILIBRIUM) {
     KeepWorst(r, step);
     PetscCall(KeepEdges(r, contact, step));
+    PetscCall(KeepEnergy(r, contact));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -48,6 +48,7 @@ struct _n_SamReport {
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
   SamReportWorst edges; /* the least share of the edges that is reconstructed; step 0: none is asked for */
   PetscInt       uncorrected, touching; /* steps that could not be corrected for their edges; in contact */
+  PetscReal      energy[2];             /* dissipated so far, and the estimate of its error, J */
   SamProgress    progress;
   SamContact     contact;          /* whose monitors are set; borrowed */
   SamExtent      extent;           /* of the contact in step `extent_step`, */

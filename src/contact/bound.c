@@ -32,18 +32,9 @@ PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 /* The length of the slip of the step, by the shear and the rigid displacements. */
 static PetscErrorCode ComputeSlip(SamSolve *w)
 {
-  const SamElasticity elasticity = w->c->elasticity;
-  Vec                 more;
-
   PetscFunctionBegin;
   if (!w->slip) PetscCall(SamGridCreateVec(w->c->grid, 1, &w->slip));
-  PetscCall(SamElasticityApplyTangential(elasticity, w->s->shear, w->s->displacement_t));
-  if (w->coupled) {
-    PetscCall(SamGridCreateVec(w->c->grid, 2, &more));
-    PetscCall(SamElasticityApplyNormalToTangential(elasticity, w->s->pressure, more));
-    PetscCall(VecAXPY(w->s->displacement_t, 1, more));
-    PetscCall(VecDestroy(&more));
-  }
+  PetscCall(SamSolveDisplace(w));
   PetscCall(SamSolutionComputeFriction(w->c->problem, w->before, w->s, w->slip, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -110,9 +101,8 @@ static PetscErrorCode Iterate(SamSolve *w, PetscBool has_shear, PetscReal rtol)
   Vec             found;
 
   PetscFunctionBegin;
-  PetscCall(SamMixingCreate(w->c->grid, &mixing));
+  PetscCall(SamMixingCreate(w->c->grid, 1, &mixing));
   PetscCall(SamGridCreateVec(w->c->grid, 1, &found));
-  PetscCall(SamContactSetDisplacements(w->c));
   for (PetscInt pass = 0; pass < PASSES && change > rtol; pass++) {
     PetscCall(SamSolveTangential(w, has_shear || pass > 0));
     PetscCall(SamSolverGetReason(SamTangentialAsSolver(w->c->tangential), &reason));
@@ -124,7 +114,7 @@ static PetscErrorCode Iterate(SamSolve *w, PetscBool has_shear, PetscReal rtol)
       PetscCall(Next(w, &mixing, found));
     } else {
       PetscCall(SamMixingDestroy(&mixing));
-      PetscCall(SamMixingCreate(w->c->grid, &mixing));
+      PetscCall(SamMixingCreate(w->c->grid, 1, &mixing));
       PetscCall(VecCopy(found, w->s->bound));
     }
   }
@@ -139,8 +129,9 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
   const SamSolver solver = SamTangentialAsSolver(w->c->tangential);
 
   PetscFunctionBegin;
+  if (w->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->c->elasticity, w->s->pressure, w->pushed));
   if (!SamProblemFollowsSlip(w->c->problem)) {
-    PetscCall(SamSolveTangential(w, has_shear));
+    PetscCall(SamSolveDirection(w, has_shear, rtol, effort));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   SamSolverSetEffort(solver, SHEAR_PART * rtol, effort);

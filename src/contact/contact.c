@@ -81,9 +81,10 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
                                                                                              "deferred", NULL};
-  const SamOptions   from     = {c->grid->comm, c->prefix};
-  SamContactSettings s        = c->set;
-  PetscInt           coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0;
+  static const char *const direction_words[] = {"auto", "mid", "end", NULL};
+  const SamOptions         from              = {c->grid->comm, c->prefix};
+  SamContactSettings       s                 = c->set;
+  PetscInt                 coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0, direction = s.slip_direction;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
@@ -95,6 +96,9 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
     SamOptionsInt(&from, "coupling_max_it", "maximum number of coupling iterations", 1, &s.coupling_max_it, NULL));
   PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each coupling iteration",
                            &s.coupling_monitor, NULL));
+  PetscCall(SamOptionsEnum(&from, "slip_direction",
+                           "of a step, by the shear at its mid or end; auto: mid with -step_rtol, else end",
+                           direction_words, &direction, NULL));
   PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
                            &s.warm_start, NULL));
   PetscCall(SamOptionsReal(&from, "cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts",
@@ -106,8 +110,9 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(
     SamOptionsBool(&from, "contact_spots", "number of contact spots and mean gap of each step", &s.spots, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &s.print_check, NULL));
-  s.coupling = coupling != 0;
-  s.edges    = edges > 0;
+  s.coupling       = coupling != 0;
+  s.slip_direction = (SamSlipDirection)direction;
+  s.edges          = edges > 0;
   PetscCall(SamContactSetSettings(c, &s));
   PetscCall(SamSolverSetFromOptions(SamNormalAsSolver(c->normal)));
   PetscCall(SamSolverSetFromOptions(SamTangentialAsSolver(c->tangential)));

@@ -62,7 +62,7 @@ static PetscErrorCode Create(SamSolve *s, const SamStepStart *start, Passes *p)
 {
   PetscFunctionBegin;
   *p = (Passes){.s = s, .looks = PETSC_TRUE, .error = start->shear ? GUESS : FIRST, .least = INFINITY, .sharper = 1};
-  PetscCall(SamMixingCreate(s->c->grid, &p->mixing));
+  PetscCall(SamMixingCreate(s->c->grid, 1, &p->mixing));
   PetscCall(SamGridCreateVec(s->c->grid, 1, &p->lift));
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(s->c->normal), &p->rtol[0], NULL));
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(s->c->tangential), &p->rtol[1], NULL));

@@ -184,6 +184,14 @@ const SamSolution *SamContactBefore(SamContact c)
   return *SamStateNumbers(c->state, c->steps, SAM_COMMITTED) > 0 ? &c->generation[SAM_COMMITTED] : NULL;
 }
 
+/* Whether the slip of a step is in the direction at mid step. A bound that follows the slip needs its own passes. */
+static PetscBool TurnsAtMidStep(SamContact c)
+{
+  const SamSolution *before = SamContactBefore(c);
+
+  return before && !SamProblemFollowsSlip(c->problem) && c->set.slip_direction == SAM_SLIP_MID;
+}
+
 PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
 {
   SamSolution *s = &c->generation[SAM_TRIED];
@@ -191,7 +199,8 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateBegin(c->state));
-  *s = (SamSolution){.control = *control};
+  *s          = (SamSolution){.control = *control};
+  s->mid_step = TurnsAtMidStep(c);
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));

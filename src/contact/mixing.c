@@ -16,11 +16,13 @@
 /* The most that the parts' sizes may add up to, as errors of the results grow by that. */
 #define MOST 10.0
 
-PetscErrorCode SamMixingCreate(SamGrid grid, SamMixing *m)
+PetscErrorCode SamMixingCreate(SamGrid grid, PetscInt components, SamMixing *m)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(m, sizeof(*m)));
-  m->grid = grid;
+  m->grid       = grid;
+  m->components = components;
+  m->depth      = DEPTH / components;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -37,31 +39,32 @@ PetscErrorCode SamMixingDestroy(SamMixing *m)
 /* Adds the newest result, and the products of its change with all others. */
 static PetscErrorCode Add(SamMixing *m, Vec weight, Vec result, Vec argument)
 {
-  const PetscInt k = m->count < DEPTH ? m->count : (m->newest + 1) % DEPTH, cells = m->grid->cells, nx = m->grid->nx;
-  SamTotal       totals[DEPTH] = {{0}};
-  double         sums[DEPTH], *change;
-  const double  *w, *x, *g, *other;
+  const PetscInt k = m->count < m->depth ? m->count : (m->newest + 1) % m->depth, cells = m->grid->cells,
+                 nx = m->grid->nx, rows = m->components * m->grid->rows;
+  SamTotal      totals[DEPTH] = {{0}};
+  double        sums[DEPTH], *change;
+  const double *w, *x, *g, *other;
 
   PetscFunctionBegin;
   if (!m->result[k]) {
-    PetscCall(SamGridCreateVec(m->grid, 1, &m->result[k]));
-    PetscCall(SamGridCreateVec(m->grid, 1, &m->change[k]));
+    PetscCall(SamGridCreateVec(m->grid, m->components, &m->result[k]));
+    PetscCall(SamGridCreateVec(m->grid, m->components, &m->change[k]));
   }
   m->newest = k;
-  m->count  = PetscMin(m->count + 1, DEPTH);
+  m->count  = PetscMin(m->count + 1, m->depth);
   PetscCall(VecCopy(result, m->result[k]));
   PetscCall(VecGetArrayRead(weight, &w));
   PetscCall(VecGetArrayRead(argument, &x));
   PetscCall(VecGetArrayRead(result, &g));
   PetscCall(VecGetArray(m->change[k], &change));
-  for (PetscInt i = 0; i < cells; i++) change[i] = w[i] > 0 ? g[i] - x[i] : 0;
+  for (PetscInt i = 0; i < m->components * cells; i++) change[i] = w[i % cells] > 0 ? g[i] - x[i] : 0;
   PetscCall(VecRestoreArrayRead(result, &g));
   PetscCall(VecRestoreArrayRead(argument, &x));
   PetscCall(VecRestoreArrayRead(weight, &w));
   for (PetscInt l = 0; l < m->count; l++) {
     other = change;
     if (l != k) PetscCall(VecGetArrayRead(m->change[l], &other));
-    for (PetscInt j = 0; j < m->grid->rows; j++) {
+    for (PetscInt j = 0; j < rows; j++) {
       double row = 0;
 
       for (PetscInt i = j * nx; i < (j + 1) * nx; i++) row += change[i] * other[i];

@@ -43,7 +43,7 @@ struct _n_SamKept {
   double           bytes, cells;    /* on all ranks */
   PetscObjectState revision;        /* of the problem that the pressure was solved with */
   SamControl       control;
-  double           load[3], rigid[3];
+  double           load[3], rigid[3], moved[3]; /* normal; moved: the change of the tangential rigid displacements */
 };
 
 typedef struct {
@@ -275,6 +275,11 @@ PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSo
   PetscCall(KeepChange(r, e->kept, before->shear, now->shear, &e->kept->unit[0], &e->kept->change[SHEAR_X]));
   PetscCall(KeepChange(r, e->kept, before->displacement_t, now->displacement_t, &e->kept->unit[1],
                        &e->kept->change[PRODUCT_X]));
+  for (PetscInt c = 0; c < 3; c++) {
+    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+
+    e->kept->moved[c] = now->rigid[n] - before->rigid[n];
+  }
   e->kept->revision = revision;
   e->kept->control  = now->control;
   if (pressure) PetscCall(KeepPressure(r, e->kept, now));
@@ -337,6 +342,15 @@ static double TrimRow(PetscInt nx, PetscInt first, PetscInt last, const double b
     qx[i] = qy[i] = 0;
   }
   return lost;
+}
+
+void SamKeptGetMotion(SamKept k, const SamSolution *now, PetscReal rigid[])
+{
+  for (PetscInt c = 0; c < 3; c++) {
+    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+
+    rigid[n] = now->rigid[n] + k->moved[c];
+  }
 }
 
 PetscErrorCode SamKeptGetShear(SamKept k, SamElasticity elasticity, const SamSolution *now, Vec bound, Vec shear,

@@ -30,10 +30,12 @@ PETSC_INTERN PetscErrorCode SamRecallKeep(SamRecall recall, const SamSolution *b
   SamKeptGetPressure - that pressure (Pa), with its normal loads and rigid displacements. Not collective.
   SamKeptGetShear - a start of the shear (Pa), zero outside of the bound, and its product with the operator (m), for a
   step after the solution `now`. `found`: the contact is where it was. Collective.
+  SamKeptGetMotion - the tangential rigid displacements, among all six, that belong to this shear. Not collective.
 */
 PETSC_INTERN PetscBool      SamKeptHasPressure(SamKept kept, const SamControl *control, PetscObjectState revision);
 PETSC_INTERN PetscErrorCode SamKeptGetPressure(SamKept kept, SamGrid grid, SamSolution *solution);
 PETSC_INTERN PetscErrorCode SamKeptGetShear(SamKept kept, SamElasticity elasticity, const SamSolution *now, Vec bound,
                                             Vec shear, SamProduct *product, PetscBool *found);
+PETSC_INTERN void           SamKeptGetMotion(SamKept kept, const SamSolution *now, PetscReal rigid[]);
 
 #endif

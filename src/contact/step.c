@@ -22,11 +22,12 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
   w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
   PetscCall(SamSolutionCreateSeparation(c->problem, c->state, SAM_COMMITTED, &w->separation));
+  if (w->coupled || w->s->mid_step) PetscCall(SamGridCreateVec(c->grid, 2, &w->shear_product.field));
   if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->lift));
+  PetscCall(SamGridCreateVec(c->grid, 2, &w->pushed));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->pressure_product.field));
-  PetscCall(SamGridCreateVec(c->grid, 2, &w->shear_product.field));
   PetscCall(SamGridCreateVec(c->grid, 1, &w->previous_pressure));
   PetscCall(SamGridCreateVec(c->grid, 2, &w->previous_shear));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -36,7 +37,9 @@ static PetscErrorCode End(SamSolve *w)
 {
   PetscFunctionBegin;
   PetscCall(SamSolutionDestroySeparation(w->c->problem, &w->separation));
+  PetscCall(VecDestroy(&w->turn));
   PetscCall(VecDestroy(&w->slip));
+  PetscCall(VecDestroy(&w->pushed));
   PetscCall(VecDestroy(&w->lift));
   PetscCall(VecDestroy(&w->h));
   PetscCall(VecDestroy(&w->pressure_product.field));
@@ -252,7 +255,6 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
   SamStretch       e;
   PetscBool        stretched;
   double          *slip;
-  Vec              more;
 
   PetscFunctionBegin;
   *offset = NULL;
@@ -268,13 +270,9 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
     PetscCall(VecRestoreArray(*offset, &slip));
     PetscCall(VecScale(*offset, -1));
   }
-  if (w->coupled) {
-    PetscCall(SamGridCreateVec(c->grid, 2, &more));
-    PetscCall(SamElasticityApplyNormalToTangential(c->elasticity, w->s->pressure, more));
-    PetscCall(VecAXPY(*offset, 1, more));
-    PetscCall(VecDestroy(&more));
-  }
+  if (w->coupled) PetscCall(VecAXPY(*offset, 1, w->pushed));
   if (stretched) PetscCall(AddStretch(c->grid, &e, *offset));
+  if (w->turn) PetscCall(VecAXPY(*offset, -1, w->turn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -295,16 +293,23 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamKept kept, Vec offset, SamBa
   PetscCall(SamGridCreateVec(c->grid, 2, &shear));
   PetscCall(SamKeptGetShear(kept, c->elasticity, w->before, w->s->bound, shear, &product, solved));
   if (*solved) {
+    if (w->s->mid_step) PetscCall(SamSolveGuessDirection(w, kept, shear, &product, offset));
     SamSolverSetEffort(SamTangentialAsSolver(c->tangential), 0, SAM_EFFORT_NEAR);
     PetscCall(SamTangentialSolveKeeping(c->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
     SamSolverSetEffort(SamTangentialAsSolver(c->tangential), 0, SAM_EFFORT_FULL);
     PetscCall(SamSolverGetReason(SamTangentialAsSolver(c->tangential), &reason));
     *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
   }
-  if (*solved)
+  if (*solved) {
     PetscCall(SamVecCopyNonzero(shear, w->s->shear));
-  else
+    if (w->s->mid_step) {
+      PetscCall(VecDestroy(&w->shear_product.field));
+      w->shear_product = product;
+      product.field    = NULL;
+    }
+  } else {
     PetscCall(Count(SamTangentialAsSolver(c->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+  }
   PetscCall(VecDestroy(&shear));
   PetscCall(VecDestroy(&product.field));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -322,10 +327,11 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
   given = balance;
   if (w->kept) PetscCall(SolveFromKept(w, w->kept, offset, &balance, &solved));
+  w->kept = NULL; /* later passes start from the last one */
   if (!solved) {
     balance = given;
     PetscCall(SamTangentialSolveKeeping(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
-                                        w->coupled ? &w->shear_product : NULL));
+                                        w->shear_product.field ? &w->shear_product : NULL));
   }
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */

@@ -20,10 +20,13 @@ typedef struct {
   double            *counts;             /* of the solvers, in the state */
   Vec                separation;         /* of the bodies as they were after the step before */
   Vec                slip;               /* the length of the slip of this step, by the last shear; NULL: none yet */
+  SamProduct         shear_product;      /* C q of the tried solution; coupled, or at mid step only */
+  Vec                turn;               /* at mid step: t of direction.c, m, two components; NULL: zero */
   /* coupled only */
   Vec        h;                                 /* separation plus lift */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
-  SamProduct pressure_product, shear_product;   /* S p and C q of the tried solution */
+  Vec        pushed;                            /* tangential displacement by the pressure, set by SamSolveShear() */
+  SamProduct pressure_product;                  /* S p of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
 } SamSolve;
 
@@ -41,6 +44,15 @@ PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
 PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
 /* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
+/*
+  SamSolveDirection - the same with the direction of slip that the step has, to the tolerance `rtol` (direction.c).
+  SamSolveDisplace - gives the tried solution its tangential displacement by shear and pressure. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolveDirection(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
+PETSC_INTERN PetscErrorCode SamSolveDisplace(SamSolve *solve);
+/* SamSolveGuessDirection - takes t from a kept step and its product, and lessens the offset by it. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveGuessDirection(SamSolve *solve, SamKept kept, Vec shear, const SamProduct *product,
+                                                   Vec offset);
 /* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
 /* SamSolveSkipTangential - no shear, as the pressure is not right. Collective. */
@@ -56,11 +68,11 @@ PETSC_INTERN PetscErrorCode SamSolveCoupled(SamSolve *solve, const SamStepStart 
 #define SAM_MIXING_DEPTH 6
 typedef struct {
   SamGrid  grid;
-  PetscInt count, newest;
+  PetscInt components, depth, count, newest;
   Vec      result[SAM_MIXING_DEPTH], change[SAM_MIXING_DEPTH]; /* change: result - argument, where it counts */
   double   products[SAM_MIXING_DEPTH][SAM_MIXING_DEPTH];       /* of the changes */
 } SamMixing;
-PETSC_INTERN PetscErrorCode SamMixingCreate(SamGrid grid, SamMixing *mixing);
+PETSC_INTERN PetscErrorCode SamMixingCreate(SamGrid grid, PetscInt components, SamMixing *mixing);
 PETSC_INTERN PetscErrorCode SamMixingDestroy(SamMixing *mixing);
 /*
   SamMixingNext - takes an argument and its result, fields of one component, and replaces the argument by the next one.

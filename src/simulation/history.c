@@ -378,14 +378,18 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
 
 PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
 {
+  return SamHistoryGetPart(h, k, 1, control);
+}
+
+PetscErrorCode SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part, SamControl *control)
+{
   const PetscInt r = k < h->start ? 0 : 1 + (k - h->start) / h->increments, steps = r ? h->increments : h->start;
-  const PetscInt i    = (r ? (k - h->start) % h->increments : k) + 1;
-  const double   part = (double)i / (double)steps;
+  const double   i = (double)(r ? (k - h->start) % h->increments : k) + (double)part, way = i / (double)steps;
 
   PetscFunctionBegin;
   *control = h->constant;
 /* linear between the rows; at a row exactly its own value */
-#define BETWEEN(before, after) (i == steps ? (after) : (before) + part * ((after) - (before)))
+#define BETWEEN(before, after) (i == (double)steps ? (after) : (before) + way * ((after) - (before)))
   control->time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   for (PetscInt p = 0; p < SAM_CONTROL_PARTS; p++)
     *SamControlPlace(control, p) = BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r));

@@ -2,6 +2,7 @@
 #include "simulationimpl.h"
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/solutionimpl.h>
 
 #define FLUSH 2.0 /* s that steps without fields wait to be written */
 
@@ -146,6 +147,8 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
   PetscCall(SamHistoryGetCount(history, &s->needs.steps));
   PetscCall(SamPrintHelp(&help));
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,
+             "-step_rtol with -wear_cycles: all computed cycles must have the same load steps: use -steps");
   PetscCall(SamPlanSetCycles(&s->plan, cycles, s->setup.problem, from));
   PetscCall(SamPlanCheckCycle(&s->plan, history, from));
   PetscCall(CheckLaws(s, from));
@@ -158,6 +161,7 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
   PetscFunctionBegin;
   PetscCall(ReadContact(s, from));
   PetscCall(SamHistoryCreateFromOptions(from, arguments, &s->history));
+  PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_FALSE, from));
   PetscCall(SetProgram(s, s->history, s->plan.cycles, from));
   PetscCall(ReadFiles(s, from));
@@ -168,6 +172,7 @@ PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation s, const SamOpti
 {
   PetscFunctionBegin;
   PetscCall(ReadContact(s, from));
+  PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_TRUE, from));
   PetscCall(ReadFiles(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -76,6 +76,7 @@ static PetscErrorCode Offer(SamSimulation s)
       PetscCall(SamStateOfferNumber(state, condition->name, condition->usual));
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
+  PetscCall(SamSimulationDeclarePieces(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -91,6 +92,18 @@ static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Steps in pieces have the order that their estimate assumes, unless the user wants another one. */
+static PetscErrorCode SlipAtMidStep(SamContact contact)
+{
+  SamContactSettings set;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSettings(contact, &set));
+  if (set.slip_direction == SAM_SLIP_AUTO) set.slip_direction = SAM_SLIP_MID;
+  PetscCall(SamContactSetSettings(contact, &set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 {
   PetscBool help;
@@ -98,6 +111,7 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamSetupCreateContact(&s->setup, from));
+  if (s->step_rtol > 0) PetscCall(SlipAtMidStep(s->setup.contact));
   if (s->history && !help) PetscCall(Prepare(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -208,14 +222,12 @@ static PetscErrorCode Finish(SamSimulation s)
 static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
 {
   const PetscInt k = s->point.steps, last = s->needs.steps - 1;
-  SamControl     control;
   SamStep        step;
   PetscBool      due;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStep(s->history, k, &control));
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP_BEGINS, .step = k}));
-  PetscCall(SamContactTry(s->setup.contact, &control, &step));
+  PetscCall(SamSimulationTry(s, k, &step));
   if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &step));
   PetscCall(SamSimulationAdviseEdge(s, &step));
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
@@ -228,7 +240,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
-  s->point.times = SamOutputAddTime(s->point.times, control.time);
+  s->point.times = SamOutputAddTime(s->point.times, step.control.time);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

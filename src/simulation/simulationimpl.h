@@ -50,7 +50,8 @@ struct _n_SamSimulation {
   SamParameters          parameters;
   SamSimulationNeeds     needs;
   SamSimulationStart     start;
-  SamSimulationPoint     point; /* position in the load program; steps before a restart count too */
+  SamSimulationPoint     point;     /* position in the load program; steps before a restart count too */
+  PetscReal              step_rtol; /* relative error of a step's dissipated energy, by its estimate; 0: any */
   PetscBool              prepared;
   PetscBool              stopped; /* before its end, with a checkpoint */
   PetscInt               output_every;
@@ -91,6 +92,15 @@ PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
   time of the last step that was written; for when the next one has no solution. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationWriteLastFields(SamSimulation simulation);
+/*
+  Load steps in pieces (pieces.c). Collective. Errors: SAM_ERR_USER.
+    ReadPieces     reads -step_rtol
+    DeclarePieces  declares what the state remembers of them
+    Try            tries step k of the history, in pieces if that is asked for, and commits all but the last
+*/
+PETSC_INTERN PetscErrorCode SamSimulationReadPieces(SamSimulation simulation, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamSimulationDeclarePieces(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationTry(SamSimulation simulation, PetscInt k, SamStep *step);
 /* SamSimulationWriteStep - writes a step's numbers and, when they are due, its fields. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationWriteStep(SamSimulation simulation, const SamStep *step, PetscBool due);
 /*

@@ -10,18 +10,23 @@ typedef struct {
   double   *path, *pressed, *work;
 } Fields;
 
-static void FrictionRow(const Fields *f, ptrdiff_t first, PetscInt nx, const double sx[], const double sy[])
+static void FrictionRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first)
 {
   const double *p = f->v.p, *b = f->v.b, *q = f->v.q, *p_before = f->before.p, *b_before = f->before.b;
+  const double *sx = increment->row[0], *sy = increment->row[1];
 
-  for (PetscInt i = 0; i < nx; i++) {
+  for (PetscInt i = 0; i < increment->grid->nx; i++) {
     const ptrdiff_t k = first + i, l = k + f->v.cells;
     const double    length = hypot(sx[i], sy[i]);
-    const PetscBool slips  = SamCellStateOf(p[k], q[k], q[l], b[k]) == SAM_CELL_SLIP;
+    PetscBool       slips  = SamCellStateOf(p[k], q[k], q[l], b[k]) == SAM_CELL_SLIP;
+    double          bound = 0, start = 0.5;
 
+    if (increment->mid_step) slips = SamIncrementGetBound(increment, k, &bound, &start);
     if (f->path) f->path[k] = length;
-    if (f->pressed) f->pressed[k] = slips ? 0.5 * (p_before[k] + p[k]) * length : 0;
-    if (f->work)
+    if (f->pressed) f->pressed[k] = slips ? (start * p_before[k] + (1 - start) * p[k]) * length : 0;
+    if (f->work && increment->mid_step)
+      f->work[k] = slips ? bound * length : 0;
+    else if (f->work)
       f->work[k] = slips && b[k] > 0 ? -(q[k] * sx[i] + q[l] * sy[i]) * 0.5 * (b_before[k] + b[k]) / b[k] : 0;
   }
 }
@@ -59,7 +64,7 @@ PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution 
   PetscCall(GetOptional(work, &f.work));
   for (PetscInt j = 0; j < grid->rows; j++) {
     SamIncrementComputeRow(&increment, j);
-    FrictionRow(&f, (ptrdiff_t)j * grid->nx, grid->nx, increment.row[0], increment.row[1]);
+    FrictionRow(&f, &increment, (ptrdiff_t)j * grid->nx);
   }
   PetscCall(RestoreOptional(work, &f.work));
   PetscCall(RestoreOptional(pressed, &f.pressed));

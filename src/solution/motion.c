@@ -151,12 +151,19 @@ PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before,
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamMotionSet(&s->before, problem, before));
   PetscCall(VecGetArrayRead(s->v_before, &s->u_before));
+  s->mid_step     = now->mid_step;
+  s->solutions[0] = before;
+  s->solutions[1] = now;
+  PetscCall(SamValuesGet(before, &s->at_before));
+  PetscCall(SamValuesGet(now, &s->at_now));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamIncrementDestroy(SamIncrement *s)
 {
   PetscFunctionBegin;
+  if (s->solutions[1]) PetscCall(SamValuesRestore(s->solutions[1], &s->at_now));
+  if (s->solutions[0]) PetscCall(SamValuesRestore(s->solutions[0], &s->at_before));
   if (s->v_before) PetscCall(VecRestoreArrayRead(s->v_before, &s->u_before));
   PetscCall(VecRestoreArrayRead(s->v_now, &s->u_now));
   PetscCall(PetscFree3(s->row[0], s->row[1], s->scratch));
@@ -176,6 +183,43 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
       (void)memset(s->scratch, 0, sizeof(*s->scratch) * (size_t)s->grid->nx);
     for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] = s->slip[c][i] - s->scratch[i];
   }
+}
+
+void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
+{
+  const double   *b0 = s->at_before.b, *q0 = s->at_before.q, *b1 = s->at_now.b, *q1 = s->at_now.q;
+  const ptrdiff_t first = (ptrdiff_t)j * s->grid->nx, cells = s->grid->cells;
+
+  for (PetscInt i = 0; i < s->grid->nx; i++) {
+    const ptrdiff_t k = first + i, l = k + cells;
+    const double    x0 = b0[k] > 0 ? q0[k] / b0[k] : 0, y0 = b0[k] > 0 ? q0[l] / b0[k] : 0;
+    const double    x1 = b1[k] > 0 ? q1[k] / b1[k] : 0, y1 = b1[k] > 0 ? q1[l] / b1[k] : 0;
+    const double    along = x0 * x1 + y0 * y1, weight = PetscMax(0.5 * (x0 * x0 + y0 * y0 + along), 0);
+    const double c = x1 * x1 + y1 * y1 + weight * along, d = weight * (x0 * y1 - y0 * x1), size = sqrt(c * c + d * d);
+    const double cosine = size > 0 ? c / size : 1, sine = size > 0 ? d / size : 0;
+    const double x = s->row[0][i], y = s->row[1][i];
+
+    to[0][i] = cosine * x - sine * y;
+    to[1][i] = sine * x + cosine * y;
+  }
+}
+
+/*
+  A cell that slid before, too, slides at a bound between those before and after. One that stuck begins within the step,
+  and slides most at its end, where contact is left under next to no bound. Where contact is made, or left sliding, the
+  mean of the bounds is half of one: near the contact edge p goes like the square root of the distance, and without the
+  cells that are left the work would lack a part of the order of the step to 1.5.
+*/
+PetscBool SamIncrementGetBound(const SamIncrement *s, ptrdiff_t k, double *bound, double *start)
+{
+  const SamValues   *a = &s->at_before, *b = &s->at_now;
+  const ptrdiff_t    l      = k + s->grid->cells;
+  const SamCellState before = SamCellStateOf(a->p[k], a->q[k], a->q[l], a->b[k]),
+                     now    = SamCellStateOf(b->p[k], b->q[k], b->q[l], b->b[k]);
+
+  *start = now == SAM_CELL_SLIP && before == SAM_CELL_STICK ? 0 : 0.5;
+  *bound = *start * a->b[k] + (1 - *start) * b->b[k];
+  return now == SAM_CELL_SLIP || (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec *h)

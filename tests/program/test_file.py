@@ -52,6 +52,7 @@ HISTORY = dict(
     tangential_residual="1",
     dissipated_energy="J",
     stored_energy="J",
+    energy_error="J",
     edge_accepted="1",
     pressure_max="Pa",
     shear_max="Pa",

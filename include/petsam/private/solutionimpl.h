@@ -59,18 +59,33 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   SamIncrement - the slip of a step: the slip of a solution minus that of the previous one (NULL: no slip so far).
   ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
   start to slip[0] and slip[1]. Creation and destruction are collective.
+
+  SamIncrementTurnRow - after ComputeRow, and only where there is a solution before: turns the slip of row j by the
+  angle from the mean direction of the shear in the step to that at its end, into `to`, which may be row. For a step
+  that slips in the direction at mid step the law of friction then holds as for one with the direction at its end.
 */
 typedef struct {
-  SamGrid       grid;
-  SamMotion     now, before;
-  Vec           v_now, v_before;
-  const double *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
-  double       *slip[2], *row[2], *scratch;
+  SamGrid            grid;
+  SamMotion          now, before;
+  Vec                v_now, v_before;
+  const double      *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
+  double            *slip[2], *row[2], *scratch;
+  const SamSolution *solutions[2];      /* before and after the step; both NULL: no slip so far */
+  SamValues          at_before, at_now; /* their values */
+  PetscBool          mid_step;          /* the slip is in the direction at mid step */
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
 PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
 PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
+PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, PetscInt j, double *const to[2]);
+
+/*
+  SamIncrementGetBound - of a step that slips in the direction at mid step: the bound (Pa) that the slip of this rank's
+  cell k works against, and `start`, the share in it of the bound before the step; false where the cell has not slid.
+  Not collective.
+*/
+PETSC_INTERN PetscBool SamIncrementGetBound(const SamIncrement *increment, ptrdiff_t k, double *bound, double *start);
 
 /* SamSolutionComputeStates - the state of each cell, a SamCellState as a real number. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);

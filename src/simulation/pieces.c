@@ -1,0 +1,118 @@
+/*
+  A load step in pieces, so that the estimated error of its dissipated energy keeps a tolerance.
+
+  Problem: the energy of a step has an error that depends on its length (numbers.c). The pieces of the step, between
+  which all that is prescribed is interpolated, are to be so short that the estimate of each is at most a part of the
+  tolerance times its energy, or times a fifth of what pieces of this length dissipated on an average so far, if that is
+  more; then the sums keep it, too.
+
+  Algorithm, from a quarter of the step on:
+    1. Try the piece. If its estimate is too large, reject it, and try half of it.
+    2. Else commit it. The next piece is as long, or twice as long if the estimate of that is likely to be small enough.
+    3. The last piece stays tried: it is the step, with the sums of all pieces.
+  Pieces are halves of halves of the step, at least 1/1024, where the estimate is accepted as it is. All decisions are
+  those of global numbers of this step: the same on any number of ranks, and after a restart.
+*/
+#include "simulationimpl.h"
+
+/* The part of the tolerance that estimates may use; they are up to three times too small. */
+#define SAFETY 0.3
+/* Twice the length has four times the error, relative to its energy; with some reserve. */
+#define DOUBLE 0.2
+#define LEAST  (1.0 / 1024)
+/* The longest piece: in a longer one, cells may slide and stick again, which its end, and so the estimate, misses. */
+#define MOST (1.0 / 4)
+/* The part of the average energy so far from which on a piece counts by its own. */
+#define LITTLE 0.2
+
+PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCall(SamOptionsReal(from, "step_rtol", "divide load steps until the energy has this estimated error; 0: never",
+                           SAM_RANGE_NONNEGATIVE, &s->step_rtol, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the state remembers of all pieces: their energy (J), their length in steps. */
+static const SamStateNumber so_far = {"pieces", "J", NULL, SAM_NUMBER_REAL, 2, PETSC_TRUE, PETSC_FALSE};
+
+PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
+{
+  SamState state;
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  if (s->step_rtol > 0) PetscCall(SamStateDeclareNumber(state, &so_far, &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the tried piece, of this length, is good enough; and whether twice its length is likely to be. */
+static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, PetscBool *longer)
+{
+  PetscReal energy, error, limit;
+  SamState  state;
+  double   *sum;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(SamContactGetNumber(s->setup.contact, "dissipated_energy", &energy));
+  PetscCall(SamContactGetNumber(s->setup.contact, "energy_error", &error));
+  sum     = SamStateNumbers(state, SamStateFindNumber(state, so_far.name), SAM_TRIED);
+  limit   = SAFETY * s->step_rtol * PetscMax(energy, sum[1] > 0 ? LITTLE * sum[0] / sum[1] * length : 0);
+  *enough = error <= limit || length <= LEAST ? PETSC_TRUE : PETSC_FALSE;
+  *longer = error <= DOUBLE * limit ? PETSC_TRUE : PETSC_FALSE;
+  sum[0] += energy;
+  sum[1] += length;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The numbers of a step that add up over its pieces. */
+static const char *const sums[] = {"dissipated_energy",    "energy_error",
+                                   "normal_iterations",    "normal_applies",
+                                   "normal_preconditions", "tangential_iterations",
+                                   "tangential_applies",   "tangential_preconditions",
+                                   "coupling_iterations"};
+#define SUMS ((PetscInt)(sizeof(sums) / sizeof(sums[0])))
+
+/* Adds the numbers of the tried step to those of the pieces before, or the reverse. */
+static PetscErrorCode AddNumbers(SamSimulation s, double before[SUMS], PetscBool to_step)
+{
+  SamState state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  for (PetscInt k = 0; k < SUMS; k++) {
+    double *const number = SamStateNumbers(state, SamStateFindNumber(state, sums[k]), SAM_TRIED);
+
+    *(to_step ? number : &before[k]) += to_step ? before[k] : *number;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
+{
+  const SamContact contact      = s->setup.contact;
+  double           before[SUMS] = {0}, done = 0, piece = s->step_rtol > 0 ? MOST : 1;
+  PetscBool        enough = PETSC_TRUE, longer = PETSC_FALSE;
+  SamControl       control;
+
+  PetscFunctionBegin;
+  while (PETSC_TRUE) {
+    PetscCall(SamHistoryGetPart(s->history, k, done + piece, &control));
+    PetscCall(SamContactTry(contact, &control, step));
+    if (s->step_rtol == 0 || !SamStepIsSolved(step)) break;
+    PetscCall(Judge(s, piece, &enough, &longer));
+    if (!enough) {
+      piece /= 2;
+      continue;
+    }
+    if (done + piece == 1 || step->status != SAM_STATUS_CONVERGED) break;
+    PetscCall(AddNumbers(s, before, PETSC_FALSE));
+    PetscCall(SamContactCommit(contact));
+    done += piece;
+    if (longer && piece < MOST && fmod(done, 2 * piece) == 0) piece *= 2;
+  }
+  PetscCall(AddNumbers(s, before, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,60 @@
+"""Load steps divided by a tolerance (-step_rtol), and what the error of the dissipated energy is estimated to be."""
+
+import math
+
+import h5py
+import numpy as np
+import pytest
+
+from support import ball, history, slide_limit
+
+CASE = ball(n=20)
+LIMIT = slide_limit(CASE)[0]
+ROWS = 8
+
+
+@pytest.fixture(scope="module")
+def loads(tmp_path_factory):
+    """A cycle of N, T_x and T_y out of phase, after N alone."""
+    rows = [(0.0, 180.0, 0.0, 0.0)]
+    for k in range(ROWS + 1):
+        t = 2 * math.pi * k / ROWS
+        shear = [float(LIMIT) * part for part in (0.45 * math.sin(t + 0.5), 0.4 * math.sin(t + 1.8))]
+        rows.append((1.0 + k, 180 * (1 + 0.3 * math.sin(t)), *shear))
+    path = tmp_path_factory.mktemp("history") / "h.csv"
+    case = {name: value for name, value in CASE.items() if name != "load_n"}
+    return {**case, **history(path, "time,load_n,load_tx,load_ty", *rows)}
+
+
+def energies(path):
+    with h5py.File(path, "r") as file:
+        return file["history/dissipated_energy"][:], file["history/energy_error"][:]
+
+
+def test_steps_are_divided_until_the_energy_is_right(loads, solve):
+    few, many = solve(loads), solve(loads, dict(steps=40, output_every=1000, slip_direction="mid"))
+    found, error = energies(solve(loads, dict(step_rtol=1e-3)).path)
+    exact = energies(many.path)[0]
+    assert len(found) == ROWS + 2
+    assert abs(found.sum() / exact.sum() - 1) < 1e-3 and error.sum() < 1e-3 * found.sum()
+    coarse, estimate = energies(few.path)
+    assert abs(coarse.sum() / exact.sum() - 1) > 1e-2 and estimate.sum() > 1e-2 * coarse.sum()
+    assert "wrong by about" in few.run.stdout and "wrong by about" not in many.run.stdout
+
+
+def test_divided_steps_are_the_same_on_ranks_and_after_a_restart(loads, petsam, tmp_path):
+    case = dict(loads, step_rtol=1e-2)
+    petsam(case, dict(output="one.h5"))
+    petsam(case, dict(output="two.h5", checkpoint="c.h5", checkpoint_every=4), ranks=2)
+    petsam(case, dict(output="three.h5", restart="c.h5.1"))
+    with h5py.File(tmp_path / "one.h5") as one, h5py.File(tmp_path / "two.h5") as two:
+        with h5py.File(tmp_path / "three.h5") as three:
+            for name in ("dissipated_energy", "tangential_applies", "disp_x"):
+                whole = one["history"][name][:]
+                assert np.array_equal(whole, two["history"][name][:])
+                assert np.array_equal(whole[4:], three["history"][name][:])
+
+
+def test_divided_steps_are_not_for_cycles_of_wear(loads, petsam):
+    done = petsam(loads, dict(step_rtol=1e-3, wear_cycles=10, wear_energy1=1e-14), check=2)
+    assert "-step_rtol with -wear_cycles" in done.complaint[0]
