@@ -13,12 +13,8 @@
 #define FEW_CELLS 20
 /* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature. */
 #define STEEPEST 0.1
-/*
-  Parts of the peak pressure by which it may rise and fall on cells half as wide. They shall tell of changes of 5 %;
-  the estimate is that of one place, the peak is the highest of all places.
-*/
-#define RISE 0.045
-#define FALL 0.055
+/* Cells half as wide may change the peak pressure by this part of it. */
+#define PEAK 0.05
 
 #define NARROW    0.1  /* part of the contact's cells whose zones, the narrowest, do not count */
 #define ROOM      1.5  /* width of a good grid over that of the contact */
@@ -223,7 +219,7 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
   /* of periodic bodies all cells may be in contact, and have no width */
   const PetscBool whole  = extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
   const PetscBool few    = (PetscBool)(!whole && extent->across < FEW_CELLS);
-  const PetscBool steep  = (PetscBool)(extent->change > RISE || extent->change < -FALL);
+  const PetscBool steep  = (PetscBool)(fabs(extent->change) > PEAK);
   const double    factor = PetscMax(few ? (FEW_CELLS + SAME) / (double)across : 0, steep ? (double)extent->finer : 0);
   char            cells[AT_A_TIME] = "", width[AT_A_TIME] = "", zones[AT_A_TIME] = "", spots[160] = "", peak[160] = "",
        better[160];

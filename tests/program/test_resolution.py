@@ -70,7 +70,7 @@ def test_peak_of_a_rounded_pad_is_right_or_warned_of(petsam, tmp_path):
 GAPS = {
     "sphere": (lambda x, y: 0.01 * (x**2 + y**2), 10.0, False),
     "small sphere": (lambda x, y: 0.1 * (x**2 + y**2), 2.0, False),
-    "cone": (lambda x, y: 0.01 * np.hypot(x + 0.004, y + 0.003), 10.0, False),
+    "cone": (lambda x, y: 0.01 * np.hypot(x + 0.004, y + 0.003), 60.0, False),
     "ridges of 12 cells": (lambda x, y: 1e-3 * np.cos(8 * np.pi * x + 1), 300.0, True),
     "bumps of 24 cells": (lambda x, y: 1e-3 * (np.cos(4 * np.pi * x) + np.cos(4 * np.pi * y)), 500.0, True),
     "bumps of 4 cells": (lambda x, y: 1e-3 * (np.cos(24 * np.pi * x + 1) + np.cos(24 * np.pi * y + 2)), 50.0, True),
