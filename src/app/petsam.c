@@ -129,6 +129,7 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   /* the contact, which reads it, is made later */
   PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), NULL));
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
+  if (needs.grid_check) *bytes += 0.25 * cell * (double)setup->grid->cells;
   if (needs.steps > 1) *bytes += atof(kept) / ranks;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

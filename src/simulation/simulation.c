@@ -207,6 +207,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   const PetscInt k = s->point.steps, last = s->needs.steps - 1;
   SamControl     control;
   SamStep        step;
+  PetscReal      work;
   PetscBool      due;
 
   PetscFunctionBegin;
@@ -222,6 +223,8 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
   PetscCall(SamSimulationExamine(s, k, &step));
   if (SamStepIsSolved(&step)) PetscCall(SamSimulationExamineLaws(s, k));
+  PetscCall(SamContactGetNumber(s->setup.contact, "dissipated_energy", &work));
+  s->dissipated += (double)work;
   if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
@@ -256,6 +259,8 @@ static PetscErrorCode RunAll(SamSimulation s)
   else
     PetscCall(SolveSteps(s));
   PetscCall(Finish(s));
+  if (s->needs.grid_check && s->point.steps == s->needs.steps && s->point.worst == SAM_STATUS_CONVERGED)
+    PetscCall(SamSimulationCheckGrid(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
