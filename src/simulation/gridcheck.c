@@ -28,8 +28,7 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsBool(from, "grid_check",
-                           "solve all steps on half the cells too; errors of the last one's numbers",
+  PetscCall(SamOptionsBool(from, "grid_check", "all steps on half the cells too; errors of the last numbers",
                            &s->needs.grid_check, NULL));
   for (size_t k = 0; s->needs.grid_check && !help && k < sizeof(without) / sizeof(without[0]); k++) {
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &set));
