@@ -223,9 +223,11 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
   PetscCall(SamSimulationExamine(s, k, &step));
   if (SamStepIsSolved(&step)) PetscCall(SamSimulationExamineLaws(s, k));
-  PetscCall(SamContactGetNumber(s->setup.contact, "dissipated_energy", &work));
-  s->dissipated += (double)work;
-  if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
+  if (!*ended) {
+    PetscCall(SamContactGetNumber(s->setup.contact, "dissipated_energy", &work));
+    s->dissipated += (double)work;
+    PetscCall(SamContactCommit(s->setup.contact));
+  }
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
   s->point.times = SamOutputAddTime(s->point.times, control.time);
