@@ -12,9 +12,19 @@ typedef struct {
   PetscInt  zones;   /* connected by the sides of cells, as contact_spots; 0: the bodies do not touch */
   PetscReal across;  /* cells, of the narrow zones: SamGridMeasureZones(), a tenth of the cells left out */
   PetscReal half[2]; /* m: half widths of the rectangle that holds all of it */
+  PetscReal change;  /* of the peak pressure on cells half as wide, relative: SamSetupMeasurePeak() */
+  PetscInt  finer;   /* cells so many times narrower resolve the peak; 0: none of up to 16384 in a row */
 } SamExtent;
 /* SamSetupMeasure - the extent of the contact in the last solution that was found. Collective. */
 PETSC_EXTERN PetscErrorCode SamSetupMeasure(const SamSetup *setup, SamExtent *extent);
+/*
+  SamSetupMeasurePeak - `change` and `finer` of the extent: solves the contact about the peak again on finer cells,
+  where all other pressure stays. The shape is that of the gap's type, other heights are interpolated. Where the cells
+  next to the peak have nearly its pressure, or the pressure is at its limit, nothing is solved, change = 0 and
+  finer = 1. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamSetupMeasurePeak(const SamSetup *setup, SamExtent *extent);
+#define SAM_LARGEST_ROW 16384 /* cells in a row of a grid that is advised */
 
 /* SamLoadsMost - the largest loads of several steps. To be zero at first. */
 typedef struct {
@@ -37,8 +47,8 @@ typedef PetscErrorCode (*SamAdviceFunction)(void *context, const char text[], co
 /*
   None of these is collective.
   SamAdviseStep - gives a function what there is to say of a step that is solved: motions that are not small, bodies
-  that do not touch, a contact of fewer than 20 cells across, and one that is wider than a tenth of a radius of
-  curvature.
+  that do not touch, a contact of fewer than 20 cells across, a peak pressure that cells half as wide change by more
+  than 5 %, and a contact that is wider than a tenth of a radius of curvature.
   SamAdviseEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not.
 */
 PETSC_EXTERN PetscErrorCode SamAdviseStep(const SamSetup *setup, const SamStep *step, const SamExtent *extent,

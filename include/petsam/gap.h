@@ -68,6 +68,11 @@ PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
 /*
+  SamGapGetHeight - the separation of the shape at a point (m), without roughness; 0 for a type that is given cell by
+  cell. Not collective.
+*/
+PETSC_EXTERN PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y);
+/*
   SamGapGetParameters - the type, and the numbers that define the shape: how many, their names (those of the options,
   without dash and prefix) and values. All borrowed; NULL for one that is not wanted. Not collective.
 */

@@ -28,6 +28,11 @@ PETSC_EXTERN PetscErrorCode SamSetupReadOptions(SamSetup *setup, const SamOption
 */
 PETSC_EXTERN PetscErrorCode SamSetupCreateContact(SamSetup *setup, const SamOptions *from);
 /*
+  SamSetupCreateCoarse - the same bodies on half the cells in each direction, rounded up, with a contact of the same
+  options. Heights from files become means over the cells. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+*/
+PETSC_EXTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, const SamOptions *from, SamSetup *coarse);
+/*
   SamSetupAddParameters - appends what defines the contact, by the names of its options; fields by their checksums.
   Collective.
 */

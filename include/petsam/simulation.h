@@ -25,6 +25,7 @@ typedef enum {
   SAM_NEWS_MESSAGE,    /* the message of `result` about what `text` names */
   SAM_NEWS_ADVICE,     /* `text`, and the option that mends it, `setting` (without dash; empty: none) */
   SAM_NEWS_EXTENT,     /* `extent` of the contact in `step` */
+  SAM_NEWS_GRID_CHECK, /* `check` of the last step */
   SAM_NEWS_FILE,       /* the file `text` was written, and holds `setting` */
   SAM_NEWS_STOPPED     /* before the end, with a checkpoint: `text` says where and why */
 } SamNews;
@@ -44,6 +45,21 @@ typedef struct {
   char        followed[PETSC_MAX_PATH_LEN]; /* file of the results before a branch; empty: none */
 } SamSimulationStart;
 
+/*
+  SamGridCheckRow - a number of the last step (dissipated_energy: of all steps) on this grid and on half the cells, the
+  order that its error is taken for, and what follows.
+  SamGridCheck - all of them; `n`: the cells of the coarser grid.
+*/
+typedef struct {
+  const char *name, *unit;
+  PetscInt    order;
+  double      value, coarse, error, extrapolated;
+} SamGridCheckRow;
+typedef struct {
+  PetscInt        n[2], count;
+  SamGridCheckRow row[24];
+} SamGridCheck;
+
 /* SamSimulationNews - with what belongs to the kind of news; all is borrowed. */
 typedef struct {
   SamNews                   kind;
@@ -53,6 +69,7 @@ typedef struct {
   PetscReal                 cycles;
   const SamSimulationStart *start;
   const SamExtent          *extent;
+  const SamGridCheck       *check;
   const char               *text, *setting;
 } SamSimulationNews;
 
@@ -97,7 +114,7 @@ PETSC_EXTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
 
 /* SamSimulationNeeds - what its memory depends on besides the grid. */
 typedef struct {
-  PetscBool friction, coupled, life, stiffness;
+  PetscBool friction, coupled, life, stiffness, grid_check;
   PetscInt  steps;
   PetscInt  laws; /* bytes a cell that the laws take */
 } SamSimulationNeeds;

@@ -348,6 +348,25 @@ static PetscErrorCode Say(SamReport r, const SamSimulationNews *news)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode PrintGridCheck(SamReport r, const SamGridCheck *check)
+{
+  PetscFunctionBegin;
+  if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(r->comm,
+                        "\n  grid check: numbers of the last step, and on %" PetscInt_FMT " x %" PetscInt_FMT
+                        " cells\n    %-22s %14s %14s %10s %14s %5s\n",
+                        check->n[0], check->n[1], "", "this grid", "coarser grid", "error", "extrapolated", "order"));
+  for (PetscInt k = 0; k < check->count; k++) {
+    const SamGridCheckRow *row = &check->row[k];
+    char                   name[48];
+
+    (void)snprintf(name, sizeof(name), "%s/%s", row->name, row->unit);
+    PetscCall(PetscPrintf(r->comm, "    %-22s %14.6g %14.6g %8.2g %% %14.6g %5" PetscInt_FMT "\n", name, row->value,
+                          row->coarse, 100 * row->error / fabs(row->value), row->extrapolated, row->order));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulationNews *news)
 {
   PetscFunctionBegin;
@@ -372,6 +391,9 @@ PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulatio
   case SAM_NEWS_EXTENT:
     r->extent      = *news->extent;
     r->extent_step = news->step + 1;
+    break;
+  case SAM_NEWS_GRID_CHECK:
+    PetscCall(PrintGridCheck(r, news->check));
     break;
   case SAM_NEWS_FILE:
     PetscCall(AddFile(r, news->text, news->setting));

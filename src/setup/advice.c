@@ -13,16 +13,17 @@
 #define FEW_CELLS 20
 /* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature. */
 #define STEEPEST 0.1
+/* Cells half as wide may change the peak pressure by this part of it. */
+#define PEAK 0.05
 
-#define NARROW    0.1   /* part of the contact's cells whose zones, the narrowest, do not count */
-#define ROOM      1.5   /* width of a good grid over that of the contact */
-#define MARGIN    1.1   /* width of a sufficient grid over that of the contact, */
-#define BORDER    4     /* and so many cells more */
-#define SAME      2     /* cells by which two widths may differ that are counted or computed */
-#define LARGEST   16384 /* cells in a row of a grid that is advised */
-#define ABSURD    4096  /* cells in a row of a grid that wrong units may ask for */
-#define BLIND     0.98  /* pressure at the edge over the largest, above which the pressure does not tell the size */
-#define AT_A_TIME 64    /* characters of numbers */
+#define NARROW    0.1  /* part of the contact's cells whose zones, the narrowest, do not count */
+#define ROOM      1.5  /* width of a good grid over that of the contact */
+#define MARGIN    1.1  /* width of a sufficient grid over that of the contact, */
+#define BORDER    4    /* and so many cells more */
+#define SAME      2    /* cells by which two widths may differ that are counted or computed */
+#define ABSURD    4096 /* cells in a row of a grid that wrong units may ask for */
+#define BLIND     0.98 /* pressure at the edge over the largest, above which the pressure does not tell the size */
+#define AT_A_TIME 64   /* characters of numbers */
 
 /* ---- loads ---- */
 
@@ -84,6 +85,7 @@ PetscErrorCode SamSetupMeasure(const SamSetup *s, SamExtent *extent)
   PetscCall(SamGridCountZones(s->grid, solution->pressure, traits.periodic, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
   for (int k = 0; k < 2; k++) extent->half[k] = 0.5 * (PetscReal)n[k] * cell[k];
+  PetscCall(SamSetupMeasurePeak(s, extent));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,7 +122,7 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
     size[0] = size[1] = PetscMax(size[0], size[1]);
   /* the contact gets wider in cells as the grid gets smaller, more so along one axis */
   if (PetscMin((double)s->grid->width[0] / size[0], (double)s->grid->width[1] / size[1]) < factor) enough = PETSC_FALSE;
-  if (PetscMax(more[0], more[1]) <= LARGEST) WritePair("grid_n", more, cells);
+  if (PetscMax(more[0], more[1]) <= SAM_LARGEST_ROW) WritePair("grid_n", more, cells);
   if (smaller && enough) WritePair("grid_size", size, width);
 }
 
@@ -212,33 +214,43 @@ static void AdviseTouch(Receiver *to, const SamControl *control)
          force ? "0" : "0, or the smallest separation");
 }
 
-/* A contact that is few cells across; grids on which it is not. */
+/* A contact that is few cells across, or a peak of pressure that they do not resolve; grids on which it is not so. */
 static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent, const PetscReal half[2],
                         PetscReal across)
 {
   const PetscBool ends[2] = {2 * extent->half[0] < s->grid->width[0] - 0.5 * s->grid->dx,
                              2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
   const PetscBool strip = extent->zones == 1 && ends[0] != ends[1], refine[2] = {!strip || ends[0], !strip || ends[1]};
-  const double    factor = (FEW_CELLS + SAME) / (double)across;
-  const PetscBool absurd = factor * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
-  char            cells[AT_A_TIME], width[AT_A_TIME], zones[AT_A_TIME] = "", better[3 * AT_A_TIME];
-
-  if (extent->across >= FEW_CELLS) return;
   /* of periodic bodies all cells may be in contact, and have no width */
-  if (!strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5) return;
-  AdviseGrids(s, half, factor, refine, cells, width);
-  if (extent->zones > 1)
-    (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
-  if (s->from_file[0] || s->from_file[1])
+  const PetscBool whole            = !strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
+  const PetscBool few              = !whole && extent->across<FEW_CELLS, steep = fabs(extent->change)> PEAK;
+  const double    more             = few ? (FEW_CELLS + SAME) / (double)across : 0;
+  const double    factor           = PetscMax(more, steep ? (double)extent->finer : 0);
+  const PetscBool absurd           = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
+  char            cells[AT_A_TIME] = "", width[AT_A_TIME] = "", zones[AT_A_TIME] = "", spots[160] = "", peak[160] = "",
+       better[3 * AT_A_TIME];
+
+  if (!few && !steep) return;
+  if (factor > 0) AdviseGrids(s, half, factor, refine, cells, width);
+  if (factor > 0 && (s->from_file[0] || s->from_file[1]))
     (void)snprintf(better, sizeof(better), ": a file with heights at smaller distances%s%s", cells[0] ? ", and " : "",
                    cells);
   else
     (void)snprintf(better, sizeof(better), "%s%s%s%s%s", cells[0] || width[0] ? ": " : "", width,
                    width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
-  Advise(to, "",
-         "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m), fewer than %d%s%s",
-         zones, (double)extent->across, 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0],
-         (double)s->grid->width[1], FEW_CELLS, better, absurd ? "; or check the units, N, m, Pa" : "");
+  if (extent->zones > 1)
+    (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
+  if (few)
+    (void)snprintf(spots, sizeof(spots),
+                   "the contact is %s%.3g cells across (%.3g m by %.3g m on a grid of %.3g m by %.3g m), fewer than %d",
+                   zones, (double)extent->across, 2 * (double)half[0], 2 * (double)half[1], (double)s->grid->width[0],
+                   (double)s->grid->width[1], FEW_CELLS);
+  if (steep)
+    (void)snprintf(peak, sizeof(peak), "the peak pressure is not resolved, about %.0f %% %s on cells half as wide%s",
+                   100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
+                   extent->finer ? "" : ", and further on finer ones, as at a sharp edge");
+  Advise(to, "", "%s%s%s%s%s", spots, few && steep ? "; " : "", peak, better,
+         absurd ? "; or check the units, N, m, Pa" : "");
 }
 
 PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,
@@ -296,7 +308,7 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     cells[k] = width[k] > (double)s->grid->width[k] ? 2 * ceil(0.5 * width[k] / (double)cell[k] - 1e-9) : n[k];
   WritePair("grid_size", width, one);
   WritePair("grid_n", cells, other);
-  if (PetscMax(cells[0], cells[1]) <= LARGEST)
+  if (PetscMax(cells[0], cells[1]) <= SAM_LARGEST_ROW)
     (void)snprintf(text, size, "%s, with %s for cells as now", one, other);
   else
     (void)snprintf(text, size, "%s", one);

@@ -6,6 +6,18 @@
 /* Options of files that the gap may come from. */
 static const char *const files[] = {"-gap_file", "-gap_rough_file"};
 
+/* The elasticity and the laws on the grid. */
+static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate(s->grid, &s->pair, &s->elasticity));
+  PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));
+  PetscCall(SamElasticitySetFromOptions(s->elasticity));
+  PetscCall(SamProblemCreate(s->elasticity, &s->problem));
+  PetscCall(SamProblemSetLawsFromOptions(s->problem, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 {
   PetscInt  n[2];
@@ -18,13 +30,23 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
   PetscCall(SamGapGetFileGrid(s->gap, n, width, center));
   PetscCall(SamGridCreateFromOptions(from, n, width, center, &s->grid));
   PetscCall(SamPairSetFromOptions(&s->pair, from));
-  PetscCall(SamElasticityCreate(s->grid, &s->pair, &s->elasticity));
-  PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));
-  PetscCall(SamElasticitySetFromOptions(s->elasticity));
-  PetscCall(SamProblemCreate(s->elasticity, &s->problem));
-  PetscCall(SamProblemSetLawsFromOptions(s->problem, from));
+  PetscCall(CreateProblem(s, from));
   PetscCall(SamGapSetFromOptions(s->gap));
   for (PetscInt k = 0; k < 2; k++) PetscCall(PetscOptionsHasName(NULL, from->prefix, files[k], &s->from_file[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes the contact, which reads its options. */
+static PetscErrorCode CreateContact(SamSetup *s, const SamOptions *from)
+{
+  PetscBool help;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamContactCreate(s->problem, &s->contact));
+  PetscCall(SamContactSetOptionsPrefix(s->contact, from->prefix));
+  PetscCall(SamContactSetFromOptions(s->contact));
+  if (!help) PetscCall(SamContactSetUp(s->contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -37,10 +59,29 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamProblemGetGap(s->problem, &gap));
   if (!help) PetscCall(SamGapFill(s->gap, s->grid, gap));
-  PetscCall(SamContactCreate(s->problem, &s->contact));
-  PetscCall(SamContactSetOptionsPrefix(s->contact, from->prefix));
-  PetscCall(SamContactSetFromOptions(s->contact));
-  if (!help) PetscCall(SamContactSetUp(s->contact));
+  PetscCall(CreateContact(s, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, const SamOptions *from, SamSetup *coarse)
+{
+  SamTransfer transfer;
+  Vec         fine, gap;
+
+  PetscFunctionBegin;
+  *coarse = (SamSetup){.pair = s->pair};
+  PetscCall(SamGridCoarsen(s->grid, &coarse->grid));
+  PetscCall(CreateProblem(coarse, from));
+  PetscCall(SamProblemGetGap(s->problem, &fine));
+  PetscCall(SamProblemGetGap(coarse->problem, &gap));
+  if (s->from_file[0] || s->from_file[1]) {
+    PetscCall(SamTransferCreate(s->grid, coarse->grid, &transfer));
+    PetscCall(SamTransferRestrict(transfer, fine, gap));
+    PetscCall(SamTransferDestroy(&transfer));
+  } else {
+    PetscCall(SamGapFill(s->gap, coarse->grid, gap));
+  }
+  PetscCall(CreateContact(coarse, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -223,6 +223,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
 {
   const PetscInt k = s->point.steps, last = s->needs.steps - 1;
   SamStep        step;
+  PetscReal      work;
   PetscBool      due;
 
   PetscFunctionBegin;
@@ -237,7 +238,11 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
   PetscCall(SamSimulationExamine(s, k, &step));
   if (SamStepIsSolved(&step)) PetscCall(SamSimulationExamineLaws(s, k));
-  if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
+  if (!*ended) {
+    PetscCall(SamContactGetNumber(s->setup.contact, "dissipated_energy", &work));
+    s->dissipated += (double)work;
+    PetscCall(SamContactCommit(s->setup.contact));
+  }
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
   s->point.times = SamOutputAddTime(s->point.times, step.control.time);
@@ -271,6 +276,8 @@ static PetscErrorCode RunAll(SamSimulation s)
   else
     PetscCall(SolveSteps(s));
   PetscCall(Finish(s));
+  if (s->needs.grid_check && s->point.steps == s->needs.steps && s->point.worst == SAM_STATUS_CONVERGED)
+    PetscCall(SamSimulationCheckGrid(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -63,6 +63,7 @@ struct _n_SamSimulation {
   char                   filename[PETSC_MAX_PATH_LEN];
   SamLoadsMost           most;              /* the largest loads of the steps from here on */
   PetscInt               largest;           /* step of the largest normal load or approach among them, from 0 */
+  double                 dissipated;        /* frictional work of all steps so far, for the check of the grid, J */
   PetscBool              examined;          /* whether the size of the contact was looked at */
   PetscBool              advised[SAM_LAWS]; /* laws that have warned of a step */
 };
@@ -134,6 +135,12 @@ PETSC_INTERN PetscErrorCode SamSimulationPrepareAdvice(SamSimulation simulation,
 PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, SamStep *step);
 PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, PetscInt k, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamSimulationExamineLaws(SamSimulation simulation, PetscInt k);
+/*
+  The check of the grid (gridcheck.c). ReadGridCheck reads -grid_check; CheckGrid, after the last step, solves all of
+  them on half the cells and tells of the errors. Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamSimulationReadGridCheck(SamSimulation simulation, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamSimulationCheckGrid(SamSimulation simulation);
 /* SamSimulationCollectParameters - fills `parameters`, for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCollectParameters(SamSimulation simulation);
 

@@ -313,6 +313,11 @@ PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y)
+{
+  return gap->ops.height ? gap->ops.height(gap->values, x, y) : 0;
+}
+
 PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count, const char *const **names,
                                    const PetscReal **values)
 {

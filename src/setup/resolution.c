@@ -1,0 +1,398 @@
+/*
+  How far a grid resolves the peak of the pressure.
+
+  No quotient of the pressures about the peak tells this for all shapes: a pressure that falls to zero within a cell or
+  two may be that of a rounded edge, which finer cells raise, or of an edge that happens to lie well on the grid. So the
+  contact about the peak is solved again on cells half as wide:
+
+  1. A patch of 18 x 18 cells about the peak. Displacements by all pressure outside of it are the gap minus the shape
+     minus the patch's own displacements; they are smooth, and interpolated to the finer cells.
+  2. The separation there: the shape itself, and these. Roughness, heights from a file and wear are interpolated, too.
+  3. The pressure of the outer three cells stays as it is; within them the normal problem is solved under the same load
+     and without rotation.
+  4. While the peak changes, the patch about the new peak is solved on cells half as wide again.
+
+  Heights that are interpolated may hide a tip or an edge between two cells. So the first patch is interpolated in two
+  ways, which differ at an edge, and the larger change counts. Neither tells of a tip in the contact. The fourth
+  differences of the heights do: a wave two cells long with a part of their height changes the pressure by about E*
+  times it over the cells' width; the part, 0.08, is found by trials.
+
+  Lengths of the patch count in its cells, as displacements are proportional to the cells' width under the same
+  pressure: operators and solver are made once. All ranks solve the same; the results of the first count.
+*/
+#include <petsam/advice.h>
+#include <petsam/normal.h>
+#include <petsam/private/baseimpl.h>
+#include <math.h>
+
+#define RING    3                       /* cells about the part that is solved again */
+#define WIDE    18                      /* cells of a patch in each direction, */
+#define FINE    (2 * WIDE)              /* on the finer grid, */
+#define INNER   (FINE - 4 * RING)       /* and of the part that is solved again there */
+#define MARGIN  4                       /* finer cells of that part, at its border, where no peak is looked for */
+#define LEVEL   0.9                     /* a peak next to which no cell has less than this part of it is resolved */
+#define PEAK    (WIDE / 2 * (WIDE + 1)) /* the cell of the largest pressure on the first patch */
+#define CENTRAL 6                       /* places of an interpolation, */
+#define VARYING 4                       /* of one that leaves edges aside */
+#define TIP     0.08                    /* part of the fourth differences that counts */
+#define SHARP   0.4                     /* the change at a sharp edge, the most that interpolation can tell of */
+#define SETTLED 0.03                    /* change of the peak on cells half as wide of a grid that is advised */
+
+/* Pressure and gap without the shape of n * n cells, on the last patch. */
+typedef struct {
+  PetscReal corner[2], cell[2]; /* m: of the first cell, and its widths */
+  double    p[FINE * FINE];     /* Pa */
+  double    g[FINE * FINE];     /* m, times `scale` */
+  double    scale;              /* how much narrower its cells are than those of the first one */
+  double    tip;                /* m: the fourth differences of the heights on the first one */
+} Patch;
+
+/* Operators of the first patch, coarse and fine, and the solver. */
+typedef struct {
+  SamGap             gap;
+  SamGrid            whole; /* of the contact */
+  const SamSolution *solution;
+  PetscBool          wrap;
+  SamGrid            grid[3];
+  SamElasticity      elasticity[3]; /* the patch, its finer cells, the part that is solved again */
+  Vec                field[3];
+  Vec                pressure;
+  SamNormal          normal;
+} Local;
+
+static PetscErrorCode CreateLocal(const SamSetup *s, Local *l)
+{
+  const PetscInt  cells[3] = {WIDE, FINE, INNER};
+  const PetscReal zero[2]  = {0, 0};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 3; k++) {
+    const PetscReal part     = k ? 0.5 * (PetscReal)cells[k] : (PetscReal)cells[k];
+    const PetscReal width[2] = {part * s->grid->dx, part * s->grid->dy};
+    const PetscInt  n[2]     = {cells[k], cells[k]};
+
+    PetscCall(SamGridCreate(PETSC_COMM_SELF, n, width, zero, &l->grid[k]));
+    PetscCall(SamElasticityCreate(l->grid[k], &s->pair, &l->elasticity[k]));
+    PetscCall(SamGridCreateVec(l->grid[k], 1, &l->field[k]));
+  }
+  PetscCall(VecDuplicate(l->field[2], &l->pressure));
+  PetscCall(SamNormalCreate(l->elasticity[2], &l->normal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyLocal(Local *l)
+{
+  PetscFunctionBegin;
+  PetscCall(SamNormalDestroy(&l->normal));
+  PetscCall(VecDestroy(&l->pressure));
+  for (int k = 0; k < 3; k++) {
+    PetscCall(VecDestroy(&l->field[k]));
+    PetscCall(SamElasticityDestroy(&l->elasticity[k]));
+    PetscCall(SamGridDestroy(&l->grid[k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds `sign` times the displacements under the pressure p of the patch (k = 0), or of its finer cells (1). */
+static PetscErrorCode AddDisplacements(const Local *l, int k, const double p[], double sign, double u[])
+{
+  const PetscInt count = l->grid[k]->cells;
+  double        *field;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(l->field[k], &field));
+  PetscCall(PetscArraycpy(field, p, count));
+  PetscCall(VecRestoreArray(l->field[k], &field));
+  PetscCall(SamElasticityApplyNormal(l->elasticity[k], l->field[k], l->field[k]));
+  PetscCall(VecGetArray(l->field[k], &field));
+  for (PetscInt c = 0; c < count; c++) u[c] += sign * field[c];
+  PetscCall(VecRestoreArray(l->field[k], &field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Subtracts (sign -1) or adds the shape at the cells of a patch of n * n cells. */
+static void AddShape(const Local *l, const Patch *a, PetscInt n, double sign, double g[])
+{
+  for (PetscInt c = 0; c < n * n; c++) {
+    PetscReal x[2] = {a->corner[0] + ((PetscReal)(c % n) + 0.5) * a->cell[0],
+                      a->corner[1] + ((PetscReal)(c / n) + 0.5) * a->cell[1]};
+
+    for (int k = 0; k < 2 && l->wrap; k++)
+      x[k] -= l->whole->width[k] * floor((x[k] - l->whole->center[k]) / l->whole->width[k] + 0.5);
+    g[c] += sign * a->scale * SamGapGetHeight(l->gap, x[0], x[1]);
+  }
+}
+
+/* The difference of this order of the values from one on. */
+static double Difference(const double f[], ptrdiff_t stride, PetscInt order)
+{
+  if (!order) return f[0];
+  return Difference(f + stride, stride, order - 1) - Difference(f, stride, order - 1);
+}
+
+/*
+  Values at WIDE places, `stride` apart, interpolated to the centres of twice as many cells: by the polynomials through
+  six places about it, or through the four where the values vary least, without waves at an edge (Harten et al. 1987,
+  J. Comput. Phys. 71, 231).
+*/
+static void Interpolate(PetscInt points, const double from[], double to[], ptrdiff_t stride)
+{
+  for (PetscInt i = 0; i < FINE; i++) {
+    const double x = 0.5 * ((double)i + 0.5) - 0.5;
+    PetscInt first = points == CENTRAL ? (PetscInt)floor(x) - 2 : PetscMin(PetscMax((PetscInt)floor(x), 0), WIDE - 2);
+
+    for (PetscInt order = 2; points != CENTRAL && order < points; order++) {
+      const double *f = from + first * stride;
+
+      if (first > 0 &&
+          (first + order >= WIDE || fabs(Difference(f - stride, stride, order)) < fabs(Difference(f, stride, order))))
+        first--;
+    }
+    first          = PetscMin(PetscMax(first, 0), WIDE - points);
+    to[i * stride] = 0;
+    for (PetscInt a = first; a < first + points; a++) {
+      double weight = 1;
+
+      for (PetscInt b = first; b < first + points; b++)
+        if (b != a) weight *= (x - (double)b) / (double)(a - b);
+      to[i * stride] += weight * from[a * stride];
+    }
+  }
+}
+
+static PetscBool IsInner(PetscInt c, PetscInt margin)
+{
+  const PetscInt i = c % FINE, j = c / FINE, least = 2 * RING + margin, most = FINE - least;
+
+  return i >= least && i < most && j >= least && j < most ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Solves the inner part of the finer patch under its load; `h` is the separation but for its own displacements. */
+static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBool *solved)
+{
+  SamBalance      balance = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_FALSE, PETSC_FALSE}};
+  double         *field, load = 0;
+  const double   *pressure;
+  SamSolverReason reason;
+  PetscInt        k = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(l->field[2], &field));
+  for (PetscInt c = 0; c < FINE * FINE; c++)
+    if (IsInner(c, 0)) {
+      load += p[c];
+      field[k++] = h[c];
+    }
+  PetscCall(VecRestoreArray(l->field[2], &field));
+  balance.load[0] = load * l->grid[2]->dx * l->grid[2]->dy;
+  PetscCall(SamNormalSolve(l->normal, l->field[2], &balance, PETSC_FALSE, l->pressure));
+  PetscCall(SamSolverGetReason(SamNormalAsSolver(l->normal), &reason));
+  PetscCall(VecGetArrayRead(l->pressure, &pressure));
+  for (PetscInt c = k = 0; c < FINE * FINE; c++)
+    if (IsInner(c, 0)) p[c] = pressure[k++];
+  PetscCall(VecRestoreArrayRead(l->pressure, &pressure));
+  *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Fourth differences of the patch's interpolated heights about the peak where all is in contact. */
+static double FindTip(const Patch *a, const double heights[])
+{
+  double most = 0;
+
+  for (PetscInt j = -1; j <= 1; j++)
+    for (PetscInt i = -1; i <= 1; i++)
+      for (PetscInt k = 0; k < 2; k++) {
+        const PetscInt stride = k ? WIDE : 1;
+        const double  *h = heights + PEAK + j * WIDE + i, *p = a->p + PEAK + j * WIDE + i;
+        PetscBool      closed = PETSC_TRUE;
+
+        for (PetscInt c = -2; c <= 2; c++)
+          if (!(p[c * stride] > 0)) closed = PETSC_FALSE;
+        if (!closed) return 0;
+        most = PetscMax(most, fabs(6 * h[0] - 4 * (h[stride] + h[-stride]) + h[2 * stride] + h[-2 * stride]));
+      }
+  return most;
+}
+
+/* From WIDE * WIDE cells to the FINE * FINE ones in their place, with another pressure within the outer cells. */
+static PetscErrorCode Refine(Local *l, PetscInt points, Patch *a, PetscBool *solved)
+{
+  double   rows[FINE * WIDE], h[FINE * FINE], p[FINE * FINE];
+  PetscInt c;
+
+  PetscFunctionBegin;
+  PetscCall(AddDisplacements(l, 0, a->p, -1, a->g));
+  if (a->scale == 1) a->tip = FindTip(a, a->g);
+  for (c = 0; c < WIDE; c++) Interpolate(points, a->g + c, rows + c, WIDE);
+  for (c = 0; c < FINE; c++) Interpolate(points, rows + c * WIDE, a->g + c * FINE, 1);
+  for (int k = 0; k < 2; k++) a->cell[k] *= 0.5;
+  for (c = 0; c < FINE * FINE; c++) p[c] = a->p[c / FINE / 2 * WIDE + c % FINE / 2];
+  for (c = 0; c < FINE * FINE; c++) a->p[c] = IsInner(c, 0) ? 0 : p[c];
+  PetscCall(PetscArraycpy(h, a->g, FINE * FINE));
+  AddShape(l, a, FINE, 1, h);
+  PetscCall(AddDisplacements(l, 1, a->p, 1, h));
+  PetscCall(PetscArraycpy(a->p, p, FINE * FINE));
+  PetscCall(SolveInner(l, h, a->p, solved));
+  PetscCall(AddDisplacements(l, 1, a->p, 1, a->g));
+  for (c = 0; c < FINE * FINE; c++) a->g[c] *= 2;
+  a->scale *= 2;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The peak of a finer patch; takes the patch of WIDE * WIDE cells about it out. */
+static double TakePeak(Patch *a)
+{
+  PetscInt peak = FINE * (FINE + 1) / 2, first[2];
+  double   most;
+
+  for (PetscInt c = 0; c < FINE * FINE; c++)
+    if (IsInner(c, MARGIN) && a->p[c] > a->p[peak]) peak = c;
+  most = a->p[peak];
+
+  first[0] = peak % FINE - WIDE / 2;
+  first[1] = peak / FINE - WIDE / 2;
+  for (int k = 0; k < 2; k++) a->corner[k] += (PetscReal)first[k] * a->cell[k];
+  for (PetscInt c = 0; c < WIDE * WIDE; c++) {
+    const PetscInt from = (first[1] + c / WIDE) * FINE + first[0] + c % WIDE;
+
+    a->p[c] = a->p[from];
+    a->g[c] = a->g[from];
+  }
+  return most;
+}
+
+/* ---- the patch on the grid ---- */
+
+/* The cell of the largest pressure, the first one of several; and its pressure. */
+static PetscErrorCode FindPeak(SamGrid grid, Vec pressure, PetscInt at[2], double *most)
+{
+  const double *p;
+  double        place = -INFINITY;
+
+  PetscFunctionBegin;
+  *most = 0;
+  PetscCall(VecGetArrayRead(pressure, &p));
+  for (PetscInt c = 0; c < grid->cells; c++) *most = PetscMax(*most, p[c]);
+  PetscCall(SamMax(grid->comm, 1, most));
+  for (PetscInt c = grid->cells - 1; c >= 0; c--)
+    if (p[c] == *most) place = -((double)grid->row_start * (double)grid->nx + (double)c);
+  PetscCall(VecRestoreArrayRead(pressure, &p));
+  PetscCall(SamMax(grid->comm, 1, &place));
+  at[0] = (PetscInt)fmod(-place, (double)grid->nx);
+  at[1] = (PetscInt)floor(-place / (double)grid->nx);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The values of a field in the WIDE * WIDE cells about one, on all ranks; beyond the grid's edge those at the edge. */
+static PetscErrorCode Gather(const Local *l, Vec field, const PetscInt at[2], double values[])
+{
+  const SamGrid  grid = l->whole;
+  const PetscInt n[2] = {grid->nx, grid->ny};
+  const double  *f;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(field, &f));
+  for (PetscInt c = 0; c < WIDE * WIDE; c++) {
+    PetscInt place[2] = {at[0] - WIDE / 2 + c % WIDE, at[1] - WIDE / 2 + c / WIDE}, row;
+
+    for (int k = 0; k < 2; k++)
+      place[k] = l->wrap ? (place[k] + n[k]) % n[k] : PetscMin(PetscMax(place[k], 0), n[k] - 1);
+    row       = place[1] - grid->row_start;
+    values[c] = row >= 0 && row < grid->rows ? f[(ptrdiff_t)row * grid->nx + place[0]] : 0;
+  }
+  PetscCall(VecRestoreArrayRead(field, &f));
+  PetscCall(SamSum(grid->comm, WIDE * WIDE, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Fills the first patch, about this cell, but for its gap where the cells beside it have nearly its pressure: level. */
+static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscInt at[2], Patch *a, PetscBool *level)
+{
+  const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
+  const double   *p       = a->p + PEAK;
+  Vec             gap;
+
+  PetscFunctionBegin;
+  a->scale = 1;
+  for (int k = 0; k < 2; k++) {
+    a->cell[k]   = cell[k];
+    a->corner[k] = (k ? SamGridY(s->grid, at[k]) : SamGridX(s->grid, at[k])) - 0.5 * (PetscReal)(WIDE + 1) * cell[k];
+  }
+  PetscCall(Gather(l, l->solution->pressure, at, a->p));
+  *level = PetscMin(PetscMin(p[-1], p[1]), PetscMin(p[-WIDE], p[WIDE])) >= LEVEL * p[0] ? PETSC_TRUE : PETSC_FALSE;
+  if (*level) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(s->grid, 1, &gap));
+  PetscCall(SamContactGetField(s->contact, "gap", gap));
+  PetscCall(Gather(l, gap, at, a->g));
+  PetscCall(VecDestroy(&gap));
+  AddShape(l, a, WIDE, -1, a->g);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves finer and finer patches until the peak stays. */
+static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *extent)
+{
+  const PetscInt n    = PetscMax(s->grid->nx, s->grid->ny);
+  const double   most = a->p[PEAK], cell = PetscMin(s->grid->dx, s->grid->dy);
+  double         before = most, change = 1, other = 0, tip;
+  PetscBool      solved;
+  Patch         *b;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&b));
+  *b = *a;
+  while (fabs(change) > SETTLED && extent->finer) {
+    PetscCall(Refine(l, VARYING, a, &solved));
+    if (!solved) break;
+    change = TakePeak(a) / before - 1;
+    before *= 1 + change;
+    if (extent->finer == 1) extent->change = change;
+    if (fabs(change) > SETTLED) extent->finer = extent->finer * n > SAM_LARGEST_ROW / 2 ? 0 : 2 * extent->finer;
+  }
+  PetscCall(Refine(l, CENTRAL, b, &solved));
+  if (solved) other = PetscMin(TakePeak(b) / most - 1, SHARP);
+  tip = PetscMin(TIP * b->tip * s->pair.modulus / (cell * most), SHARP);
+  if (fabs(other) > fabs(extent->change)) extent->change = other;
+  if (tip > fabs(extent->change)) extent->change = tip;
+  if (fabs(extent->change) > SETTLED && extent->finer == 1) extent->finer = 2;
+  if (extent->finer && PetscMax(other, tip) >= SHARP) extent->finer = PetscMax(extent->finer, 4); /* a first guess */
+  PetscCall(PetscFree(b));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSetupMeasurePeak(const SamSetup *s, SamExtent *extent)
+{
+  SamElasticityTraits traits;
+  Local               l = {.gap = s->gap, .whole = s->grid};
+  Patch              *a;
+  PetscReal           limit;
+  PetscInt            at[2];
+  PetscBool           level;
+  double              most, numbers[2];
+
+  PetscFunctionBegin;
+  extent->change = 0;
+  extent->finer  = 1;
+  PetscCall(SamElasticityGetTraits(s->elasticity, &traits));
+  PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
+  PetscCall(SamContactGetSolution(s->contact, &l.solution));
+  PetscCall(FindPeak(s->grid, l.solution->pressure, at, &most));
+  if (!(most > 0) || most >= SAM_SATURATED * limit || PetscMin(s->grid->nx, s->grid->ny) < WIDE)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  l.wrap = traits.periodic;
+  PetscCall(PetscNew(&a));
+  PetscCall(FillPatch(s, &l, at, a, &level));
+  if (!level) {
+    PetscCall(CreateLocal(s, &l));
+    PetscCall(Follow(s, &l, a, extent));
+    PetscCall(DestroyLocal(&l));
+  }
+  PetscCall(PetscFree(a));
+  numbers[0] = extent->change;
+  numbers[1] = (double)extent->finer;
+  PetscCallMPI(MPI_Bcast(numbers, 2, MPI_DOUBLE, 0, s->grid->comm));
+  extent->change = numbers[0];
+  extent->finer  = (PetscInt)numbers[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,103 @@
+"""The peak of the pressure: whether the cells resolve it, and the grid that is advised where they do not."""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+from petsam.closed.punch import Punch, punch_pressure, punch_radius
+
+E_STAR = 110e9
+BODIES = dict(body1_young=2 * E_STAR, body1_poisson=0.0, body2_young=2 * E_STAR, body2_poisson=0.0)
+LIMIT = 0.05  # change of the peak that is to be warned of
+SAID = re.compile(r"the peak pressure is not resolved, about (\d+) % (higher|lower) on cells half as wide")
+
+
+def peak(done):
+    """Pressure (Pa), whether the peak is said not to be resolved, and the cells of the advised grid."""
+    said = [line for line in done.complaint if SAID.search(line)]
+    advised = re.search(r"-grid_n (\d+)$", said[0]) if said else None
+    return float(re.search(r"pressure (\S+) Pa", done.stdout).group(1)), bool(said), int(advised[1]) if advised else 0
+
+
+def centres(n):
+    """x and y of the cells of a square of width 1."""
+    return np.meshgrid(*2 * [(np.arange(n) + 0.5) / n - 0.5])
+
+
+def surface(tmp_path, n, height):
+    """Writes heights (m) at the centres of n * n cells; returns the file's name."""
+    with h5py.File(tmp_path / f"{n}.h5", "w") as f:
+        f["height"] = height(*centres(n))
+    return f"{n}.h5"
+
+
+@pytest.mark.parametrize(
+    "flat, edge, load, size", [(1.5e-3, 0.3e-3, 300.0, 4e-3), (1e-3, 1e-3, 1000.0, 3e-3), (0.5e-3, 5e-3, 100.0, 2e-3)]
+)
+def test_peak_of_a_rounded_punch_is_right_or_warned_of(petsam, flat, edge, load, size):
+    punch = Punch(flat, edge, E_STAR)
+    radius = punch_radius(punch, load)
+    true = punch_pressure(np.linspace(0.9 * flat, radius, 20001)[:-1], punch, radius).max()
+    case = dict(BODIES, gap_type="punch", gap_flat_radius=flat, gap_edge_radius=edge, load_n=load, grid_size=size)
+    advised = set()
+    for n in (48, 64, 96, 128, 192):
+        pressure, warned, better = peak(petsam(case, dict(grid_n=n)))
+        assert warned or abs(pressure / true - 1) < LIMIT, n
+        advised |= {better} if warned else set()
+    assert all(n > 0 for n in advised)
+    for n in advised:
+        if n <= 512:
+            assert abs(peak(petsam(case, dict(grid_n=n)))[0] / true - 1) < LIMIT, n
+
+
+def test_peak_of_a_rounded_pad_is_right_or_warned_of(petsam, tmp_path):
+    """Heights from a file hide where the edge begins: the advised grid may need another one, until none is advised."""
+
+    def pressed(n):
+        file = surface(tmp_path, n, lambda x, y: 8e-3 * sum(np.maximum(abs(t) - 0.25, 0) ** 2 for t in (x, y)))
+        return peak(petsam(BODIES, dict(gap_type="file", gap_file=file, grid_n=n, grid_size=4e-3, load_n=1200.0)))
+
+    found = {n: pressed(n) for n in (48, 64, 96, 128, 192, 256, 384)}
+    true, warned, _ = found[384]
+    assert not warned
+    for n, (pressure, warned, better) in found.items():
+        assert better > n if warned else abs(pressure / true - 1) < LIMIT, n
+
+
+# heights relative to the width of the grid; the load (N); periodic bodies
+GAPS = {
+    "sphere": (lambda x, y: 0.01 * (x**2 + y**2), 10.0, False),
+    "small sphere": (lambda x, y: 0.1 * (x**2 + y**2), 2.0, False),
+    "cone": (lambda x, y: 0.01 * np.hypot(x + 0.004, y + 0.003), 60.0, False),
+    "ridges of 12 cells": (lambda x, y: 1e-3 * np.cos(8 * np.pi * x + 1), 300.0, True),
+    "bumps of 24 cells": (lambda x, y: 1e-3 * (np.cos(4 * np.pi * x) + np.cos(4 * np.pi * y)), 500.0, True),
+    "bumps of 4 cells": (lambda x, y: 1e-3 * (np.cos(24 * np.pi * x + 1) + np.cos(24 * np.pi * y + 2)), 50.0, True),
+    "waves on a sphere": (lambda x, y: 0.01 * (x**2 + y**2) + 1e-4 * np.cos(20 * np.pi * x + 1), 10.0, False),
+    "faint waves on a sphere": (lambda x, y: 0.01 * (x**2 + y**2) + 1e-6 * np.cos(20 * np.pi * x + 1), 100.0, False),
+}
+
+
+@pytest.mark.parametrize("name", GAPS)
+def test_warning_is_given_where_finer_cells_change_the_peak(petsam, tmp_path, name):
+    height, load, periodic = GAPS[name]
+    case = dict(
+        BODIES, gap_type="file", grid_size=2e-3, load_n=load, elasticity="periodic" if periodic else "halfspace"
+    )
+    found = [
+        peak(petsam(case, dict(grid_n=n, gap_file=surface(tmp_path, n, lambda x, y: 2e-3 * height(x, y)))))
+        for n in (48, 96)
+    ]
+    change = found[1][0] / found[0][0] - 1
+    assert found[0][1] == (abs(change) > LIMIT)
+
+
+def test_sharp_edge_is_resolved_by_no_grid(petsam):
+    """The same words on any number of ranks; a hardness bounds the pressure, so that there is nothing to say."""
+    case = dict(BODIES, gap_type="punch", gap_flat_radius=5e-4, gap_edge_radius=1e-6, load_n=1.0)
+    case = dict(case, grid_n=49, grid_size=2e-3)
+    done = [petsam(case, ranks=ranks).complaint for ranks in (1, 2, 3)]
+    assert len(done[0]) == 1 and done[1] == done[0] == done[2]
+    assert done[0][0].endswith("% higher on cells half as wide, and further on finer ones, as at a sharp edge")
+    assert not petsam(case, dict(pressure_limit=1.5e6)).complaint
