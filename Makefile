@@ -10,6 +10,8 @@ NM         ?= nm
 prefix     ?= /usr/local
 PYTHON     ?= python3
 B          := build
+# one name of a folder in this tree, so that the rules of dependencies name the same objects
+override B := $(patsubst $(CURDIR)/%,%,$(B))
 # `make V=1` shows the commands
 Q          := $(if $(V),,@)
 say        := $(if $(V),@true,@echo)

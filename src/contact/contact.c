@@ -96,8 +96,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
     SamOptionsInt(&from, "coupling_max_it", "maximum number of coupling iterations", 1, &s.coupling_max_it, NULL));
   PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each coupling iteration",
                            &s.coupling_monitor, NULL));
-  PetscCall(SamOptionsEnum(&from, "slip_direction",
-                           "of a step, by the shear at its mid or end; auto: mid with -step_rtol, else end",
+  PetscCall(SamOptionsEnum(&from, "slip_direction", "by the shear at mid or end of a step; auto: mid with -step_rtol",
                            direction_words, &direction, NULL));
   PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
                            &s.warm_start, NULL));
