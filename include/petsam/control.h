@@ -32,7 +32,7 @@ typedef struct {
   const char *creep, *creep_unit, *creep_text;
 } SamComponentName;
 PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
-/* How a component is given. SamComponentNameOf - the name of a component so given, NULL: it cannot be. Not collective. */
+/* How a component is given. SamComponentNameOf - its name so, NULL: it cannot be given so. Not collective. */
 typedef enum { SAM_BY_LOAD, SAM_BY_RIGID, SAM_BY_CREEP, SAM_WAYS } SamWay;
 PETSC_EXTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
 

@@ -51,6 +51,7 @@ static double Continuation(const SamControl *before, const SamControl *now, cons
   Changes c = {0, 0, 0};
   double  alpha, across;
 
+  if (SamControlRolled(now) != 0 || SamControlRolled(next) != 0) return 0; /* the slip moves, whatever changes */
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
     const PetscInt k = SamComponentsOf[n / 3][n % 3];
 

@@ -177,12 +177,23 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
-  PetscBool current;
+  PetscBool current, moves;
 
   PetscFunctionBegin;
   PetscCall(SamContactIsGapCurrent(c, &current));
-  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && current &&
+  PetscCall(SamProblemAddSeparation(c->problem, c->state, SAM_COMMITTED, NULL, &moves));
+  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && current && !(c->rolls && moves) &&
           SamControlIsSame(&c->generation[SAM_COMMITTED].control, control, SAM_BALANCE_NORMAL);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The committed solution becomes what it was before the grid moved for a tried step. */
+static PetscErrorCode MoveBack(SamContact c)
+{
+  PetscFunctionBegin;
+  if (c->rolls) PetscCall(SamContactView(c));
+  c->rolls = PETSC_FALSE;
+  PetscCall(RestoreWindow(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -280,7 +291,7 @@ static void SetUnknown(SamStep *step)
 {
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     step->load[k]  = step->control.force[k] ? step->control.value[k] : NAN;
-    step->rigid[k] = step->control.force[k] ? NAN : step->control.value[k];
+    step->rigid[k] = SamControlWay(&step->control, k) == SAM_BY_RIGID ? step->control.value[k] : NAN;
   }
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
@@ -302,12 +313,13 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactPredict(c, &given, &start));
   if (c->set.warm_start && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
     SamRecallFind(c->recall, &given, &start.kept);
+  if (c->rolls) start.kept = NULL; /* its product is not where the slip has moved to */
   PetscCall(SamContactSolveStep(c, &start, same_pressure, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
     SetUnknown(step);
     PetscCall(SamContactStore(c, step));
     PetscCall(SamStateForgetFields(c->state));
-    PetscCall(RestoreWindow(c));
+    PetscCall(MoveBack(c));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   c->has_tried = PETSC_TRUE;
@@ -322,7 +334,10 @@ PetscErrorCode SamContactCommit(SamContact c)
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
   *SamStateNumbers(c->state, c->steps, SAM_TRIED) += 1;
-  PetscCall(SamRecallKeep(c->recall, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
+  if (c->rolls) /* what is put between the bodies may have moved, and kept pressures be wrong */
+    SamRecallForget(c->recall);
+  else
+    PetscCall(SamRecallKeep(c->recall, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
   PetscCall(SamStateCommit(c->state));
   c->revision[SAM_COMMITTED] = c->revision[SAM_TRIED];
   c->has_tried               = PETSC_FALSE;
@@ -335,7 +350,7 @@ PetscErrorCode SamContactReject(SamContact c)
   PetscFunctionBegin;
   c->has_tried = PETSC_FALSE;
   PetscCall(SamStateReject(c->state));
-  PetscCall(RestoreWindow(c));
+  PetscCall(MoveBack(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -74,6 +74,8 @@ static PetscErrorCode Offer(SamSimulation s)
     PetscCall(SamHistoryGives(s->history, condition, &given));
     if (given || (k == SAM_CONDITION_FRICTION && s->plan.points))
       PetscCall(SamStateOfferNumber(state, condition->name, condition->usual));
+    for (PetscInt c = 0; c < SAM_COMPONENTS && given && condition->change; c++)
+      if (SamComponentNames[c].creep) PetscCall(SamStateOfferNumber(state, SamComponentNames[c].creep, NAN));
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
   PetscFunctionReturn(PETSC_SUCCESS);
