@@ -226,7 +226,7 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
 static PetscErrorCode CreateBound(SamProblem problem, SamState state, const SamSolution *before, const SamSolution *s,
                                   Vec *bound)
 {
-  SamBoundAt at = {state, s->control.friction_scale, NULL, NULL};
+  SamBoundAt at = {state, s->control.friction_scale, NULL, NULL, SamControlRolled(&s->control)};
   SamGrid    grid;
   double    *b;
 

@@ -188,7 +188,7 @@ static PetscErrorCode ExtrapolateField(SamContact c, double alpha, PetscInt fiel
 static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_scale, PetscBool *found)
 {
   const SamSolution *next = &c->generation[SAM_TRIED];
-  const SamBoundAt   at   = {c->state, friction_scale, next->pressure, NULL};
+  const SamBoundAt   at   = {c->state, friction_scale, next->pressure, NULL, 0};
   double             most = 0;
 
   PetscFunctionBegin;

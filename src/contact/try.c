@@ -229,8 +229,8 @@ static PetscErrorCode GetGap(SamLawStep *step, Vec gap)
 
 static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
 {
-  const SamContact c  = (SamContact)step->context;
-  SamBoundAt       at = {c->state, step->control->friction_scale, step->pressure, NULL};
+  const SamContact c = (SamContact)step->context;
+  SamBoundAt at      = {c->state, step->control->friction_scale, step->pressure, NULL, SamControlRolled(step->control)};
 
   PetscFunctionBegin;
   if (SamProblemFollowsSlip(c->problem)) PetscCall(SamLawStepGetFriction(step, &at.slip, NULL, NULL));
