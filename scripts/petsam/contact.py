@@ -275,8 +275,9 @@ class Contact:
         """Solve a step from the committed state: a Step.
 
         Each component is given by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or
-        its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. NoEquilibrium or NotConverged where there is no solution, with the step; an
-        EdgeContactWarning where the contact has reached the edge of the grid. Replaces an earlier try.
+        its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. NoEquilibrium or
+        NotConverged where there is no solution, with the step; an EdgeContactWarning where the contact has reached the
+        edge of the grid. Replaces an earlier try.
         """
         force, value = (ctypes.c_int * 6)(*[1] * 6), (ctypes.c_double * 6)()
         for name, number in given.items():
